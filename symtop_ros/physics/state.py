@@ -1,0 +1,180 @@
+"""The state of the top: a unit quaternion and a body angular velocity, one or many."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Real = NDArray[np.float64]
+
+NORM_TOLERANCE = 1e-3  # an orientation further from norm 1 is a mistake, not rounding
+ROUNDING = 4 * np.finfo(float).eps
+LARGEST_RATE = 1e150  # rad/s; squares of it stay finite
+
+
+class Angles(NamedTuple):
+    """Euler angles z-x-z or their rates: precession phi, tilt theta, spin psi (rad or rad/s)."""
+
+    phi: Any
+    theta: Any
+    psi: Any
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Orientation and angular velocity at one instant, or at many.
+
+    Parameters
+    ----------
+    orientation : array_like (..., 4)
+        Unit quaternion (w, x, y, z), body -> world. Normalised on the way in.
+    angular_velocity : array_like (..., 3)
+        In the body frame, rad/s.
+
+    Raises
+    ------
+    ValueError
+        Where shapes do not fit, a number is not finite, a norm is off by more than 1e-3, or an
+        angular velocity exceeds 1e150 rad/s.
+    """
+
+    orientation: Real
+    angular_velocity: Real
+
+    def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None:
+        q = _finite("orientation", orientation, 4)
+        omega = _finite("angular_velocity", angular_velocity, 3)
+        if q.shape[:-1] != omega.shape[:-1]:
+            msg = f"orientation {q.shape} and angular_velocity {omega.shape} do not go together"
+            raise ValueError(msg)
+        if omega.size and np.abs(omega).max() > LARGEST_RATE:
+            msg = f"angular_velocity: got up to {np.abs(omega).max():g} rad/s, allowed is {LARGEST_RATE:g}"
+            raise ValueError(msg)
+        object.__setattr__(self, "orientation", _read_only(_normalised(q)))
+        object.__setattr__(self, "angular_velocity", _read_only(omega))
+
+    @classmethod
+    def from_euler(
+        cls,
+        *,
+        theta: float,
+        phi: float = 0.0,
+        psi: float = 0.0,
+        theta_dot: float = 0.0,
+        phi_dot: float = 0.0,
+        psi_dot: float = 0.0,
+    ) -> State:
+        """Return the state with these Euler angles z-x-z (rad) and rates (rad/s)."""
+        angles = {"theta": theta, "phi": phi, "psi": psi}
+        rates = {"theta_dot": theta_dot, "phi_dot": phi_dot, "psi_dot": psi_dot}
+        for name, value in {**angles, **rates}.items():
+            if not np.isfinite(value):
+                msg = f"{name}: got {value}, allowed is a finite number"
+                raise ValueError(msg)
+        plus, minus = (phi + psi) / 2, (phi - psi) / 2
+        c, s = np.cos(theta / 2), np.sin(theta / 2)
+        orientation = c * np.cos(plus), s * np.cos(minus), s * np.sin(minus), c * np.sin(plus)
+        sine = np.sin(theta)
+        omega = (
+            phi_dot * sine * np.sin(psi) + theta_dot * np.cos(psi),
+            phi_dot * sine * np.cos(psi) - theta_dot * np.sin(psi),
+            phi_dot * np.cos(theta) + psi_dot,
+        )
+        return cls(orientation, omega)
+
+    @property
+    def vertical(self) -> Real:
+        """World z' seen from the body, (..., 3): (sin theta sin psi, sin theta cos psi, cos theta)."""
+        w, x, y, z = np.moveaxis(self.orientation, -1, 0)
+        height = (w * w + z * z) - (x * x + y * y)
+        return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), height], axis=-1)
+
+    @property
+    def euler_angles(self) -> Angles:
+        """Angles (phi, theta, psi) in rad, 0 <= theta <= pi; on the vertical phi is taken as 0."""
+        w, x, y, z = np.moveaxis(self.orientation, -1, 0)
+        theta = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
+        upper, lower = np.arctan2(z, w), np.arctan2(y, x)
+        on_vertical = (theta == 0) | (theta == np.pi)
+        phi = np.where(on_vertical, 0.0, _wrapped(upper + lower))
+        psi = np.where(on_vertical, np.where(theta == 0, 2 * upper, -2 * lower), upper - lower)
+        return Angles(*(_plain(angle) for angle in (phi, theta, _wrapped(psi))))
+
+    @property
+    def euler_rates(self) -> Angles:
+        """Rates (phi', theta', psi') in rad/s; on the vertical phi' is taken as 0."""
+        gx, gy, gz = np.moveaxis(self.vertical, -1, 0)
+        wx, wy, wz = np.moveaxis(self.angular_velocity, -1, 0)
+        sine = np.hypot(gx, gy)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            phi_dot = np.where(sine > 0, (wx * gx + wy * gy) / sine / sine, 0.0)
+            theta_dot = np.where(sine > 0, (wx * gy - wy * gx) / sine, np.hypot(wx, wy))
+        psi_dot = wz - phi_dot * gz
+        return Angles(*(_plain(rate) for rate in (phi_dot, theta_dot, psi_dot)))
+
+    def to_world(self, vector: ArrayLike) -> Real:
+        """Turn a body-frame vector (..., 3) into the world frame."""
+        v = np.asarray(vector, dtype=float)
+        w, imaginary = self.orientation[..., :1], self.orientation[..., 1:]
+        t = 2 * np.cross(imaginary, v)
+        return np.asarray(v + w * t + np.cross(imaginary, t))
+
+    def to_body(self, vector: ArrayLike) -> Real:
+        """Turn a world-frame vector (..., 3) into the body frame."""
+        inverse = self.orientation * np.array([1.0, -1.0, -1.0, -1.0])
+        return State(inverse, self.angular_velocity).to_world(vector)
+
+    def __iter__(self) -> Iterator[Real]:
+        """Unpack as orientation, angular_velocity."""
+        return iter((self.orientation, self.angular_velocity))
+
+    def __eq__(self, other: object) -> bool:
+        """Compare bit for bit (q and -q differ)."""
+        return isinstance(other, State) and all(
+            np.array_equal(a, b) for a, b in zip(self, other, strict=True)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _finite(name: str, value: ArrayLike, size: int) -> Real:
+    try:
+        array = np.array(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        msg = f"{name}: got {value!r}, allowed are {size} numbers"
+        raise ValueError(msg) from error
+    if array.ndim == 0 or array.shape[-1] != size:
+        msg = f"{name}: got shape {array.shape}, allowed is (..., {size})"
+        raise ValueError(msg)
+    if not np.isfinite(array).all():
+        msg = f"{name}: got {value!r}, allowed are finite numbers"
+        raise ValueError(msg)
+    return array
+
+
+def _normalised(q: Real) -> Real:
+    """Unit quaternions; those which are one to rounding stay as they are."""
+    norm = np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    off = np.abs(norm - 1)
+    if off.size and off.max() > NORM_TOLERANCE:
+        worst = float(norm.flat[off.argmax()])
+        msg = f"orientation: got a quaternion of norm {worst:g}, allowed is 1 within {NORM_TOLERANCE:g}"
+        raise ValueError(msg)
+    return np.asarray(np.where(off > ROUNDING, q / norm, q))
+
+
+def _wrapped(angle: Real) -> Real:
+    return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
+
+
+def _plain(value: Real) -> Any:
+    return float(value) if value.ndim == 0 else value
+
+
+def _read_only(array: Real) -> Real:
+    array.flags.writeable = False
+    return array
