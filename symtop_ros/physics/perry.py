@@ -76,10 +76,15 @@ class _Balance:
     @property
     def direction(self) -> Direction:
         """Sign of theta'', nothing where rounding hides it."""
-        terms = self.a * self.phi_dot**2, -self.b * self.phi_dot, self.Mgl
-        if abs(sum(terms)) <= ROUNDING * sum(map(abs, terms)):
+        terms = abs(self.a) * self.phi_dot**2 + abs(self.b * self.phi_dot) + abs(self.Mgl)
+        if abs(self.value) <= ROUNDING * terms:
             return "stays"
-        return "rises" if sum(terms) < 0 else "falls"
+        return "rises" if self.value < 0 else "falls"
+
+    @property
+    def value(self) -> float:
+        """Ix theta''/sin(theta), N m."""
+        return (self.a * self.phi_dot - self.b) * self.phi_dot + self.Mgl
 
     @property
     def sense(self) -> float:
@@ -126,10 +131,13 @@ def kick_verdict(top: Top, before: State, after: State, hold: Hold = "spin_rate"
     if _vertical(before):
         return f"kicked off the vertical: {path.kind}, theta {low:.3f} .. {high:.3f} rad"
     was, now = _Balance.of(top, before, hold), _Balance.of(top, after, hold)
-    direction = _direction(after, now)
+    direction, effect = now.direction, f"the top {now.direction}"
+    if _moving(after):
+        direction = "rises" if now.value < was.value else "falls"
+        effect = f"the moving top is {'lifted' if direction == 'rises' else 'pressed down'}"
     return (
         f"precession {was.phi_dot:.2f} -> {now.phi_dot:.2f} rad/s ({_regular(now.rates)}): "
-        f"the top {direction}, theta {low:.3f} .. {high:.3f} rad; {_judgement(was, now, direction)}"
+        f"{effect}, theta {low:.3f} .. {high:.3f} rad; {_judgement(was, now, direction)}"
     )
 
 
@@ -144,9 +152,11 @@ def _judgement(was: _Balance, now: _Balance, direction: Direction) -> str:
     hurried = abs(now.phi_dot) > abs(was.phi_dot)
     holds = (direction == "rises") == hurried
     words = "hurried" if hurried else "delayed"
-    if holds and words == "hurried":
-        return f"Perry's rule holds here ({_place(now)})"
-    return f"{words}: Perry's rule {'holds' if holds else 'fails'} here ({_place(now)})"
+    return (
+        f"{words}, but Perry's rule fails here ({_place(now)})"
+        if not holds
+        else (f"{words}, and Perry's rule holds here ({_place(now)})")
+    )
 
 
 def _vertical(state: State) -> bool:
@@ -160,10 +170,15 @@ def _departure(state: State) -> Direction:
 
 
 def _direction(state: State, balance: _Balance) -> Direction:
-    theta_dot = float(state.euler_rates.theta)
-    if abs(theta_dot) > ROUNDING * float(abs(state.angular_velocity).max()):
-        return "rises" if theta_dot < 0 else "falls"
+    if _moving(state):
+        return "rises" if state.euler_rates.theta < 0 else "falls"
     return balance.direction
+
+
+def _moving(state: State) -> bool:
+    """Whether theta' is more than rounding."""
+    theta_dot = float(state.euler_rates.theta)
+    return abs(theta_dot) > ROUNDING * float(abs(state.angular_velocity).max())
 
 
 def _regular(rates: tuple[float, ...]) -> str:

@@ -85,15 +85,16 @@ def shifts(found: tuple[Quotient, ...], heights: Heights) -> list[float]:
 
 
 def _from_quarter_period(quotient: Quotient, heights: Heights) -> float:
-    s21, s32 = float(heights.s21), float(heights.s32)
-    g1, g2, g3 = float(quotient.from_u1), float(quotient.from_u2), float(quotient.from_u3)
-    s31 = s21 + s32
+    s21, s31, s32 = heights.s21, heights.s31, heights.s32
+    g1, g2, g3 = quotient.from_u1, quotient.from_u2, quotient.from_u3
     if quotient.beneath:
-        return math.sqrt(g1 / g2) * float(elliprf(s21 / g2, s21 / s31 * (g3 / g2), 1.0))
+        share = float(s21 / g2)
+        return math.sqrt(g1 / g2) * float(elliprf(share, share * float(g3 / s31), 1.0))
     if s32 == 0:
         return 0.0  # both roots are the pole, reached at t = infinity only
-    scale = math.sqrt(g2 / g1 * (s31 / s32))
-    return scale * float(elliprf(s21 / g1 * (g3 / s32), s21 / g1, 1.0))
+    share = float(s21 / g1)
+    scale = math.sqrt(g2 / s32 * s31 / g1)
+    return scale * float(elliprf(share * float(g3 / s32), share, 1.0))
 
 
 def mean_rates(

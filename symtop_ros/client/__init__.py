@@ -1,0 +1,1 @@
+"""top_ctl and the demonstration: clients of a running node."""

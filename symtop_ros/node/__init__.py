@@ -1,0 +1,1 @@
+"""The ROS 2 node: topics, services, parameters and scenes around a motion."""

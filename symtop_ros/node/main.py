@@ -1,0 +1,47 @@
+"""Entry point of `top_node`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.utilities import remove_ros_args
+
+from symtop_ros.node.scene import scene_names
+from symtop_ros.node.top_node import TopNode
+
+HELP = """\
+examples:
+  top_node --ros-args -p scene:=hurry_slow
+  top_node --ros-args -p top.Mgl:=-0.068 -p initial.theta:=0.3 -p publish_rate:=1000
+  top_node --ros-args --params-file my_top.yaml
+
+scenes: {scenes}
+"""
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until it is shut down; return the exit status."""
+    arguments = sys.argv if args is None else ["top_node", *args]
+    parser = argparse.ArgumentParser(
+        prog="top_node",
+        description="A heavy symmetric top in real time. Parameters are given the ROS way.",
+        epilog=HELP.format(scenes=", ".join(scene_names())),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    try:
+        parser.parse_args(remove_ros_args(arguments)[1:])
+        with rclpy.init(args=arguments):
+            rclpy.spin(TopNode())
+    except (KeyboardInterrupt, ExternalShutdownException):
+        return 0
+    except Exception as error:
+        print(f"top_node: {_one_line(error)}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split()) or type(error).__name__

@@ -1,0 +1,46 @@
+"""Scenes: ordinary ROS parameter files in share/symtop_ros/config, chosen by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
+
+from symtop_ros.node.fields import RefusedError, refuse
+
+
+def scene_folder() -> Path:
+    """Return the folder of the scenes: the installed one, or the one of a source tree."""
+    beside = Path(__file__).resolve().parents[2] / "config"
+    try:
+        installed = Path(get_package_share_directory("symtop_ros")) / "config"
+    except (PackageNotFoundError, OSError, ValueError):
+        return beside
+    return installed if installed.is_dir() else beside
+
+
+def scene_names() -> tuple[str, ...]:
+    """Return the names of the scenes."""
+    return tuple(sorted(path.stem for path in scene_folder().glob("*.yaml")))
+
+
+def scene_values(name: object) -> dict[str, Any]:
+    """Return the parameters that a scene sets, by name.
+
+    Raises
+    ------
+    RefusedError
+        Where there is no such scene, or its file cannot be read.
+    """
+    names = scene_names()
+    if name not in names:
+        raise refuse("scene", name, f"one of {', '.join(names)}")
+    path = scene_folder() / f"{name}.yaml"
+    try:
+        messages = parameter_dict_from_yaml_file(str(path), use_wildcard=True)
+    except Exception as error:
+        msg = f"scene: {path.name} is not a ROS parameter file ({error})"
+        raise RefusedError(msg) from None
+    return {key: parameter_value_to_python(message.value) for key, message in messages.items()}

@@ -1,0 +1,77 @@
+"""A stretch of a run between two changes: which motion, and which of its times belongs to a stamp.
+
+Stamps are integer nanoseconds of the node's clock. Everything a segment holds is written into an
+event when it begins, so that any state of a run can be computed again, bit for bit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from symtop_ros.physics import Motion, State, Top, motion
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One stretch of a run.
+
+    Attributes
+    ----------
+    path : Motion
+        The motion, from its own start.
+    stamp : int
+        When the segment begins, ns.
+    elapsed : float
+        Time of the motion at that stamp, s.
+    factor : float
+        Seconds of motion per second of the clock.
+    running : bool
+        Whether the motion goes on with the clock, or rests (paused).
+    """
+
+    path: Motion
+    stamp: int
+    elapsed: float
+    factor: float
+    running: bool
+
+    @classmethod
+    def begin(
+        cls, top: Top, start: State, stamp: int, factor: float, running: bool = True
+    ) -> Segment:
+        """Return the first stretch of a motion that starts now."""
+        return cls(motion(top, start), stamp, 0.0, factor, running)
+
+    def time_at(self, stamp: int) -> float:
+        """Time of the motion in s at a stamp in ns."""
+        if not self.running:
+            return self.elapsed
+        return self.elapsed + self.factor * ((stamp - self.stamp) * 1e-9)
+
+    def state_at(self, stamp: int) -> State:
+        """State of the top at a stamp in ns."""
+        return self.path.at(self.time_at(stamp))
+
+    def restarted(self, start: State, stamp: int) -> Segment:
+        """Go on from another state (a start or a kick)."""
+        return self.begin(self.path.top, start, stamp, self.factor, self.running)
+
+    def with_top(self, top: Top, stamp: int) -> Segment:
+        """Go on from the state of now with another top."""
+        return self.begin(top, self.state_at(stamp), stamp, self.factor, self.running)
+
+    def paused(self, stamp: int) -> Segment:
+        """Rest at the state of now."""
+        return replace(self, stamp=stamp, elapsed=self.time_at(stamp), running=False)
+
+    def resumed(self, stamp: int) -> Segment:
+        """Go on from where the motion rests."""
+        return replace(self, stamp=stamp, running=True)
+
+    def stepped(self, duration: float, stamp: int) -> Segment:
+        """Rest `duration` seconds of motion later."""
+        return replace(self, stamp=stamp, elapsed=self.time_at(stamp) + duration)
+
+    def with_factor(self, factor: float, stamp: int) -> Segment:
+        """Go on at another speed."""
+        return replace(self, stamp=stamp, elapsed=self.time_at(stamp), factor=factor)

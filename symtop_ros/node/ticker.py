@@ -1,0 +1,52 @@
+"""Which samples are due: tick k is at start + k/rate, whenever the timer gets round to it."""
+
+from __future__ import annotations
+
+NANOSECONDS = 1_000_000_000
+CATCH_UP = 0.1  # s; ticks later than this are missed: no avalanche after the process was stopped
+
+
+class Ticker:
+    """Hands out the stamps of a steady grid.
+
+    Attributes
+    ----------
+    late : int
+        Ticks handed out more than a period after their stamp.
+    missed : int
+        Ticks that were never handed out.
+    """
+
+    def __init__(self, rate: float, now: int) -> None:
+        self.late = 0
+        self.missed = 0
+        self.restart(rate, now)
+
+    def restart(self, rate: float, start: int) -> None:
+        """Begin another grid; its first tick is at `start`, in ns."""
+        self._rate = rate
+        self._start = start
+        self._next = 0
+
+    @property
+    def next_stamp(self) -> int:
+        """Stamp in ns of the first tick that is not handed out yet."""
+        return self._stamp(self._next)
+
+    def due(self, now: int) -> list[int]:
+        """Return the stamps that are due, in order, and count what is late or missed."""
+        last = int((now - self._start) * self._rate / NANOSECONDS)
+        if now < self.next_stamp - NANOSECONDS / self._rate:
+            self.restart(self._rate, now)  # the clock jumped back
+            last = 0
+        oldest = last - int(CATCH_UP * self._rate)
+        if oldest > self._next:
+            self.missed += oldest - self._next
+            self._next = oldest
+        stamps = [self._stamp(k) for k in range(self._next, last + 1) if self._stamp(k) <= now]
+        self._next += len(stamps)
+        self.late += sum(now - stamp > NANOSECONDS / self._rate for stamp in stamps)
+        return stamps
+
+    def _stamp(self, k: int) -> int:
+        return self._start + round(k * NANOSECONDS / self._rate)
