@@ -101,7 +101,7 @@ class Motion:
             block = slice(first, first + BLOCK)
             self._fill(flat[block], orientation[block], angular_velocity[block])
         shape = times.shape
-        return State(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
+        return State.unchecked(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
 
     def _fill(self, t: Real, orientation: Real, angular_velocity: Real) -> None:
         A, B, across = self._engine.parameters(t)

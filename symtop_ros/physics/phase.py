@@ -38,7 +38,7 @@ class Phases:
 
     def at(self, t: Real) -> Real:
         """Phases (k, n) in [-pi, pi] at times t (n,), in rad."""
-        t = np.clip(t, -self._last, self._last)
+        t = np.minimum(np.maximum(t, -self._last), self._last)
         product = self._high * t
         (a, b), (c, d) = self._parts, _halves(t)
         error = ((a * c - product) + a * d + b * c) + b * d

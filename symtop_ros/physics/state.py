@@ -54,8 +54,18 @@ class State:
         if omega.size and np.abs(omega).max() > LARGEST_RATE:
             msg = f"angular_velocity: got up to {np.abs(omega).max():g} rad/s, allowed is {LARGEST_RATE:g}"
             raise ValueError(msg)
-        object.__setattr__(self, "orientation", _read_only(_normalised(q)))
-        object.__setattr__(self, "angular_velocity", _read_only(omega))
+        self._set(q, omega)
+
+    @classmethod
+    def unchecked(cls, orientation: Real, angular_velocity: Real) -> State:
+        """Return the state of finite arrays that fit; they become read-only, and its own."""
+        state = object.__new__(cls)
+        state._set(orientation, angular_velocity)
+        return state
+
+    def _set(self, orientation: Real, angular_velocity: Real) -> None:
+        object.__setattr__(self, "orientation", _read_only(_normalised(orientation)))
+        object.__setattr__(self, "angular_velocity", _read_only(angular_velocity))
 
     @classmethod
     def from_euler(
@@ -89,14 +99,18 @@ class State:
     @property
     def vertical(self) -> Real:
         """World z' seen from the body, (..., 3): (sin theta sin psi, sin theta cos psi, cos theta)."""
-        w, x, y, z = np.moveaxis(self.orientation, -1, 0)
-        height = (w * w + z * z) - (x * x + y * y)
-        return np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), height], axis=-1)
+        w, x, y, z = self._parts
+        return _vector(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+
+    @property
+    def _parts(self) -> tuple[Real, Real, Real, Real]:
+        q = self.orientation
+        return q[..., 0], q[..., 1], q[..., 2], q[..., 3]
 
     @property
     def euler_angles(self) -> Angles:
         """Angles (phi, theta, psi) in rad, 0 <= theta <= pi; on the vertical phi is taken as 0."""
-        w, x, y, z = np.moveaxis(self.orientation, -1, 0)
+        w, x, y, z = self._parts
         theta = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
         upper, lower = np.arctan2(z, w), np.arctan2(y, x)
         on_vertical = (theta == 0) | (theta == np.pi)
@@ -107,8 +121,9 @@ class State:
     @property
     def euler_rates(self) -> Angles:
         """Rates (phi', theta', psi') in rad/s; on the vertical phi' is taken as 0."""
-        gx, gy, gz = np.moveaxis(self.vertical, -1, 0)
-        wx, wy, wz = np.moveaxis(self.angular_velocity, -1, 0)
+        vertical, omega = self.vertical, self.angular_velocity
+        gx, gy, gz = vertical[..., 0], vertical[..., 1], vertical[..., 2]
+        wx, wy, wz = omega[..., 0], omega[..., 1], omega[..., 2]
         sine = np.hypot(gx, gy)
         with np.errstate(invalid="ignore", divide="ignore"):
             phi_dot = np.where(sine > 0, (wx * gx + wy * gy) / sine / sine, 0.0)
@@ -118,15 +133,12 @@ class State:
 
     def to_world(self, vector: ArrayLike) -> Real:
         """Turn a body-frame vector (..., 3) into the world frame."""
-        v = np.asarray(vector, dtype=float)
-        w, imaginary = self.orientation[..., :1], self.orientation[..., 1:]
-        t = 2 * np.cross(imaginary, v)
-        return np.asarray(v + w * t + np.cross(imaginary, t))
+        return _turned(*self._parts, np.asarray(vector, dtype=float))
 
     def to_body(self, vector: ArrayLike) -> Real:
         """Turn a world-frame vector (..., 3) into the body frame."""
-        inverse = self.orientation * np.array([1.0, -1.0, -1.0, -1.0])
-        return State(inverse, self.angular_velocity).to_world(vector)
+        w, x, y, z = self._parts
+        return _turned(-w, x, y, z, np.asarray(vector, dtype=float))
 
     def __iter__(self) -> Iterator[Real]:
         """Unpack as orientation, angular_velocity."""
@@ -160,11 +172,29 @@ def _normalised(q: Real) -> Real:
     """Unit quaternions; those which are one to rounding stay as they are."""
     norm = np.sqrt((q * q).sum(axis=-1, keepdims=True))
     off = np.abs(norm - 1)
-    if off.size and off.max() > NORM_TOLERANCE:
+    largest = off.max(initial=0.0)
+    if largest <= ROUNDING:
+        return q
+    if largest > NORM_TOLERANCE:
         worst = float(norm.flat[off.argmax()])
         msg = f"orientation: got a quaternion of norm {worst:g}, allowed is 1 within {NORM_TOLERANCE:g}"
         raise ValueError(msg)
     return np.asarray(np.where(off > ROUNDING, q / norm, q))
+
+
+def _turned(w: Real, x: Real, y: Real, z: Real, v: Real) -> Real:
+    """q v q* = v + w t + (x, y, z) x t with t = 2 (x, y, z) x v."""
+    a, b, c = v[..., 0], v[..., 1], v[..., 2]
+    t, u, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return _vector(
+        a + w * t + (y * s - z * u), b + w * u + (z * t - x * s), c + w * s + (x * u - y * t)
+    )
+
+
+def _vector(x: Real, y: Real, z: Real) -> Real:
+    vector = np.empty((*np.shape(x), 3))
+    vector[..., 0], vector[..., 1], vector[..., 2] = x, y, z
+    return vector
 
 
 def _wrapped(angle: Real) -> Real:

@@ -57,7 +57,7 @@ class DirectSeries:
 
     def values(self, x: Real) -> Complex:
         """Quotients (3, n) at phases x (n,)."""
-        rows = self._matrix @ _harmonics(x)
+        rows = _product(self._matrix, _harmonics(x))
         return np.asarray((rows[:3] + 1j * rows[3:6]) / rows[6])
 
     def at_start(self, x: float) -> tuple[Complex, Complex]:
@@ -68,6 +68,14 @@ class DirectSeries:
         rows, slopes = basis @ self._matrix.T
         values = (rows[:3] + 1j * rows[3:6]) / rows[6]
         return values, (slopes[:3] + 1j * slopes[3:6] - values * slopes[6]) / rows[6]
+
+
+def _product(matrix: Real, basis: Real) -> Real:
+    """Matrix product, summed in one order whatever n is: at(array) is then at(each) bit for bit."""
+    rows = matrix[:, :1] * basis[0]
+    for column, row in zip(matrix.T[1:, :, np.newaxis], basis[1:], strict=True):
+        rows += column * row
+    return rows
 
 
 def _harmonics(x: Real) -> Real:
@@ -105,7 +113,7 @@ class ComplementarySeries:
         """Quotients (3, n) at phases x (n,) in [-pi, pi]."""
         y = x * self._stretch
         decay = np.abs(y)
-        rows = self._matrix @ self._exponentials(decay)
+        rows = _product(self._matrix, self._exponentials(decay))
         above = rows[:3] + 1j * np.copysign(1.0, y) * rows[3:6]
         above[1:] *= np.exp(-decay / 2)
         return np.asarray(above / rows[6] * np.exp(-1j / (2 * math.pi) * self._turn * x))

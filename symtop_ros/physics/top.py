@@ -81,14 +81,15 @@ class Top:
 
         Mgl z' x axis, reversed: Mgl sin(theta) (cos phi, sin phi, 0), along the line of nodes.
         """
-        w, x, y, z = np.moveaxis(state.orientation, -1, 0)
-        axis_x, axis_y = 2 * (x * z + w * y), 2 * (y * z - w * x)
-        return self.Mgl * np.stack([-axis_y, axis_x, np.zeros_like(axis_x)], axis=-1)
+        torque = np.zeros_like(state.angular_velocity)
+        axis = state.to_world([0.0, 0.0, self.Mgl])
+        torque[..., 0], torque[..., 1] = -axis[..., 1], axis[..., 0]
+        return torque
 
     def energy(self, state: State) -> Any:
         """Kinetic and potential energy, (...), J; the potential is Mgl cos(theta)."""
-        wx, wy, wz = np.moveaxis(state.angular_velocity, -1, 0)
-        kinetic = self.Ix * (wx * wx + wy * wy) / 2 + self.Iz * wz * wz / 2
+        omega = state.angular_velocity
+        kinetic = (self.body_angular_momentum(state) * omega).sum(axis=-1) / 2
         return kinetic + self.Mgl * state.vertical[..., 2]
 
     def axial_momentum(self, state: State) -> Any:
