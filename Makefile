@@ -1,0 +1,45 @@
+# Everything happens in an environment of its own, .venv; nothing else on the machine is touched.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+# Nothing here is meant for the network, and a ROS or another environment that is active stays out.
+export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
+unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
+
+.PHONY: help demo test lint report clean
+
+help:  ## this list
+	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 10
+
+demo: $(VENV)/ros  ## a top on cusps, and its precession hurried through the service
+	@$(BIN)/python -m symtop_ros.client.demo
+
+test: lint  ## style, types and all tests
+	@$(BIN)/python -m pytest
+
+lint: $(VENV)/test
+	@$(BIN)/ruff check
+	@$(BIN)/ruff format --check
+	@$(BIN)/mypy
+
+report: $(VENV)/ros  ## speed against error, on this machine
+	@$(BIN)/top_report
+
+clean:  ## remove the environment and what was built
+	rm -rf $(VENV) build install log *.egg-info
+
+$(VENV)/ros: setup.py $(VENV)/bin/python
+	@echo "Setting up .venv: ROS 2, NumPy and SciPy (about 350 MB, once) ..."
+	$(BIN)/python -m pip install --editable '.[ros]'
+	@touch $@
+
+$(VENV)/test: setup.py $(VENV)/ros
+	@echo "Setting up .venv: what the tests need (once) ..."
+	$(BIN)/python -m pip install --editable '.[ros,test,lint]'
+	@touch $@
+
+$(VENV)/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "make: $(PYTHON) is older than 3.11; name another one: make PYTHON=python3.12"; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || { echo "make: $(PYTHON) -m venv failed (Debian: apt install python3-venv)"; exit 1; }

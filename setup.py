@@ -1,0 +1,71 @@
+"""Build script of the ament_python package: the same tree from pip and from colcon."""
+
+import re
+from glob import glob
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+NAME = "symtop_ros"
+VERSION = re.search(r'__version__ = "(.+)"', Path(NAME, "__init__.py").read_text())[1]
+
+# ROS 2 itself, for machines without one. Never a requirement: beside a ROS from apt these would
+# be a second ROS. Kilted's wheels, with Fast DDS as the middleware.
+ROS = [
+    "ros-rclpy[fastrtps]",
+    "ros-kilted-rclpy>=9.1",
+    "ros-kilted-rmw-fastrtps-cpp>=9.3",  # the middleware that rclpy loads
+    "ros-kilted-geometry-msgs>=5.5",
+    "ros-kilted-sensor-msgs>=5.5",
+    "ros-kilted-std-msgs>=5.5",
+    "ros-kilted-diagnostic-msgs>=5.5",
+    "ros-kilted-std-srvs>=5.5",
+]
+TEST = [
+    "pytest>=8",
+    "hypothesis>=6.100",  # random tops, and the worst of them again
+    "mpmath>=1.3",  # the reference: elliptic functions to any number of digits
+    "psutil>=5.9",  # load of the node in the benchmark
+]
+LINT = [
+    "mypy>=1.11",
+    "ruff>=0.6",
+    "scipy-stubs>=1.14",  # SciPy has no types of its own
+    "colcon-common-extensions>=0.3",  # a test builds the package as a workspace would
+]
+
+setup(
+    name=NAME,
+    version=VERSION,
+    packages=find_packages(include=[NAME, f"{NAME}.*"]),
+    package_data={NAME: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
+        (f"share/{NAME}", ["package.xml"]),
+        (f"share/{NAME}/config", sorted(glob("config/*.yaml"))),
+        # where `ros2 run` looks; pip puts console scripts into bin only
+        (f"lib/{NAME}", ["resource/top_node", "resource/top_ctl"]),
+    ],
+    zip_safe=False,
+    python_requires=">=3.10",
+    install_requires=[
+        "numpy>=1.24",  # arrays; any NumPy that a supported ROS 2 brings
+        "scipy>=1.8",  # Carlson's elliptic integral R_F came with 1.8
+    ],
+    extras_require={"ros": ROS, "test": TEST, "lint": LINT},
+    entry_points={
+        "console_scripts": [
+            f"top_node = {NAME}.node.main:main",
+            f"top_ctl = {NAME}.client.main:main",
+            f"top_report = {NAME}.report.main:main",
+        ]
+    },
+    author="The symtop_ros authors",
+    author_email="symtop_ros@example.org",
+    maintainer="The symtop_ros authors",
+    maintainer_email="symtop_ros@example.org",
+    description="The heavy symmetric top as a ROS 2 node: exact motion, precession kicks as services",
+    long_description=Path("README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
+    license="Apache-2.0",
+)
