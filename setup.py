@@ -44,7 +44,7 @@ setup(
         (f"share/{NAME}", ["package.xml"]),
         (f"share/{NAME}/config", sorted(glob("config/*.yaml"))),
         # where `ros2 run` looks; pip puts console scripts into bin only
-        (f"lib/{NAME}", ["resource/top_node", "resource/top_ctl"]),
+        (f"lib/{NAME}", sorted(glob("resource/top_*"))),
     ],
     zip_safe=False,
     python_requires=">=3.10",
@@ -64,7 +64,7 @@ setup(
     author_email="symtop_ros@example.org",
     maintainer="The symtop_ros authors",
     maintainer_email="symtop_ros@example.org",
-    description="The heavy symmetric top as a ROS 2 node: exact motion, precession kicks as services",
+    description="The heavy symmetric top as a ROS 2 node: exact motion, kicks as services",
     long_description=Path("README.md").read_text(encoding="utf-8"),
     long_description_content_type="text/markdown",
     license="Apache-2.0",

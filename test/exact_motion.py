@@ -1,9 +1,9 @@
 """The motion of a heavy symmetric top to many digits, in mpmath: what the tests compare with.
 
-Written for clarity and digits, not speed, and on purpose by other means than the package: the cubic
-in u = cos(theta) is expanded about u = 0 and solved by Viète's trigonometric formula, and every theta
-function is summed in the original nome, whatever the modulus. A working precision of 150 digits pays
-for the cancellations that the package has to avoid.
+Written for clarity and digits, not speed, and on purpose by other means than the package: the
+cubic in u = cos(theta) is expanded about u = 0 and solved by Viète's trigonometric formula, every
+theta function is summed in the original nome, whatever the modulus, and rates are logarithmic
+derivatives of theta functions. A working precision of 150 digits pays for the cancellations.
 """
 
 from __future__ import annotations
@@ -186,3 +186,34 @@ def _heavy(inputs: Inputs, A, B, t):
     )
     transverse = 2 * (mp.conj(A) * B_dot - B * mp.conj(A_dot))
     return A, B, transverse.real, transverse.imag
+
+
+def error_and_limit(inputs: Inputs, t, orientation, angular_velocity):
+    """Errors of a computed state, and what half an ulp of every input does to the exact one.
+
+    Returns the error of the orientation up to sign, that of the angular velocity relative to its
+    size, and the limit: the root of the sum of squares over the ten inputs.
+    """
+    with mp.workdps(DIGITS):
+        exact, rates = exact_motion(inputs, t)
+        size = mp.norm(rates) or mpf(1)
+        error = distance(exact, [mpf(float(c)) for c in orientation])
+        parts = zip(rates, angular_velocity, strict=True)
+        rate_error = mp.norm([a - mpf(float(b)) for a, b in parts]) / size
+        changes = [distance(exact, exact_motion(each, t)[0]) for each in _perturbed(inputs)]
+        return float(error), float(rate_error), float(mp.norm(changes))
+
+
+def distance(a, b):
+    """Distance of two quaternions, q and -q being the same attitude."""
+    minus, plus = zip(*((x - y, x + y) for x, y in zip(a, b, strict=True)), strict=True)
+    return min(mp.norm(minus), mp.norm(plus))
+
+
+def _perturbed(inputs: Inputs):
+    """Each input in turn, larger by half an ulp."""
+    flat = [inputs.Ix, inputs.Iz, inputs.Mgl, *inputs.orientation, *inputs.angular_velocity]
+    for i, value in enumerate(flat):
+        if value:
+            moved = [*flat[:i], value * (1 + mpf(2) ** -53), *flat[i + 1 :]]
+            yield Inputs(*moved[:3], moved[3:7], moved[7:])

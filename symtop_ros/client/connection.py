@@ -70,7 +70,10 @@ class Connection:
         client: Client[Any, Any] = self.node.create_client(kind, f"{self.name}/{service}")
         try:
             if not self.spin_until(client.service_is_ready, self._timeout):
-                msg = f"no answer from {self.name} within {self._timeout:g} s: is top_node running (same ROS_DOMAIN_ID, same --node)?"
+                msg = (
+                    f"no answer from {self.name} within {self._timeout:g} s: "
+                    "is top_node running, with the same ROS_DOMAIN_ID and --node?"
+                )
                 raise UnreachableError(msg)
             future = client.call_async(request)
             if not self.spin_until(future.done, self._timeout):

@@ -12,6 +12,7 @@ from sensor_msgs.msg import JointState
 from symtop_ros.client.connection import Connection, UnreachableError
 
 SCENE = "cusps"
+NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
 WATCHED = 1.5  # s before and after the kick: nine nutations of this scene
 
 
@@ -20,14 +21,8 @@ def main() -> int:
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     os.environ["ROS_DOMAIN_ID"] = str(100 + os.getpid() % 100)  # apart from tops that run already
     print(f"starting top_node on the scene {SCENE!r} ...", flush=True)
-    node = subprocess.Popen(
-        [
-            sys.executable,
-            "-c",
-            "import sys; from symtop_ros.node.main import main; sys.exit(main())",
-        ]
-        + ["--ros-args", "-p", f"scene:={SCENE}", "--log-level", "warn"]
-    )
+    options = ["-p", f"scene:={SCENE}", "--log-level", "warn"]
+    node = subprocess.Popen([sys.executable, "-c", NODE, "--ros-args", *options])
     try:
         with rclpy.init():
             return _show(Connection(rclpy.create_node("demo"), timeout=20.0))

@@ -45,7 +45,7 @@ def watch(connection: Connection, seconds: float, timeout: float) -> None:
 
 
 def _show(message: JointState) -> None:
-    phi, theta, psi = message.position
+    phi, theta, _ = message.position
     phi_dot, theta_dot, psi_dot = message.velocity
     bar = "".join("|" if i == round(theta / 3.1416 * 24) else "." for i in range(25))
     line = (

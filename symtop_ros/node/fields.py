@@ -31,7 +31,7 @@ def shown(value: object) -> str:
 
 
 def named_values(parameters: Iterable[ParameterMessage], allowed: Iterable[str]) -> dict[str, Any]:
-    """Return the values of a request by name; refuse unknown and repeated names, and empty values."""
+    """Return the values of a request by name; refuse unknown, repeated and empty ones."""
     names = tuple(allowed)
     values: dict[str, Any] = {}
     for parameter in parameters:

@@ -93,7 +93,7 @@ def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
         return roots[PRECESSIONS.index(which)]
     found = f"only {roots[0]:.6g} rad/s" if roots else "no real root"
     msg = (
-        f'precession: got "{which}", but at theta {theta:g} rad and psi_dot {psi_dot:g} rad/s regular '
-        f"precession has {found}; allowed is another theta or psi_dot"
+        f'precession: got "{which}", but at theta {theta:g} rad and psi_dot {psi_dot:g} rad/s '
+        f"regular precession has {found}; allowed is another theta or psi_dot"
     )
     raise RefusedError(msg)

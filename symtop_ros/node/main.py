@@ -34,13 +34,22 @@ def main(args: list[str] | None = None) -> int:
     try:
         parser.parse_args(remove_ros_args(arguments)[1:])
         with rclpy.init(args=arguments):
-            rclpy.spin(TopNode())
+            _spin(TopNode())
     except (KeyboardInterrupt, ExternalShutdownException):
         return 0
     except Exception as error:
         print(f"top_node: {_one_line(error)}", file=sys.stderr)
         return 1
     return 0
+
+
+def _spin(node: TopNode) -> None:
+    """Spin until shutdown; a signal may end the context in the middle of a tick."""
+    try:
+        rclpy.spin(node)
+    except RuntimeError:
+        if node.context.ok():
+            raise
 
 
 def _one_line(error: Exception) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +14,12 @@ from symtop_ros.node.fields import RefusedError, refuse
 
 
 def scene_folder() -> Path:
-    """Return the folder of the scenes: the installed one, or the one of a source tree."""
-    beside = Path(__file__).resolve().parents[2] / "config"
-    try:
-        installed = Path(get_package_share_directory("symtop_ros")) / "config"
-    except (PackageNotFoundError, OSError, ValueError):
-        return beside
-    return installed if installed.is_dir() else beside
+    """Return the folder of the scenes: of a workspace, a source tree or a Python environment."""
+    here = Path("share", "symtop_ros", "config")
+    folders = [Path(__file__).resolve().parents[2] / "config", Path(sys.prefix) / here]
+    with suppress(PackageNotFoundError, OSError, ValueError):
+        folders.insert(0, Path(get_package_share_directory("symtop_ros")) / "config")
+    return next((folder for folder in folders if folder.is_dir()), folders[-1])
 
 
 def scene_names() -> tuple[str, ...]:

@@ -1,7 +1,7 @@
 """The URDF of the top: three joints z-x-z, and a body with its moments of inertia.
 
-Joint names are those of ~/euler_angles, so that robot_state_publisher moves it; the link of the body
-is the frame that /tf moves, so that rviz and Rerun show it without one.
+Joint names are those of ~/euler_angles, so that robot_state_publisher moves it; the link of the
+body is the frame that /tf moves, so that rviz and Rerun show it without one.
 """
 
 from __future__ import annotations

@@ -135,7 +135,7 @@ def _argument_rates(moments: Three, wz: Decimal, means: tuple[Decimal, ...]) -> 
 def _initial_values(
     moments: Three, orientation: Four, angular_velocity: Three
 ) -> tuple[tuple[complex, ...], tuple[complex, ...]]:
-    """A, B, omega at t = 0 and their rates of change, from q' = q (0, omega)/2 and Euler's equations."""
+    """A, B, omega at t = 0 and their changes: q' = q (0, omega)/2, and Euler's equations."""
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity
     A, B = complex(w, z), complex(x, y)
     across = complex(wx, wy)

@@ -1,8 +1,8 @@
 """Kicks: instantaneous changes of the angular velocity at fixed attitude.
 
-A change of phi' by delta with theta' and psi' held adds delta to the angular velocity about z'; with
-theta' and the axial momentum held it adds the part of that which lies across the axis. Neither needs
-sin(theta), except to say what phi' was.
+A change of phi' by delta with theta' and psi' held adds delta to the angular velocity about z';
+with theta' and the axial momentum held it adds the part of that which lies across the axis.
+Neither needs sin(theta), except to say what phi' was.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def set_precession_rate(top: Top, state: State, phi_dot: float, hold: Hold = "sp
 
 
 def hurry(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_rate") -> State:
-    """Return the state with its precession rate multiplied by `factor`; else as set_precession_rate."""
+    """Return the state with phi' multiplied by `factor`; else as set_precession_rate."""
     if not math.isfinite(factor):
         msg = f"factor: got {factor}, allowed is a finite number"
         raise ValueError(msg)
@@ -73,10 +73,13 @@ def impulse(top: Top, state: State, angular_impulse: ArrayLike) -> State:
 
 
 def precession_rate(state: State) -> float:
-    """phi' in rad/s of one state; ValueError on the vertical, where it is undefined."""
+    """Phi' in rad/s of one state; ValueError on the vertical, where it is undefined."""
     x, y = state.vertical[:2]
     if x == 0 and y == 0:
-        msg = "the axis is vertical: the precession rate phi' is undefined there, allowed is an angular impulse"
+        msg = (
+            "the axis is vertical: the precession rate phi' is undefined there, "
+            "allowed is an angular impulse"
+        )
         raise ValueError(msg)
     return float(state.euler_rates.phi)
 

@@ -26,7 +26,7 @@ ROUNDING = Decimal(64 * 2.0**-52)  # what rounding of the start alone does to a 
 def kind_of(start: Start, heights: Heights, zeros: tuple[Quotient, ...]) -> Kind:
     """Return the kind of a motion whose axis moves; what rounding alone makes differ is equal."""
     with localcontext(PRECISE):
-        below, above, _ = zeros
+        above = zeros[1]
         if heights.s32 <= ROUNDING * heights.s3 and _no_momentum(start, start.below):
             return "spiralling"
         if _regular(start):

@@ -120,7 +120,8 @@ def perry(top: Top, state: State, hold: Hold = "spin_rate") -> Verdict:
         path.turning_angles,
         balance.rates,
         holds,
-        f"{_place(balance)}; Perry's rule {'holds' if holds else 'fails'} here: {_condition(balance, hold)}",
+        f"{_place(balance)}; Perry's rule {'holds' if holds else 'fails'} here: "
+        f"{_condition(balance, hold)}",
     )
 
 
@@ -200,7 +201,8 @@ def _place(balance: _Balance) -> str:
         name = ("slow", "fast")[nearest] if len(balance.rates) == 2 else "only"
         return f"{rate} is the {name} rate of regular precession of {roots} rad/s"
     if len(balance.rates) == 1:
-        return f"{rate} is {'above' if balance.phi_dot > balance.rates[0] else 'below'} the only root {roots} rad/s"
+        side = "above" if balance.phi_dot > balance.rates[0] else "below"
+        return f"{rate} is {side} the only root {roots} rad/s"
     inside = min(balance.rates) < balance.phi_dot < max(balance.rates)
     return f"{rate} is {'between' if inside else 'outside'} the roots {roots} rad/s"
 

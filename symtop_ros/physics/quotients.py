@@ -1,12 +1,12 @@
 """The three functions of time that make up the motion, each a quotient of theta functions.
 
-A, B and conj(omega), the Cayley-Klein parameters and the angular velocity omega = omega_x + i omega_y
-across the axis, are all of the form
+A, B and conj(omega), the Cayley-Klein parameters and the angular velocity omega = omega_x +
+i omega_y across the axis, are all of the form
 
     C  th_k(v + i shift) / th4(v)  exp(i rate t),        v = v0 + Omega t.
 
 Each vanishes at one height u_P of the axis: A at the lower pole u = -1, B at the upper pole u = 1,
-omega where the whole energy would be potential. There f(u_P) = -d**2 with d = (p_phi - p_psi u_P)/Ix,
+omega where the whole energy would be potential. There f(u_P) = -d**2, d = (p_phi - p_psi u_P)/Ix,
 and shift and rate follow from d and the distances of u_P from the three roots of f in the same way
 for all three. (Klein & Sommerfeld, Theory of the Top, ch. VI; Whittaker, Analytical Dynamics,
 sections 72-73. The third function obeys the same argument.)

@@ -52,7 +52,8 @@ class State:
             msg = f"orientation {q.shape} and angular_velocity {omega.shape} do not go together"
             raise ValueError(msg)
         if omega.size and np.abs(omega).max() > LARGEST_RATE:
-            msg = f"angular_velocity: got up to {np.abs(omega).max():g} rad/s, allowed is {LARGEST_RATE:g}"
+            largest = np.abs(omega).max()
+            msg = f"angular_velocity: got {largest:g} rad/s, allowed is up to {LARGEST_RATE:g}"
             raise ValueError(msg)
         self._set(q, omega)
 
@@ -98,7 +99,7 @@ class State:
 
     @property
     def vertical(self) -> Real:
-        """World z' seen from the body, (..., 3): (sin theta sin psi, sin theta cos psi, cos theta)."""
+        """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta."""
         w, x, y, z = self._parts
         return _vector(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
 
@@ -177,13 +178,13 @@ def _normalised(q: Real) -> Real:
         return q
     if largest > NORM_TOLERANCE:
         worst = float(norm.flat[off.argmax()])
-        msg = f"orientation: got a quaternion of norm {worst:g}, allowed is 1 within {NORM_TOLERANCE:g}"
+        msg = f"orientation: got a norm of {worst:g}, allowed is 1 within {NORM_TOLERANCE:g}"
         raise ValueError(msg)
     return np.asarray(np.where(off > ROUNDING, q / norm, q))
 
 
 def _turned(w: Real, x: Real, y: Real, z: Real, v: Real) -> Real:
-    """q v q* = v + w t + (x, y, z) x t with t = 2 (x, y, z) x v."""
+    """Return q v q* = v + w t + (x, y, z) x t with t = 2 (x, y, z) x v."""
     a, b, c = v[..., 0], v[..., 1], v[..., 2]
     t, u, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
     return _vector(

@@ -37,7 +37,7 @@ class Series(Protocol):
 
 def series(K: float, Kc: float, sign: list[float], rest: list[float]) -> Series:
     """Return the series in the smaller nome, given the sign of each shift and K' - |shift|."""
-    kind = DirectSeries if K <= Kc else ComplementarySeries
+    kind = DirectSeries if Kc >= K else ComplementarySeries
     return kind(K, Kc, np.array([sign]).T, np.array([[min(r, Kc) for r in rest]]).T)
 
 
@@ -72,7 +72,7 @@ class DirectSeries:
 
 def _product(matrix: Real, basis: Real) -> Real:
     """Matrix product, summed in one order whatever n is: at(array) is then at(each) bit for bit."""
-    rows = matrix[:, :1] * basis[0]
+    rows: Real = matrix[:, :1] * basis[0]
     for column, row in zip(matrix.T[1:, :, np.newaxis], basis[1:], strict=True):
         rows += column * row
     return rows
@@ -140,7 +140,7 @@ class ComplementarySeries:
 
 
 def _rows(first: Real, up: Real, up_weight: Real, down: Real, down_weight: Real) -> Complex:
-    """Even (real) and odd (imaginary) coefficients of weighted exp(n y + i up), exp(-n y - i down)."""
+    """Even (real) and odd (imaginary) coefficients of exp(n y + i up) and exp(-n y - i down)."""
     return np.hstack(
         [np.exp(1j * first), up_weight * np.exp(1j * up), down_weight * np.exp(-1j * down)]
     )

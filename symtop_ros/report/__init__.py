@@ -1,0 +1,1 @@
+"""top_report: speed against error, measured in one run."""
