@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import numpy as np
+from numpy.typing import NDArray
 
 
-def derivative(t: float, y: Sequence[float], Ix: float, Iz: float, Mgl: float) -> list[float]:
+def derivative(
+    t: float, y: NDArray[np.float64], Ix: float, Iz: float, Mgl: float
+) -> NDArray[np.float64]:
     """Return q' = q omega/2 and Euler's equations for (w, x, y, z, wx, wy, wz)."""
     w, x, y_, z, wx, wy, wz = y
     gx, gy = 2 * (x * z - w * y_), 2 * (y_ * z + w * x)
-    return [
-        (-x * wx - y_ * wy - z * wz) / 2,
-        (w * wx + y_ * wz - z * wy) / 2,
-        (w * wy - x * wz + z * wx) / 2,
-        (w * wz + x * wy - y_ * wx) / 2,
-        ((Ix - Iz) * wy * wz + Mgl * gy) / Ix,
-        ((Iz - Ix) * wz * wx - Mgl * gx) / Ix,
-        0.0,
-    ]
+    return np.array(
+        [
+            (-x * wx - y_ * wy - z * wz) / 2,
+            (w * wx + y_ * wz - z * wy) / 2,
+            (w * wy - x * wz + z * wx) / 2,
+            (w * wz + x * wy - y_ * wx) / 2,
+            ((Ix - Iz) * wy * wz + Mgl * gy) / Ix,
+            ((Iz - Ix) * wz * wx - Mgl * gx) / Ix,
+            0.0,
+        ]
+    )

@@ -1,0 +1,183 @@
+"""Services as a user calls them: what is granted takes effect at one instant, at once."""
+
+import json
+import math
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import QuaternionStamped
+from node.running_top import LATCHED, facts, stamp_of
+from sensor_msgs.msg import JointState
+
+from symtop_ros.node.events import segment_of
+from symtop_ros.physics import regular_precession_rates
+
+
+def theta(message):
+    return message.position[1]
+
+
+def test_hurrying_the_slow_root_raises_the_top_and_says_so(start_top):
+    run = start_top(scene="hurry_slow")
+    angles = run.collect(JointState, "/top/euler_angles")
+    run.spin_until(lambda: len(angles) > 5)
+    assert all(abs(theta(message) - 0.5) < 1e-14 for message in angles)  # a few ulp: regular
+    granted, answer = run.trigger("hurry_precession")
+    assert granted
+    assert answer.startswith("precession 6.50 -> 9.10 rad/s (regular at 6.50 and 69.82): ")
+    assert "the top rises, theta 0.437 .. 0.500 rad" in answer
+    assert "Perry's rule holds here" in answer
+    angles.clear()
+    run.spin_until(lambda: len(angles) > 100)  # three nutations
+    assert min(map(theta, angles)) == pytest.approx(0.437, abs=2e-3)  # 5 ms between samples
+    assert max(map(theta, angles)) <= 0.5 + 1e-14
+
+
+def test_hurrying_the_fast_root_lowers_the_top_and_says_so(start_top):
+    run = start_top(scene="hurry_fast")
+    _, answer = run.trigger("hurry_precession")
+    assert "the top falls" in answer
+    assert "Perry's rule fails here" in answer
+
+
+def test_hurrying_lowers_the_top_of_the_scene_where_perry_fails(start_top):
+    run = start_top(scene="perry_fails")
+    _, answer = run.trigger("hurry_precession")
+    assert "precession 1.19 -> 1.67 rad/s" in answer
+    assert "the top falls" in answer
+    assert "Perry's rule fails here" in answer
+
+
+def test_a_kick_belongs_to_every_message_from_its_stamp_on_and_to_none_before(start_top):
+    run = start_top(publish_rate=1000.0)
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.spin_until(lambda: len(messages) > 20)
+    run.set("kick", precession_rate=9.0)
+    run.set("kick", angular_impulse=[1e-4, 0.0, -1e-4])
+    run.set("kick", precession_rate_change=-2.0, hold="spin_momentum")
+    run.spin_until(lambda: len(events) == 4 and stamp_of(messages[-1]) > stamp_of(events[-1]))
+    segments = [segment_of(message) for message in events]
+    told = [message for message in messages if stamp_of(message) >= segments[0].stamp]
+    assert len(told) > 20
+    for message in told:
+        stamp = stamp_of(message)
+        segment = [each for each in segments if each.stamp <= stamp][-1]
+        q = message.quaternion
+        assert [q.w, q.x, q.y, q.z] == segment.state_at(stamp).orientation.tolist()  # bit for bit
+
+
+def test_the_first_message_of_the_new_motion_comes_within_one_period_of_the_answer(start_top):
+    run = start_top(publish_rate=50.0)
+    messages = run.collect(JointState, "/top/euler_angles")
+    run.spin_until(lambda: len(messages) > 2)
+    for _ in range(5):
+        run.set("set_initial_conditions", theta=1.0)
+        now = run.user.get_clock().now().nanoseconds
+        seen = len(messages)
+        run.spin_until(lambda seen=seen: len(messages) > seen)
+        first = messages[seen]
+        assert theta(first) == pytest.approx(1.0, abs=1e-15) or theta(first) > 1.0
+        assert stamp_of(first) - now <= 20_000_000
+        run.trigger("reset")
+
+
+def test_a_start_on_a_root_is_regular_and_the_rest_comes_from_the_parameters(start_top):
+    run = start_top(scene="cusps")
+    granted, answer = run.set("set_initial_conditions", precession="fast", theta=0.7)
+    assert granted
+    assert answer.startswith("regular: the top stays")
+    state = json.loads(run.trigger("get_state")[1])
+    expected = regular_precession_rates(run.top._settings.top, theta=0.7, psi_dot=200.0)[1]
+    assert state["euler_rates"]["phi"] == pytest.approx(expected, rel=1e-13)  # psi turns fast
+    assert state["kind"] == "regular"
+
+
+def test_a_start_from_a_quaternion_goes_through_the_vertical(start_top):
+    run = start_top()
+    granted, _ = run.set(
+        "set_initial_conditions",
+        orientation=[0.0, 0.0, 0.0, 1.0],
+        angular_velocity=[2.0, 1.0, 200.0],
+    )
+    assert granted
+    state = json.loads(run.trigger("get_state")[1])
+    assert state["kind"] == "through the pole"
+    assert state["turning_angles"][0] == 0.0
+
+
+def test_reset_goes_back_to_the_last_initial_conditions(start_top):
+    run = start_top()
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.set("set_initial_conditions", theta=0.9, psi_dot=150.0)
+    run.set("kick", precession_rate=9.0)
+    assert run.trigger("reset")[0]
+    run.spin_until(lambda: len(events) == 4)
+    names = [message.status[0].name for message in events]
+    assert names == ["top: start", "top: start", "top: kick", "top: reset"]
+    assert facts(events[3])["after.orientation"] == facts(events[1])["after.orientation"]
+
+
+def test_a_pause_stops_the_motion_and_resuming_goes_on_without_catching_up(start_top):
+    run = start_top(publish_rate=500.0)
+    angles = run.collect(JointState, "/top/euler_angles")
+    run.spin_until(lambda: len(angles) > 10)
+    assert run.switch("pause", True)[0]
+    angles.clear()
+    run.spin_until(lambda: len(angles) > 50)
+    assert len({tuple(message.position) for message in angles[2:]}) == 1
+    at_rest = json.loads(run.trigger("get_state")[1])["time"]
+    assert run.switch("pause", True) == (True, "paused already")
+    assert run.set("step", duration=0.25)[0]
+    assert json.loads(run.trigger("get_state")[1])["time"] == at_rest + 0.25
+    assert run.switch("pause", False)[0]
+    resumed = json.loads(run.trigger("get_state")[1])["time"]
+    assert at_rest + 0.25 <= resumed < at_rest + 1.25  # a second of leeway for a busy machine
+
+
+def test_the_whole_run_can_be_computed_again_from_its_events(start_top):
+    run = start_top(publish_rate=500.0)
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.spin_until(lambda: len(messages) > 5)
+
+    def go_on():
+        seen = len(messages)
+        run.spin_until(lambda: len(messages) > seen + 10)
+
+    for act in (
+        lambda: run.trigger("hurry_precession"),
+        lambda: run.switch("pause", True),
+        lambda: run.set("kick", precession_rate=12.0, hold="spin_momentum"),
+        lambda: run.set("step", duration=0.1),
+        lambda: run.switch("pause", False),
+        lambda: run.connection.set("set_parameters_atomically", {"real_time_factor": 0.3}),
+        lambda: run.connection.set("set_parameters_atomically", {"top.Mgl": -0.02}),
+        lambda: run.set("set_initial_conditions", theta=2.0, phi_dot=-3.0),
+        lambda: run.trigger("reset"),
+    ):
+        granted, answer = act()
+        assert granted, answer
+        go_on()
+    run.spin_until(lambda: len(events) == 10)
+    segments = [segment_of(message) for message in events]
+    checked = 0
+    for message in messages:
+        stamp = stamp_of(message)
+        holding = [each for each in segments if each.stamp <= stamp]
+        if holding:
+            q = message.quaternion
+            assert [q.w, q.x, q.y, q.z] == holding[-1].state_at(stamp).orientation.tolist()
+            checked += 1
+    assert checked > 90
+
+
+def test_the_state_is_json_with_the_constants_and_the_verdict(start_top):
+    run = start_top(scene="sleeping")
+    granted, text = run.trigger("get_state")
+    state = json.loads(text)
+    assert granted
+    assert state["kind"] == "sleeping"
+    assert state["mean_precession_rate"] is None
+    assert state["constants"]["L_z"] == 5.72e-05 * 200.0
+    assert math.isclose(state["constants"]["energy"], 0.068 + 5.72e-05 * 200.0**2 / 2)

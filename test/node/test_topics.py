@@ -1,0 +1,125 @@
+"""Every topic against the library, evaluated again at the stamp of each message."""
+
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
+from node.running_top import LATCHED, facts, stamp_of
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+from symtop_ros.node.events import segment_of
+
+
+def vector(message):
+    return [message.x, message.y, message.z]
+
+
+def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
+    run = start_top(publish_rate=200.0)
+    topics = {
+        "orientation": QuaternionStamped,
+        "angular_velocity": TwistStamped,
+        "angular_momentum": Vector3Stamped,
+        "torque": WrenchStamped,
+        "euler_angles": JointState,
+    }
+    got = {name: run.collect(kind, f"/top/{name}") for name, kind in topics.items()}
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.spin_until(lambda: events and all(len(messages) > 20 for messages in got.values()))
+    segment = segment_of(events[0])
+    top = segment.path.top
+    for index in range(5, 20):
+        message = got["orientation"][index]
+        state = segment.state_at(stamp_of(message))
+        q = message.quaternion
+        assert [q.w, q.x, q.y, q.z] == state.orientation.tolist()
+        assert message.header.frame_id == "world"
+        message = got["angular_velocity"][index]
+        state = segment.state_at(stamp_of(message))
+        assert vector(message.twist.angular) == state.to_world(state.angular_velocity).tolist()
+        assert vector(message.twist.linear) == [0.0, 0.0, 0.0]
+        message = got["angular_momentum"][index]
+        state = segment.state_at(stamp_of(message))
+        assert vector(message.vector) == top.angular_momentum(state).tolist()
+        message = got["torque"][index]
+        state = segment.state_at(stamp_of(message))
+        assert vector(message.wrench.torque) == top.torque(state).tolist()
+        assert vector(message.wrench.force) == [0.0, 0.0, 0.0]
+        message = got["euler_angles"][index]
+        state = segment.state_at(stamp_of(message))
+        assert message.name == ["precession", "tilt", "spin"]
+        assert list(message.position) == list(state.euler_angles)
+        assert list(message.velocity) == list(state.euler_rates)
+
+
+def test_stamps_are_exactly_one_period_apart_and_shared_by_all_topics(start_top):
+    run = start_top(publish_rate=1000.0)
+    orientation = run.collect(QuaternionStamped, "/top/orientation")
+    torque = run.collect(WrenchStamped, "/top/torque")
+    run.spin_until(lambda: min(len(orientation), len(torque)) > 300)
+    stamps = [stamp_of(message) for message in orientation]
+    assert set(np.diff(stamps)) == {1_000_000}
+    assert set(map(stamp_of, torque[:200])) <= set(stamps) or len(torque) > len(orientation)
+
+
+def test_a_rate_that_does_not_divide_a_second_does_not_drift(start_top):
+    run = start_top(publish_rate=30.0)
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    run.spin_until(lambda: len(messages) > 12)
+    first = stamp_of(messages[0])
+    for k, message in enumerate(messages):
+        assert abs(stamp_of(message) - first - k * 1e9 / 30) <= 1  # ns: each stamp is rounded once
+
+
+def test_a_topic_without_a_subscriber_is_not_computed(start_top, monkeypatch):
+    run = start_top(publish_rate=500.0)
+    computed = []
+    original = type(run.top._segment).state_at
+    monkeypatch.setattr(
+        type(run.top._segment),
+        "state_at",
+        lambda segment, stamp: computed.append(stamp) or original(segment, stamp),
+    )
+    handed_out = run.top._ticker._next
+    run.spin_until(lambda: run.top._ticker._next > handed_out + 50)
+    assert computed == []
+
+
+def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles(start_top):
+    run = start_top()
+    late = run.collect(String, "/robot_description", LATCHED)
+    run.spin_until(lambda: late)
+    robot = ElementTree.fromstring(late[0].data)
+    assert [joint.get("name") for joint in robot.iter("joint")] == ["precession", "tilt", "spin"]
+    assert [axis.get("xyz") for axis in robot.iter("axis")] == ["0 0 1", "1 0 0", "0 0 1"]
+    inertia = next(robot.iter("inertia"))
+    assert float(inertia.get("izz")) == 5.72e-05
+
+
+def test_diagnostics_tell_the_motion_and_constants_that_do_not_drift(start_top):
+    run = start_top()
+    messages = run.collect(DiagnosticArray, "/diagnostics")
+    run.spin_until(lambda: len(messages) >= 2)
+    told = facts(messages[-1])
+    assert told["kind"] == "cusps"
+    assert told["engine"] == "closed form"
+    low, high = map(float, told["turning_angles"].split())
+    assert abs(low - 0.5) < 1e-15
+    assert 0.66 < high < 0.67
+    # energy about 1.2 J: rounding of its few terms
+    assert abs(float(told["energy.drift"])) < 1e-15
+    assert abs(float(told["L_z'.drift"])) < 1e-17
+    names = [status.name for status in messages[-1].status]
+    assert names == ["top: motion", "top: pace"]
+    assert {pair.key for pair in messages[-1].status[1].values} == {"late", "missed"}
+
+
+def test_the_clock_is_published_where_it_is_asked_for(start_top):
+    run = start_top(publish_clock=True)
+    clocks = run.collect(Clock, "/clock")
+    run.spin_until(lambda: len(clocks) > 3)
+    times = [message.clock.sec * 10**9 + message.clock.nanosec for message in clocks]
+    assert set(np.diff(times)) == {5_000_000}
