@@ -24,6 +24,7 @@ SCENES = {
     "near the separatrix": State.from_euler(theta=1e-3, psi_dot=100.0),
 }
 REPEATS = 7
+SPANS = (1.0, 10.0, 100.0)  # s
 
 
 def main(args: list[str] | None = None) -> int:
@@ -39,7 +40,7 @@ def main(args: list[str] | None = None) -> int:
         print(f"{name:24}" + _cost_of_closed_form(start, options.states), flush=True)
     print(f"\nThe article's top on cusps, one state after t seconds:\n{'t (s)':>10}", end="")
     print(f"{'closed form':>16}{'DOP853':>14}{'ratio':>10}{'DOP853 is off by':>20}")
-    for t in (1.0, 10.0, 100.0):
+    for t in SPANS:
         print(_beside_the_peer(SCENES["cusps"], t), flush=True)
     return 0
 

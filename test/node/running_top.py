@@ -1,4 +1,4 @@
-"""A top and its user in one process: real rclpy and Fast DDS, a context and a domain of their own."""
+"""A top and its user in one process: real rclpy and Fast DDS, own context and domain."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Every topic against the library, evaluated again at the stamp of each message."""
 
-import xml.etree.ElementTree as ElementTree
+from xml.etree import ElementTree
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray

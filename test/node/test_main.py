@@ -1,0 +1,70 @@
+"""top_node as a process: help, refusals in one line, and a clean end."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+TOP_NODE = [sys.executable, str(Path(__file__).parents[2] / "resource" / "top_node")]
+
+
+def run(*arguments):
+    return subprocess.run(
+        [*TOP_NODE, *arguments], capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+def test_help_names_the_scenes():
+    result = run("--help")
+    assert result.returncode == 0
+    assert "scene:=hurry_slow" in result.stdout
+    assert "through_the_pole" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "sentence"),
+    [
+        (["--fast"], 2, "unrecognized arguments: --fast"),
+        (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate: got 0, allowed is a number"),
+        (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz: got 1, allowed is 0 < Iz <= 2 Ix"),
+        (["--ros-args", "-p", "scene:=x"], 1, "scene: got 'x', allowed is one of cusps"),
+        (["--ros-args", "--params-file", "/nowhere.yaml"], 1, "Couldn't parse params file"),
+        (["--ros-args", "-p", "use_sim_time:=7"], 1, "use_sim_time"),
+        (
+            ["--ros-args", "-p", "initial.precession:=slow", "-p", "initial.psi_dot:=3.0"],
+            1,
+            "regular precession has no real root",
+        ),
+    ],
+)
+def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sentence):
+    result = run(*arguments)
+    assert result.returncode == status
+    assert sentence in result.stderr
+    assert "Traceback" not in result.stderr
+    if status == 1:
+        told = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
+        assert len(told) == 1
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_cleanly(ending):
+    node = subprocess.Popen(
+        [*TOP_NODE, "--ros-args", "-p", "publish_rate:=1000"],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "ROS_DOMAIN_ID": "97"},
+    )
+    try:
+        assert node.stderr is not None
+        assert "scene cusps" in node.stderr.readline()  # it is up
+        node.send_signal(ending)
+        _, rest = node.communicate(timeout=20)
+    finally:
+        node.kill()
+    assert node.returncode == 0
+    assert "Traceback" not in rest
+    assert "top_node:" not in rest

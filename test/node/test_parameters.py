@@ -1,0 +1,133 @@
+"""Parameters: descriptors, scenes, refusals at start-up and later, and changes that take effect."""
+
+import json
+
+import numpy as np
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import QuaternionStamped
+from node.running_top import LATCHED, facts, stamp_of
+
+from symtop_ros.node.fields import RefusedError
+from symtop_ros.node.parameters import DECLARATIONS
+from symtop_ros.node.scene import scene_names
+
+KINDS = {
+    "regular_precession": "regular",
+    "fast_precession": "regular",
+    "cusps": "cusps",
+    "looping": "looping",
+    "unidirectional": "unidirectional",
+    "hurry_slow": "regular",
+    "hurry_fast": "regular",
+    "perry_fails": "regular",
+    "sleeping": "sleeping",
+    "sleeping_unstable": "cusps",
+    "through_the_pole": "through the pole",
+    "hanging": "unidirectional",
+    "disc": "unidirectional",
+    "free": "unidirectional",
+}
+EPS = np.finfo(float).eps
+SET = "set_parameters_atomically"
+
+
+def numbers(text):
+    return np.array([float(part) for part in text.split()])
+
+
+def test_every_scene_has_a_test():
+    assert set(scene_names()) == set(KINDS)
+
+
+@pytest.mark.parametrize(("scene", "kind"), KINDS.items())
+def test_a_scene_starts_the_motion_that_its_name_promises(start_top, scene, kind):
+    run = start_top(scene=scene)
+    state = json.loads(run.trigger("get_state")[1])
+    assert state["kind"] == kind
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"scene": "nowhere"}, "scene: got 'nowhere', allowed is one of cusps, disc,"),
+        ({"top__Iz": 1.0}, "top.Iz: got 1, allowed is 0 < Iz <= 2 Ix = 0.000456"),
+        ({"top__Ix": -1.0}, "top.Ix: got -1.0, allowed is a number from 1e-30 to 1e+30"),
+        ({"publish_rate": 0.0}, "publish_rate: got 0.0, allowed is a number from 1 to 2000"),
+        ({"publish_rate": "fast"}, "publish_rate: got 'fast', allowed is a number from 1 to 2000"),
+        ({"initial__theta": float("nan")}, "initial.theta: got nan, allowed is a number from 0"),
+        ({"initial__precession": "odd"}, "initial.precession: got 'odd', allowed is"),
+        ({"initial__orientation": [1.0, 2.0]}, "initial.orientation: got [1.0, 2.0], allowed is 4"),
+        (
+            {"initial__orientation": [0.0, 0.0, 0.0, 1.0]},
+            "initial.orientation and initial.angular_velocity: allowed is both, or neither",
+        ),
+        ({"real_time_factor": 1000.0}, "real_time_factor: got 1000.0, allowed is a number from"),
+        ({"publish_tf": "yes"}, "publish_tf: got 'yes', allowed is true or false"),
+        ({"world_frame": " "}, "world_frame: got ' ', allowed is the name of a frame"),
+    ],
+)
+def test_a_bad_value_at_start_up_is_refused_in_words(start_top, values, sentence):
+    with pytest.raises(RefusedError) as refusal:
+        start_top(**values)
+    assert sentence in str(refusal.value)
+
+
+def test_a_whole_number_is_as_good_as_a_double(start_top):
+    run = start_top(publish_rate=100, top__Mgl=0)
+    assert run.top._settings["publish_rate"] == 100.0
+    assert json.loads(run.trigger("get_state")[1])["engine"] == "elementary"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "sentence"),
+    [
+        ("publish_rate", 5000.0, "publish_rate: got 5000.0, allowed is a number from 1 to 2000"),
+        ("top.Iz", 1.0, "top.Iz: got 1, allowed is 0 < Iz <= 2 Ix"),
+        ("hurry_factor", "much", "hurry_factor: got 'much', allowed is a number"),
+        ("scene", "disc", "read-only parameter: scene"),
+        ("world_frame", "map", "read-only parameter: world_frame"),
+    ],
+)
+def test_a_bad_value_later_is_refused_and_the_motion_goes_on(start_top, name, value, sentence):
+    run = start_top()
+    before = run.top._segment
+    granted, reason = run.connection.set(SET, {name: value})
+    assert not granted
+    assert sentence in reason
+    assert run.top._segment is before
+
+
+def test_every_parameter_is_described_with_what_is_allowed(start_top):
+    run = start_top()
+    for name in DECLARATIONS:
+        descriptor = run.top.describe_parameter(name)
+        assert descriptor.description
+        assert descriptor.additional_constraints.startswith("allowed: ")
+    assert "Hz" in run.top.describe_parameter("publish_rate").additional_constraints
+
+
+def test_another_weight_keeps_the_state_and_changes_what_follows(start_top):
+    run = start_top()
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    assert run.connection.set(SET, {"top.Mgl": -0.068})[0]
+    run.spin_until(lambda: len(events) == 2)
+    told = facts(events[1])
+    assert told["request"] == "top.Mgl=-0.068"
+    for name in ("orientation", "angular_velocity"):
+        assert told[f"motion.{name}"] == told[f"before.{name}"]
+        before, after = (numbers(told[f"{when}.{name}"]) for when in ("before", "after"))
+        # the new motion evaluated at its start: a few ulp of the largest component
+        assert np.abs(after - before).max() <= 8 * EPS * np.abs(before).max()
+    assert told["top"] == "0.000228 5.72e-05 -0.068"
+
+
+def test_another_publish_rate_takes_effect_without_a_gap(start_top):
+    run = start_top(publish_rate=100.0)
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    run.spin_until(lambda: len(messages) > 5)
+    assert run.connection.set(SET, {"publish_rate": 500.0})[0]
+    messages.clear()
+    run.spin_until(lambda: len(messages) > 20)
+    stamps = [stamp_of(message) for message in messages]
+    assert set(np.diff(stamps[2:])) == {2_000_000}
