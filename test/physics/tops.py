@@ -1,0 +1,70 @@
+"""Random tops and starts for the tests, and a small vocabulary for them."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+
+import numpy as np
+from exact_motion import Inputs
+
+from symtop_ros.physics import State, Top
+
+EPS = 2.0**-52
+
+
+@dataclass(frozen=True)
+class Case:
+    """A top, its start and a time."""
+
+    top: Top
+    start: State
+    t: float
+
+    @property
+    def inputs(self) -> Inputs:
+        return Inputs.of(*self.top.moments, *(part.tolist() for part in self.start))
+
+
+def random_case(seed: int, family: str) -> Case:
+    rng = random.Random(f"{family} {seed}")
+    Ix = 10 ** rng.uniform(-6, 1)
+    ratio = rng.choice([rng.uniform(0.01, 2.0), 2.0, 1.0 + 1e-12, 1.0, 10 ** rng.uniform(-4, 0)])
+    pull = 10 ** rng.uniform(0, 3) * rng.choice([1, 1, -1])
+    tilt = rng.choice([rng.uniform(0, math.pi), 10 ** rng.uniform(-12, 0)])
+    critical = 2 * math.sqrt(abs(pull)) / ratio  # rad/s, where p_psi^2 = 4 Ix Mgl
+    spin = critical * rng.choice([-1, 1]) * rng.choice([0.0, 10 ** rng.uniform(-2, 3)])
+    across = rng.choice([0.0, 10 ** rng.uniform(-3, 1) * critical, tilt * critical])
+    t = 10 ** rng.uniform(-3, 9) * rng.choice([-1, 1])
+    if family == "weak gravity":
+        pull = rng.choice([-1, 1]) * 1e-15 / Ix
+    if family == "fast":
+        spin = rng.choice([-1, 1]) * 10 ** rng.uniform(5, 7)
+    if family == "critical":
+        spin = critical * (1 + rng.choice([0.0, rng.uniform(-1e-9, 1e-9)]))
+        tilt, across = 10 ** rng.uniform(-12, -2), 0.0
+        t = rng.uniform(0.1, 30) / math.sqrt(abs(pull))
+    if family == "pendulum":
+        spin = 0.0
+        t = rng.uniform(0.1, 30) / math.sqrt(abs(pull))
+    angle, phi, psi = (rng.uniform(-3, 3) for _ in range(3))
+    c, s = math.cos(tilt / 2), math.sin(tilt / 2)
+    plus, minus = (phi + psi) / 2, (phi - psi) / 2
+    q = (c * math.cos(plus), s * math.cos(minus), s * math.sin(minus), c * math.sin(plus))
+    omega = (across * math.cos(angle), across * math.sin(angle), spin)
+    return Case(Top(Ix, Ix * ratio, Ix * pull), State(q, omega), t)
+
+
+def random_states(count: int, seed: int = 1) -> State:
+    """Attitudes all over the sphere, rates of all sizes about 10 rad/s."""
+    rng = np.random.default_rng(seed)
+    q = rng.normal(size=(count, 4))
+    return State(q / np.linalg.norm(q, axis=1, keepdims=True), rng.normal(size=(count, 3)) * 10)
+
+
+def distance(a: State, b: State) -> float:
+    """Largest distance of the quaternions, up to sign."""
+    p, q = a.orientation, b.orientation
+    minus, plus = (np.linalg.norm(each, axis=-1) for each in (p - q, p + q))
+    return float(np.max(np.minimum(minus, plus)))
