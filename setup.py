@@ -25,7 +25,6 @@ TEST = [
     "pytest>=8",
     "hypothesis>=6.100",  # random tops, and the worst of them again
     "mpmath>=1.3",  # the reference: elliptic functions to any number of digits
-    "psutil>=5.9",  # load of the node in the benchmark
 ]
 LINT = [
     "mypy>=1.11",

@@ -152,12 +152,8 @@ def _judgement(was: _Balance, now: _Balance, direction: Direction) -> str:
         return "regular precession, neither hurried nor delayed"
     hurried = abs(now.phi_dot) > abs(was.phi_dot)
     holds = (direction == "rises") == hurried
-    words = "hurried" if hurried else "delayed"
-    return (
-        f"{words}, but Perry's rule fails here ({_place(now)})"
-        if not holds
-        else (f"{words}, and Perry's rule holds here ({_place(now)})")
-    )
+    words = "" if hurried else "delayed: "
+    return f"{words}Perry's rule {'holds' if holds else 'fails'} here ({_place(now)})"
 
 
 def _vertical(state: State) -> bool:

@@ -99,7 +99,7 @@ def test_a_kick_is_told_in_one_sentence():
     assert "the top falls" in lowered
     assert "Perry's rule fails here" in lowered
     delayed = kick_verdict(ARTICLE, start(slow), hurry(ARTICLE, start(slow), 0.8))
-    assert "delayed, and Perry's rule holds here" in delayed
+    assert "delayed: Perry's rule holds here" in delayed
     reversed_ = kick_verdict(ARTICLE, start(slow), hurry(ARTICLE, start(slow), -1.0))
     assert "reversed" in reversed_
     none = kick_verdict(ARTICLE, start(0.0), hurry(ARTICLE, start(0.0)))

@@ -1,0 +1,59 @@
+"""Draw docs/traces.svg: the axis of the article's top from above, for four starts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.physics import State, Top, motion, regular_precession_rates
+
+TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+SLOW = regular_precession_rates(TOP, theta=0.5, psi_dot=200.0)[0]
+STARTS = {"regular precession": SLOW, "cusps": 0.0, "loops": -8.0, "hurried: it rises": 1.4 * SLOW}
+SIZE, SCALE = 220, 125  # points; points per unit of the sphere, seen from above
+
+
+def polyline(points: NDArray[np.float64], style: str) -> str:
+    """Draw a curve (n, 3) on the sphere as it is seen from above."""
+    x, y = SIZE / 2 + SCALE * points[:, 0], SIZE / 2 - SCALE * points[:, 1]
+    path = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))
+    return f'<polyline points="{path}" fill="none" {style}/>'
+
+
+def circle(theta: float) -> NDArray[np.float64]:
+    """Circle of equal tilt."""
+    phi = np.linspace(0.0, 2 * np.pi, 121)
+    return np.sin(theta) * np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
+
+
+def panel(name: str, phi_dot: float) -> str:
+    """One start: turning circles, and the trace of the axis."""
+    path = motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot))
+    trace = path.at(np.linspace(0.0, 0.95, 1500)).to_world(np.array([0.0, 0.0, 1.0]))
+    circles = "".join(
+        polyline(circle(theta), 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
+        for theta in path.turning_angles
+    )
+    curve = polyline(trace, 'stroke="#b5531c" stroke-width="2" stroke-linejoin="round"')
+    label = f'<text x="{SIZE / 2}" y="{SIZE + 8}" text-anchor="middle">{name}</text>'
+    return circles + curve + label
+
+
+def main() -> None:
+    """Write the picture beside this file."""
+    panels = "".join(
+        f'<g transform="translate({i * SIZE},0)">{panel(name, rate)}</g>'
+        for i, (name, rate) in enumerate(STARTS.items())
+    )
+    width = SIZE * len(STARTS)
+    svg = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {SIZE + 16}" '
+        f'font-family="sans-serif" font-size="14" fill="#555">{panels}</svg>\n'
+    )
+    Path(__file__).with_suffix(".svg").write_text(svg)
+
+
+if __name__ == "__main__":
+    main()

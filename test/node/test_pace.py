@@ -1,0 +1,60 @@
+"""One subscriber on every topic of a node in another process, at 1000 Hz for 20 s."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import rclpy
+from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
+from node.running_top import stamp_of
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import JointState
+
+TOP_NODE = Path(__file__).parents[2] / "resource" / "top_node"
+DOMAIN = 96
+SAMPLES = 20_000
+TOPICS = {
+    "orientation": QuaternionStamped,
+    "angular_velocity": TwistStamped,
+    "angular_momentum": Vector3Stamped,
+    "torque": WrenchStamped,
+    "euler_angles": JointState,
+}
+
+
+def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)}
+    options = ["--ros-args", "-p", "publish_rate:=1000", "--log-level", "warn"]
+    node = subprocess.Popen([sys.executable, str(TOP_NODE), *options], env=environment)
+    try:
+        got = listen()
+    finally:
+        node.terminate()
+        node.wait(timeout=20)
+    for name, messages in got.items():
+        stamps = np.array([stamp_of(deserialize_message(each, TOPICS[name])) for each in messages])
+        sent = (stamps[-1] - stamps[0]) // 1_000_000 + 1
+        assert not (np.diff(stamps) % 1_000_000).any()  # on the grid, to the nanosecond
+        assert len(stamps) >= 0.995 * sent
+        assert len(stamps) >= SAMPLES
+
+
+def listen():
+    """Serialized messages of every topic, until each has enough."""
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=DOMAIN)
+    listener = rclpy.create_node("listener", context=context)
+    got = {name: [] for name in TOPICS}
+    for name, kind in TOPICS.items():
+        listener.create_subscription(kind, f"/top/{name}", got[name].append, 1000, raw=True)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(listener)
+    deadline = time.monotonic() + 120
+    while min(map(len, got.values())) < SAMPLES and time.monotonic() < deadline:
+        executor.spin_once(timeout_sec=0.1)
+    rclpy.shutdown(context=context)
+    return got

@@ -1,0 +1,79 @@
+"""What colcon and pip install is what `ros2 run` looks for."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from symtop_ros import __version__
+
+ROOT = Path(__file__).parents[1]
+PARTS = ("symtop_ros", "config", "resource", "setup.py", "setup.cfg", "package.xml", "README.md")
+SCENES = sorted(path.name for path in (ROOT / "config").glob("*.yaml"))
+
+
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory):
+    """A copy of what is built, so that building leaves no traces here."""
+    folder = tmp_path_factory.mktemp("workspace") / "src" / "symtop_ros"
+    folder.mkdir(parents=True)
+    for part in PARTS:
+        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
+        copy(ROOT / part, folder / part)
+    return folder
+
+
+def assert_tree(prefix, programs):
+    """Package marker, scenes, package.xml and programs are where ROS 2 looks for them."""
+    assert (prefix / "share/ament_index/resource_index/packages/symtop_ros").is_file()
+    assert (prefix / "share/symtop_ros/package.xml").is_file()
+    installed = (prefix / "share/symtop_ros/config").glob("*.yaml")
+    assert sorted(path.name for path in installed) == SCENES
+    for name in ("top_node", "top_ctl", "top_report"):
+        assert os.access(programs / name, os.X_OK)
+
+
+def test_colcon_build_installs_what_ros2_run_looks_for(sources):
+    workspace = sources.parents[1]
+    colcon = shutil.which("colcon", path=str(Path(sys.executable).parent))
+    if colcon is None:
+        pytest.skip("colcon is not installed")
+    subprocess.run([colcon, "build"], cwd=workspace, check=True, timeout=300, capture_output=True)
+    prefix = workspace / "install" / "symtop_ros"
+    assert_tree(prefix, prefix / "lib/symtop_ros")
+    site = next(prefix.glob("lib/python*/site-packages"))
+    environment = {**os.environ, "PYTHONPATH": str(site), "AMENT_PREFIX_PATH": str(prefix)}
+    result = subprocess.run(
+        [prefix / "lib/symtop_ros/top_node", "--help"],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert result.returncode == 0, result.stderr
+    assert "perry_fails" in result.stdout
+
+
+def test_pip_installs_the_same_tree(sources, tmp_path):
+    # --ignore-installed: what is installed here already stays as it is
+    options = ["--no-deps", "--ignore-installed", "--quiet", "--prefix", str(tmp_path)]
+    subprocess.run(
+        [sys.executable, "-m", "pip", "install", *options, str(sources)], check=True, timeout=300
+    )
+    assert_tree(tmp_path, tmp_path / "lib/symtop_ros")
+    assert_tree(tmp_path, tmp_path / "bin")
+
+
+def test_the_version_is_the_same_everywhere():
+    assert f"<version>{__version__}</version>" in (ROOT / "package.xml").read_text()
+    assert f"## {__version__}" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_nothing_but_the_extra_brings_ros_from_pypi():
+    text = (ROOT / "setup.py").read_text()
+    required = text.split("install_requires=[")[1].split("]")[0]
+    assert "ros-" not in required
