@@ -72,6 +72,10 @@ class Segment:
         """Rest `duration` seconds of motion later."""
         return replace(self, stamp=stamp, elapsed=self.time_at(stamp) + duration)
 
+    def moved(self, stamp: int, to: int) -> Segment:
+        """Go on at another stamp from where the motion is: the clock has jumped."""
+        return replace(self, stamp=to, elapsed=self.time_at(stamp))
+
     def with_factor(self, factor: float, stamp: int) -> Segment:
         """Go on at another speed."""
         return replace(self, stamp=stamp, elapsed=self.time_at(stamp), factor=factor)

@@ -104,12 +104,11 @@ class TopNode(Node):
         self._jumps = clock.create_jump_callback(threshold, post_callback=self._jumped)
 
     def _jumped(self, _: TimeJump) -> None:
-        now, elapsed = self._now(), self._segment.time_at(self._ticker.next_stamp)
+        stamp, now = self._ticker.next_stamp, self._now()
+        before = self._segment.state_at(stamp)
+        self._segment = self._segment.moved(stamp, now)
         self._ticker.restart(self._settings["publish_rate"], now)
-        moved = self._segment.paused(self._ticker.next_stamp)
-        self._segment = Segment(
-            moved.path, now, elapsed, moved.factor, running=self._segment.running
-        )
+        self._announce("clock", "the clock has jumped", {"from": stamp, "to": now}, before)
 
     # events and answers
 
