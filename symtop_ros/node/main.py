@@ -6,7 +6,7 @@ import argparse
 import sys
 
 import rclpy
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
 from symtop_ros.node.scene import scene_names
@@ -34,7 +34,7 @@ def main(args: list[str] | None = None) -> int:
     try:
         parser.parse_args(remove_ros_args(arguments)[1:])
         with rclpy.init(args=arguments):
-            _spin(TopNode())
+            _run()
     except (KeyboardInterrupt, ExternalShutdownException):
         return 0
     except Exception as error:
@@ -43,12 +43,16 @@ def main(args: list[str] | None = None) -> int:
     return 0
 
 
-def _spin(node: TopNode) -> None:
-    """Spin until shutdown; a signal may end the context in the middle of a tick."""
+def _run() -> None:
+    """Spin until shutdown; a signal may end the context before the first tick or within one.
+
+    The executor comes first: made after a signal it would fail half-way, and say so at its end.
+    """
+    executor = SingleThreadedExecutor()
     try:
-        rclpy.spin(node)
+        rclpy.spin(TopNode(), executor)
     except RuntimeError:
-        if node.context.ok():
+        if rclpy.ok():
             raise
 
 
