@@ -51,6 +51,8 @@ class Outputs:
             (publisher(node, kind, topic), make) for topic, kind, make in SAMPLES
         ]
         self._tf = publisher(node, TFMessage, "/tf") if TFMessage else None
+        if not TFMessage:
+            node.get_logger().info("tf2_msgs is not installed: there is no /tf")
         self._top_frame = top_frame
 
     def publish(self, stamp: int, top: Top, state_at: Callable[[], State], *, tf: bool) -> None:

@@ -22,12 +22,12 @@ from std_msgs.msg import Header, String
 from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.node import initial, kick
+from symtop_ros.node.diagnostics import diagnostics, state_report
 from symtop_ros.node.events import event
 from symtop_ros.node.fields import RefusedError, named_values, number
 from symtop_ros.node.messages import time_message
 from symtop_ros.node.outputs import EVENTS, LATCHED, Outputs, clock_message, publisher
 from symtop_ros.node.parameters import DECLARATIONS, Settings, checked, declare
-from symtop_ros.node.report import diagnostics, state_report
 from symtop_ros.node.segment import Segment
 from symtop_ros.node.ticker import Ticker
 from symtop_ros.node.urdf import robot_description

@@ -109,10 +109,13 @@ def perry(top: Top, state: State, hold: Hold = "spin_rate") -> Verdict:
         What hurrying is understood to leave as it is.
     """
     path = motion(top, state)
-    if path.kind == "sleeping" or _vertical(state):
-        direction: Direction = "stays" if path.kind == "sleeping" else _departure(state)
+    if path.kind == "sleeping":
+        stability = "stable" if top.sleeping_is_stable(state) else "unstable"
+        reason = f"the axis sleeps on the vertical, where it is {stability}"
+        return Verdict("stays", path.turning_angles, (), None, reason)
+    if _vertical(state):
         reason = "the axis is vertical, where the precession rate is undefined"
-        return Verdict(direction, path.turning_angles, (), None, reason)
+        return Verdict(_departure(state), path.turning_angles, (), None, reason)
     balance = _Balance.of(top, state, hold)
     holds = balance.slope < 0
     return Verdict(

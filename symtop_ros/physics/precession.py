@@ -15,7 +15,7 @@ def quadratic(top: Top, theta: float, psi_dot: float, phi_dot: float) -> float:
     return ((top.Ix - top.Iz) * math.cos(theta) * phi_dot - top.Iz * psi_dot) * phi_dot + top.Mgl
 
 
-def regular_precession_rates(top: Top, *, theta: float, psi_dot: float) -> tuple[float, ...]:
+def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[float, ...]:
     """Rates phi' (rad/s) of regular precession at tilt theta (rad) and spin rate psi' (rad/s).
 
     Returns

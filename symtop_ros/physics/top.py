@@ -68,6 +68,14 @@ class Top:
         """
         return 2 * math.sqrt(self.Ix) * math.sqrt(max(self.Mgl, 0.0)) / self.Iz
 
+    def sleeping_is_stable(self, state: State) -> bool:
+        """Whether an axis at rest on the vertical survives a small push.
+
+        The weight above the pivot needs p_psi^2 >= 4 Ix Mgl (upright; hanging with -Mgl).
+        """
+        weight = self.Mgl if state.vertical[2] > 0 else -self.Mgl
+        return float(self.axial_momentum(state)) ** 2 >= 4 * self.Ix * weight
+
     def body_angular_momentum(self, state: State) -> Real:
         """Angular momentum about the pivot in the body frame, (..., 3), N m s."""
         return np.asarray(state.angular_velocity * [self.Ix, self.Ix, self.Iz])

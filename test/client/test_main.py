@@ -1,39 +1,21 @@
 """top_ctl as a user types it, against a real top_node in another process."""
 
 import json
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
+from programs import run, running_node
 
-PROGRAMS = Path(__file__).parents[2] / "resource"
-ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "98"}
-
-
-def program(name, *arguments):
-    return [sys.executable, str(PROGRAMS / name), *arguments]
+DOMAIN = 98
 
 
 def ctl(*arguments):
-    return subprocess.run(
-        program("top_ctl", *arguments),
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-        env=ENVIRONMENT,
-    )
+    return run("top_ctl", *arguments, domain=DOMAIN)
 
 
 @pytest.fixture(scope="module", autouse=True)
 def node():
-    options = ["--ros-args", "-p", "scene:=hurry_slow", "--log-level", "warn"]
-    running = subprocess.Popen(program("top_node", *options), env=ENVIRONMENT)
-    yield running
-    running.terminate()
-    running.wait(timeout=20)
+    with running_node(DOMAIN, "scene:=hurry_slow"):
+        yield
 
 
 def test_hurry_prints_the_verdict():

@@ -1,24 +1,16 @@
 """top_node as a process: help, refusals in one line, and a clean end."""
 
-import os
 import signal
 import subprocess
-import sys
-from pathlib import Path
 
 import pytest
+from programs import command, environment, run
 
-TOP_NODE = [sys.executable, str(Path(__file__).parents[2] / "resource" / "top_node")]
-
-
-def run(*arguments):
-    return subprocess.run(
-        [*TOP_NODE, *arguments], capture_output=True, text=True, timeout=60, check=False
-    )
+DOMAIN = 97
 
 
 def test_help_names_the_scenes():
-    result = run("--help")
+    result = run("top_node", "--help", domain=DOMAIN)
     assert result.returncode == 0
     assert "scene:=hurry_slow" in result.stdout
     assert "through_the_pole" in result.stdout
@@ -41,7 +33,7 @@ def test_help_names_the_scenes():
     ],
 )
 def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sentence):
-    result = run(*arguments)
+    result = run("top_node", *arguments, domain=DOMAIN)
     assert result.returncode == status
     assert sentence in result.stderr
     assert "Traceback" not in result.stderr
@@ -53,14 +45,15 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_it_cleanly(ending):
     node = subprocess.Popen(
-        [*TOP_NODE, "--ros-args", "-p", "publish_rate:=1000"],
+        command("top_node", "--ros-args", "-p", "publish_rate:=1000"),
         stderr=subprocess.PIPE,
         text=True,
-        env={**os.environ, "ROS_DOMAIN_ID": "97"},
+        env=environment(DOMAIN),
     )
     try:
         assert node.stderr is not None
-        assert "scene cusps" in node.stderr.readline()  # it is up
+        while "scene cusps" not in node.stderr.readline():
+            assert node.poll() is None
         node.send_signal(ending)
         _, rest = node.communicate(timeout=20)
     finally:

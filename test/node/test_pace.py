@@ -1,20 +1,16 @@
 """One subscriber on every topic of a node in another process, at 1000 Hz for 20 s."""
 
-import os
-import subprocess
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import rclpy
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from node.running_top import stamp_of
+from programs import running_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 
-TOP_NODE = Path(__file__).parents[2] / "resource" / "top_node"
 DOMAIN = 96
 SAMPLES = 20_000
 TOPICS = {
@@ -27,14 +23,8 @@ TOPICS = {
 
 
 def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():
-    environment = {**os.environ, "ROS_DOMAIN_ID": str(DOMAIN)}
-    options = ["--ros-args", "-p", "publish_rate:=1000", "--log-level", "warn"]
-    node = subprocess.Popen([sys.executable, str(TOP_NODE), *options], env=environment)
-    try:
+    with running_node(DOMAIN, "publish_rate:=1000"):
         got = listen()
-    finally:
-        node.terminate()
-        node.wait(timeout=20)
     for name, messages in got.items():
         stamps = np.array([stamp_of(deserialize_message(each, TOPICS[name])) for each in messages])
         sent = (stamps[-1] - stamps[0]) // 1_000_000 + 1

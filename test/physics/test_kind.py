@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from symtop_ros.physics import State, Top, motion, regular_precession_rates
+from symtop_ros.physics import State, Top, motion, perry, regular_precession_rates
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 KINDS = {
@@ -68,6 +68,26 @@ def test_sleeping_is_stable_from_the_critical_spin_on():
     for factor, far in ((1.05, False), (0.95, True)):
         start = State((1.0, 0.0, 0.0, 0.0), (1e-3, 0.0, spin * factor))
         assert (motion(ARTICLE, start).turning_angles[1] > 0.1) is far
+
+
+@pytest.mark.parametrize(
+    ("Mgl", "upright", "factor", "stable"),
+    [
+        (0.068, True, 1.0 + 1e-12, True),
+        (0.068, True, 1.0 - 1e-12, False),
+        (0.068, False, 0.0, True),
+        (-0.068, False, 0.9, False),
+        (-0.068, False, 1.1, True),
+        (0.0, True, 0.0, True),
+    ],
+)
+def test_stability_of_sleeping_is_told_for_either_pole(Mgl, upright, factor, stable):
+    top = Top(0.000228, 0.0000572, Mgl)
+    q = (1.0, 0.0, 0.0, 0.0) if upright else (0.0, 1.0, 0.0, 0.0)
+    state = State(q, (0.0, 0.0, factor * ARTICLE.critical_spin))
+    assert top.sleeping_is_stable(state) is stable
+    expected = f"where it is {'stable' if stable else 'unstable'}"
+    assert expected in perry(top, state).reason
 
 
 def test_without_gravity_the_axis_goes_round_the_angular_momentum():

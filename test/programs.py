@@ -1,0 +1,47 @@
+"""The installed programs as processes, in a domain of their own."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+RESOURCE = Path(__file__).parents[1] / "resource"
+
+
+def command(name: str, *arguments: str) -> list[str]:
+    """Command line of a program, with the Python of the tests."""
+    return [sys.executable, str(RESOURCE / name), *arguments]
+
+
+def environment(domain: int) -> dict[str, str]:
+    """Environment of a program."""
+    return {**os.environ, "ROS_DOMAIN_ID": str(domain)}
+
+
+def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[str]:
+    """Run a program to its end."""
+    return subprocess.run(
+        command(name, *arguments),
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        env=environment(domain),
+    )
+
+
+@contextlib.contextmanager
+def running_node(domain: int, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Run top_node with parameters such as publish_rate:=1000, and end it."""
+    words = [word for parameter in parameters for word in ("-p", parameter)]
+    options = ["--ros-args", *words, "--log-level", "warn"]
+    node = subprocess.Popen(command("top_node", *options), env=environment(domain))
+    try:
+        yield node
+    finally:
+        node.terminate()
+        node.wait(timeout=20)
