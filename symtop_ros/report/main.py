@@ -31,10 +31,14 @@ def main(args: list[str] | None = None) -> int:
     """Print the table; return the exit status."""
     parser = argparse.ArgumentParser(prog="top_report", description=__doc__.splitlines()[0])
     parser.add_argument("--states", type=int, default=10_000, help="states in an array")
+    parser.add_argument("--node", action="store_true", help="the load of the node instead")
+    parser.add_argument("--seconds", type=float, default=20.0, help="for each rate of --node")
     options = parser.parse_args(args)
     if options.states < 1:
         print(f"top_report: --states: got {options.states}, allowed is 1 or more", file=sys.stderr)
         return 2
+    if options.node:
+        return _load_of_the_node(options.seconds)
     print(f"{'':24}{'set-up':>12}{'first state':>13}{'at(t)':>10}{'in an array':>14}   (us)")
     for name, start in SCENES.items():
         print(f"{name:24}" + _cost_of_closed_form(start, options.states), flush=True)
@@ -42,6 +46,23 @@ def main(args: list[str] | None = None) -> int:
     print(f"{'closed form':>16}{'DOP853':>14}{'ratio':>10}{'DOP853 is off by':>20}")
     for t in SPANS:
         print(_beside_the_peer(SCENES["cusps"], t), flush=True)
+    return 0
+
+
+def _load_of_the_node(seconds: float) -> int:
+    """Only this needs ROS."""
+    if not seconds > 0:
+        print(f"top_report: --seconds: got {seconds}, allowed is more than 0", file=sys.stderr)
+        return 2
+    try:
+        from symtop_ros.report.load import measure
+    except ImportError as error:
+        print(f"top_report: --node needs ROS 2: {error}", file=sys.stderr)
+        return 1
+    print(f"{'rate':>8}{'arrived':>12}{'of a core':>12}   one subscriber on each of five topics")
+    for rate in (200.0, 1000.0):
+        load = measure(rate, seconds)
+        print(f"{rate:5.0f} Hz{load.arrived:12.2%}{load.core:12.0%}", flush=True)
     return 0
 
 

@@ -4,22 +4,15 @@ import time
 
 import numpy as np
 import rclpy
-from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from node.running_top import stamp_of
 from programs import running_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import JointState
+
+from symtop_ros.report.load import TOPICS
 
 DOMAIN = 96
 SAMPLES = 20_000
-TOPICS = {
-    "orientation": QuaternionStamped,
-    "angular_velocity": TwistStamped,
-    "angular_momentum": Vector3Stamped,
-    "torque": WrenchStamped,
-    "euler_angles": JointState,
-}
 
 
 def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():

@@ -7,6 +7,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
 from node.running_top import LATCHED, facts, stamp_of
+from rclpy.qos import QoSReliabilityPolicy
 
 from symtop_ros.node.fields import RefusedError
 from symtop_ros.node.parameters import DECLARATIONS
@@ -131,3 +132,9 @@ def test_another_publish_rate_takes_effect_without_a_gap(start_top):
     run.spin_until(lambda: len(messages) > 20)
     stamps = [stamp_of(message) for message in messages]
     assert set(np.diff(stamps[2:])) == {2_000_000}
+
+
+def test_the_qos_of_a_topic_can_be_overridden(start_top):
+    run = start_top(**{"qos_overrides./top/orientation.publisher.reliability": "best_effort"})
+    info = run.top.get_publishers_info_by_topic("/top/orientation")[0]
+    assert info.qos_profile.reliability == QoSReliabilityPolicy.BEST_EFFORT

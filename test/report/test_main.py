@@ -20,6 +20,15 @@ def test_no_states_are_refused(capsys):
     assert "--states: got 0, allowed is 1 or more" in capsys.readouterr().err
 
 
+def test_the_load_of_the_node_is_measured(capsys):
+    assert report.main(["--node", "--seconds", "1"]) == 0
+    rates = capsys.readouterr().out.splitlines()[1:]
+    assert [line.split()[0] for line in rates] == ["200", "1000"]
+    for line in rates:
+        assert float(line.split()[2].rstrip("%")) > 90  # of the samples, in a second
+        assert float(line.split()[3].rstrip("%")) > 0
+
+
 @pytest.mark.parametrize("theta", [0.0, 0.5, 3.0])
 def test_the_peer_integrates_the_same_top(theta):
     top = Top(0.0002, 0.0003, -0.05)
