@@ -40,8 +40,8 @@ SAMPLES: tuple[tuple[str, Any, Make], ...] = (
 def publisher(node: Node, kind: Any, topic: str, qos: QoSProfile | int = DEPTH) -> Publisher[Any]:
     """Return a publisher whose QoS can be overridden by the ROS parameters for that.
 
-    Without rclpy's own QoS events: each is waited for anew in every spin, which costs a third of
-    the node at 1 kHz. A subscriber with another QoS is warned by its own side.
+    Without rclpy's own QoS events: each is waited for anew in every spin, which costs a tenth of a
+    core at 1 kHz. A subscriber with another QoS is warned by its own side.
     """
     return node.create_publisher(
         kind,
