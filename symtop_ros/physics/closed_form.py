@@ -96,20 +96,25 @@ class HeavyMotion:
             return _starting_phase(self.start, self.heights, self._K)
 
     @cached_property
+    def _Kc(self) -> float:
+        with localcontext(PRECISE):
+            return quarter_period(float((self.heights.s21 / self.heights.s31).sqrt()))
+
+    @cached_property
     def _series(self) -> Series:
         with localcontext(PRECISE):
-            modulus = float((self.heights.s21 / self.heights.s31).sqrt())
             sign = [math.copysign(1.0, zero.d) for zero in self.zeros]
             rest = shifts(self.zeros, self.heights)
-        return series(self._K, quarter_period(modulus), sign, rest)
+        return series(self._K, self._Kc, sign, rest)
 
     @cached_property
     def _factors(self) -> Complex:
         """Factors that make A, B, omega right at t = 0; by the derivative where one vanishes."""
         values, slopes = (_with_omega(each) for each in self._series.at_start(self._x0))
+        nearby = 0.5 * min(1.0, self._Kc / self._K)  # in x, where a nutation may be stretched
         factors = [
             (change - 1j * float(rate) * start) / (slope * self._speed)
-            if abs(value) < 0.5 * abs(slope)
+            if abs(value) < nearby * abs(slope)
             else start / value
             for start, change, value, slope, rate in zip(
                 *self._given, values, slopes, self.rates, strict=True

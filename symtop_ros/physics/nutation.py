@@ -105,8 +105,13 @@ def turning_heights(start: Start) -> Heights:
     middle = -a2 / 3
     if _cubic(middle, a2, a1, a0) > 0:  # s1 < middle < s2: the lower root stands alone
         s1 = min(-_outer_root(-a2, a1, -a0, start.above), ZERO)
-        product = -a0 / s1 if s1 else a1  # of s2 and s3
-        half_sum = (a1 - product) / (TWO * s1) if s1 else -a2 * HALF
+        total = -(a2 + s1)  # of s2 and s3
+        if total >= -s1:
+            product = a1 - s1 * total
+        else:  # both are small beside s1, and their sum has lost its digits
+            product = -a0 / s1
+            total = (a1 - product) / s1
+        half_sum = total * HALF
         half_gap = _half_gap(half_sum, product)
         s3 = half_sum + half_gap
         s2 = product / s3

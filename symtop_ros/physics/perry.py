@@ -76,7 +76,8 @@ class _Balance:
     @property
     def direction(self) -> Direction:
         """Sign of theta'', nothing where rounding hides it."""
-        terms = abs(self.a) * self.phi_dot**2 + abs(self.b * self.phi_dot) + abs(self.Mgl)
+        p = abs(self.phi_dot)
+        terms = (abs(self.a) * p + abs(self.b)) * p + abs(self.Mgl)
         if abs(self.value) <= ROUNDING * terms:
             return "stays"
         return "rises" if self.value < 0 else "falls"

@@ -7,14 +7,6 @@ import math
 from symtop_ros.physics.top import Top
 
 
-def quadratic(top: Top, theta: float, psi_dot: float, phi_dot: float) -> float:
-    """Ix theta''/sin(theta) at theta' = 0, in N m: its sign says whether the top falls or rises.
-
-    (Ix - Iz) cos(theta) phi'^2 - Iz psi' phi' + Mgl, from the article's equation for theta''.
-    """
-    return ((top.Ix - top.Iz) * math.cos(theta) * phi_dot - top.Iz * psi_dot) * phi_dot + top.Mgl
-
-
 def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[float, ...]:
     """Rates phi' (rad/s) of regular precession at tilt theta (rad) and spin rate psi' (rad/s).
 

@@ -13,6 +13,7 @@ Real = NDArray[np.float64]
 
 NORM_TOLERANCE = 1e-3  # an orientation further from norm 1 is a mistake, not rounding
 ROUNDING = 4 * np.finfo(float).eps
+SMALLEST = 1e-100
 LARGEST_RATE = 1e150  # rad/s; squares of it stay finite
 
 
@@ -31,7 +32,8 @@ class State:
     Parameters
     ----------
     orientation : array_like (..., 4)
-        Unit quaternion (w, x, y, z), body -> world. Normalised on the way in.
+        Unit quaternion (w, x, y, z), body -> world. Normalised on the way in; numbers below 1e-100
+        are zero, here and in the angular velocity.
     angular_velocity : array_like (..., 3)
         In the body frame, rad/s.
 
@@ -46,8 +48,8 @@ class State:
     angular_velocity: Real
 
     def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None:
-        q = _finite("orientation", orientation, 4)
-        omega = _finite("angular_velocity", angular_velocity, 3)
+        q = _without_dust(_finite("orientation", orientation, 4))
+        omega = _without_dust(_finite("angular_velocity", angular_velocity, 3))
         if q.shape[:-1] != omega.shape[:-1]:
             msg = f"orientation {q.shape} and angular_velocity {omega.shape} do not go together"
             raise ValueError(msg)
@@ -166,6 +168,12 @@ def _finite(name: str, value: ArrayLike, size: int) -> Real:
     if not np.isfinite(array).all():
         msg = f"{name}: got {value!r}, allowed are finite numbers"
         raise ValueError(msg)
+    return array
+
+
+def _without_dust(array: Real) -> Real:
+    """Zero for what is too small to be squared; no motion can tell it from zero."""
+    array[np.abs(array) < SMALLEST] = 0.0
     return array
 
 
