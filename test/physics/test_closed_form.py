@@ -55,8 +55,11 @@ def test_a_random_top_is_met_to_rounding(family, seed):
     assert error <= 16 * EPS
 
 
-@pytest.mark.parametrize("family", ["any", "weak gravity", "fast", "critical", "pendulum"])
-@pytest.mark.parametrize("seed", range(12))
+FAMILIES = ["any", "weak gravity", "fast", "critical", "pendulum", "from below"]
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("seed", range(20))
 def test_rates_of_a_random_top_are_met_to_the_limit_of_its_inputs(family, seed):
     case = random_case(seed + 100, family)
     state = motion(case.top, case.start).at(case.t)

@@ -48,6 +48,11 @@ def random_case(seed: int, family: str) -> Case:
     if family == "pendulum":
         spin = 0.0
         t = rng.uniform(0.1, 30) / math.sqrt(abs(pull))
+    if family == "from below":  # through the lower pole, with more or less than enough to rise
+        tilt = math.pi - 10 ** rng.uniform(-12, -1)
+        spin *= rng.choice([0.0, 1e-9, 1.0])
+        across = 2 * math.sqrt(abs(pull)) * (1 + rng.choice([0.0, 1e-15, 1e-9, 0.1, -1e-6]))
+        t = rng.uniform(0.1, 10) / math.sqrt(abs(pull))
     angle, phi, psi = (rng.uniform(-3, 3) for _ in range(3))
     c, s = math.cos(tilt / 2), math.sin(tilt / 2)
     plus, minus = (phi + psi) / 2, (phi - psi) / 2
