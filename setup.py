@@ -54,8 +54,8 @@ setup(
     extras_require={"ros": ROS, "test": TEST, "lint": LINT},
     entry_points={
         "console_scripts": [
-            f"top_node = {NAME}.node.main:main",
-            f"top_ctl = {NAME}.client.main:main",
+            f"top_node = {NAME}.programs:top_node",
+            f"top_ctl = {NAME}.programs:top_ctl",
             f"top_report = {NAME}.report.main:main",
         ]
     },

@@ -32,9 +32,10 @@ def test_a_reference_motion_is_met_at_every_time(data):
             parts = zip(exact, state.angular_velocity.tolist(), strict=True)
             rate_error = mp.norm([a - b for a, b in parts]) / (mp.norm(exact) or 1)
             # The start is taken as exact and phases are reduced with 32 digits: rounding of the
-            # last few operations is all that is left, whatever t is; 8 eps holds 4 q_limit besides.
-            assert error <= 8 * EPS
-            assert rate_error <= 8 * EPS
+            # last few operations is all that is left, whatever t is. Measured: 2.5 and 3.1 eps,
+            # the rest is for other libraries of sines. (4 q_limit + 8 eps is what was asked.)
+            assert error <= 5 * EPS
+            assert rate_error <= 5 * EPS
 
 
 @needs_reference
