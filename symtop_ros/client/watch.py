@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from typing import Any
@@ -20,7 +21,7 @@ def watch(connection: Connection, seconds: float, timeout: float) -> None:
     ----------
     connection : Connection
     seconds : float
-        How long; infinite until interrupted.
+        How long from the first sample on; infinite until interrupted.
     timeout : float
         How long to wait for a sample, s.
     """
@@ -30,13 +31,14 @@ def watch(connection: Connection, seconds: float, timeout: float) -> None:
         latest[:] = [message]
 
     connection.follow(JointState, "euler_angles", take)
-    end = time.monotonic() + seconds
+    end = math.inf
     try:
         while time.monotonic() < end:
             latest.clear()
             if not connection.spin_until(lambda: bool(latest), timeout):
                 msg = f"no samples from {connection.name} within {timeout:g} s"
                 raise UnreachableError(msg)
+            end = min(end, time.monotonic() + seconds)
             _show(latest[0])
             connection.spin_until(lambda: False, INTERVAL)
     finally:
