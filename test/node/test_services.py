@@ -122,10 +122,14 @@ def test_a_pause_stops_the_motion_and_resuming_goes_on_without_catching_up(start
     run = start_top(publish_rate=500.0)
     angles = run.collect(JointState, "/top/euler_angles")
     run.spin_until(lambda: len(angles) > 10)
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     assert run.switch("pause", True)[0]
+    run.spin_until(lambda: events and events[-1].status[0].name == "top: pause")
+    paused = stamp_of(events[-1])
     angles.clear()
-    run.spin_until(lambda: len(angles) > 50)
-    assert len({tuple(message.position) for message in angles[2:]}) == 1
+    run.spin_until(lambda: len(angles) > 50 and stamp_of(angles[-50]) > paused)
+    resting = {tuple(each.position) for each in angles if stamp_of(each) >= paused}
+    assert len(resting) == 1
     at_rest = json.loads(run.trigger("get_state")[1])["time"]
     assert run.switch("pause", True) == (True, "paused already")
     assert run.set("step", duration=0.25)[0]
