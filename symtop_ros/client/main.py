@@ -65,6 +65,9 @@ def _parser() -> argparse.ArgumentParser:
         named.add_argument("values", nargs="*", metavar="NAME=VALUE", help=text)
     for name, (text, _call) in PLAIN.items():
         commands.add_parser(name, help=text)
+    commands.add_parser("record", help="start or end a log").add_argument(
+        "switch", choices=("on", "off")
+    )
     commands.add_parser("state", help="full state, constants and verdict").add_argument(
         "--json", action="store_true", help="as it comes, in one line"
     )
@@ -86,6 +89,8 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
         return top.set(NAMED[options.command][0], values)
     if options.command in PLAIN:
         return PLAIN[options.command][1](top)
+    if options.command == "record":
+        return top.switch("record", options.switch == "on")
     if options.command == "state":
         granted, text = top.trigger("get_state")
         return granted, text if options.json or not granted else _readable(json.loads(text))

@@ -6,11 +6,12 @@ import math
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from std_msgs.msg import Header
 
-from symtop_ros.node.segment import Segment
+from symtop_ros.node.messages import header
 from symtop_ros.node.ticker import Ticker
 from symtop_ros.physics import Motion, State, Top, perry
+from symtop_ros.recording.recorder import Recorder
+from symtop_ros.run.segment import Segment
 
 
 def state_report(segment: Segment, stamp: int) -> dict[str, Any]:
@@ -64,9 +65,12 @@ def _motion(path: Motion) -> dict[str, Any]:
     }
 
 
-def diagnostics(header: Header, segment: Segment, stamp: int, ticker: Ticker) -> DiagnosticArray:
+def diagnostics(
+    frame: str, segment: Segment, stamp: int, ticker: Ticker, recorder: Recorder
+) -> DiagnosticArray:
     """Return the message for /diagnostics."""
-    return DiagnosticArray(header=header, status=[_motion_status(segment, stamp), _pace(ticker)])
+    status = [_motion_status(segment, stamp), _pace(ticker), _log(recorder)]
+    return DiagnosticArray(header=header(stamp, frame), status=status)
 
 
 def _motion_status(segment: Segment, stamp: int) -> DiagnosticStatus:
@@ -92,6 +96,17 @@ def _pace(ticker: Ticker) -> DiagnosticStatus:
     level = DiagnosticStatus.WARN if ticker.missed else DiagnosticStatus.OK
     message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
     return _status("top: pace", level, message, {"late": ticker.late, "missed": ticker.missed})
+
+
+def _log(recorder: Recorder) -> DiagnosticStatus:
+    facts = {"file": recorder.path or "", "dropped": recorder.dropped}
+    if recorder.failure:
+        return _status("top: log", DiagnosticStatus.ERROR, recorder.failure, facts)
+    if recorder.dropped:
+        message = f"{recorder.dropped} messages were too many for the disk"
+        return _status("top: log", DiagnosticStatus.WARN, message, facts)
+    message = "recording" if recorder.running else "not recording"
+    return _status("top: log", DiagnosticStatus.OK, message, facts)
 
 
 def _status(name: str, level: bytes, message: str, facts: dict[str, Any]) -> DiagnosticStatus:

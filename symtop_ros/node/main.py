@@ -49,11 +49,14 @@ def _run() -> None:
     The executor comes first: made after a signal it would fail half-way, and say so at its end.
     """
     executor = SingleThreadedExecutor()
+    top = TopNode()
     try:
-        rclpy.spin(TopNode(), executor)
+        rclpy.spin(top, executor)
     except RuntimeError:
         if rclpy.ok():
             raise
+    finally:
+        top.close()
 
 
 def _one_line(error: Exception) -> str:

@@ -1,22 +1,31 @@
-"""The publishers of one sample of the state; a topic nobody listens to is not computed."""
+"""Where messages go: to those who listen, and into the log. The same bytes, made once.
+
+What nobody listens to and is not logged is not computed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
+from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Header
+from std_msgs.msg import String
 
-from symtop_ros.node import messages
 from symtop_ros.physics import State, Top
+from symtop_ros.recording.recorder import Recorder
+from symtop_ros.run.samples import SAMPLES
+from symtop_ros.wire import messages
+from symtop_ros.wire.layout import Layout, Stamp
 
 try:  # not on PyPI, where the rest of ROS 2 is
     from tf2_msgs.msg import TFMessage
@@ -26,18 +35,119 @@ except ImportError:
 DEPTH = 100  # samples a reliable subscriber may lag behind: 0.1 s at 1 kHz
 LATCHED = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 EVENTS = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+STATE_TOPICS: dict[str, tuple[Any, Callable[[str], Layout]]] = {
+    "~/orientation": (QuaternionStamped, messages.quaternion),
+    "~/angular_velocity": (TwistStamped, messages.twist),
+    "~/angular_momentum": (Vector3Stamped, messages.vector),
+    "~/torque": (WrenchStamped, messages.twist),
+    "~/euler_angles": (JointState, messages.joints),
+}
+CLOCK = Layout(Stamp())
 
-Make = Callable[[Header, Top, State], Any]
-SAMPLES: tuple[tuple[str, Any, Make], ...] = (
-    ("~/orientation", QuaternionStamped, messages.orientation),
-    ("~/angular_velocity", TwistStamped, messages.angular_velocity),
-    ("~/angular_momentum", Vector3Stamped, messages.angular_momentum),
-    ("~/torque", WrenchStamped, messages.torque),
-    ("~/euler_angles", JointState, messages.euler_angles),
-)
+
+class Output:
+    """One topic, and its channel in the log.
+
+    Parameters
+    ----------
+    node : Node
+    recorder : Recorder
+    topic : str
+    kind : type or str
+        Type of its messages; a name alone where the type is not installed: then it is only logged.
+    qos : QoSProfile or int
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        recorder: Recorder,
+        topic: str,
+        kind: Any,
+        qos: QoSProfile | int = DEPTH,
+    ) -> None:
+        self._publisher = None if isinstance(kind, str) else _publisher(node, topic, kind, qos)
+        self._latched = isinstance(qos, QoSProfile)
+        self._recorder = recorder
+        self._channel = recorder.channel(
+            node.resolve_topic_name(topic), _name_of(kind), self._latched
+        )
+        self.published = True
+
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody listens, or a log is written."""
+        return self._recorder.running or self._heard
+
+    def send(self, stamp: int, data: bytes) -> None:
+        """Publish and log a message that is serialised already; its stamp is in ns."""
+        if self._publisher and (self._latched or self._heard):
+            self._publisher.publish(data)
+        self._recorder.add(self._channel, stamp, data)
+
+    def send_message(self, stamp: int, message: Any) -> None:
+        """Publish and log a message."""
+        self.send(stamp, serialize_message(message))
+
+    @property
+    def _heard(self) -> bool:
+        return bool(self.published and self._publisher and self._publisher.get_subscription_count())
 
 
-def publisher(node: Node, kind: Any, topic: str, qos: QoSProfile | int = DEPTH) -> Publisher[Any]:
+class Sample(NamedTuple):
+    """A topic that is a function of the state alone."""
+
+    output: Output
+    layout: Layout
+    numbers: Callable[[Top, State], Any]
+
+
+class Outputs:
+    """All topics of the node.
+
+    Parameters
+    ----------
+    node : Node
+    recorder : Recorder
+    world, top : str
+        Frames.
+    clock : bool
+        Whether there is a /clock.
+    """
+
+    def __init__(self, node: Node, recorder: Recorder, world: str, top: str, clock: bool) -> None:
+        make = partial(Output, node, recorder)
+        self.events = make("~/events", DiagnosticArray, EVENTS)  # first, hence first in every log
+        self.description = make("/robot_description", String, LATCHED)
+        layouts = {
+            **{name: (kind, layout(world)) for name, (kind, layout) in STATE_TOPICS.items()},
+            "/tf": (TFMessage or "tf2_msgs/msg/TFMessage", messages.transform(world, top)),
+        }
+        self._samples = {
+            name: Sample(make(name, kind), layout, SAMPLES[name.lstrip("~/")])
+            for name, (kind, layout) in layouts.items()
+        }
+        self.diagnostics = make("/diagnostics", DiagnosticArray, 10)
+        self._clock = make("/clock", Clock) if clock else None
+        if not TFMessage:
+            node.get_logger().info("tf2_msgs is not installed: /tf is logged, not published")
+
+    def publish_tf(self, wanted: bool) -> None:
+        """Publish /tf or not; it is logged in any case."""
+        self._samples["/tf"].output.published = wanted
+
+    def send_sample(self, stamp: int, top: Top, state_at: Callable[[int], State]) -> None:
+        """Publish and log the state of one stamp (ns), where anybody wants it."""
+        wanted = [sample for sample in self._samples.values() if sample.output.wanted]
+        if wanted:
+            state = state_at(stamp)
+            for output, layout, numbers in wanted:
+                output.send(stamp, layout.pack(stamp, numbers(top, state).tolist()))
+        if self._clock:
+            self._clock.send(stamp, CLOCK.pack(stamp, ()))
+
+
+def _publisher(node: Node, topic: str, kind: Any, qos: QoSProfile | int) -> Publisher[Any]:
     """Return a publisher whose QoS can be overridden by the ROS parameters for that.
 
     Without rclpy's own QoS events: each is waited for anew in every spin, which costs a tenth of a
@@ -52,34 +162,5 @@ def publisher(node: Node, kind: Any, topic: str, qos: QoSProfile | int = DEPTH) 
     )
 
 
-class Outputs:
-    """Publishers of everything that is a function of the state alone."""
-
-    def __init__(self, node: Node, world_frame: str, top_frame: str) -> None:
-        self._world_frame = world_frame
-        self._makers: list[tuple[Publisher[Any], Make]] = [
-            (publisher(node, kind, topic), make) for topic, kind, make in SAMPLES
-        ]
-        self._tf = publisher(node, TFMessage, "/tf") if TFMessage else None
-        if not TFMessage:
-            node.get_logger().info("tf2_msgs is not installed: there is no /tf")
-        self._top_frame = top_frame
-
-    def publish(self, stamp: int, top: Top, state_at: Callable[[], State], *, tf: bool) -> None:
-        """Publish the sample of one stamp (ns) on the topics that are listened to."""
-        wanted = [(sink, make) for sink, make in self._makers if sink.get_subscription_count()]
-        with_tf = self._tf if tf and self._tf and self._tf.get_subscription_count() else None
-        if not wanted and not with_tf:
-            return
-        header = Header(stamp=messages.time_message(stamp), frame_id=self._world_frame)
-        state = state_at()
-        for sink, make in wanted:
-            sink.publish(make(header, top, state))
-        if with_tf:
-            transform = messages.transform(header, self._top_frame, state)
-            with_tf.publish(TFMessage(transforms=[transform]))
-
-
-def clock_message(stamp: int) -> Clock:
-    """Return the message for /clock."""
-    return Clock(clock=messages.time_message(stamp))
+def _name_of(kind: Any) -> str:
+    return kind if isinstance(kind, str) else f"{kind.__module__.split('.')[0]}/msg/{kind.__name__}"

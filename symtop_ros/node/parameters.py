@@ -71,6 +71,12 @@ def _frame(name: str, value: Any) -> str:
     return value
 
 
+def _folder(name: str, value: Any) -> str:
+    if not isinstance(value, str) or not value.strip() or "\0" in value:
+        raise refuse(name, value, "the name of a folder")
+    return value
+
+
 def _precession(name: str, value: Any) -> str:
     return choice(name, value, ("", *PRECESSIONS))
 
@@ -99,6 +105,14 @@ DECLARATIONS: dict[str, Declaration] = {
     "real_time_factor": _number(1.0, "seconds of motion per second", "1", 0.01, 100.0),
     "publish_tf": Declaration(True, "publish world -> top on /tf", "true or false", flag),
     "publish_clock": Declaration(False, "publish /clock", "true or false", flag, read_only=True),
+    "record.enabled": Declaration(
+        False, "record from the start; later by ~/record", "true or false", flag, read_only=True
+    ),
+    "record.directory": Declaration(
+        "./logs", "folder of the logs", "a folder", _folder, read_only=True
+    ),
+    "record.max_size": _number(0.0, "size at which a new log begins; 0: none", "B", 0.0, 1e15),
+    "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
     "world_frame": Declaration("world", "fixed frame, z up", "a frame", _frame, read_only=True),
     "top_frame": Declaration("top", "frame of the body", "a frame", _frame, read_only=True),
 }

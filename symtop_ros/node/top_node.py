@@ -8,30 +8,31 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.clock import JumpThreshold, TimeJump
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rosgraph_msgs.msg import Clock
-from std_msgs.msg import Header, String
+from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.node import initial, kick
 from symtop_ros.node.diagnostics import diagnostics, state_report
-from symtop_ros.node.events import event
 from symtop_ros.node.fields import RefusedError, named_values, number
-from symtop_ros.node.messages import time_message
-from symtop_ros.node.outputs import EVENTS, LATCHED, Outputs, clock_message, publisher
+from symtop_ros.node.messages import event_message
+from symtop_ros.node.metadata import metadata
+from symtop_ros.node.outputs import Outputs
 from symtop_ros.node.parameters import DECLARATIONS, Settings, checked, declare
-from symtop_ros.node.segment import Segment
 from symtop_ros.node.ticker import Ticker
 from symtop_ros.node.urdf import robot_description
 from symtop_ros.physics import State, perry
+from symtop_ros.recording.recorder import Limits, Recorder, reason
+from symtop_ros.run.events import Event
+from symtop_ros.run.segment import Segment
 
 LONGEST_STEP = 1e9  # s
 
@@ -46,19 +47,18 @@ class TopNode(Node):
             msg = "publish_clock: got true together with use_sim_time, allowed is one or the other"
             raise RefusedError(msg)
         start = initial.initial_state(self._settings.top, self._settings.initial, {})
+        self._failure_told = False
+        self._recorder = Recorder(Path(self._settings["record.directory"]), self._limits())
         frames = self._settings["world_frame"], self._settings["top_frame"]
-        self._outputs = Outputs(self, *frames)
-        self._events = publisher(self, DiagnosticArray, "~/events", EVENTS)
-        self._diagnostics = publisher(self, DiagnosticArray, "/diagnostics", 10)
-        self._description = publisher(self, String, "/robot_description", LATCHED)
-        self._clock_output = (
-            publisher(self, Clock, "/clock") if self._settings["publish_clock"] else None
-        )
+        self._outputs = Outputs(self, self._recorder, *frames, self._settings["publish_clock"])
+        self._outputs.publish_tf(self._settings["publish_tf"])
         self._ticker = Ticker(self._settings["publish_rate"], self._now())
         self._initial = start
         self._segment = Segment.begin(
             self._settings.top, start, self._ticker.next_stamp, self._settings["real_time_factor"]
         )
+        if self._settings["record.enabled"]:
+            self._begin_log()
         self._describe()
         self._announce("start", self._verdict(), {"scene": self._scene}, start)
         self._offer_services()
@@ -75,23 +75,17 @@ class TopNode(Node):
         return int(self.get_clock().now().nanoseconds)
 
     def _tick(self) -> None:
-        top = self._segment.path.top
+        segment = self._segment
         for stamp in self._ticker.due(self._now()):
-            segment = self._segment
-            self._outputs.publish(
-                stamp,
-                top,
-                lambda stamp=stamp, segment=segment: segment.state_at(stamp),  # type: ignore[misc]
-                tf=self._settings["publish_tf"],
-            )
-            if self._clock_output:
-                self._clock_output.publish(clock_message(stamp))
+            self._outputs.send_sample(stamp, segment.path.top, segment.state_at)
 
     def _diagnose(self) -> None:
-        if self._diagnostics.get_subscription_count():
+        self._report_failure()
+        output = self._outputs.diagnostics
+        if output.wanted:
             stamp = self._ticker.next_stamp
-            message = diagnostics(self._header(stamp), self._segment, stamp, self._ticker)
-            self._diagnostics.publish(message)
+            facts = self._segment, stamp, self._ticker, self._recorder
+            output.send_message(stamp, diagnostics(self._settings["world_frame"], *facts))
 
     def _follow_jumps(self) -> None:
         """A clock that jumps (simulation time) takes the motion along from where it is."""
@@ -116,9 +110,6 @@ class TopNode(Node):
     def _scene(self) -> str:
         return str(self.get_parameter("scene").value)
 
-    def _header(self, stamp: int) -> Header:
-        return Header(stamp=time_message(stamp), frame_id=self._settings["world_frame"])
-
     def _verdict(self) -> str:
         path = self._segment.path
         return f"{path.kind}: {perry(path.top, path.start)}"
@@ -126,11 +117,14 @@ class TopNode(Node):
     def _describe(self) -> None:
         frames = self._settings["world_frame"], self._settings["top_frame"]
         text = robot_description(self._settings.top, *frames)
-        self._description.publish(String(data=text))
+        self._outputs.description.send_message(self._ticker.next_stamp, String(data=text))
 
     def _announce(self, name: str, verdict: str, request: Mapping[str, Any], before: State) -> None:
-        header = self._header(self._segment.stamp)
-        self._events.publish(event(header, name, verdict, request, before, self._segment))
+        stamp = self._ticker.next_stamp
+        event = Event.of(stamp, name, verdict, request, before, self._segment)
+        self._outputs.events.send_message(
+            stamp, event_message(event, self._settings["world_frame"])
+        )
 
     def _offer_services(self) -> None:
         for name, kind, handle in (
@@ -140,6 +134,7 @@ class TopNode(Node):
             ("hurry_precession", Trigger, self._hurry_precession),
             ("reset", Trigger, self._reset),
             ("pause", SetBool, self._pause),
+            ("record", SetBool, self._record),
             ("get_state", Trigger, self._get_state),
         ):
             self.create_service(kind, f"~/{name}", _answering(handle))
@@ -205,8 +200,50 @@ class TopNode(Node):
         self._announce("step", verdict, values, before)
         return verdict
 
+    def _record(self, request: SetBool.Request) -> str:
+        path = self._recorder.path
+        if bool(request.data) == bool(path):
+            return f"recording already, to {path}" if path else "not recording"
+        if path:
+            self._note_log(f"recording to {path} ended")
+            self._recorder.stop()
+            return f"recorded to {path}"
+        path = self._begin_log()
+        self._note_log(f"recording to {path}")
+        return f"recording to {path}"
+
     def _get_state(self, _: Trigger.Request) -> str:
         return json.dumps(state_report(self._segment, self._ticker.next_stamp))
+
+    # the log
+
+    def _limits(self) -> Limits:
+        return Limits(self._settings["record.max_size"], self._settings["record.max_duration"])
+
+    def _begin_log(self) -> Path:
+        try:
+            path = self._recorder.start(metadata(self._scene, self._settings.values, self._now()))
+        except (OSError, ImportError) as error:
+            msg = f"record: no log in {self._settings['record.directory']!r}: {reason(error)}"
+            raise RefusedError(msg) from None
+        self.get_logger().info(f"recording to {path}")
+        return path
+
+    def _note_log(self, sentence: str) -> None:
+        before = self._segment.state_at(self._ticker.next_stamp)
+        self._announce("record", sentence, {}, before)
+
+    def _report_failure(self) -> None:
+        """Say once that a recording has ended by itself; the motion goes on."""
+        if self._recorder.failure and not self._failure_told:
+            sentence = f"recording stopped: {self._recorder.failure}"
+            self.get_logger().error(sentence)
+            self._note_log(sentence)
+        self._failure_told = bool(self._recorder.failure)
+
+    def close(self) -> None:
+        """End the log; the node can go."""
+        self._recorder.stop()
 
     # parameters
 
@@ -235,6 +272,8 @@ class TopNode(Node):
         if self._settings.top != old.top:
             self._segment = self._segment.with_top(self._settings.top, stamp)
             self._describe()
+        self._outputs.publish_tf(self._settings["publish_tf"])
+        self._recorder.limits = self._limits()
         factor = self._settings["real_time_factor"]
         self._segment = self._segment.with_factor(factor, stamp)
         if "publish_rate" in changes:

@@ -15,6 +15,8 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 
 from symtop_ros.client.connection import Connection
 from symtop_ros.node.top_node import TopNode
+from symtop_ros.run.events import Event
+from symtop_ros.run.segment import Segment
 
 DOMAINS = itertools.count(10 + os.getpid() % 80)
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
@@ -40,6 +42,7 @@ class RunningTop:
     def close(self) -> None:
         self.executor.shutdown()
         self.user.destroy_node()
+        self.top.close()
         self.top.destroy_node()
         rclpy.shutdown(context=self.context)
 
@@ -79,6 +82,11 @@ class _SharedConnection(Connection):
 def stamp_of(message: Any) -> int:
     stamp = message.header.stamp
     return stamp.sec * 1_000_000_000 + stamp.nanosec
+
+
+def segment_of(message: Any) -> Segment:
+    """The segment that an event announces."""
+    return Event(stamp_of(message), message.status[0].name, "", facts(message)).segment()
 
 
 def facts(message: Any) -> Mapping[str, str]:

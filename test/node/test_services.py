@@ -6,10 +6,9 @@ import math
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
-from node.running_top import LATCHED, facts, stamp_of
+from node.running_top import LATCHED, facts, segment_of, stamp_of
 from sensor_msgs.msg import JointState
 
-from symtop_ros.node.events import segment_of
 from symtop_ros.physics import regular_precession_rates
 
 

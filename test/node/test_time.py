@@ -4,10 +4,9 @@ import pytest
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
-from node.running_top import LATCHED, stamp_of
+from node.running_top import LATCHED, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
 
-from symtop_ros.node.events import segment_of
 from symtop_ros.node.fields import RefusedError
 
 MS = 1_000_000

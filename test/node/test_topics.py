@@ -5,12 +5,10 @@ from xml.etree import ElementTree
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
-from node.running_top import LATCHED, facts, stamp_of
+from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-
-from symtop_ros.node.events import segment_of
 
 
 def vector(message):
@@ -113,7 +111,7 @@ def test_diagnostics_tell_the_motion_and_constants_that_do_not_drift(start_top):
     assert abs(float(told["energy.drift"])) < 1e-15
     assert abs(float(told["L_z'.drift"])) < 1e-17
     names = [status.name for status in messages[-1].status]
-    assert names == ["top: motion", "top: pace"]
+    assert names == ["top: motion", "top: pace", "top: log"]
     assert {pair.key for pair in messages[-1].status[1].values} == {"late", "missed"}
 
 

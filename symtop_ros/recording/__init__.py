@@ -1,0 +1,1 @@
+"""Runs into MCAP files: the bytes that are published, written by a thread of its own."""

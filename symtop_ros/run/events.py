@@ -1,0 +1,105 @@
+"""Events: what changed a run, and all that is needed to compute it again.
+
+Numbers are written in decimals that read back to the same doubles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from symtop_ros.physics import State, Top, motion
+from symtop_ros.run.segment import Segment
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One event of a run.
+
+    Attributes
+    ----------
+    stamp : int
+        The instant from which the new motion holds, ns.
+    name : str
+        start, kick, reset, pause, resume, step, parameters, clock or record.
+    verdict : str
+        What follows, in a sentence.
+    values : mapping
+        What was asked, the state before and after, and the motion that holds from then on.
+    """
+
+    stamp: int
+    name: str
+    verdict: str
+    values: Mapping[str, str]
+
+    @classmethod
+    def of(
+        cls,
+        stamp: int,
+        name: str,
+        verdict: str,
+        request: Mapping[str, Any],
+        before: State,
+        now: Segment,
+    ) -> Event:
+        """Return the event after which the segment `now` holds."""
+        after, start = now.state_at(stamp), now.path.start
+        values = {
+            "request": "; ".join(f"{key}={_text(value)}" for key, value in request.items()),
+            "top": _text(now.path.top.moments),
+            "before.orientation": _text(before.orientation.tolist()),
+            "before.angular_velocity": _text(before.angular_velocity.tolist()),
+            "after.orientation": _text(after.orientation.tolist()),
+            "after.angular_velocity": _text(after.angular_velocity.tolist()),
+            "motion.orientation": _text(start.orientation.tolist()),
+            "motion.angular_velocity": _text(start.angular_velocity.tolist()),
+            "motion.stamp": _text(now.stamp),
+            "motion.elapsed": _text(now.elapsed),
+            "motion.real_time_factor": _text(now.factor),
+            "motion.running": _text(now.running),
+            "kind": now.path.kind,
+        }
+        return cls(stamp, name, verdict, values)
+
+    def segment(self) -> Segment:
+        """Return the segment that holds from the event on: the run again, bit for bit.
+
+        The state at any later stamp, up to the next event, is `event.segment().state_at(stamp)`.
+
+        Raises
+        ------
+        ValueError
+            Where a value is missing or is not what it should be.
+        """
+        try:
+            return self._segment()
+        except (KeyError, TypeError) as error:
+            msg = f"event {self.name!r}: {error} is missing or incomplete"
+            raise ValueError(msg) from None
+
+    def _segment(self) -> Segment:
+        values = self.values
+        start = State(
+            _numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])
+        )
+        return Segment(
+            path=motion(Top(*_numbers(values["top"])), start),
+            stamp=int(values["motion.stamp"]),
+            elapsed=float(values["motion.elapsed"]),
+            factor=float(values["motion.real_time_factor"]),
+            running=values["motion.running"] == "true",
+        )
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return " ".join(repr(float(part)) for part in value)
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(part) for part in text.split()]

@@ -1,0 +1,158 @@
+"""Which message each topic of a sample is, and its layout.
+
+Doubles stand in the order of the message: quaternions x, y, z, w; linear (or force) before angular
+(or torque); positions before velocities.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.wire.cdr import DecodeError, Reader
+from symtop_ros.wire.layout import Count, Doubles, Layout, Stamp, Text
+
+JOINTS = ("precession", "tilt", "spin")  # of the URDF: z-x-z
+
+
+def quaternion(frame: str) -> Layout:
+    """geometry_msgs/QuaternionStamped."""
+    return Layout(Stamp(), Text(frame), Doubles(4))
+
+
+def vector(frame: str) -> Layout:
+    """geometry_msgs/Vector3Stamped."""
+    return Layout(Stamp(), Text(frame), Doubles(3))
+
+
+def twist(frame: str) -> Layout:
+    """geometry_msgs/TwistStamped and WrenchStamped."""
+    return Layout(Stamp(), Text(frame), Doubles(6))
+
+
+def joints(frame: str, names: Sequence[str] = JOINTS) -> Layout:
+    """sensor_msgs/JointState with positions and velocities."""
+    count = len(names)
+    return Layout(
+        Stamp(),
+        Text(frame),
+        Count(count),
+        *map(Text, names),
+        Count(count),
+        Doubles(count),
+        Count(count),
+        Doubles(count),
+        Count(0),
+    )
+
+
+def transform(frame: str, child: str) -> Layout:
+    """tf2_msgs/TFMessage with one transform: translation, rotation."""
+    return Layout(Count(1), Stamp(), Text(frame), Text(child), Doubles(7))
+
+
+@dataclass(frozen=True, eq=False)
+class Unpacked:
+    """Messages of one layout.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Frames (the child last), or the frame and the joints.
+    which : ndarray (n,)
+        Where they stood among the messages.
+    stamps : ndarray (n,)
+        In ns.
+    numbers : ndarray (n, width)
+    """
+
+    names: tuple[str, ...]
+    which: NDArray[np.int64]
+    stamps: NDArray[np.int64]
+    numbers: NDArray[np.float64]
+
+
+Named = tuple[Layout, tuple[str, ...]]
+
+
+def _framed(make: Callable[[str], Layout]) -> Callable[[bytes], Named]:
+    def layout_of(data: bytes) -> Named:
+        reader = Reader(data)
+        reader.skip(4, 2)
+        frame = reader.string()
+        return make(frame), (frame,)
+
+    return layout_of
+
+
+def _joints_of(data: bytes) -> Named:
+    reader = Reader(data)
+    reader.skip(4, 2)
+    frame, names = reader.string(), reader.strings()
+    return joints(frame, names), (frame, *names)
+
+
+def _transform_of(data: bytes) -> Named:
+    reader = Reader(data)
+    reader.skip(4, 3)
+    names = reader.string(), reader.string()
+    return transform(*names), names
+
+
+LAYOUT_OF: dict[str, Callable[[bytes], Named]] = {
+    "geometry_msgs/msg/QuaternionStamped": _framed(quaternion),
+    "geometry_msgs/msg/Vector3Stamped": _framed(vector),
+    "geometry_msgs/msg/TwistStamped": _framed(twist),
+    "geometry_msgs/msg/WrenchStamped": _framed(twist),
+    "sensor_msgs/msg/JointState": _joints_of,
+    "tf2_msgs/msg/TFMessage": _transform_of,
+}
+
+
+def unpacked(kind: str, messages: Sequence[bytes]) -> tuple[list[Unpacked], list[str]]:
+    """Read messages of one kind, whoever wrote them.
+
+    Parameters
+    ----------
+    kind : str
+        As in `LAYOUT_OF`.
+    messages : sequence of bytes
+
+    Returns
+    -------
+    found : list of Unpacked
+        One for each layout.
+    refused : list of str
+        What is wrong with each message that is of another kind, or varies in more than doubles.
+    """
+    sizes = np.fromiter(map(len, messages), np.int64, len(messages))
+    left = np.arange(len(messages))
+    found: list[Unpacked] = []
+    refused: list[str] = []
+    while left.size:
+        alike = left[sizes[left] == sizes[left[0]]]
+        try:
+            found.append(_of_first_layout(kind, messages, alike))
+            done = found[-1].which
+        except DecodeError as error:
+            refused.append(str(error))
+            done = left[:1]
+        left = np.setdiff1d(left, done)
+    return found, refused
+
+
+def _of_first_layout(kind: str, messages: Sequence[bytes], which: NDArray[np.int64]) -> Unpacked:
+    """Read those of some messages of one size that have the layout of the first of them."""
+    first = messages[which[0]]
+    layout, names = LAYOUT_OF[kind](first)
+    rows = np.frombuffer(b"".join(messages[k] for k in which), np.uint8)
+    rows = rows.reshape(len(which), -1)[:, : layout.size]
+    # rclpy's serialize_message hands out up to seven bytes more than are sent
+    if not 0 <= len(first) - layout.size < 8 or not layout.fits(rows[:1])[0]:
+        msg = f"{len(first)} bytes that are not a {kind} of one sample"
+        raise DecodeError(msg)
+    fits = layout.fits(rows)
+    return Unpacked(names, which[fits], *layout.unpack(rows[fits]))
