@@ -20,6 +20,7 @@ examples:
 
 scenes: {scenes}
 """
+SWITCH = 5e-4  # s; a tick waits no longer than this for the thread that writes the log
 
 
 def main(args: list[str] | None = None) -> int:
@@ -33,6 +34,7 @@ def main(args: list[str] | None = None) -> int:
     )
     try:
         parser.parse_args(remove_ros_args(arguments)[1:])
+        sys.setswitchinterval(SWITCH)
         with rclpy.init(args=arguments):
             _run()
     except (KeyboardInterrupt, ExternalShutdownException):

@@ -57,10 +57,10 @@ class TopNode(Node):
         self._segment = Segment.begin(
             self._settings.top, start, self._ticker.next_stamp, self._settings["real_time_factor"]
         )
-        if self._settings["record.enabled"]:
-            self._begin_log()
         self._describe()
         self._announce("start", self._verdict(), {"scene": self._scene}, start)
+        if self._settings["record.enabled"]:
+            self._begin_log()
         self._offer_services()
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)

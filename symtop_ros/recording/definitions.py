@@ -1,16 +1,17 @@
 """What a log says of a message type: its text and those of all it is made of, and its hash.
 
-Both come from the installed ROS 2; tf2_msgs is not on PyPI, and its one message is told here.
+Both come from the installed ROS 2 (from PyPI it is in the prefix of Python, and sets no
+AMENT_PREFIX_PATH); tf2_msgs is not on PyPI, and its one message is told here.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import re
+import sys
 from dataclasses import dataclass
 from pathlib import Path
-
-from ament_index_python.packages import get_package_share_directory
 
 # rosbag2's form: the text, then after a line of 80 "=" each dependency under its name
 SEPARATOR = "=" * 80 + "\nMSG: {kind}\n{text}"
@@ -72,4 +73,10 @@ def _hash(kind: str) -> str:
 
 def _file(kind: str, suffix: str) -> Path:
     package, _, name = kind.split("/")
-    return Path(get_package_share_directory(package), "msg", f"{name}.{suffix}")
+    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
+    paths = [Path(each, "share", package, "msg", f"{name}.{suffix}") for each in prefixes if each]
+    found = next((path for path in paths if path.is_file()), None)
+    if not found:
+        msg = f"no definition of {kind} ({name}.{suffix}) in AMENT_PREFIX_PATH or {sys.prefix}"
+        raise FileNotFoundError(msg)
+    return found

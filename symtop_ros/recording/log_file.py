@@ -71,7 +71,7 @@ class LogFile:
             self._writer.add_metadata(METADATA, dict(metadata))
             self._ids = [self._register(channel) for channel in channels]
             self.flush()
-        except OSError:
+        except Exception:
             self.abandon()
             raise
 
@@ -116,12 +116,17 @@ class LogFile:
         self._file.close()
 
     def abandon(self) -> None:
-        """Close after an error: cut what is incomplete, and end the file without an index."""
+        """Close after an error: cut what is incomplete, and end the file without an index.
+
+        A file that holds nothing is removed.
+        """
         if self._file.closed:
             return
         with suppress(OSError):
             self._file.close()
         with suppress(OSError):
+            if not self._safe:
+                self.path.unlink()
             os.truncate(self.path, self._safe)
             with self.path.open("ab") as file:
                 file.write(_end())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -33,11 +34,17 @@ class Load(NamedTuple):
     core: float
 
 
-def measure(rate: float, seconds: float) -> Load:
+def measure(rate: float, seconds: float, recording: bool) -> Load:
     """Run a node at a rate (Hz), with one subscriber on every topic, for some seconds."""
+    with tempfile.TemporaryDirectory() as folder:
+        return _measure(rate, seconds, recording, folder)
+
+
+def _measure(rate: float, seconds: float, recording: bool, folder: str) -> Load:
     domain = 100 + os.getpid() % 100
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
     options = ["--ros-args", "-p", f"publish_rate:={rate}", "--log-level", "warn"]
+    options += ["-p", f"record.enabled:={recording}".lower(), "-p", f"record.directory:={folder}"]
     with subprocess.Popen([sys.executable, "-c", NODE, *options], env=environment) as node:
         try:
             return _listen(node.pid, domain, rate, seconds)

@@ -10,6 +10,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -60,9 +61,10 @@ def _load_of_the_node(seconds: float) -> int:
         print(f"top_report: --node needs ROS 2: {error}", file=sys.stderr)
         return 1
     print(f"{'rate':>8}{'arrived':>12}{'of a core':>12}   one subscriber on each of five topics")
-    for rate in (200.0, 1000.0):
-        load = measure(rate, seconds)
-        print(f"{rate:5.0f} Hz{load.arrived:12.2%}{load.core:12.0%}", flush=True)
+    for rate, recording in product((200.0, 1000.0), (False, True)):
+        load = measure(rate, seconds, recording)
+        note = "   recording" if recording else ""
+        print(f"{rate:5.0f} Hz{load.arrived:12.2%}{load.core:12.0%}{note}", flush=True)
     return 0
 
 
