@@ -7,6 +7,7 @@ event when it begins, so that any state of a run can be computed again, bit for 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from symtop_ros.physics import Motion, State, Top, motion
 
@@ -42,14 +43,14 @@ class Segment:
         """Return the first stretch of a motion that starts now."""
         return cls(motion(top, start), stamp, 0.0, factor, running)
 
-    def time_at(self, stamp: int) -> float:
-        """Time of the motion in s at a stamp in ns."""
+    def time_at(self, stamp: Any) -> Any:
+        """Time of the motion in s at a stamp in ns, or at an array of them."""
         if not self.running:
             return self.elapsed
         return self.elapsed + self.factor * ((stamp - self.stamp) * 1e-9)
 
-    def state_at(self, stamp: int) -> State:
-        """State of the top at a stamp in ns."""
+    def state_at(self, stamp: Any) -> State:
+        """State of the top at a stamp in ns, or at an array of them; at rest it is one for all."""
         return self.path.at(self.time_at(stamp))
 
     def restarted(self, start: State, stamp: int) -> Segment:

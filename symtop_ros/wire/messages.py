@@ -102,13 +102,21 @@ def _transform_of(data: bytes) -> Named:
     return transform(*names), names
 
 
+KINDS = {
+    "orientation": "geometry_msgs/msg/QuaternionStamped",
+    "angular_velocity": "geometry_msgs/msg/TwistStamped",
+    "angular_momentum": "geometry_msgs/msg/Vector3Stamped",
+    "torque": "geometry_msgs/msg/WrenchStamped",
+    "euler_angles": "sensor_msgs/msg/JointState",
+    "tf": "tf2_msgs/msg/TFMessage",
+}
 LAYOUT_OF: dict[str, Callable[[bytes], Named]] = {
-    "geometry_msgs/msg/QuaternionStamped": _framed(quaternion),
-    "geometry_msgs/msg/Vector3Stamped": _framed(vector),
-    "geometry_msgs/msg/TwistStamped": _framed(twist),
-    "geometry_msgs/msg/WrenchStamped": _framed(twist),
-    "sensor_msgs/msg/JointState": _joints_of,
-    "tf2_msgs/msg/TFMessage": _transform_of,
+    KINDS["orientation"]: _framed(quaternion),
+    KINDS["angular_momentum"]: _framed(vector),
+    KINDS["angular_velocity"]: _framed(twist),
+    KINDS["torque"]: _framed(twist),
+    KINDS["euler_angles"]: _joints_of,
+    KINDS["tf"]: _transform_of,
 }
 
 
