@@ -20,6 +20,12 @@ ROS = [
     "ros-kilted-std-msgs>=5.5",
     "ros-kilted-diagnostic-msgs>=5.5",
     "ros-kilted-std-srvs>=5.5",
+    "mcap>=1.5",  # what runs are recorded with; 1.5 flushes chunks
+]
+# Logs in 3D. Needs no ROS, and NumPy 2: beside a ROS from apt, an environment of its own.
+PLAYBACK = [
+    "mcap>=1.5",
+    "rerun-sdk>=0.41",
 ]
 TEST = [
     "pytest>=8",
@@ -51,11 +57,12 @@ setup(
         "numpy>=1.24",  # arrays; any NumPy that a supported ROS 2 brings
         "scipy>=1.8",  # Carlson's elliptic integral R_F came with 1.8
     ],
-    extras_require={"ros": ROS, "test": TEST, "lint": LINT},
+    extras_require={"ros": ROS, "playback": PLAYBACK, "test": TEST, "lint": LINT},
     entry_points={
         "console_scripts": [
             f"top_node = {NAME}.programs:top_node",
             f"top_ctl = {NAME}.programs:top_ctl",
+            f"top_replay = {NAME}.programs:top_replay",
             f"top_report = {NAME}.report.main:main",
         ]
     },

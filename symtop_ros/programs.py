@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib
 import sys
 
+PLAIN = {"mcap", "numpy", "scipy"}  # no ROS 2 brings the first; the others come with it
+
 
 def top_node() -> int:
     """Run the node."""
@@ -16,13 +18,21 @@ def top_ctl() -> int:
     return _run("top_ctl", "symtop_ros.client.main")
 
 
+def top_replay() -> int:
+    """Play logs."""
+    return _run("top_replay", "symtop_ros.playback.main")
+
+
 def _run(name: str, module: str) -> int:
     try:
         main = importlib.import_module(module).main
     except ModuleNotFoundError as error:
-        print(
-            f"{name}: {error.name} is missing: source a ROS 2, or pip install 'symtop_ros[ros]'",
-            file=sys.stderr,
-        )
+        print(f"{name}: {error.name} is missing: {_remedy(error.name)}", file=sys.stderr)
         return 1
     return int(main())
+
+
+def _remedy(module: str | None) -> str:
+    if module in PLAIN:
+        return f"pip install {module}"
+    return "source a ROS 2, or pip install 'symtop_ros[ros]'"

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.playback.top_log import Columns, TopLog
-from symtop_ros.run.events import Event
+from symtop_ros.playback.batch import Columns
+from symtop_ros.playback.top_log import TopLog
 from symtop_ros.run.samples import SAMPLES
 from symtop_ros.run.segment import Segment
 
@@ -66,45 +66,20 @@ def check(log: TopLog) -> dict[str, Deviation]:
     deviations: dict[str, Deviation] = {}
     segment: Segment | None = None
     for batch in log.batches():
-        segments = [segment, *(event.segment() for _, event in batch.events)]
-        for name, columns in batch.columns.items():
-            deviation = deviations.setdefault(name, Deviation())
-            owners = _owners(columns, batch.events)
-            for owner in np.unique(owners):
-                _compare(deviation, name, columns, owners == owner, segments[owner])
-        segment = segments[-1]
+        for event, samples in batch.stretches():
+            segment = event.segment() if event else segment
+            for name, columns in samples.items():
+                _compare(deviations.setdefault(name, Deviation()), name, columns, segment)
     return deviations
 
 
-def _owners(columns: Columns, events: list[tuple[int, Event]]) -> NDArray[np.intp]:
-    """Return which event each sample comes after; 0 for what was before all of them.
-
-    The node logs an event before the samples it governs. Others write in the order of arrival:
-    there the stamps decide, unless the clock has jumped.
-    """
-    owners = np.searchsorted([place for place, _ in events], columns.places, side="right")
-    for number, (_, event) in enumerate(events, start=1):
-        if event.name != "clock":
-            later = columns.stamps >= event.stamp
-            owners[(owners == number - 1) & later] = number
-            owners[(owners == number) & ~later] = number - 1
-    return owners
-
-
-def _compare(
-    deviation: Deviation,
-    name: str,
-    columns: Columns,
-    which: NDArray[np.bool_],
-    segment: Segment | None,
-) -> None:
-    stamps, logged = columns.stamps[which], columns.numbers[which]
+def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment | None) -> None:
     if segment is None:
-        deviation.unchecked += len(stamps)
+        deviation.unchecked += len(columns.stamps)
         return
-    computed = SAMPLES[name](segment.path.top, segment.state_at(stamps))
-    computed = np.broadcast_to(computed, logged.shape)
-    difference = np.abs(logged - computed)
+    computed = SAMPLES[name](segment.path.top, segment.state_at(columns.stamps))
+    computed = np.broadcast_to(computed, columns.numbers.shape)
+    difference = np.abs(columns.numbers - computed)
     scale = np.concatenate([_size(block) for block in _blocks(computed)], axis=1)
     if name == "euler_angles":
         turns = np.abs(difference[:, :3] - 2 * np.pi)

@@ -19,13 +19,14 @@ import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Channel, Chunk, McapRecord, Message, MessageIndex, Metadata, Schema
+from mcap.records import Channel, Chunk, Header, McapRecord, Message, MessageIndex, Metadata, Schema
 from mcap.stream_reader import breakup_chunk
 
 MAGIC = b"\x89MCAP0\r\n"
 LARGEST = 256 * 2**20  # bytes of a chunk, packed or not; ours have at most 4 MiB
 START = struct.Struct("<BQ")  # opcode and length of a record
 PARSED = {
+    Opcode.HEADER: lambda data, stream: Header.read(stream),
     Opcode.SCHEMA: lambda data, stream: Schema.read(stream),
     Opcode.CHANNEL: lambda data, stream: Channel.read(stream),
     Opcode.MESSAGE: lambda data, stream: Message.read(stream, len(data)),
@@ -55,6 +56,8 @@ class McapFile:
 
     Attributes
     ----------
+    profile : str
+        "ros2" for logs of ROS.
     schemas, channels : dict
         By their numbers; complete when all chunks are read, as all that follows.
     metadata : dict
@@ -72,6 +75,7 @@ class McapFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self.profile = ""
         self.schemas: dict[int, Schema] = {}
         self.channels: dict[int, Channel] = {}
         self.metadata: dict[str, dict[str, str]] = {}
@@ -157,6 +161,8 @@ class McapFile:
                 self.schemas[record.id] = record
             elif isinstance(record, Channel):
                 self.channels[record.id] = record
+            elif isinstance(record, Header):
+                self.profile = record.profile
             elif isinstance(record, Metadata):
                 self.metadata[record.name] = record.metadata
         if messages:

@@ -1,0 +1,63 @@
+"""A whole file out of what is readable of a damaged one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mcap.writer import CompressionType, Writer
+
+from symtop_ros.playback.mcap_file import LogError, McapFile
+
+
+def repair(file: McapFile, target: Path) -> int:
+    """Write what is readable, with new indexes and checksums; return how many messages.
+
+    Raises
+    ------
+    LogError
+        Where the target is there already, or cannot be written.
+    """
+    try:
+        with target.open("xb") as stream:
+            writer = Writer(stream, compression=CompressionType.ZSTD)
+            writer.start(file.profile, "symtop_ros top_replay --repair")
+            count = _copy(file, writer)
+            writer.finish()  # type: ignore[no-untyped-call]
+    except FileExistsError:
+        msg = f"{target} exists already, and is not overwritten"
+        raise LogError(msg) from None
+    except OSError as error:
+        msg = f"{target}: {error.strerror}"
+        raise LogError(msg) from None
+    return count
+
+
+def _copy(file: McapFile, writer: Writer) -> int:
+    channels: dict[int, int] = {}
+    count = 0
+    for messages in file.chunks():
+        for message in messages:
+            number = channels.get(message.channel_id)
+            if number is None:
+                number = channels[message.channel_id] = _copy_channel(
+                    file, writer, message.channel_id
+                )
+            if number:
+                writer.add_message(
+                    number, message.log_time, message.data, message.publish_time, message.sequence
+                )
+                count += 1
+    for name, metadata in file.metadata.items():
+        writer.add_metadata(name, metadata)
+    return count
+
+
+def _copy_channel(file: McapFile, writer: Writer, number: int) -> int:
+    """Register a channel and return its new number; 0 where nobody says what it is."""
+    channel = file.channels.get(number)
+    if channel is None:
+        file.problems.append(f"channel {number} is not described anywhere: its messages are lost")
+        return 0
+    schema = file.schemas.get(channel.schema_id)
+    new = writer.register_schema(schema.name, schema.encoding, schema.data) if schema else 0
+    return writer.register_channel(channel.topic, channel.message_encoding, new, channel.metadata)

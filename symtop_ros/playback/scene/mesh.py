@@ -1,0 +1,121 @@
+"""The top as a turned body: a lathe's profile, in sectors of two colours so that spin is seen.
+
+Lengths are in scene units: the pivot is the origin, and the axis ends on the unit sphere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from symtop_ros.physics import Top
+
+SECTORS = 6  # an odd number of pairs would look the same half a turn on
+STEPS = 10  # of a sector
+STEEL = (196, 202, 210)
+BRASS = (222, 178, 92)
+ENAMEL = (150, 32, 44)
+IVORY = (240, 230, 205)
+Profile = Sequence[tuple[float, float]]  # radius and height, from below
+
+
+class Mesh(NamedTuple):
+    """Triangles: positions (n, 3), normals (n, 3), colours (n, 3), indices (m, 3)."""
+
+    positions: NDArray[np.float32]
+    normals: NDArray[np.float32]
+    colors: NDArray[np.uint8]
+    triangles: NDArray[np.uint32]
+
+    def drawn(self) -> rr.Mesh3D:
+        """Return it for Rerun."""
+        return rr.Mesh3D(
+            vertex_positions=self.positions,
+            vertex_normals=self.normals,
+            vertex_colors=self.colors,
+            triangle_indices=self.triangles,
+        )
+
+
+def top_mesh(top: Top | None) -> Mesh:
+    """Return the body of a top: the rotor where its weight is, its radius after Iz / Ix."""
+    sign = 1.0 if top is None else math.copysign(bool(top.Mgl), top.Mgl)
+    ratio = 0.25 if top is None else top.Iz / top.Ix
+    radius, height = 0.2 + 0.26 * math.sqrt(ratio), 0.56 * sign
+    low = min(0.0, height - 0.22)
+    axle = (
+        (0.0, low),
+        (0.022, low + 0.03),
+        (0.022, 0.93),
+        (0.034, 0.95),
+        (0.034, 0.985),
+        (0.0, 1.0),
+    )
+    parts = [
+        lathe(axle, (STEEL, STEEL)),
+        lathe(_rotor(radius, height), (IVORY, ENAMEL)),
+        lathe(_rim(radius, height), (BRASS, BRASS)),
+    ]
+    return _joined(parts)
+
+
+def lathe(profile: Profile, colors: tuple[tuple[int, int, int], tuple[int, int, int]]) -> Mesh:
+    """Turn a profile about the z axis, in sectors of alternating colours."""
+    bands = [_band(*edge, colors[k % 2], k) for edge in pairwise(profile) for k in range(SECTORS)]
+    return _joined(bands)
+
+
+def _band(
+    below: tuple[float, float], above: tuple[float, float], color: tuple[int, int, int], sector: int
+) -> Mesh:
+    """One edge of the profile over one sector, with the normals of a cone."""
+    angles = 2 * np.pi / SECTORS * (sector + np.linspace(0, 1, STEPS + 1))
+    rim = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    rows = [np.column_stack([r * rim, np.full(len(rim), z)]) for r, z in (below, above)]
+    slope = np.array([above[1] - below[1], below[0] - above[0]])  # outward normal of the profile
+    slope /= np.hypot(*slope)
+    normals = np.column_stack([slope[0] * rim, np.full(len(rim), slope[1])])
+    k = np.arange(STEPS)
+    count = STEPS + 1
+    triangles = np.concatenate(
+        [np.stack([k, k + 1, k + count], 1), np.stack([k + 1, k + 1 + count, k + count], 1)]
+    )
+    return Mesh(
+        np.concatenate(rows).astype(np.float32),
+        np.concatenate([normals, normals]).astype(np.float32),
+        np.tile(np.array(color, np.uint8), (2 * count, 1)),
+        triangles.astype(np.uint32),
+    )
+
+
+def _joined(parts: Sequence[Mesh]) -> Mesh:
+    offsets = np.cumsum([0, *(len(part.positions) for part in parts[:-1])])
+    return Mesh(
+        np.concatenate([part.positions for part in parts]),
+        np.concatenate([part.normals for part in parts]),
+        np.concatenate([part.colors for part in parts]),
+        np.concatenate(
+            [part.triangles + np.uint32(k) for part, k in zip(parts, offsets, strict=True)]
+        ),
+    )
+
+
+def _rotor(radius: float, height: float) -> Profile:
+    """A body like a flat pear, whose wide side is where the weight is."""
+    shape = ((0.022, -0.2), (0.10, -0.17), (0.35, -0.11), (0.72, -0.06), (0.94, -0.035))
+    upper = ((0.94, 0.035), (0.80, 0.05), (0.45, 0.075), (0.16, 0.105), (0.022, 0.14))
+    return tuple((max(0.022, r * radius), height + z) for r, z in (*shape, *upper))
+
+
+def _rim(radius: float, height: float) -> Profile:
+    """A round edge of brass."""
+    angles = np.linspace(-np.pi / 2, np.pi / 2, 9)
+    return [
+        (0.94 * radius + 0.06 * radius * math.cos(a), height + 0.035 * math.sin(a)) for a in angles
+    ]

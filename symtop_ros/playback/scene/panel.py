@@ -1,0 +1,42 @@
+"""The panel beside the scene: the motion in a table of Markdown."""
+
+from __future__ import annotations
+
+import math
+
+from symtop_ros.physics import perry
+from symtop_ros.run.segment import Segment
+
+
+def panel(segment: Segment, stamp: int, scales: dict[str, str]) -> str:
+    """Return what holds from an event on.
+
+    Parameters
+    ----------
+    segment : Segment
+    stamp : int
+        Of the event, ns.
+    scales : dict
+        What one unit of the scene is, by the name of the arrow.
+    """
+    path = segment.path
+    top, state = path.top, segment.state_at(stamp)
+    low, high = path.turning_angles
+    rates = ", ".join(f"{rate:.4g}" for rate in perry(top, state).regular_rates) or "none"
+    facts = {
+        "motion": f"{path.kind}, {f'speed {segment.factor:g}' if segment.running else 'paused'}",
+        "theta": f"{low:.4f} .. {high:.4f} rad",
+        "nutation period": _number(path.nutation_period, "s"),
+        "mean precession": _number(path.mean_precession_rate, "rad/s"),
+        "regular precession": f"{rates} rad/s",
+        "Ix, Iz": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2",
+        "Mgl": f"{top.Mgl:g} J",
+        **{f"1 unit of {name}": scale for name, scale in scales.items()},
+    }
+    cells = [f"{name} | **{value}**" for name, value in facts.items()]
+    rows = [f"| {' | '.join(cells[k : k + 2])} |" for k in range(0, len(cells), 2)]
+    return "\n".join(["| | | | |", "|---|---|---|---|", *rows])
+
+
+def _number(value: float, unit: str) -> str:
+    return f"{value:.5g} {unit}" if math.isfinite(value) else "none"
