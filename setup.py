@@ -63,6 +63,7 @@ setup(
             f"top_node = {NAME}.programs:top_node",
             f"top_ctl = {NAME}.programs:top_ctl",
             f"top_replay = {NAME}.programs:top_replay",
+            f"top_live = {NAME}.programs:top_live",
             f"top_report = {NAME}.report.main:main",
         ]
     },

@@ -23,6 +23,11 @@ def top_replay() -> int:
     return _run("top_replay", "symtop_ros.playback.main")
 
 
+def top_live() -> int:
+    """Show a running node."""
+    return _run("top_live", "symtop_ros.live.main")
+
+
 def _run(name: str, module: str) -> int:
     try:
         main = importlib.import_module(module).main
@@ -35,4 +40,6 @@ def _run(name: str, module: str) -> int:
 def _remedy(module: str | None) -> str:
     if module in PLAIN:
         return f"pip install {module}"
+    if module and module.startswith("rerun"):
+        return "pip install 'symtop_ros[playback]'"
     return "source a ROS 2, or pip install 'symtop_ros[ros]'"

@@ -14,9 +14,10 @@ from symtop_ros.playback.batch import Batch, Columns
 from symtop_ros.playback.scene import paths, quantities, surroundings
 from symtop_ros.playback.scene.blueprint import blueprint
 from symtop_ros.playback.scene.colors import BLUE, GOLD, GREEN, ORANGE, RED
+from symtop_ros.playback.scene.framing import Framing
 from symtop_ros.playback.scene.mesh import top_mesh
 from symtop_ros.playback.scene.panel import panel
-from symtop_ros.playback.scene.trace import Trace, trail_of
+from symtop_ros.playback.scene.trace import Trace
 from symtop_ros.run.events import Event
 from symtop_ros.run.segment import Segment
 
@@ -94,11 +95,12 @@ class Scene:
         self._reference = None
         top = self._segment.path.top
         if before is None:
-            self._lay_out(trail_of(self._segment), surroundings.is_low(self._segment.path))
+            self._lay_out(Framing.of(self._segment))
         self._set_time(event.stamp)
         if before is None or before.path.top != top:
             self._body(top)
-        surroundings.draw(self._recording, self._segment.path)
+        low = Framing.of(self._segment).low
+        surroundings.draw(self._recording, self._segment.path, low)
         asked = event.values.get("request", "")
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._recording.log(paths.EVENTS, rr.TextLog(sentence, level="INFO"))
@@ -107,7 +109,7 @@ class Scene:
 
     def _samples(self, columns: Mapping[str, Columns]) -> None:
         if self._segment is None:
-            self._lay_out(None, low=False)
+            self._lay_out(Framing())
             self._body(None)
         attitude = quantities.attitude(columns)
         if attitude:
@@ -162,9 +164,9 @@ class Scene:
             if name in self._scales
         }
 
-    def _lay_out(self, trail: float | None, low: bool) -> None:
-        self._trace.length = trail
-        self._recording.send_blueprint(blueprint(trail, low, live=self._live))
+    def _lay_out(self, framing: Framing) -> None:
+        self._trace.length = framing.trail
+        self._recording.send_blueprint(blueprint(framing, self._live))
 
     def _style(self) -> None:
         for arrow in ARROWS.values():

@@ -12,7 +12,6 @@ from symtop_ros.playback.scene.colors import GREY, ORANGE
 from symtop_ros.playback.scene.mesh import lathe
 
 Real = NDArray[np.float64]
-LOWEST = 1.65  # rad; a little below the horizon
 STONE = (92, 98, 110)
 STONES = (STONE, STONE)
 STAND = ((0.0, -0.02), (0.03, -0.03), (0.05, -0.22), (0.17, -0.28), (0.17, -0.32), (0.0, -0.32))[
@@ -21,14 +20,8 @@ STAND = ((0.0, -0.02), (0.03, -0.03), (0.05, -0.22), (0.17, -0.28), (0.17, -0.32
 AROUND = np.linspace(0, 2 * np.pi, 97)
 
 
-def is_low(path: Motion) -> bool:
-    """Whether the axis goes below the pivot: then there is no stand, and all of the sphere."""
-    return path.top.Mgl < 0 or path.turning_angles[1] > LOWEST
-
-
-def draw(recording: rr.RecordingStream, path: Motion) -> None:
+def draw(recording: rr.RecordingStream, path: Motion, low: bool) -> None:
     """Log the surroundings of a motion: the sphere, the stand and the turning circles."""
-    low = is_low(path)
     tilts = np.pi / 12 * np.arange(1, 12 if low else 7)
     depth = np.pi if low else np.pi / 2
     meridians = [_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6)]
