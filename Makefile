@@ -12,8 +12,8 @@ unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 10
 
-demo: $(VENV)/ros  ## a top on cusps, and its precession hurried through the service
-	@$(BIN)/python -m symtop_ros.client.demo
+demo: $(VENV)/ros  ## a top on cusps, its precession hurried through the service, and the replay
+	@$(BIN)/python -m symtop_ros.demo
 
 test: lint  ## style, types and all tests
 	@$(BIN)/python -m pytest
@@ -30,13 +30,13 @@ clean:  ## remove the environment and what was built
 	rm -rf $(VENV) build install log *.egg-info
 
 $(VENV)/ros: setup.py $(VENV)/bin/python
-	@echo "Setting up .venv: ROS 2, NumPy and SciPy (about 350 MB, once) ..."
-	$(BIN)/python -m pip install --editable '.[ros]'
+	@echo "Setting up .venv: ROS 2, NumPy, SciPy and Rerun (about 1 GB, once) ..."
+	$(BIN)/python -m pip install --editable '.[ros,playback]'
 	@touch $@
 
 $(VENV)/test: setup.py $(VENV)/ros
 	@echo "Setting up .venv: what the tests need (once) ..."
-	$(BIN)/python -m pip install --editable '.[ros,test,lint]'
+	$(BIN)/python -m pip install --editable '.[ros,playback,test,lint]'
 	@touch $@
 
 $(VENV)/bin/python:
