@@ -1,0 +1,141 @@
+"""Our bytes and rclpy's are the same message, for any values and names."""
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import (
+    QuaternionStamped,
+    TransformStamped,
+    TwistStamped,
+    Vector3Stamped,
+    WrenchStamped,
+)
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rclpy.serialization import deserialize_message, serialize_message
+from sensor_msgs.msg import JointState
+
+from symtop_ros.wire import messages
+from symtop_ros.wire.cdr import DecodeError, Reader
+from symtop_ros.wire.layout import Count, Doubles, Layout, Stamp, Text
+
+DOUBLE = st.floats(allow_nan=False)
+STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
+NAME = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
+
+
+def header_of(message, stamp, frame):
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 10**9)
+    message.header.frame_id = frame
+    return message
+
+
+def parts(vector, names):
+    return [getattr(vector, name) for name in names]
+
+
+def numbers_of(message):
+    """The doubles of a message in order."""
+    if isinstance(message, QuaternionStamped):
+        return parts(message.quaternion, "xyzw")
+    if isinstance(message, Vector3Stamped):
+        return parts(message.vector, "xyz")
+    if isinstance(message, TwistStamped):
+        return parts(message.twist.linear, "xyz") + parts(message.twist.angular, "xyz")
+    if isinstance(message, WrenchStamped):
+        return parts(message.wrench.force, "xyz") + parts(message.wrench.torque, "xyz")
+    return [*message.position, *message.velocity]
+
+
+CASES = {
+    "orientation": (QuaternionStamped, messages.quaternion, 4),
+    "angular_velocity": (TwistStamped, messages.twist, 6),
+    "angular_momentum": (Vector3Stamped, messages.vector, 3),
+    "torque": (WrenchStamped, messages.twist, 6),
+    "euler_angles": (JointState, messages.joints, 6),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+@settings(max_examples=60)
+@given(stamp=STAMP, frame=NAME, data=st.data())
+def test_rclpy_reads_what_we_pack_and_we_read_what_rclpy_writes(name, stamp, frame, data):
+    kind, layout, width = CASES[name]
+    numbers = data.draw(st.lists(DOUBLE, min_size=width, max_size=width))
+    packed = layout(frame).pack(stamp, numbers)
+    message = deserialize_message(packed, kind)
+    assert (message.header.stamp.sec, message.header.stamp.nanosec) == divmod(stamp, 10**9)
+    assert message.header.frame_id == frame
+    assert numbers_of(message) == numbers
+    found, refused = messages.unpacked(messages.KINDS[name], [serialize_message(message)])
+    assert not refused
+    assert found[0].stamps.tolist() == [stamp]
+    assert found[0].numbers.tolist() == [numbers]
+    assert found[0].names[0] == frame
+
+
+@pytest.mark.parametrize("name", CASES)
+@settings(max_examples=60)
+@given(stamp=STAMP, frame=NAME, data=st.data())
+def test_byte_for_byte_as_rclpy_but_for_padding(name, stamp, frame, data):
+    kind, layout, width = CASES[name]
+    numbers = data.draw(st.lists(DOUBLE, min_size=width, max_size=width))
+    packed = layout(frame).pack(stamp, numbers)
+    theirs = serialize_message(deserialize_message(packed, kind))
+    assert 0 <= len(theirs) - len(packed) < 8  # rclpy estimates the size of an empty sequence
+    rows = np.frombuffer(theirs[: len(packed)], np.uint8)[None]
+    assert layout(frame).fits(rows)[0]
+    assert layout(frame).unpack(rows)[1].tolist() == [numbers]
+
+
+def test_a_transform_is_a_sequence_of_one_transform_stamped():
+    inner = header_of(TransformStamped(child_frame_id="top"), 5_000_000_007, "world")
+    inner.transform.rotation.x, inner.transform.rotation.w = 0.6, 0.8
+    # a sequence is its length and its elements, each aligned from the same origin; 4 bytes more
+    # before the stamp shift nothing that is aligned to 8 here: world and top pad to the same place
+    packed = messages.transform("world", "top").pack(
+        5_000_000_007, [0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 0.8]
+    )
+    reader = Reader(packed)
+    assert reader.count() == 1
+    assert (reader.integer("i"), reader.integer()) == (5, 7)
+    assert (reader.string(), reader.string()) == ("world", "top")
+    assert packed[-56:] == serialize_message(inner)[-56:]
+
+
+def test_messages_of_several_frames_are_read_each_in_its_layout():
+    one, two = messages.vector("world"), messages.vector("a longer name")
+    packed = [one.pack(1, [1.0, 2.0, 3.0]), two.pack(2, [4.0, 5.0, 6.0]), one.pack(3, [7.0] * 3)]
+    found, refused = messages.unpacked(messages.KINDS["angular_momentum"], packed)
+    assert not refused
+    by_name = {each.names[0]: each for each in found}
+    assert by_name["world"].which.tolist() == [0, 2]
+    assert by_name["a longer name"].numbers.tolist() == [[4.0, 5.0, 6.0]]
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [b"", b"\0", b"\0\1\0\0", b"\1\0\0\0" * 20, b"\0\0\0\0" * 20, b"\0\1\0\0" + b"\xff" * 60],
+)
+@pytest.mark.parametrize("kind", messages.LAYOUT_OF)
+def test_bytes_that_are_no_message_are_refused_and_the_others_read(kind, damaged):
+    name = next(name for name, each in messages.KINDS.items() if each == kind)
+    good = {
+        "tf": messages.transform("world", "top"),
+        **{name: layout("world") for name, (_, layout, _) in CASES.items()},
+    }[name]
+    width = {"tf": 7, **{name: width for name, (_, _, width) in CASES.items()}}[name]
+    found, refused = messages.unpacked(kind, [damaged, good.pack(1, [0.5] * width), damaged])
+    assert len(refused) == 2
+    assert found[0].which.tolist() == [1]
+
+
+def test_a_sequence_cannot_announce_more_than_there_is():
+    with pytest.raises(DecodeError, match="a sequence of 4294967295 in 12 bytes"):
+        Reader(b"\0\1\0\0" + b"\xff" * 8).strings()
+
+
+def test_doubles_are_aligned_to_eight_from_the_end_of_the_header():
+    layout = Layout(Stamp(), Text("abc"), Count(1), Doubles(1))
+    packed = layout.pack(0, [1.0])
+    assert len(packed) == 4 + 24 + 8
+    assert packed[28:] == np.float64(1.0).tobytes()
