@@ -30,6 +30,8 @@ PLAYBACK = [
 TEST = [
     "pytest>=8",
     "hypothesis>=6.100",  # random tops, and the worst of them again
+    "rosbags>=0.10",  # an independent reader of logs
+    "pillow>=10",  # rendered scenes are looked at
     "mpmath>=1.3",  # the reference: elliptic functions to any number of digits
 ]
 LINT = [

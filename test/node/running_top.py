@@ -52,10 +52,10 @@ class RunningTop:
             assert time.monotonic() < deadline, "the condition did not come true in time"
             self.executor.spin_once(timeout_sec=0.05)
 
-    def collect(self, kind: Any, topic: str, qos: Any = 1000) -> list[Any]:
-        """Subscribe, and return the list that messages come into."""
+    def collect(self, kind: Any, topic: str, qos: Any = 1000, raw: bool = False) -> list[Any]:
+        """Subscribe, and return the list that messages (or their bytes) come into."""
         messages: list[Any] = []
-        self.user.create_subscription(kind, topic, messages.append, qos)
+        self.user.create_subscription(kind, topic, messages.append, qos, raw=raw)
         return messages
 
     def set(self, service: str, **values: Any) -> tuple[bool, str]:

@@ -67,6 +67,8 @@ class Scene:
         self._recording, self._live = recording, live
         self._origin: int | None = None
         self._segment: Segment | None = None
+        self._framing: Framing | None = None
+        self._top: Top | None = None
         self._scales: dict[
             str, float
         ] = {}  # of the arrows: units of the vector in one of the scene
@@ -91,16 +93,19 @@ class Scene:
         self._recording.log(paths.EVENTS, rr.TextLog(sentence, level=level))
 
     def _event(self, event: Event) -> None:
-        before, self._segment = self._segment, event.segment()
+        self._segment = event.segment()
         self._reference = None
-        top = self._segment.path.top
+        path, framing = self._segment.path, Framing.of(self._segment)
+        before, self._framing = self._framing, framing
         if before is None:
-            self._lay_out(Framing.of(self._segment))
+            self._lay_out(framing)
         self._set_time(event.stamp)
-        if before is None or before.path.top != top:
-            self._body(top)
-        low = Framing.of(self._segment).low
-        surroundings.draw(self._recording, self._segment.path, low)
+        if self._top != path.top:
+            self._body(path.top)
+        if before is None or before.low != framing.low:
+            surroundings.draw(self._recording, framing.low)
+        circles = surroundings.circles(path.turning_angles)
+        self._recording.log(paths.CIRCLES, circles)
         asked = event.values.get("request", "")
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._recording.log(paths.EVENTS, rr.TextLog(sentence, level="INFO"))
@@ -108,8 +113,9 @@ class Scene:
         self._recording.log(paths.PANEL, rr.TextDocument(text, media_type="text/markdown"))
 
     def _samples(self, columns: Mapping[str, Columns]) -> None:
-        if self._segment is None:
-            self._lay_out(Framing())
+        if self._framing is None:  # no event has said which top it is
+            self._framing = Framing()
+            self._lay_out(self._framing)
             self._body(None)
         attitude = quantities.attitude(columns)
         if attitude:
@@ -184,6 +190,7 @@ class Scene:
             self._recording.log(path, series, static=True)
 
     def _body(self, top: Top | None) -> None:
+        self._top = top
         self._recording.log(paths.BODY, top_mesh(top).drawn())
 
     def _scalars(self, path: str, stamps: Stamps, values: Real) -> None:

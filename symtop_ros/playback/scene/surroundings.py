@@ -6,7 +6,6 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from symtop_ros.physics import Motion
 from symtop_ros.playback.scene import paths
 from symtop_ros.playback.scene.colors import GREY, ORANGE
 from symtop_ros.playback.scene.mesh import lathe
@@ -20,16 +19,20 @@ STAND = ((0.0, -0.02), (0.03, -0.03), (0.05, -0.22), (0.17, -0.28), (0.17, -0.32
 AROUND = np.linspace(0, 2 * np.pi, 97)
 
 
-def draw(recording: rr.RecordingStream, path: Motion, low: bool) -> None:
-    """Log the surroundings of a motion: the sphere, the stand and the turning circles."""
+def draw(recording: rr.RecordingStream, low: bool) -> None:
+    """Log the sphere, and above it a stand, unless the axis goes below the pivot."""
     tilts = np.pi / 12 * np.arange(1, 12 if low else 7)
     depth = np.pi if low else np.pi / 2
     meridians = [_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6)]
     sphere = [_parallel(tilt) for tilt in tilts] + meridians
     recording.log(paths.SPHERE, rr.LineStrips3D(sphere, colors=[GREY], radii=[0.0014]))
     recording.log(paths.STAND, rr.Clear(recursive=False) if low else lathe(STAND, STONES).drawn())
-    lines = [_parallel(angle) for angle in path.turning_angles]
-    recording.log(paths.CIRCLES, rr.LineStrips3D(lines, colors=[ORANGE], radii=[0.004]))
+
+
+def circles(turning_angles: tuple[float, float]) -> rr.LineStrips3D:
+    """Return the circles between which the axis nutates."""
+    lines = [_parallel(angle) for angle in turning_angles]
+    return rr.LineStrips3D(lines, colors=[ORANGE], radii=[0.004])
 
 
 def line_of_nodes(phi: Real) -> Real:

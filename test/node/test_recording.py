@@ -1,0 +1,259 @@
+"""What the node logs: the bytes it publishes, all of them, whatever ends it."""
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import QuaternionStamped
+from node.running_top import LATCHED, facts, stamp_of
+from programs import command, environment
+from rosbags.highlevel import AnyReader
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+from symtop_ros.node.fields import RefusedError
+from symtop_ros.playback.check import check
+from symtop_ros.playback.mcap_file import McapFile
+from symtop_ros.playback.top_log import TopLog
+
+DOMAIN = 97
+STATES = ("orientation", "angular_velocity", "angular_momentum", "torque", "euler_angles")
+TOPICS = {
+    "/robot_description",
+    "/tf",
+    "/diagnostics",
+    "/top/events",
+    *(f"/top/{name}" for name in STATES),
+}
+
+
+def messages_of(path):
+    """Topic, log time and bytes, in the order of the file."""
+    file = McapFile(path)
+    return [
+        (file.channels[message.channel_id].topic, message.log_time, message.data)
+        for chunk in file.chunks()
+        for message in chunk
+    ]
+
+
+def stop_and_read(run):
+    granted, answer = run.switch("record", False)
+    assert granted
+    return Path(answer.removeprefix("recorded to "))
+
+
+def test_the_log_holds_the_bytes_that_were_published(start_top, tmp_path):
+    run = start_top(publish_rate=500.0, record__directory=str(tmp_path), publish_clock=True)
+    published = run.collect(QuaternionStamped, "/top/orientation", raw=True)
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED, raw=True)
+    clocks = run.collect(Clock, "/clock", raw=True)
+    run.spin_until(lambda: published and events and clocks)
+    granted, answer = run.switch("record", True)
+    assert granted
+    path = tmp_path / Path(answer.removeprefix("recording to ")).name
+    assert run.switch("record", True) == (True, f"recording already, to {path}")
+    heard = len(published)
+    run.spin_until(lambda: len(published) > heard + 700)  # more than one flush, and /diagnostics
+    assert run.trigger("hurry_precession")[0]
+    run.spin_until(lambda: len(published) > heard + 800)
+    assert stop_and_read(run) == path
+    assert run.switch("record", False) == (True, "not recording")
+    logged = messages_of(path)
+    assert {topic for topic, _, _ in logged} == {*TOPICS, "/clock"}
+    assert logged[0][0] == "/top/events"
+    for topic, found in (("/top/orientation", published), ("/clock", clocks)):
+        inside = [data for name, _, data in logged if name == topic]
+        first = found.index(inside[0])
+        length = min(len(inside), len(found) - first)
+        assert length > 700
+        assert inside[:length] == found[first : first + length]
+    kicks = [data for name, _, data in logged if name == "/top/events" and b"top: kick" in data]
+    assert kicks == [data for data in events if b"top: kick" in data]
+
+
+def test_samples_of_a_log_are_complete_and_share_their_stamps(start_top, tmp_path):
+    run = start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
+    deadline = time.monotonic() + 1.0
+    run.spin_until(lambda: time.monotonic() > deadline)
+    logged = messages_of(stop_and_read(run))
+    stamps = {
+        name: [log_time for topic, log_time, _ in logged if topic == name]
+        for name in ("/tf", *(f"/top/{name}" for name in STATES))
+    }
+    grid = stamps["/tf"]
+    assert len(grid) > 400
+    assert {b - a for a, b in pairwise(grid)} == {2_000_000}
+    assert all(each == grid for each in stamps.values())
+
+
+def test_a_run_with_everything_in_it_is_computed_again_from_its_log(start_top, tmp_path):
+    run = start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
+    angles = run.collect(JointState, "/top/euler_angles")
+
+    def go_on():
+        seen = len(angles)
+        run.spin_until(lambda: len(angles) > seen + 20)
+
+    parameters = "set_parameters_atomically"
+    for act in (
+        lambda: run.trigger("hurry_precession"),
+        lambda: run.switch("pause", True),
+        lambda: run.set("step", duration=0.1),
+        lambda: run.set("kick", angular_impulse=[0.0, 1e-4, 1e-4]),
+        lambda: run.switch("pause", False),
+        lambda: run.connection.set(parameters, {"real_time_factor": 3.0}),
+        lambda: run.connection.set(parameters, {"top.Mgl": 0.0}),
+        lambda: run.connection.set(parameters, {"publish_rate": 300.0}),
+        lambda: run.set("set_initial_conditions", theta=0.0, psi_dot=100.0),
+        lambda: run.trigger("reset"),
+    ):
+        granted, answer = act()
+        assert granted, answer
+        go_on()
+    log = TopLog(McapFile(stop_and_read(run)))
+    deviations = check(log)
+    assert set(deviations) == {*STATES, "tf"}
+    for deviation in deviations.values():
+        assert deviation.samples > 200
+        assert (deviation.largest, deviation.unchecked) == (0.0, 0)
+    assert log.problems == []
+
+
+def test_a_log_that_begins_in_the_middle_of_a_run_stands_alone(start_top, tmp_path):
+    run = start_top(record__directory=str(tmp_path), record__max_duration=0.5)
+    run.trigger("hurry_precession")
+    deadline = time.monotonic() + 0.3
+    run.spin_until(lambda: time.monotonic() > deadline)
+    run.switch("record", True)
+    run.spin_until(lambda: len(list(tmp_path.iterdir())) == 3)
+    stop_and_read(run)
+    for path in tmp_path.iterdir():
+        log = TopLog(McapFile(path))
+        deviations = check(log)
+        assert all(each.largest == 0.0 and not each.unchecked for each in deviations.values())
+        assert log.problems == []
+
+
+def test_a_folder_that_cannot_be_written_is_refused_and_the_motion_goes_on(start_top, tmp_path):
+    (tmp_path / "file").write_text("")
+    folder = str(tmp_path / "file" / "logs")
+    run = start_top(record__directory=folder)
+    granted, answer = run.switch("record", True)
+    assert not granted
+    assert answer == f"record: no log in {folder!r}: Not a directory"
+    assert json.loads(run.trigger("get_state")[1])["running"]
+    with pytest.raises(RefusedError, match="record: no log in"):
+        start_top(record__directory=folder, record__enabled=True)
+
+
+def test_a_folder_that_vanishes_ends_the_recording_and_not_the_simulation(start_top, tmp_path):
+    run = start_top(publish_rate=200.0, record__enabled=True, record__directory=str(tmp_path / "x"))
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    diagnostics = run.collect(DiagnosticArray, "/diagnostics")
+    angles = run.collect(JointState, "/top/euler_angles")
+    run.spin_until(lambda: len(angles) > 10)
+    shutil.rmtree(tmp_path / "x")
+    run.spin_until(lambda: events and "recording stopped" in events[-1].status[0].message)
+    assert events[-1].status[0].message.endswith("it has vanished")
+    run.spin_until(lambda: diagnostics and diagnostics[-1].status[2].level == b"\2")
+    assert "it has vanished" in diagnostics[-1].status[2].message
+    seen = len(angles)
+    run.spin_until(lambda: len(angles) > seen + 10)
+    told = [each for each in events if "recording stopped" in each.status[0].message]
+    assert len(told) == 1
+    assert facts(told[0])["motion.running"] == "true"
+    granted, answer = run.switch("record", True)
+    assert granted
+    assert "recording to" in answer
+
+
+def test_the_folder_cannot_be_chosen_while_the_node_runs(start_top):
+    run = start_top()
+    for name, value in (("record.directory", "/etc"), ("record.enabled", True)):
+        granted, _ = run.connection.set("set_parameters_atomically", {name: value})
+        assert not granted
+
+
+def test_a_description_that_changes_is_logged_anew(start_top, tmp_path):
+    run = start_top(record__enabled=True, record__directory=str(tmp_path))
+    heard = run.collect(String, "/robot_description", LATCHED)
+    run.connection.set("set_parameters_atomically", {"top.Iz": 1e-4})
+    run.spin_until(lambda: len(heard) >= 1 and "0.0001" in heard[-1].data)
+    logged = messages_of(stop_and_read(run))
+    assert len([topic for topic, _, _ in logged if topic == "/robot_description"]) == 2
+
+
+# as processes
+
+
+def started(folder, rate=1000.0):
+    parameters = (f"publish_rate:={rate}", "record.enabled:=true", f"record.directory:={folder}")
+    words = [word for parameter in parameters for word in ("-p", parameter)]
+    arguments = ["--ros-args", *words, "--log-level", "error"]
+    node = subprocess.Popen(command("top_node", *arguments), env=environment(DOMAIN))
+    deadline = time.monotonic() + 20
+    while not (logs := list(folder.glob("*.mcap"))):
+        assert node.poll() is None
+        assert time.monotonic() < deadline, "no log in time"
+        time.sleep(0.01)
+    return node, logs[0]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
+    node, path = started(tmp_path)
+    time.sleep(0.7)
+    node.send_signal(number)
+    sent = time.time()
+    assert node.wait(timeout=20) == 0
+    file = McapFile(path)
+    log_times = [message.log_time for chunk in file.chunks() for message in chunk]
+    assert file.problems == []
+    assert file.metadata["symtop_ros.end"] == {"dropped": "0"}
+    assert sent - log_times[-1] * 1e-9 < 0.6
+
+
+def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path):
+    rng = random.Random(3)
+    for attempt in range(20):
+        folder = tmp_path / str(attempt)
+        folder.mkdir()
+        node, path = started(folder)
+        time.sleep(rng.uniform(0.5, 1.5))
+        killed = time.time()
+        os.kill(node.pid, signal.SIGKILL)
+        node.wait()
+        log = TopLog(McapFile(path))
+        deviations = check(log)
+        assert set(deviations) == {*STATES, "tf"}
+        assert all(each.largest == 0.0 and not each.unchecked for each in deviations.values())
+        latest = max(message.log_time for chunk in McapFile(path).chunks() for message in chunk)
+        assert killed - latest * 1e-9 < 0.6
+        assert len(log.problems) == 1
+        assert "nothing after" in log.problems[0]
+
+
+def test_an_independent_reader_agrees_message_for_message(start_top, tmp_path):
+    run = start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
+    run.trigger("hurry_precession")
+    deadline = time.monotonic() + 1.2
+    run.spin_until(lambda: time.monotonic() > deadline)
+    path = stop_and_read(run)
+    ours = sorted(messages_of(path))
+    with AnyReader([path]) as reader:
+        theirs = [(each.topic, stamp, bytes(data)) for each, stamp, data in reader.messages()]
+        assert sorted(theirs) == ours
+        for connection, stamp, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            if hasattr(message, "header") and connection.topic != "/top/events":
+                assert stamp_of(message) == stamp
