@@ -18,15 +18,25 @@ import lz4.frame
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.reader import SeekingReader
-from mcap.records import Channel, Chunk, Header, McapRecord, Message, MessageIndex, Metadata, Schema
-from mcap.stream_reader import breakup_chunk
+from mcap.records import (
+    Channel,
+    Chunk,
+    ChunkIndex,
+    Footer,
+    Header,
+    McapRecord,
+    Message,
+    MessageIndex,
+    Metadata,
+    Schema,
+)
+from mcap.stream_reader import StreamReader, breakup_chunk
 
 MAGIC = b"\x89MCAP0\r\n"
 LARGEST = 256 * 2**20  # bytes of a chunk, packed or not; ours have at most 4 MiB
 START = struct.Struct("<BQ")  # opcode and length of a record
+FOOTER = START.size + 20 + len(MAGIC)  # the end of a whole file
 PARSED = {
-    Opcode.HEADER: lambda data, stream: Header.read(stream),
     Opcode.SCHEMA: lambda data, stream: Schema.read(stream),
     Opcode.CHANNEL: lambda data, stream: Channel.read(stream),
     Opcode.MESSAGE: lambda data, stream: Message.read(stream, len(data)),
@@ -124,16 +134,19 @@ class McapFile:
         return (log_time - self._span[0]) * 1e-9 if self._span else 0.0
 
     def _read_summary(self, file: BinaryIO) -> None:
-        """Take what the index at the end says, where there is one."""
-        file.seek(0)
+        """Take what the header says, and the index at the end, where there is one."""
         with suppress(Exception):
-            summary = SeekingReader(file, record_size_limit=LARGEST).get_summary()
-            if summary:
-                self.schemas.update(summary.schemas)
-                self.channels.update(summary.channels)
-                self._chunk_offsets = sorted(
-                    each.chunk_start_offset for each in summary.chunk_indexes
-                )
+            header = next(_records_at(file, len(MAGIC)))
+            self.profile = header.profile if isinstance(header, Header) else ""
+        with suppress(Exception):
+            footer = next(_records_at(file, self.size - FOOTER))
+            start = footer.summary_start if isinstance(footer, Footer) else 0
+            for record in _records_at(file, start) if start else ():
+                if isinstance(record, Schema | Channel):
+                    self._take([record])
+                if isinstance(record, ChunkIndex):
+                    self._chunk_offsets.append(record.chunk_start_offset)
+        self._chunk_offsets.sort()
 
     def _records(self, file: BinaryIO) -> Iterator[Record]:
         """Yield records up to the end of the data, past what is no record if an index tells how."""
@@ -161,8 +174,6 @@ class McapFile:
                 self.schemas[record.id] = record
             elif isinstance(record, Channel):
                 self.channels[record.id] = record
-            elif isinstance(record, Header):
-                self.profile = record.profile
             elif isinstance(record, Metadata):
                 self.metadata[record.name] = record.metadata
         if messages:
@@ -207,6 +218,13 @@ class McapFile:
             self.problems.append(
                 f"the recording was cut short: nothing after {latest:.3f} s is in it"
             )
+
+
+def _records_at(file: BinaryIO, offset: int) -> Iterator[McapRecord]:
+    """Read records from somewhere on; chunks stay packed."""
+    file.seek(offset)
+    reader = StreamReader(file, skip_magic=True, emit_chunks=True, record_size_limit=LARGEST)
+    return iter(reader.records)
 
 
 def _stream(data: bytes) -> ReadDataStream:

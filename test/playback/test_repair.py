@@ -1,0 +1,47 @@
+import pytest
+from mcap.reader import make_reader
+from rosbags.highlevel import AnyReader
+
+from logs import Run
+from symtop_ros.playback.mcap_file import LogError, McapFile
+from symtop_ros.playback.repair import repair
+
+RUN = Run()
+
+
+@pytest.fixture
+def cut(tmp_path):
+    whole = RUN.write(tmp_path / "logs").read_bytes()
+    path = tmp_path / "cut.mcap"
+    path.write_bytes(whole[: len(whole) * 2 // 3])
+    return path
+
+
+def test_what_is_readable_becomes_a_whole_file_for_every_reader(cut, tmp_path):
+    target = tmp_path / "whole.mcap"
+    file = McapFile(cut)
+    count = repair(file, target)
+    assert 0 < count < len(RUN.messages)
+    assert "nothing after" in file.problems[0]
+    with target.open("rb") as stream:
+        reader = make_reader(stream, validate_crcs=True)
+        assert reader.get_summary().statistics.message_count == count
+        channels = reader.get_summary().channels.values()
+        assert {each.metadata["topic_type_hash"][:7] for each in channels} == {"RIHS01_"}
+        messages = [message.data for _, _, message in reader.iter_messages(log_time_order=False)]
+    assert messages == [data for _, _, data in RUN.messages[:count]]
+    with AnyReader([target]) as other:
+        assert sum(1 for _ in other.messages()) == count
+
+
+def test_the_target_is_never_overwritten(cut, tmp_path):
+    target = tmp_path / "there.mcap"
+    target.write_text("mine")
+    with pytest.raises(LogError, match=r"there\.mcap exists already, and is not overwritten"):
+        repair(McapFile(cut), target)
+    assert target.read_text() == "mine"
+
+
+def test_a_target_that_cannot_be_written_is_told(cut, tmp_path):
+    with pytest.raises(LogError, match="No such file or directory"):
+        repair(McapFile(cut), tmp_path / "none" / "whole.mcap")
