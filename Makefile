@@ -15,7 +15,7 @@ help:  ## this list
 demo: $(VENV)/ros  ## a top on cusps, its precession hurried through the service, and the replay
 	@$(BIN)/python -m symtop_ros.demo
 
-test: lint  ## style, types and all tests
+test: lint $(VENV)/vulkan  ## style, types and all tests
 	@$(BIN)/python -m pytest
 
 lint: $(VENV)/test
@@ -37,6 +37,11 @@ $(VENV)/ros: setup.py $(VENV)/bin/python
 $(VENV)/test: setup.py $(VENV)/ros
 	@echo "Setting up .venv: what the tests need (once) ..."
 	$(BIN)/python -m pip install --editable '.[ros,playback,test,lint]'
+	@touch $@
+
+$(VENV)/vulkan: test/get_vulkan.sh $(VENV)/bin/python
+	@echo "Setting up .venv: a software Vulkan driver, for pictures without a screen (once) ..."
+	@sh test/get_vulkan.sh $@
 	@touch $@
 
 $(VENV)/bin/python:

@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 from rclpy.serialization import serialize_message
+from std_msgs.msg import String
 
 from symtop_ros.node.messages import event_message
+from symtop_ros.node.urdf import robot_description
 from symtop_ros.physics import State, Top, hurry
 from symtop_ros.recording.log_file import Channel, LogFile
 from symtop_ros.run.events import Event
@@ -42,6 +44,7 @@ class Run:
     seconds: float = 2.0
     rate: float = 200.0
     hurried: bool = True
+    described: bool = False
     messages: list[tuple[str, int, bytes]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -73,9 +76,13 @@ class Run:
         """Write the log, with a chunk of each half second, and return its path."""
         kinds = {"events": "diagnostic_msgs/msg/DiagnosticArray", **messages.KINDS}
         channels = [Channel(topic(name), kind) for name, kind in kinds.items()]
+        channels.append(Channel("/robot_description", "std_msgs/msg/String"))
         numbers = {name: number for number, name in enumerate(kinds)}
         log = LogFile(folder, channels, {"version": "test"}, {})
         flushed = BEGIN
+        if self.described:
+            text = robot_description(self.top, "world", "top")
+            log.write(len(kinds), BEGIN, serialize_message(String(data=text)))
         for name, stamp, data in self.messages:
             if stamp - flushed >= 500_000_000:
                 log.flush()

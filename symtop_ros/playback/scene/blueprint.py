@@ -10,7 +10,7 @@ from symtop_ros.playback.scene.framing import Framing
 
 # eye and what it looks at, in scene units: from the front, a little above
 UPPER = ((1.55, -1.75, 1.05), (0.0, 0.0, 0.46))
-WHOLE = ((2.1, -2.4, 1.0), (0.0, 0.0, 0.0))
+WHOLE = ((1.85, -2.1, 0.9), (0.0, 0.0, 0.0))
 
 
 def blueprint(framing: Framing, live: bool) -> rrb.Blueprint:

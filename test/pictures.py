@@ -1,0 +1,99 @@
+"""Rerun's viewer without a screen: renders recordings to PNG and reports what is wrong in them."""
+
+from __future__ import annotations
+
+import contextlib
+import glob
+import io
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rerun_cli
+from PIL import Image
+from rerun.experimental import ViewerClient
+
+from symtop_ros.playback import viewer
+
+DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one
+TIMEOUT = 30.0
+SIZE = "1600x900"
+
+
+def _environment() -> dict[str, str]:
+    """A software driver of our own, or whatever is installed."""
+    libraries = glob.glob(f"{DRIVER}/usr/lib/*/libvulkan_lvp.so")
+    if not libraries:
+        if not glob.glob("/usr/share/vulkan/icd.d/*.json"):
+            pytest.skip(
+                "no Vulkan driver: sh test/get_vulkan.sh .venv/vulkan, or mesa-vulkan-drivers"
+            )
+        return dict(os.environ)
+    manifest = DRIVER / "icd.json"
+    icd = {"api_version": "1.1.230", "library_path": libraries[0]}
+    manifest.write_text(json.dumps({"ICD": icd, "file_format_version": "1.0.0"}))
+    folders = [str(Path(libraries[0]).parent), os.environ.get("LD_LIBRARY_PATH", "")]
+    return {
+        **os.environ,
+        "VK_ICD_FILENAMES": str(manifest),
+        "LD_LIBRARY_PATH": os.pathsep.join(filter(None, folders)),
+    }
+
+
+@contextlib.contextmanager
+def running_viewer(*files: Path, port: int | None = None) -> Iterator[tuple[ViewerClient, int]]:
+    """A viewer of files, and the port it listens on; it has ended afterwards."""
+    port = port or viewer.free_port()
+    program = Path(rerun_cli.__file__).parent / "rerun"
+    options = ["--bind", viewer.HOST, "--port", str(port), "--headless", "--window-size", SIZE]
+    process = subprocess.Popen(
+        [program, *options, *map(str, files)],
+        env=_environment(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        yield _connected(port, process), port
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def _connected(port: int, process: subprocess.Popen[bytes]) -> ViewerClient:
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        assert process.poll() is None, "the viewer ended"
+        try:
+            client = ViewerClient.connect(f"rerun+http://{viewer.HOST}:{port}/proxy")
+            client.get_state()
+            return client
+        except Exception:
+            assert time.monotonic() < deadline, "the viewer did not answer"
+            time.sleep(0.1)
+
+
+def views(client: ViewerClient, count: int) -> dict[str, Any]:
+    """Views by name, as soon as there are so many."""
+    deadline = time.monotonic() + TIMEOUT
+    while len(found := client.get_state().views) < count:
+        assert time.monotonic() < deadline, f"only {[each.name for each in found]}"
+        time.sleep(0.1)
+    return {each.name: each for each in found}
+
+
+def picture(client: ViewerClient, view: Any = None) -> np.ndarray:
+    """What is drawn, (height, width, 3), when it does not change any more."""
+    deadline = time.monotonic() + TIMEOUT
+    before = None
+    while (shot := client.take_screenshot(view and view.view_id)) != before:
+        assert time.monotonic() < deadline, "the picture never came to rest"
+        before = shot
+        time.sleep(0.2)
+    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"))

@@ -1,0 +1,113 @@
+"""What people will see: scenes rendered without a screen, checked against the log."""
+
+import numpy as np
+import pytest
+import rerun as rr
+import rerun.blueprint as rrb
+from pictures import picture, running_viewer, views
+from PIL import Image
+
+from logs import ARTICLE, BEGIN, Run
+from symtop_ros.physics import State, Top, motion, regular_precession_rates
+from symtop_ros.playback.mcap_file import McapFile
+from symtop_ros.playback.replay import replay
+from symtop_ros.playback.scene import paths
+from symtop_ros.playback.scene.blueprint import UPPER, WHOLE
+from symtop_ros.playback.scene.scene import Scene
+from symtop_ros.playback.top_log import TopLog
+
+FOV = np.radians(55.0)  # vertical, Rerun's own
+SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
+HANGING = Top(2.28e-4, 5.72e-5, -0.068)
+SCENES = {
+    "cusps": Run(seconds=1.5, hurried=False),
+    "regular": Run(
+        start=State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0), seconds=1.5, hurried=False
+    ),
+    "hurried": Run(seconds=1.5),
+    "hanging": Run(HANGING, State.from_euler(theta=0.6, phi_dot=1.0, psi_dot=100.0), hurried=False),
+}
+
+
+@pytest.mark.parametrize("name", ["cusps", "regular", "hurried", "hanging"])
+def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
+    target = tmp_path / f"{name}.rrd"
+    replay(TopLog(McapFile(SCENES[name].write(tmp_path))), target)
+    with running_viewer(target) as (client, _):
+        found = views(client, 9)
+        client.set_time(paths.TIMELINE, duration=1.2, play_state="paused")
+        shot = picture(client)
+        Image.fromarray(shot).save(tmp_path / f"{name}.png")
+        assert {each.origin for each in found.values()} == {
+            paths.SPACE,
+            paths.PANEL,
+            paths.EVENTS,
+            *paths.PLOTS,
+        }
+        assert [each.reports for each in views(client, 9).values()] == [[]] * 9
+        drawn = picture(client, found["the top"])
+    assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500  # shaded bodies, not an empty view
+
+
+def projected(point, eye, target, shape):
+    """Pixel (x, y) of a point, seen from an eye with z up."""
+    forward = np.subtract(target, eye)
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0, 0, 1])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    away = np.subtract(point, eye)
+    height, width = shape[:2]
+    scale = height / 2 / np.tan(FOV / 2) / (away @ forward)
+    return np.array([width / 2 + scale * (away @ right), height / 2 - scale * (away @ up)])
+
+
+@pytest.mark.parametrize("name", ["cusps", "regular", "hurried", "hanging"])
+def test_the_axis_is_drawn_where_the_log_says(name, tmp_path):
+    run = SCENES[name]
+    recording = rr.RecordingStream("test")
+    recording.save(tmp_path / "body.rrd")
+    scene = Scene(recording)
+    for batch in TopLog(McapFile(run.write(tmp_path))).batches():
+        scene.send(batch)
+    eye, target = WHOLE if name == "hanging" else UPPER
+    alone = rrb.Spatial3DView(
+        origin=paths.SPACE,
+        contents=[paths.BODY],
+        background=(0, 0, 255),
+        line_grid=False,
+        eye_controls=rrb.EyeControls3D(position=eye, look_target=target, eye_up=(0, 0, 1)),
+    )
+    recording.send_blueprint(rrb.Blueprint(alone, rrb.TimePanel(timeline=paths.TIMELINE)))
+    recording.flush()
+    recording.disconnect()
+    with running_viewer(tmp_path / "body.rrd") as (client, _):
+        view = next(iter(views(client, 1).values()))
+        for seconds in (0.2, 0.5, 0.7):
+            client.set_time(paths.TIMELINE, duration=seconds, play_state="paused")
+            shot = picture(client, view)
+            axis = motion(run.top, run.start).at(seconds).to_world([0.0, 0.0, 1.0])
+            pivot = projected([0.0, 0.0, 0.0], eye, target, shot.shape)
+            tip = projected(axis, eye, target, shot.shape)
+            drawn = np.abs(shot.astype(int) - shot[0, 0]).max(axis=2) > 60
+            drawn[:, shot.shape[1] * 4 // 5 :] = False  # where the viewer shows its own notes
+            ys, xs = np.nonzero(drawn)
+            along = (np.stack([xs, ys], axis=1) - pivot) @ (tip - pivot)
+            end = np.array([xs[along.argmax()], ys[along.argmax()]])
+            # half the width of the axle's end, and the edge of a pixel
+            assert np.linalg.norm(end - tip) < 0.04 * np.linalg.norm(tip - pivot) + 2
+
+
+def test_rerun_shows_the_turning_top_of_a_log_by_itself(tmp_path):
+    path = Run(described=True).write(tmp_path)
+    shots = []
+    with running_viewer(path) as (client, _):
+        for seconds in (0.2, 0.8):
+            stamp = BEGIN * 1e-9 + seconds
+            found = views(client, 4)
+            client.set_time("message_log_time", timestamp=stamp, play_state="paused")
+            space = next(each for each in found.values() if each.view_class == "3D")
+            shots.append(picture(client, space))
+            assert all(not each.reports for each in views(client, 4).values())
+    changed = np.abs(shots[0].astype(int) - shots[1]).max(axis=2) > 60
+    assert changed.mean() > 0.005
