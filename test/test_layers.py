@@ -8,11 +8,20 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "symtop_ros"
 MESSAGES = ("rclpy", "geometry_msgs", "sensor_msgs")
+ARRAYS = {"numpy", "scipy", "symtop_ros.physics"}
 ALLOWED = {
-    "physics": {"numpy", "scipy", "symtop_ros.physics"},
+    "physics": ARRAYS,
+    "run": {*ARRAYS, "symtop_ros.run"},
+    "wire": {"numpy", "symtop_ros.wire"},
+    "recording": {"mcap", "symtop_ros", "symtop_ros.recording"},
+    "playback": {
+        *ARRAYS,
+        *("mcap", "lz4", "zstandard", "rerun", "rerun_cli"),
+        *("symtop_ros.run", "symtop_ros.wire", "symtop_ros.playback"),
+    },
     "report": {"numpy", "scipy", "symtop_ros.physics", "symtop_ros.report", *MESSAGES},
 }
-FORBIDDEN = {"client": "symtop_ros.physics", "node": "symtop_ros.client"}
+FORBIDDEN = {"client": ("symtop_ros.physics",), "node": ("symtop_ros.client", "rerun")}
 
 
 def imported(layer):

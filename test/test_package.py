@@ -32,7 +32,7 @@ def assert_tree(prefix, programs):
     assert (prefix / "share/symtop_ros/package.xml").is_file()
     installed = (prefix / "share/symtop_ros/config").glob("*.yaml")
     assert sorted(path.name for path in installed) == SCENES
-    for name in ("top_node", "top_ctl", "top_report"):
+    for name in ("top_node", "top_ctl", "top_replay", "top_live", "top_report"):
         assert os.access(programs / name, os.X_OK)
 
 

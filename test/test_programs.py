@@ -6,7 +6,7 @@ import pytest
 from symtop_ros import programs
 
 
-@pytest.mark.parametrize("program", [programs.top_node, programs.top_ctl])
+@pytest.mark.parametrize("program", [programs.top_node, programs.top_ctl, programs.top_live])
 def test_without_ros_a_program_says_what_is_missing(program, monkeypatch, capsys):
     original = builtins.__import__
 

@@ -1,0 +1,95 @@
+"""top_live between a real node and a real viewer, either of which may go and come back."""
+
+import subprocess
+import time
+
+import pytest
+from pictures import picture, running_viewer, views
+from programs import command, environment, run, running_node
+
+from symtop_ros.playback import viewer
+
+DOMAIN = 96
+TIMEOUT = 30.0
+
+
+@pytest.fixture
+def live():
+    """top_live on a port on which nothing listens yet, and the port."""
+    port = viewer.free_port()
+    with running_viewer(port=port) as (client, _):
+        arguments = ["--port", str(port)]
+        process = subprocess.Popen(
+            command("top_live", *arguments),
+            env=environment(DOMAIN),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        try:
+            yield process, client, port
+        finally:
+            process.terminate()
+            process.wait(timeout=20)
+
+
+def moving(client):
+    """Wait until the top is seen to move."""
+    space = views(client, 9)["the top"]
+    first = picture_now(client, space)
+    deadline = time.monotonic() + TIMEOUT
+    while picture_now(client, space) == first:
+        assert time.monotonic() < deadline, "nothing moves"
+        time.sleep(0.2)
+
+
+def picture_now(client, view):
+    return client.take_screenshot(view.view_id)
+
+
+def test_the_scene_follows_a_node_and_finds_it_again(live):
+    _, client, _ = live
+    for scene in ("cusps", "looping"):
+        with running_node(DOMAIN, f"scene:={scene}"):
+            moving(client)
+            assert run("top_ctl", "hurry", domain=DOMAIN).returncode == 0
+            assert all(not each.reports for each in views(client, 9).values())
+    assert picture(client).any()
+
+
+def test_a_viewer_that_was_closed_is_found_again():
+    port = viewer.free_port()
+    with running_node(DOMAIN, "scene:=cusps"):
+        with running_viewer(port=port) as (client, _):
+            process = subprocess.Popen(
+                command("top_live", "--port", str(port)),
+                env=environment(DOMAIN),
+                stderr=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                text=True,
+            )
+            moving(client)
+        try:
+            for line in process.stderr:
+                if line.startswith("the viewer is gone; waiting for it to come back"):
+                    break
+            with running_viewer(port=port) as (client, _):
+                moving(client)
+        finally:
+            process.terminate()
+            said, _ = process.communicate(timeout=20)
+        assert said.count(f"showing in the viewer on port {port}\n") == 2
+
+
+def test_without_viewer_and_screen_it_says_what_else_there_is(monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    port = viewer.free_port()
+    result = run("top_live", "--port", str(port), domain=DOMAIN)
+    assert result.returncode == 1
+    expected = f"no viewer listens on port {port}, and there is no screen for one: try --web"
+    assert result.stderr == f"top_live: {expected}\n"
+
+
+def test_help_is_answered():
+    assert run("top_live", "--help", domain=DOMAIN).returncode == 0

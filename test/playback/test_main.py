@@ -1,0 +1,154 @@
+"""top_replay as a user types it; in an environment that has no rclpy."""
+
+import importlib.metadata
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+from logs import LAYOUTS, Run
+from symtop_ros.playback import main as module
+
+RUN = Run()
+SITE = Path(sysconfig.get_paths()["purelib"])
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def log(tmp_path):
+    return RUN.write(tmp_path / "logs")
+
+
+def distributions(extra):
+    """Distributions that `pip install symtop_ros[extra]` brings, by their metadata."""
+    found, wanted = set(), [("symtop_ros", extra)]
+    while wanted:
+        name, with_extra = wanted.pop()
+        for line in importlib.metadata.requires(name) or []:
+            marker = line.partition(";")[2]
+            needed = f'extra == "{with_extra}"' in marker if "extra ==" in marker else True
+            other = re.match(r"[\w.-]+", line)[0]
+            if needed and other not in found and "python_version" not in marker:
+                found.add(other)
+                wanted.append((other, None))
+    return found
+
+
+@pytest.fixture(scope="module")
+def laptop(tmp_path_factory):
+    """A Python with what the extra `playback` brings and nothing else: no ROS."""
+    folder = tmp_path_factory.mktemp("laptop") / "venv"
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
+    site = next(folder.glob("lib/python*/site-packages"))
+    for name in distributions("playback"):
+        for file in importlib.metadata.files(name):
+            top = file.parts[0]
+            if top not in ("..", "__pycache__") and not (site / top).exists():
+                (site / top).symlink_to(SITE / top)
+    shutil.copytree(ROOT / "symtop_ros", site / "symtop_ros")
+    return folder / "bin" / "python"
+
+
+def replay(python, *arguments):
+    """Run top_replay in an environment of its own, which inherits no ROS."""
+    return subprocess.run(
+        [python, "-m", "symtop_ros.playback.main", *map(str, arguments)],
+        env={"PATH": "/usr/bin:/bin"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+def test_without_ros_a_log_becomes_a_recording_and_is_checked(laptop, log, tmp_path):
+    none = subprocess.run(
+        [laptop, "-c", "import rclpy"], env={}, capture_output=True, text=True, check=False
+    )
+    assert "No module named 'rclpy'" in none.stderr
+    saved = replay(laptop, log, "--save", tmp_path / "run.rrd")
+    assert (saved.returncode, saved.stderr) == (0, "")
+    assert saved.stdout == f"wrote {tmp_path / 'run.rrd'}: rerun {tmp_path / 'run.rrd'}\n"
+    assert (tmp_path / "run.rrd").stat().st_size > 100_000
+    checked = replay(laptop, log, "--check")
+    assert (checked.returncode, checked.stderr) == (0, "")
+    assert checked.stdout.count("      400 samples, largest deviation 0\n") == 6
+    assert checked.stdout.endswith("the log is what its events say\n")
+    repaired = replay(laptop, log, "--repair", tmp_path / "again.mcap")
+    assert repaired.stdout == f"wrote {len(RUN.messages)} messages to {tmp_path / 'again.mcap'}\n"
+
+
+def test_without_a_screen_it_says_what_else_there_is(laptop, log):
+    result = replay(laptop, log)
+    assert result.returncode == 1
+    expected = "there is no screen: --save OUT.rrd writes a recording, --web serves a browser"
+    assert result.stderr == f"top_replay: {expected}\n"
+
+
+def test_a_wrong_log_is_status_1_and_names_the_topic(log, tmp_path, capsys):
+    run = Run()
+    k = next(k for k, each in enumerate(run.messages) if each[0] == "torque")
+    _, stamp, _ = run.messages[k]
+    run.messages[k] = "torque", stamp, LAYOUTS["torque"].pack(stamp, [0.0, 0, 0, 1.0, 0, 0])
+    assert module.main([str(run.write(tmp_path / "wrong")), "--check"]) == 1
+    told = capsys.readouterr().out
+    assert re.search(
+        r"/top/torque +400 samples, largest deviation 0\.9\d+ \(\S+ of its size\)", told
+    )
+    assert told.endswith("the log is NOT what its events say\n")
+
+
+def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
+    run = Run()
+    run.messages = [each for each in run.messages if each[0] != "events"]
+    assert module.main([str(run.write(tmp_path)), "--check"]) == 1
+    assert "nothing could be checked: no sample comes after an event" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["none.mcap"], "none.mcap: No such file or directory"),
+        (["none.mcap", "--check"], "none.mcap: No such file or directory"),
+        (
+            ["{log}", "--save", "out.mp4"],
+            "--save: got out.mp4, allowed is a name that ends",
+        ),
+        (["{log}", "--save", "none/out.rrd"], "none/out.rrd: No such file or directory"),
+        (["{log}", "--repair", "{log}"], "exists already, and is not overwritten"),
+        (["{log}", "--node", "/x", "--check"], "holds no top /x; its topics: /robot_description"),
+    ],
+)
+def test_a_refusal_is_one_line_and_status_1(arguments, told, log, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert module.main([each.format(log=log) for each in arguments]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("top_replay: ")
+    assert told in error
+    assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize("arguments", [[], ["a.mcap", "--fly"], ["a", "--web", "--check"]])
+def test_wrong_usage_is_status_2(arguments):
+    with pytest.raises(SystemExit) as end:
+        module.main(arguments)
+    assert end.value.code == 2
+
+
+def test_a_missing_rerun_is_told_with_the_extra_that_brings_it(log):
+    code = "import sys; sys.modules['rerun_cli'] = None; "
+    code += "from symtop_ros.playback.main import main; sys.exit(main(sys.argv[1:]))"
+    result = subprocess.run(
+        [sys.executable, "-c", code, str(log), "--save", "x.rrd"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 1
+    assert result.stderr == (
+        "top_replay: rerun_cli is missing: pip install 'symtop_ros[playback]'\n"
+    )
