@@ -67,7 +67,7 @@ def _replay(log: Path) -> int:
     print(f"the replay:        {recording}")
     if viewer.has_screen():
         print("the viewer is open; closing it ends the demonstration", flush=True)
-        viewer.start(str(recording)).wait()
+        viewer.show(recording, web=False)
     print("stopped; nothing is left running")
     return 0
 

@@ -3,14 +3,22 @@
 import contextlib
 import io
 import re
+import shutil
+import subprocess
+import time
+import urllib.error
+import urllib.request
 from pathlib import Path
 
 import pytest
-from programs import run, running_node
+from programs import command, run, running_node
+
+from logs import Run
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
 DOMAIN = 99
+REPLAYS = re.findall(r"^top_replay (.+?) *#", README, flags=re.MULTILINE)
 COMMANDS = re.findall(r"^top_ctl (.+)$", README, flags=re.MULTILINE)
 
 
@@ -30,8 +38,39 @@ def test_a_command_of_the_readme_is_granted(words):
         assert told in " ".join(README.split())
 
 
+@pytest.mark.parametrize("words", REPLAYS)
+def test_a_replay_of_the_readme_works(words, tmp_path):
+    shutil.copy(Run(seconds=0.5).write(tmp_path), tmp_path / "run.mcap")
+    program = command("top_replay", *words.split())
+    if words.endswith(".mcap") and "--" not in words:  # opens a window: here there is none
+        program += ["--save", "run.rrd"]
+    with subprocess.Popen(program, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as process:
+        told = process.stdout.readline()
+        try:
+            if "--web" in words:
+                address = re.match(r"open (http://127\.0\.0\.1:\d+/)\?url=", told)[1]
+                assert "Rerun SDK-bundled web viewer" in page(address)
+                process.terminate()
+            assert process.wait(timeout=60) == 0
+        finally:
+            process.kill()
+
+
+def page(address):
+    """Content of a page, when somebody serves it."""
+    deadline = time.monotonic() + 20
+    while True:
+        try:
+            with urllib.request.urlopen(address, timeout=20) as answer:
+                return answer.read().decode()
+        except urllib.error.URLError:
+            assert time.monotonic() < deadline
+            time.sleep(0.1)
+
+
 def test_there_are_commands_in_the_readme():
-    assert len(COMMANDS) >= 10
+    assert len(COMMANDS) >= 12
+    assert len(REPLAYS) == 5
 
 
 def test_the_example_of_the_library_runs():

@@ -99,11 +99,7 @@ def _show(log: TopLog, save: Path | None, web: bool) -> int:
         recording = Path(folder, f"{log.file.path.stem}.rrd")
         replay(log, recording)
         _tell(log.problems)
-        process = viewer.start(str(recording), web=web)
-        try:
-            return 0 if process.wait() == 0 else 1
-        finally:
-            process.terminate()
+        return viewer.show(recording, web)
 
 
 def _tell(problems: list[str]) -> None:

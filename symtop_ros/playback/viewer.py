@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -41,6 +42,17 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
         print(f"open http://{HOST}:{page}/?url={source} in a browser; Ctrl-C ends it", flush=True)
     program = Path(rerun_cli.__file__).parent / "rerun"
     return subprocess.Popen([program, *options, *files], stdout=subprocess.DEVNULL)
+
+
+def show(recording: Path, web: bool) -> int:
+    """Show a recording until the viewer is closed or we are ended; return the exit status."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a viewer is not left behind
+    process = start(str(recording), web=web)
+    try:
+        return 0 if process.wait() == 0 else 1
+    finally:
+        process.terminate()
+        process.wait()
 
 
 def free_port() -> int:
