@@ -11,9 +11,8 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from log_files import Run
 from programs import command, run, running_node
-
-from logs import Run
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from log_files import ARTICLE, LAYOUTS, Run
 
-from logs import ARTICLE, LAYOUTS, Run
 from symtop_ros.physics import State, Top
 from symtop_ros.playback.check import ROUNDING, check
 from symtop_ros.playback.mcap_file import McapFile

@@ -9,8 +9,8 @@ import sysconfig
 from pathlib import Path
 
 import pytest
+from log_files import LAYOUTS, Run
 
-from logs import LAYOUTS, Run
 from symtop_ros.playback import main as module
 
 RUN = Run()

@@ -10,11 +10,11 @@ import pytest
 import zstandard
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from log_files import BEGIN, Run
 from mcap.data_stream import RecordBuilder
 from mcap.records import Chunk
 from mcap.writer import CompressionType, Writer
 
-from logs import BEGIN, Run
 from symtop_ros.playback import mcap_file
 from symtop_ros.playback.mcap_file import LogError, McapFile
 

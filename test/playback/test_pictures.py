@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import rerun as rr
 import rerun.blueprint as rrb
+from log_files import ARTICLE, BEGIN, Run
 from pictures import picture, running_viewer, views
 from PIL import Image
 
-from logs import ARTICLE, BEGIN, Run
 from symtop_ros.physics import State, Top, motion, regular_precession_rates
 from symtop_ros.playback.mcap_file import McapFile
 from symtop_ros.playback.replay import replay

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from log_files import LAYOUTS, Run, topic
 from rerun.chunk import McapReader
 
-from logs import LAYOUTS, Run, topic
 from symtop_ros.wire.messages import KINDS, unpacked
 
 RUN = Run(seconds=1.0)

@@ -1,8 +1,8 @@
 import pytest
+from log_files import Run
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 
-from logs import Run
 from symtop_ros.playback.mcap_file import LogError, McapFile
 from symtop_ros.playback.repair import repair
 

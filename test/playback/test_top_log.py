@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from log_files import Run, topic
 from mcap.writer import Writer
 
-from logs import Run, topic
 from symtop_ros.playback.mcap_file import LogError, McapFile
 from symtop_ros.playback.top_log import TopLog
 from symtop_ros.wire.diagnostics import DIAGNOSTICS

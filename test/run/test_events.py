@@ -2,8 +2,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from log_files import ARTICLE, BEGIN, CUSPS
 
-from logs import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import State
 from symtop_ros.run.events import Event
 from symtop_ros.run.samples import SAMPLES

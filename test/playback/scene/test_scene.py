@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import rerun as rr
+from log_files import ARTICLE, BEGIN, Run
 from rerun.chunk import RrdReader
 
-from logs import ARTICLE, BEGIN, Run
 from symtop_ros.physics import State, motion
 from symtop_ros.playback.mcap_file import McapFile
 from symtop_ros.playback.replay import replay
