@@ -88,6 +88,17 @@ def views(client: ViewerClient, count: int) -> dict[str, Any]:
     return {each.name: each for each in found}
 
 
+def view_named(client: ViewerClient, name: str) -> Any:
+    """A view, as soon as it is there: at first the viewer shows a layout of its own."""
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        found = {each.name: each for each in client.get_state().views}
+        if name in found:
+            return found[name]
+        assert time.monotonic() < deadline, f"only {list(found)}"
+        time.sleep(0.1)
+
+
 def picture(client: ViewerClient, view: Any = None) -> np.ndarray:
     """What is drawn, (height, width, 3), when it does not change any more."""
     deadline = time.monotonic() + TIMEOUT

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,7 +25,8 @@ TOPICS = {
     "euler_angles": JointState,
 }
 NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
-SETTLING = 2.0  # s
+STARTING = 30.0  # s that the node may take until every topic has a sample
+SETTLING = 1.0  # s
 
 
 class Load(NamedTuple):
@@ -63,6 +65,7 @@ def _listen(pid: int, domain: int, rate: float, seconds: float) -> Load:
             listener.create_subscription(kind, f"/top/{name}", take, 1000, raw=True)
         executor = SingleThreadedExecutor(context=context)
         executor.add_node(listener)
+        _spin(executor, STARTING, lambda: all(got.values()))
         _spin(executor, SETTLING)
         for messages in got.values():
             messages.clear()
@@ -75,9 +78,11 @@ def _listen(pid: int, domain: int, rate: float, seconds: float) -> Load:
         rclpy.shutdown(context=context)
 
 
-def _spin(executor: SingleThreadedExecutor, seconds: float) -> None:
+def _spin(
+    executor: SingleThreadedExecutor, seconds: float, done: Callable[[], bool] = lambda: False
+) -> None:
     end = time.monotonic() + seconds
-    while time.monotonic() < end:
+    while time.monotonic() < end and not done():
         executor.spin_once(timeout_sec=0.1)
 
 

@@ -5,7 +5,7 @@ import pytest
 import rerun as rr
 import rerun.blueprint as rrb
 from log_files import ARTICLE, BEGIN, Run
-from pictures import picture, running_viewer, views
+from pictures import picture, running_viewer, view_named, views
 from PIL import Image
 
 from symtop_ros.physics import State, Top, motion, regular_precession_rates
@@ -73,6 +73,7 @@ def test_the_axis_is_drawn_where_the_log_says(name, tmp_path):
     eye, target = WHOLE if name == "hanging" else UPPER
     alone = rrb.Spatial3DView(
         origin=paths.SPACE,
+        name="alone",
         contents=[paths.BODY],
         background=(0, 0, 255),
         line_grid=False,
@@ -82,7 +83,7 @@ def test_the_axis_is_drawn_where_the_log_says(name, tmp_path):
     recording.flush()
     recording.disconnect()
     with running_viewer(tmp_path / "body.rrd") as (client, _):
-        view = next(iter(views(client, 1).values()))
+        view = view_named(client, "alone")
         for seconds in (0.2, 0.5, 0.7):
             client.set_time(paths.TIMELINE, duration=seconds, play_state="paused")
             shot = picture(client, view)
