@@ -129,9 +129,9 @@ class Recorder:
                 self._file = LogFile(self._directory, self._channels, metadata, latched)
             self._file.finish(self._counts())
         except Exception as error:
-            self.failure = f"{self._file.path}: {reason(error)}"
             self._file.abandon()
             self._queue.clear()
+            self.failure = f"{self._file.path}: {reason(error)}"  # last: by then the file is whole
 
     def _counts(self) -> dict[str, str]:
         return {"dropped": str(self.dropped)}
