@@ -4,6 +4,8 @@ Needs NumPy and SciPy only. Angles are Euler's z-x-z (phi, theta, psi), units ar
 orientation is a unit quaternion (w, x, y, z) from body to world.
 """
 
+from symtop_ros.physics.balance import Balance, balance
+from symtop_ros.physics.friction import Friction
 from symtop_ros.physics.kicks import hurry, impulse, push, set_precession_rate
 from symtop_ros.physics.motion import Motion, motion
 from symtop_ros.physics.perry import Verdict, perry
@@ -13,10 +15,13 @@ from symtop_ros.physics.top import Top
 
 __all__ = [
     "Angles",
+    "Balance",
+    "Friction",
     "Motion",
     "State",
     "Top",
     "Verdict",
+    "balance",
     "hurry",
     "impulse",
     "motion",
