@@ -11,7 +11,7 @@ from std_msgs.msg import String
 
 from symtop_ros.node.messages import event_message
 from symtop_ros.node.urdf import robot_description
-from symtop_ros.physics import State, Top, hurry
+from symtop_ros.physics import State, Top, hurry, motion
 from symtop_ros.recording.log_file import Channel, LogFile
 from symtop_ros.run.events import Event
 from symtop_ros.run.samples import SAMPLES
@@ -48,7 +48,7 @@ class Run:
     messages: list[tuple[str, int, bytes]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        segment = Segment.begin(self.top, self.start, BEGIN, 1.0)
+        segment = Segment.begin(motion(self.top, self.start), BEGIN, 1.0)
         self._announce("start", self.start, segment, BEGIN)
         count = int(self.seconds * self.rate)
         stamps = [BEGIN + round(k * 1e9 / self.rate) for k in range(count)]
@@ -67,7 +67,7 @@ class Run:
 
     def _samples(self, segment: Segment, stamps: list[int]) -> None:
         state = segment.state_at(np.array(stamps))
-        columns = {name: SAMPLES[name](self.top, state).tolist() for name in LAYOUTS}
+        columns = {name: SAMPLES[name](segment.path, state).tolist() for name in LAYOUTS}
         for k, stamp in enumerate(stamps):
             for name, layout in LAYOUTS.items():
                 self.messages.append((name, stamp, layout.pack(stamp, columns[name][k])))

@@ -8,10 +8,13 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from symtop_ros.node.messages import header
+from symtop_ros.node.parameters import Settings
 from symtop_ros.node.ticker import Ticker
-from symtop_ros.physics import Motion, State, Top, perry
+from symtop_ros.physics import Motion, State, Top, balance, motion, perry
 from symtop_ros.recording.recorder import Recorder
 from symtop_ros.run.segment import Segment
+
+SHORTEST = 1e-3  # s of motion that the balances are taken over, at its very start
 
 
 def state_report(segment: Segment, stamp: int) -> dict[str, Any]:
@@ -29,11 +32,13 @@ def state_report(segment: Segment, stamp: int) -> dict[str, Any]:
         "angular_velocity_body": state.angular_velocity.tolist(),
         "angular_velocity": state.to_world(state.angular_velocity).tolist(),
         "angular_momentum": top.angular_momentum(state).tolist(),
-        "torque": top.torque(state).tolist(),
+        "torque": path.torque(state).tolist(),
         "euler_angles": state.euler_angles._asdict(),
         "euler_rates": state.euler_rates._asdict(),
         "constants": constants(top, state),
-        **_motion(path),
+        **_motion(path, state),
+        "friction": {"axial": path.friction.axial, "transverse": path.friction.transverse},
+        "applied_torque": list(path.applied_torque),
         "regular_precession_rates": list(verdict.regular_rates),
         "verdict": str(verdict),
         "perrys_rule_holds": verdict.rule_holds,
@@ -49,53 +54,87 @@ def constants(top: Top, state: State) -> dict[str, float]:
     }
 
 
-def _motion(path: Motion) -> dict[str, Any]:
-    """Facts of the motion; what is infinite or undefined is null in JSON."""
+def _motion(path: Motion, state: State) -> dict[str, Any]:
+    """Facts of the motion; what is infinite or undefined is null in JSON.
+
+    Friction and applied torques change them from one moment to the next: then they are those of
+    the motion that would go on from here without.
+    """
+    free = motion(path.top, state) if path.driven else path
     numbers = {
-        "nutation_period": path.nutation_period,
-        "mean_precession_rate": path.mean_precession_rate,
-        "mean_spin_rate": path.mean_spin_rate,
+        "nutation_period": free.nutation_period,
+        "mean_precession_rate": free.mean_precession_rate,
+        "mean_spin_rate": free.mean_spin_rate,
     }
     known = {name: value if math.isfinite(value) else None for name, value in numbers.items()}
     return {
-        "kind": path.kind,
+        "kind": free.kind,
         "engine": path.engine,
-        "turning_angles": list(path.turning_angles),
+        "turning_angles": list(free.turning_angles),
         **known,
     }
 
 
 def diagnostics(
-    frame: str, segment: Segment, stamp: int, ticker: Ticker, recorder: Recorder
+    settings: Settings, segment: Segment, stamp: int, ticker: Ticker, recorder: Recorder
 ) -> DiagnosticArray:
     """Return the message for /diagnostics."""
-    status = [_motion_status(segment, stamp), _pace(ticker), _log(recorder)]
-    return DiagnosticArray(header=header(stamp, frame), status=status)
+    status = [
+        _motion_status(segment, stamp),
+        _pace(segment, settings["real_time_factor"], ticker),
+        _log(recorder),
+        _balance(segment, stamp),
+    ]
+    return DiagnosticArray(header=header(stamp, settings["world_frame"]), status=status)
 
 
 def _motion_status(segment: Segment, stamp: int) -> DiagnosticStatus:
-    top = segment.path.top
-    now = constants(top, segment.state_at(stamp))
-    drift = {
-        f"{name}.drift": value - constants(top, segment.path.start)[name]
-        for name, value in now.items()
-    }
-    verdict = perry(top, segment.state_at(stamp))
+    path, state = segment.path, segment.state_at(stamp)
+    now, start = constants(path.top, state), constants(path.top, path.start)
+    verdict = perry(path.top, state)
     facts = {
         **now,
-        **drift,
-        **_motion(segment.path),
+        **{f"{name}.drift": value - start[name] for name, value in now.items()},
+        **_motion(path, state),
         "regular_precession_rates": list(verdict.regular_rates),
         "running": segment.running,
-        "real_time_factor": segment.factor,
     }
     return _status("top: motion", DiagnosticStatus.OK, str(verdict), facts)
 
 
-def _pace(ticker: Ticker) -> DiagnosticStatus:
-    level = DiagnosticStatus.WARN if ticker.missed else DiagnosticStatus.OK
-    message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
-    return _status("top: pace", level, message, {"late": ticker.late, "missed": ticker.missed})
+def _balance(segment: Segment, stamp: int) -> DiagnosticStatus:
+    """What friction and torque do, and how well dE/dt and dL/dt are what they make them."""
+    path, state = segment.path, segment.state_at(stamp)
+    t = segment.time_at(stamp)
+    found = balance(path, t, longest=max(abs(t), SHORTEST))
+    driving = path.driving_torque(state)
+    facts = {
+        "friction.axial": path.friction.axial,
+        "friction.transverse": path.friction.transverse,
+        "applied_torque": list(path.applied_torque),
+        "power": float(driving @ state.to_world(state.angular_velocity)),
+        "energy.balance": found.energy,
+        "angular_momentum.balance": found.angular_momentum.tolist(),
+    }
+    message = "friction or an applied torque acts" if path.driven else "gravity alone acts"
+    return _status("top: balance", DiagnosticStatus.OK, message, facts)
+
+
+def _pace(segment: Segment, asked: float, ticker: Ticker) -> DiagnosticStatus:
+    achieved = segment.factor if segment.running else 0.0
+    facts = {
+        "late": ticker.late,
+        "missed": ticker.missed,
+        "real_time_factor": asked,
+        "real_time_factor.achieved": achieved,
+    }
+    if segment.factor < asked:
+        message = f"the engine keeps up with {segment.factor:.3g} of real time, not {asked:.3g}"
+    elif ticker.missed:
+        message = f"{ticker.missed} ticks missed"
+    else:
+        return _status("top: pace", DiagnosticStatus.OK, "on time", facts)
+    return _status("top: pace", DiagnosticStatus.WARN, message, facts)
 
 
 def _log(recorder: Recorder) -> DiagnosticStatus:

@@ -54,11 +54,13 @@ def _run() -> None:
     top = TopNode()
     try:
         rclpy.spin(top, executor)
-    except RuntimeError:
+    except (ExternalShutdownException, RuntimeError):
         if rclpy.ok():
             raise
     finally:
         top.close()
+    if top.failure:
+        raise top.failure
 
 
 def _one_line(error: Exception) -> str:

@@ -21,9 +21,8 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
-from symtop_ros.physics import State, Top
 from symtop_ros.recording.recorder import Recorder
-from symtop_ros.run.samples import SAMPLES
+from symtop_ros.run.block import Block
 from symtop_ros.wire import messages
 from symtop_ros.wire.layout import Layout, Stamp
 
@@ -95,11 +94,10 @@ class Output:
 
 
 class Sample(NamedTuple):
-    """A topic that is a function of the state alone."""
+    """A topic that every sample has a message on."""
 
     output: Output
     layout: Layout
-    numbers: Callable[[Top, State], Any]
 
 
 class Outputs:
@@ -124,7 +122,7 @@ class Outputs:
             "/tf": (TFMessage or "tf2_msgs/msg/TFMessage", messages.transform(world, top)),
         }
         self._samples = {
-            name: Sample(make(name, kind), layout, SAMPLES[name.lstrip("~/")])
+            name.lstrip("~/"): Sample(make(name, kind), layout)
             for name, (kind, layout) in layouts.items()
         }
         self.diagnostics = make("/diagnostics", DiagnosticArray, 10)
@@ -134,15 +132,13 @@ class Outputs:
 
     def publish_tf(self, wanted: bool) -> None:
         """Publish /tf or not; it is logged in any case."""
-        self._samples["/tf"].output.published = wanted
+        self._samples["tf"].output.published = wanted
 
-    def send_sample(self, stamp: int, top: Top, state_at: Callable[[int], State]) -> None:
-        """Publish and log the state of one stamp (ns), where anybody wants it."""
-        wanted = [sample for sample in self._samples.values() if sample.output.wanted]
-        if wanted:
-            state = state_at(stamp)
-            for output, layout, numbers in wanted:
-                output.send(stamp, layout.pack(stamp, numbers(top, state).tolist()))
+    def send_sample(self, stamp: int, block: Block) -> None:
+        """Publish and log the sample of a stamp (ns), where anybody wants it."""
+        for name, (output, layout) in self._samples.items():
+            if output.wanted:
+                output.send(stamp, layout.pack(stamp, block.numbers(name, stamp)))
         if self._clock:
             self._clock.send(stamp, CLOCK.pack(stamp, ()))
 

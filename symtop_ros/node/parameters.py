@@ -17,7 +17,7 @@ from rclpy.node import Node
 from symtop_ros.node.fields import LARGEST_RATE, RefusedError, choice, flag, number, numbers, refuse
 from symtop_ros.node.initial import LARGEST_ANGLE, PRECESSIONS
 from symtop_ros.node.scene import scene_values
-from symtop_ros.physics import Top
+from symtop_ros.physics import Friction, Top
 
 Check = Callable[[str, Any], Any]
 TURN = 3.141592653589793
@@ -100,6 +100,12 @@ DECLARATIONS: dict[str, Declaration] = {
     "initial.angular_velocity": _list(
         "initial angular velocity in the body frame (rad/s)", 3, LARGEST_RATE
     ),
+    "friction.axial": _number(0.0, "torque over omega_z on the axis", "N m s", 0.0, 1e30),
+    "friction.transverse": _number(0.0, "torque over omega across the axis", "N m s", 0.0, 1e30),
+    "steady_torque": _list("torque that always acts, in the world frame (N m)", 3, 1e30),
+    "applied_torque_timeout": _number(
+        0.1, "how long a sample of ~/applied_torque holds", "s", 0.001, 1e6
+    ),
     "hurry_factor": _number(1.4, "what hurry_precession multiplies phi' by", "1", -1e6, 1e6),
     "publish_rate": _number(200.0, "samples per second", "Hz", 1.0, 2000.0),
     "real_time_factor": _number(1.0, "seconds of motion per second", "1", 0.01, 100.0),
@@ -124,10 +130,17 @@ class Settings:
 
     values: Mapping[str, Any]
     top: Top
+    friction: Friction
 
     def __getitem__(self, name: str) -> Any:
         """Return one value by its full name."""
         return self.values[name]
+
+    @property
+    def steady_torque(self) -> tuple[float, float, float]:
+        """Torque that always acts, world frame, N m."""
+        x, y, z = self.values["steady_torque"] or (0.0, 0.0, 0.0)
+        return x, y, z
 
     @property
     def initial(self) -> dict[str, Any]:
@@ -151,7 +164,8 @@ def checked(values: Mapping[str, Any]) -> Settings:
     except ValueError as error:
         msg = f"top.{error}"
         raise RefusedError(msg) from None
-    return Settings(clean, top)
+    friction = Friction(clean["friction.axial"], clean["friction.transverse"])
+    return Settings(clean, top, friction)
 
 
 def declare(node: Node) -> Settings:

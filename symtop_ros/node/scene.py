@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from rcl_interfaces.msg import Parameter as ParameterMessage
 from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
 
 from symtop_ros.node.fields import RefusedError, refuse
@@ -44,4 +46,12 @@ def scene_values(name: object) -> dict[str, Any]:
     except Exception as error:
         msg = f"scene: {path.name} is not a ROS parameter file ({error})"
         raise RefusedError(msg) from None
-    return {key: parameter_value_to_python(message.value) for key, message in messages.items()}
+    return {key: _value(message) for key, message in messages.items()}
+
+
+def _value(message: ParameterMessage) -> Any:
+    """Value of a parameter; 2e-06 is a number to ROS itself, but text to PyYAML."""
+    value = parameter_value_to_python(message.value)
+    if isinstance(value, str) and re.fullmatch(r"[-+]?\d+[eE][-+]?\d+", value):
+        return float(value)
+    return value

@@ -1,9 +1,9 @@
-"""Which samples are due: tick k is at start + k/rate, whenever the timer gets round to it."""
+"""Which samples are due: tick k is at start + k/rate, whenever one gets round to it."""
 
 from __future__ import annotations
 
 NANOSECONDS = 1_000_000_000
-CATCH_UP = 0.1  # s; ticks later than this are missed: no avalanche after the process was stopped
+CATCH_UP = 0.1  # s; no avalanche of samples after the process was stopped
 
 
 class Ticker:
@@ -33,13 +33,21 @@ class Ticker:
         """Stamp in ns of the first tick that is not handed out yet."""
         return self._stamp(self._next)
 
-    def due(self, now: int) -> list[int]:
-        """Return the stamps that are due, in order, and count what is late or missed."""
+    def due(self, now: int, catch_up: float = CATCH_UP) -> list[int]:
+        """Return the stamps that are due, in order, and count what is late or missed.
+
+        Parameters
+        ----------
+        now : int
+            In ns.
+        catch_up : float
+            Ticks later than this, in s, are missed.
+        """
         last = int((now - self._start) * self._rate / NANOSECONDS)
         if now < self.next_stamp - NANOSECONDS / self._rate:
             self.restart(self._rate, now)  # the clock jumped back
             last = 0
-        oldest = last - int(CATCH_UP * self._rate)
+        oldest = last - int(catch_up * self._rate)
         if oldest > self._next:
             self.missed += oldest - self._next
             self._next = oldest
@@ -47,6 +55,11 @@ class Ticker:
         self._next += len(stamps)
         self.late += sum(now - stamp > NANOSECONDS / self._rate for stamp in stamps)
         return stamps
+
+    def grid(self, stamp: int, count: int) -> list[int]:
+        """Return some stamps of the grid in a row, from one of them on."""
+        first = round((stamp - self._start) * self._rate / NANOSECONDS)
+        return [self._stamp(k) for k in range(first, first + count)]
 
     def _stamp(self, k: int) -> int:
         return self._start + round(k * NANOSECONDS / self._rate)

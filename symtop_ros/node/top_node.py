@@ -7,13 +7,15 @@ old motion, from it on to the new one.
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
+from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParametersAtomically
-from rclpy.clock import JumpThreshold, TimeJump
+from rclpy.clock import ClockChange, JumpThreshold, ROSClock, TimeJump
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -21,24 +23,36 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.node import initial, kick
+from symtop_ros.node.applied_torque import AppliedTorque
 from symtop_ros.node.diagnostics import diagnostics, state_report
+from symtop_ros.node.effort import SHARE, Effort, Shortfall
 from symtop_ros.node.fields import RefusedError, named_values, number
 from symtop_ros.node.messages import event_message
 from symtop_ros.node.metadata import metadata
 from symtop_ros.node.outputs import Outputs
+from symtop_ros.node.pacer import Pacer
 from symtop_ros.node.parameters import DECLARATIONS, Settings, checked, declare
-from symtop_ros.node.ticker import Ticker
+from symtop_ros.node.ticker import CATCH_UP, Ticker
 from symtop_ros.node.urdf import robot_description
-from symtop_ros.physics import State, perry
+from symtop_ros.physics import State, motion, perry
 from symtop_ros.recording.recorder import Limits, Recorder, reason
+from symtop_ros.run.block import Block
 from symtop_ros.run.events import Event
 from symtop_ros.run.segment import Segment
 
 LONGEST_STEP = 1e9  # s
+AHEAD = 16  # samples that are computed at once, and
+AHEAD_SECONDS = 0.05  # not more than these: a kick makes them void
+SECOND = 1_000_000_000
+JUMP = 1.0  # s; simulation time that is set further than this has jumped
+CLOCK_CHANGES = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
 
 
 class TopNode(Node):
-    """A heavy symmetric top in real time; topics, services and parameters as in the README."""
+    """A heavy symmetric top in real time; topics, services and parameters as in the README.
+
+    Ticks come from a thread of the node's own, requests from the executor; they take turns.
+    """
 
     def __init__(self, **options: Any) -> None:
         super().__init__("top", **options)
@@ -47,6 +61,7 @@ class TopNode(Node):
             msg = "publish_clock: got true together with use_sim_time, allowed is one or the other"
             raise RefusedError(msg)
         start = initial.initial_state(self._settings.top, self._settings.initial, {})
+        self._turn = threading.RLock()
         self._failure_told = False
         self._recorder = Recorder(Path(self._settings["record.directory"]), self._limits())
         frames = self._settings["world_frame"], self._settings["top_frame"]
@@ -54,55 +69,166 @@ class TopNode(Node):
         self._outputs.publish_tf(self._settings["publish_tf"])
         self._ticker = Ticker(self._settings["publish_rate"], self._now())
         self._initial = start
+        self._torque = AppliedTorque(self._settings["world_frame"])
+        self._effort, self._spent = Effort(), 0.0
         self._segment = Segment.begin(
-            self._settings.top, start, self._ticker.next_stamp, self._settings["real_time_factor"]
+            motion(
+                self._settings.top, start, self._settings.friction, self._settings.steady_torque
+            ),
+            self._ticker.next_stamp,
+            self._settings["real_time_factor"],
         )
+        self._block = Block(self._segment, [])
         self._describe()
         self._announce("start", self._verdict(), {"scene": self._scene}, start)
         if self._settings["record.enabled"]:
             self._begin_log()
         self._offer_services()
+        self.create_subscription(WrenchStamped, "~/applied_torque", self._take_torque, 10)
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
-        self._timer = self.create_timer(1 / self._settings["publish_rate"], self._tick)
         self.create_timer(1.0, self._diagnose)
-        self._follow_jumps()
         self.get_logger().info(f"scene {self._scene}: {self._verdict()}")
+        self.failure: Exception | None = None
+        self._jumped_to: int | None = None
+        self._pacer = Pacer(self._tick, self._fail)
+        self._follow_clock()
+
+    def close(self) -> None:
+        """End the ticks and the log; the node can go."""
+        self._pacer.stop()
+        self._recorder.stop()
+
+    def destroy_node(self) -> None:
+        """Close, and take the node from the graph; rclpy does so too where none was made."""
+        if hasattr(self, "_pacer"):
+            self.close()
+        super().destroy_node()
 
     # time
 
     def _now(self) -> int:
         return int(self.get_clock().now().nanoseconds)
 
-    def _tick(self) -> None:
-        segment = self._segment
-        for stamp in self._ticker.due(self._now()):
-            self._outputs.send_sample(stamp, segment.path.top, segment.state_at)
+    def _tick(self) -> float | None:
+        """Publish what is due; return how long nothing will be, None where the clock will tell."""
+        with self._turn:
+            jumped_to, self._jumped_to = self._jumped_to, None
+            if jumped_to is not None:
+                self._follow_jump(jumped_to)
+            simulated = cast(ROSClock, self.get_clock()).ros_time_is_active
+            missed = self._ticker.missed
+            for stamp in self._ticker.due(self._now(), JUMP if simulated else CATCH_UP):
+                self._release_torque(stamp)
+                self._outputs.send_sample(stamp, self._block_at(stamp))
+            if self._ticker.missed > missed:
+                self._tell_gap(self._ticker.missed - missed)
+            return None if simulated else (self._ticker.next_stamp - self._now()) / SECOND
+
+    def _block_at(self, stamp: int) -> Block:
+        if not self._block.holds(self._segment, stamp):
+            rate = self._settings["publish_rate"]
+            stamps = self._ticker.grid(stamp, min(AHEAD, 1 + int(AHEAD_SECONDS * rate)))
+            while shortfall := self._effort.prepare(self._segment, stamps[0], stamps[-1]):
+                self._slow_down(stamp, shortfall)
+            self._block = Block(self._segment, stamps)
+        return self._block
+
+    def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
+        reached, factor = shortfall
+        asked, before = self._segment.factor, self._segment.path.at(reached)
+        self._segment = self._segment.slowed(reached, factor, stamp)
+        verdict = f"the engine cannot keep up: real-time factor {asked:.3g} -> {factor:.3g}"
+        self.get_logger().warning(verdict)
+        self._announce("pace", verdict, {"reached": reached}, before)
+
+    def _speed_up(self, work: float) -> None:
+        """Go back towards the real-time factor that is asked for, where there is time for it."""
+        now, asked = self._segment.factor, self._settings["real_time_factor"]
+        if now < asked and work < SHARE / 2:
+            stamp = self._ticker.next_stamp
+            factor = min(asked, 2 * now) if self._segment.path.driven else asked
+            before = self._segment.state_at(stamp)
+            self._segment = self._segment.with_factor(factor, stamp)
+            self._announce("pace", f"real-time factor {now:.3g} -> {factor:.3g}", {}, before)
+
+    def _tell_gap(self, missed: int) -> None:
+        seconds = missed / self._settings["publish_rate"]
+        self.get_logger().warning(
+            f"no samples for {seconds:.3g} s: the process was stopped, or has too little time; "
+            f"{missed} samples are missed, the motion is where the clock says",
+            throttle_duration_sec=1.0,
+        )
+
+    def _fail(self, error: Exception) -> None:
+        """End the node when a tick cannot be done; a context that has ended is no failure."""
+        if self.context.ok():
+            self.failure = error
+            self.get_logger().fatal(f"a tick failed: {error}")
+            self.context.try_shutdown()
 
     def _diagnose(self) -> None:
-        self._report_failure()
-        output = self._outputs.diagnostics
-        if output.wanted:
-            stamp = self._ticker.next_stamp
-            facts = self._segment, stamp, self._ticker, self._recorder
-            output.send_message(stamp, diagnostics(self._settings["world_frame"], *facts))
+        with self._turn:
+            work, self._spent = self._effort.spent - self._spent, self._effort.spent
+            self._speed_up(work)
+            self._report_failure()
+            output = self._outputs.diagnostics
+            if output.wanted:
+                stamp = self._ticker.next_stamp
+                facts = self._segment, stamp, self._ticker, self._recorder
+                output.send_message(stamp, diagnostics(self._settings, *facts))
 
-    def _follow_jumps(self) -> None:
-        """A clock that jumps (simulation time) takes the motion along from where it is."""
+    def _follow_clock(self) -> None:
+        """Learn when simulation time is set; then it alone says when ticks are due."""
         threshold = JumpThreshold(
-            min_forward=Duration(seconds=1),
+            min_forward=Duration(nanoseconds=1),
             min_backward=Duration(nanoseconds=-1),
             on_clock_change=True,
         )
         clock = self.get_clock()
-        self._jumps = clock.create_jump_callback(threshold, post_callback=self._jumped)
+        self._clock_handle = clock.create_jump_callback(threshold, post_callback=self._clock_set)
 
-    def _jumped(self, _: TimeJump) -> None:
-        stamp, now = self._ticker.next_stamp, self._now()
+    def _clock_set(self, jump: TimeJump) -> None:
+        """Note a jump; it is called from within the clock, which must not wait for a turn."""
+        changed = jump.clock_change in CLOCK_CHANGES
+        if changed or not 0 <= jump.delta.nanoseconds < JUMP * SECOND:
+            self._jumped_to = self._now()
+        self._pacer.wake()
+
+    def _follow_jump(self, now: int) -> None:
+        """A clock that jumps takes the motion along from where it is."""
+        stamp = self._ticker.next_stamp
         before = self._segment.state_at(stamp)
         self._segment = self._segment.moved(stamp, now)
         self._ticker.restart(self._settings["publish_rate"], now)
+        self._torque.end += now - stamp
         self._announce("clock", "the clock has jumped", {"from": stamp, "to": now}, before)
+
+    # the applied torque
+
+    def _take_torque(self, message: WrenchStamped) -> None:
+        with self._turn:
+            stamp = self._ticker.next_stamp
+            try:
+                self._torque.hold(message, stamp, self._settings["applied_torque_timeout"])
+            except RefusedError as refusal:
+                self.get_logger().warning(str(refusal), throttle_duration_sec=1.0)
+            else:
+                self._drive(stamp, "an applied torque acts")
+
+    def _release_torque(self, stamp: int) -> None:
+        if any(self._torque.value) and stamp >= self._torque.end:
+            self._torque.release()
+            self._drive(self._torque.end, "the applied torque has run out")
+
+    def _drive(self, stamp: int, verdict: str) -> None:
+        """Go on from a stamp under the torque that acts now, if it is another one."""
+        steady, held = self._settings.steady_torque, self._torque.value
+        torque = tuple(a + b for a, b in zip(steady, held, strict=True))
+        if torque != self._segment.path.applied_torque:
+            before = self._segment.state_at(stamp)
+            self._segment = self._segment.changed(stamp, torque=torque)
+            self._announce("torque", verdict, {"torque": torque}, before, stamp)
 
     # events and answers
 
@@ -119,8 +245,15 @@ class TopNode(Node):
         text = robot_description(self._settings.top, *frames)
         self._outputs.description.send_message(self._ticker.next_stamp, String(data=text))
 
-    def _announce(self, name: str, verdict: str, request: Mapping[str, Any], before: State) -> None:
-        stamp = self._ticker.next_stamp
+    def _announce(
+        self,
+        name: str,
+        verdict: str,
+        request: Mapping[str, Any],
+        before: State,
+        stamp: int | None = None,
+    ) -> None:
+        stamp = self._ticker.next_stamp if stamp is None else stamp
         event = Event.of(stamp, name, verdict, request, before, self._segment)
         self._outputs.events.send_message(
             stamp, event_message(event, self._settings["world_frame"])
@@ -137,7 +270,7 @@ class TopNode(Node):
             ("record", SetBool, self._record),
             ("get_state", Trigger, self._get_state),
         ):
-            self.create_service(kind, f"~/{name}", _answering(handle))
+            self.create_service(kind, f"~/{name}", _answering(handle, self._turn))
 
     # what requests do: each returns the sentence of its answer, or raises RefusedError
 
@@ -241,10 +374,6 @@ class TopNode(Node):
             self._note_log(sentence)
         self._failure_told = bool(self._recorder.failure)
 
-    def close(self) -> None:
-        """End the log; the node can go."""
-        self._recorder.stop()
-
     # parameters
 
     def _check_parameters(self, parameters: list[Parameter[Any]]) -> SetParametersResult:
@@ -259,37 +388,42 @@ class TopNode(Node):
         return {**self._settings.values, **changes}
 
     def _apply_parameters(self, parameters: list[Parameter[Any]]) -> None:
-        old, self._settings = self._settings, checked(self._with(parameters))
-        changes = {
-            name: value for name, value in self._settings.values.items() if value != old[name]
-        }
-        if changes:
-            self._apply(old, changes)
+        with self._turn:
+            old, self._settings = self._settings, checked(self._with(parameters))
+            changes = {
+                name: value for name, value in self._settings.values.items() if value != old[name]
+            }
+            if changes:
+                self._apply(old, changes)
 
     def _apply(self, old: Settings, changes: Mapping[str, Any]) -> None:
         stamp = self._ticker.next_stamp
         before = self._segment.state_at(stamp)
-        if self._settings.top != old.top:
-            self._segment = self._segment.with_top(self._settings.top, stamp)
+        settings = self._settings
+        if (settings.top, settings.friction) != (old.top, old.friction):
+            self._segment = self._segment.changed(stamp, settings.top, settings.friction)
+        if settings.top != old.top:
             self._describe()
-        self._outputs.publish_tf(self._settings["publish_tf"])
+        self._outputs.publish_tf(settings["publish_tf"])
         self._recorder.limits = self._limits()
-        factor = self._settings["real_time_factor"]
-        self._segment = self._segment.with_factor(factor, stamp)
+        if "real_time_factor" in changes:
+            self._segment = self._segment.with_factor(settings["real_time_factor"], stamp)
         if "publish_rate" in changes:
-            self._ticker.restart(self._settings["publish_rate"], stamp)
-            self._timer.timer_period_ns = int(1e9 / self._settings["publish_rate"])
-            self._timer.reset()
+            self._ticker.restart(settings["publish_rate"], stamp)
+            self._pacer.wake()
         verdict = "; ".join(f"{name} is now {value}" for name, value in changes.items())
         self._announce("parameters", verdict, changes, before)
+        if settings.steady_torque != old.steady_torque:
+            self._drive(stamp, "the steady torque is another one")
 
 
-def _answering(handle: Any) -> Any:
+def _answering(handle: Any, turn: threading.RLock) -> Any:
     """Turn a sentence or a refusal into the response of any of the service types."""
 
     def answer(request: Any, response: Any) -> Any:
         try:
-            granted, sentence = True, handle(request)
+            with turn:
+                granted, sentence = True, handle(request)
         except RefusedError as refusal:
             granted, sentence = False, str(refusal)
         if isinstance(response, SetParametersAtomically.Response):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections import deque
 
 from symtop_ros.physics.splitting import Point, Splitting
 
-KEPT = 1024  # points; with more than that every other one is dropped
+KEPT = 1024  # points all along the way; with more than that every other one is dropped
+RECENT = 64  # points behind the last one: to look back a little costs nothing
 
 
 class Trail:
@@ -29,6 +31,7 @@ class Trail:
         self._splitting, self._direction = splitting, direction
         self._kept, self._spacing = [start], 1  # points, and steps from one of them to the next
         self._here, self._steps = start, 0  # where one is, and steps from the start to there
+        self._recent = deque([(start, 0)], RECENT)
 
     def at(self, t: float) -> Point:
         """Return the point at a time in s."""
@@ -53,11 +56,16 @@ class Trail:
     def _step(self, t: float) -> None:
         self._here = self._splitting.step(self._here, t)
         self._steps += 1
+        self._recent.append((self._here, self._steps))
         if self._steps == len(self._kept) * self._spacing:
             self._kept.append(self._here)
         if len(self._kept) > KEPT:
             self._kept, self._spacing = self._kept[::2], 2 * self._spacing
 
     def _go_back(self, t: float) -> None:
-        place = bisect_right(self._kept, abs(t), key=lambda point: abs(point.t)) - 1
-        self._here, self._steps = self._kept[place], place * self._spacing
+        while self._recent and abs(self._recent[-1][0].t) > abs(t):
+            self._recent.pop()
+        if not self._recent:
+            place = bisect_right(self._kept, abs(t), key=lambda point: abs(point.t)) - 1
+            self._recent.append((self._kept[place], place * self._spacing))
+        self._here, self._steps = self._recent[-1]

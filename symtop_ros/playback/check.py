@@ -77,7 +77,7 @@ def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment
     if segment is None:
         deviation.unchecked += len(columns.stamps)
         return
-    computed = SAMPLES[name](segment.path.top, segment.state_at(columns.stamps))
+    computed = SAMPLES[name](segment.path, segment.state_at(columns.stamps))
     computed = np.broadcast_to(computed, columns.numbers.shape)
     difference = np.abs(columns.numbers - computed)
     scale = np.concatenate([_size(block) for block in _blocks(computed)], axis=1)

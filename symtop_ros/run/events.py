@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from symtop_ros.physics import State, Top, motion
+from symtop_ros.physics import Friction, State, Top, motion
 from symtop_ros.run.segment import Segment
 
 
@@ -22,7 +22,7 @@ class Event:
     stamp : int
         The instant from which the new motion holds, ns.
     name : str
-        start, kick, reset, pause, resume, step, parameters, clock or record.
+        start, kick, reset, pause, resume, step, parameters, torque, pace, clock or record.
     verdict : str
         What follows, in a sentence.
     values : mapping
@@ -45,21 +45,24 @@ class Event:
         now: Segment,
     ) -> Event:
         """Return the event after which the segment `now` holds."""
-        after, start = now.state_at(stamp), now.path.start
+        after, path = now.state_at(stamp), now.path
         values = {
             "request": "; ".join(f"{key}={_text(value)}" for key, value in request.items()),
-            "top": _text(now.path.top.moments),
+            "top": _text(path.top.moments),
+            "friction": _text((path.friction.axial, path.friction.transverse)),
+            "applied_torque": _text(path.applied_torque),
             "before.orientation": _text(before.orientation.tolist()),
             "before.angular_velocity": _text(before.angular_velocity.tolist()),
             "after.orientation": _text(after.orientation.tolist()),
             "after.angular_velocity": _text(after.angular_velocity.tolist()),
-            "motion.orientation": _text(start.orientation.tolist()),
-            "motion.angular_velocity": _text(start.angular_velocity.tolist()),
+            "motion.orientation": _text(path.start.orientation.tolist()),
+            "motion.angular_velocity": _text(path.start.angular_velocity.tolist()),
             "motion.stamp": _text(now.stamp),
             "motion.elapsed": _text(now.elapsed),
             "motion.real_time_factor": _text(now.factor),
             "motion.running": _text(now.running),
-            "kind": now.path.kind,
+            "kind": path.kind,
+            "engine": path.engine,
         }
         return cls(stamp, name, verdict, values)
 
@@ -85,7 +88,12 @@ class Event:
             _numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])
         )
         return Segment(
-            path=motion(Top(*_numbers(values["top"])), start),
+            path=motion(
+                Top(*_numbers(values["top"])),
+                start,
+                Friction(*_numbers(values["friction"])),
+                _numbers(values["applied_torque"]),
+            ),
             stamp=int(values["motion.stamp"]),
             elapsed=float(values["motion.elapsed"]),
             factor=float(values["motion.real_time_factor"]),

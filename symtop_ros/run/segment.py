@@ -6,10 +6,11 @@ event when it begins, so that any state of a run can be computed again, bit for 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from symtop_ros.physics import Motion, State, Top, motion
+from symtop_ros.physics import Friction, Motion, State, Top, motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +38,9 @@ class Segment:
     running: bool
 
     @classmethod
-    def begin(
-        cls, top: Top, start: State, stamp: int, factor: float, running: bool = True
-    ) -> Segment:
+    def begin(cls, path: Motion, stamp: int, factor: float) -> Segment:
         """Return the first stretch of a motion that starts now."""
-        return cls(motion(top, start), stamp, 0.0, factor, running)
+        return cls(path, stamp, 0.0, factor, running=True)
 
     def time_at(self, stamp: Any) -> Any:
         """Time of the motion in s at a stamp in ns, or at an array of them."""
@@ -55,11 +54,25 @@ class Segment:
 
     def restarted(self, start: State, stamp: int) -> Segment:
         """Go on from another state (a start or a kick)."""
-        return self.begin(self.path.top, start, stamp, self.factor, self.running)
+        path = self.path
+        return self._on(motion(path.top, start, path.friction, path.applied_torque), stamp)
 
-    def with_top(self, top: Top, stamp: int) -> Segment:
-        """Go on from the state of now with another top."""
-        return self.begin(top, self.state_at(stamp), stamp, self.factor, self.running)
+    def changed(
+        self,
+        stamp: int,
+        top: Top | None = None,
+        friction: Friction | None = None,
+        torque: Sequence[float] | None = None,
+    ) -> Segment:
+        """Go on from the state of now with another top, friction or applied torque."""
+        path = self.path
+        top = path.top if top is None else top
+        friction = path.friction if friction is None else friction
+        torque = path.applied_torque if torque is None else torque
+        return self._on(motion(top, self.state_at(stamp), friction, torque), stamp)
+
+    def _on(self, path: Motion, stamp: int) -> Segment:
+        return replace(self, path=path, stamp=stamp, elapsed=0.0)
 
     def paused(self, stamp: int) -> Segment:
         """Rest at the state of now."""
@@ -80,3 +93,7 @@ class Segment:
     def with_factor(self, factor: float, stamp: int) -> Segment:
         """Go on at another speed."""
         return replace(self, stamp=stamp, elapsed=self.time_at(stamp), factor=factor)
+
+    def slowed(self, reached: float, factor: float, stamp: int) -> Segment:
+        """Go on at another speed from where the engine has got to, if that is less far."""
+        return replace(self, stamp=stamp, elapsed=min(reached, self.time_at(stamp)), factor=factor)

@@ -37,8 +37,18 @@ def numbers(text):
     return np.array([float(part) for part in text.split()])
 
 
+DRIVEN = {"friction", "vertical_torque"}
+
+
 def test_every_scene_has_a_test():
-    assert set(scene_names()) == set(KINDS)
+    assert set(scene_names()) == set(KINDS) | DRIVEN
+
+
+@pytest.mark.parametrize("scene", sorted(DRIVEN))
+def test_a_driven_scene_is_integrated(start_top, scene):
+    state = json.loads(start_top(scene=scene).trigger("get_state")[1])
+    assert state["engine"] == "splitting"
+    assert state["friction"]["axial"] > 0 or state["applied_torque"][2] > 0
 
 
 @pytest.mark.parametrize(("scene", "kind"), KINDS.items())

@@ -111,8 +111,13 @@ def test_diagnostics_tell_the_motion_and_constants_that_do_not_drift(start_top):
     assert abs(float(told["energy.drift"])) < 1e-15
     assert abs(float(told["L_z'.drift"])) < 1e-17
     names = [status.name for status in messages[-1].status]
-    assert names == ["top: motion", "top: pace", "top: log"]
-    assert {pair.key for pair in messages[-1].status[1].values} == {"late", "missed"}
+    assert names == ["top: motion", "top: pace", "top: log", "top: balance"]
+    pace = {pair.key: pair.value for pair in messages[-1].status[1].values}
+    assert pace["missed"] == "0"
+    assert pace["real_time_factor.achieved"] == "1.0"
+    balance = {pair.key: pair.value for pair in messages[-1].status[3].values}
+    assert balance["power"] == "0.0"
+    assert abs(float(balance["energy.balance"])) < 1e-14  # 24 terms, each with the rounding of 1 J
 
 
 def test_the_clock_is_published_where_it_is_asked_for(start_top):

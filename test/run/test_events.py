@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
 
-from symtop_ros.physics import State
+from symtop_ros.physics import Friction, motion
 from symtop_ros.run.events import Event
 from symtop_ros.run.samples import SAMPLES
 from symtop_ros.run.segment import Segment
+
+CLOSED = motion(ARTICLE, CUSPS)
+DRIVEN = motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))
 
 
 def event_of(segment, stamp=BEGIN):
@@ -15,8 +18,10 @@ def event_of(segment, stamp=BEGIN):
 
 
 @pytest.mark.parametrize("running", [True, False])
-def test_a_segment_comes_back_from_its_event_bit_for_bit(running):
-    segment = Segment.begin(ARTICLE, CUSPS, BEGIN, 0.7, running).stepped(0.1, BEGIN + 12_345)
+@pytest.mark.parametrize(("path", "latest"), [(CLOSED, 10**15), (DRIVEN, 10**10)])
+def test_a_segment_comes_back_from_its_event_bit_for_bit(path, latest, running):
+    segment = Segment.begin(path, BEGIN, 0.7).stepped(0.1, BEGIN + 12_345)
+    segment = segment if running else segment.paused(BEGIN + 20_000)
     again = event_of(segment, BEGIN + 99_999).segment()
     assert (again.stamp, again.elapsed, again.factor, again.running) == (
         segment.stamp,
@@ -24,34 +29,35 @@ def test_a_segment_comes_back_from_its_event_bit_for_bit(running):
         0.7,
         running,
     )
-    for later in (0, 1, 10**9, 10**15):
+    for later in (0, 1, 10**9, latest):
         assert again.state_at(BEGIN + later) == segment.state_at(BEGIN + later)
 
 
+@pytest.mark.parametrize("path", [CLOSED, DRIVEN])
 @pytest.mark.parametrize("name", SAMPLES)
-def test_samples_of_many_stamps_are_those_of_each_bit_for_bit(name):
-    segment = Segment.begin(ARTICLE, CUSPS, BEGIN, 1.0)
+def test_samples_of_many_stamps_are_those_of_each_bit_for_bit(name, path):
+    segment = Segment.begin(path, BEGIN, 1.0)
     stamps = BEGIN + np.arange(5000) * 1_000_003
-    many = SAMPLES[name](ARTICLE, segment.state_at(stamps))
+    many = SAMPLES[name](segment.path, segment.state_at(stamps))
     for k in range(0, 5000, 7):
-        one = SAMPLES[name](ARTICLE, segment.state_at(int(stamps[k])))
+        one = SAMPLES[name](segment.path, segment.state_at(int(stamps[k])))
         assert many[k].tolist() == one.tolist()
 
 
 def test_an_event_without_a_value_says_which():
-    event = event_of(Segment.begin(ARTICLE, CUSPS, BEGIN, 1.0))
+    event = event_of(Segment.begin(motion(ARTICLE, CUSPS), BEGIN, 1.0))
     values = {name: value for name, value in event.values.items() if name != "motion.elapsed"}
     with pytest.raises(ValueError, match=r"event 'kick': 'motion.elapsed' is missing"):
         replace(event, values=values).segment()
 
 
 def test_an_event_whose_top_is_none_is_refused():
-    event = event_of(Segment.begin(ARTICLE, CUSPS, BEGIN, 1.0))
+    event = event_of(Segment.begin(motion(ARTICLE, CUSPS), BEGIN, 1.0))
     for bad in ("", "1 2", "a b c", "-1.0 1.0 1.0"):
         with pytest.raises(ValueError, match=r"\S"):
             replace(event, values={**event.values, "top": bad}).segment()
 
 
 def test_a_resting_state_is_one_for_all_stamps():
-    segment = Segment.begin(ARTICLE, State.from_euler(theta=1.0), BEGIN, 1.0, running=False)
+    segment = Segment.begin(CLOSED, BEGIN, 1.0).paused(BEGIN)
     assert segment.state_at(BEGIN + np.arange(3)) == segment.state_at(BEGIN)
