@@ -140,7 +140,7 @@ class TopNode(Node):
         self._segment = self._segment.slowed(reached, factor, stamp)
         verdict = f"the engine cannot keep up: real-time factor {asked:.3g} -> {factor:.3g}"
         self.get_logger().warning(verdict)
-        self._announce("pace", verdict, {"reached": reached}, before)
+        self._announce("pace", verdict, {"reached": reached}, before, stamp)
 
     def _speed_up(self, work: float) -> None:
         """Go back towards the real-time factor that is asked for, where there is time for it."""

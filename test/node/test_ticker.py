@@ -35,3 +35,10 @@ def test_the_thousandth_tick_of_an_odd_rate_is_where_it_should_be():
     last = [stamp for second in range(1, 61) for stamp in ticker.due(7 + second * 1_000 * MS)][-1]
     assert last == 7 + 60_000 * MS
     assert ticker.next_stamp == 7 + round(19981 * 1e9 / 333)
+
+
+def test_the_grid_goes_on_from_any_of_its_stamps():
+    ticker = Ticker(333.0, 7)
+    stamps = ticker.due(7 + 1_000 * MS)
+    assert ticker.grid(stamps[5], 20) == stamps[5:25]
+    assert ticker.grid(ticker.next_stamp, 1) == [ticker.next_stamp]

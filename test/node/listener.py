@@ -1,0 +1,46 @@
+"""Somebody who listens to a node in another process."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+
+TIMEOUT = 20.0  # s; ends a test that hangs, and is never waited for
+
+
+class Listener:
+    """A node in a domain, spun until a condition holds."""
+
+    def __init__(self, domain: int) -> None:
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, domain_id=domain)
+        self.node = rclpy.create_node("listener", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+
+    def __enter__(self) -> Listener:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        rclpy.shutdown(context=self.context)
+
+    def collect(self, kind: Any, topic: str, qos: Any = 1000, raw: bool = False) -> list[Any]:
+        """Subscribe, and return the list that messages (or their bytes) come into."""
+        messages: list[Any] = []
+        self.node.create_subscription(kind, topic, messages.append, qos, raw=raw)
+        return messages
+
+    def spin_until(self, done: Callable[[], Any]) -> None:
+        deadline = time.monotonic() + TIMEOUT
+        while not done():
+            assert time.monotonic() < deadline, "the condition did not come true in time"
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def spin(self, seconds: float) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.executor.spin_once(timeout_sec=0.01)

@@ -1,0 +1,79 @@
+"""The thread that calls for ticks."""
+
+import threading
+
+from symtop_ros.node.pacer import Pacer
+
+TIMEOUT = 10.0  # s; ends a test that hangs
+
+
+class Ticks:
+    """Counts ticks, and answers with what they are to wait for."""
+
+    def __init__(self, *waits):
+        self.waits, self.count = list(waits), 0
+        self.done, self.failed = threading.Event(), threading.Event()
+
+    def tick(self):
+        self.count += 1
+        if not self.waits:
+            self.done.set()
+            return None
+        wait = self.waits.pop(0)
+        if isinstance(wait, Exception):
+            raise wait
+        return wait
+
+    def fail(self, error):
+        self.error = error
+        self.failed.set()
+
+
+def test_it_ticks_at_once_and_after_each_wait():
+    ticks = Ticks(0.001, -1.0, 0.0, 0.002)
+    pacer = Pacer(ticks.tick, ticks.fail)
+    assert ticks.done.wait(TIMEOUT)
+    pacer.stop()
+    assert ticks.count == 5
+
+
+def test_where_only_the_clock_can_tell_it_waits_until_it_is_woken():
+    ticks = Ticks(None, None)
+    pacer = Pacer(ticks.tick, ticks.fail)
+    while not ticks.done.wait(0.001):
+        pacer.wake()
+    pacer.stop()
+    assert ticks.count >= 3
+
+
+def test_to_wake_it_during_a_tick_is_not_forgotten():
+    ticked = threading.Semaphore(0)
+
+    def tick():
+        if ticked._value == 0:
+            pacers[0].wake()
+        ticked.release()
+
+    pacers = []
+    started = threading.Event()
+
+    def first():
+        started.wait(TIMEOUT)
+        return tick()
+
+    pacers.append(Pacer(first, print))
+    started.set()
+    assert ticked.acquire(timeout=TIMEOUT)
+    assert ticked.acquire(timeout=TIMEOUT)
+    pacers[0].stop()
+
+
+def test_an_error_ends_it_and_is_told():
+    error = ValueError("no")
+    ticks = Ticks(0.0, error)
+    pacer = Pacer(ticks.tick, ticks.fail)
+    assert ticks.failed.wait(TIMEOUT)
+    assert ticks.error is error
+    pacer.stop()
+    pacer.stop()
+    assert ticks.count == 2
