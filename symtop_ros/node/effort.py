@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from symtop_ros.run.segment import Segment
 
-STEPS = 50  # of the engine between two looks at the clock: about a millisecond
-PATIENCE = 0.02  # s of work for one block of samples; what takes longer cannot be kept up with
-SHARE = 0.5  # of a core that the engine may take then
+STEPS = 50  # of the engine at a time: about a millisecond, in which nobody else has a turn
+PATIENCE = 0.02  # s of work that any stretch may take
+SHARE = 0.25  # of a core that the engine may take where it cannot keep up
 
 
 class Shortfall(NamedTuple):
@@ -21,26 +21,42 @@ class Shortfall(NamedTuple):
 
 
 class Effort:
-    """Prepares states, and keeps account of the time that takes.
+    """Lets the engine prepare stretch after stretch, and keeps account of the time that takes.
+
+    Parameters
+    ----------
+    stamp : int
+        Where the first stretch begins, in ns.
+    clock : callable
+        Returns s.
 
     Attributes
     ----------
     spent : float
-        s of work, so far.
+        s of work so far.
+    shortfall : Shortfall or None
+        Set where the last stretch has taken longer than it lasts.
     """
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, stamp: int, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
         self.spent = 0.0
+        self.shortfall: Shortfall | None = None
+        self._prepared = stamp  # ns: end of the last stretch
+        self._stretch: tuple[Segment, int] | None = None
 
-    def prepare(self, segment: Segment, first: int, last: int) -> Shortfall | None:
-        """Let the engine go on to the last of some stamps (ns); return why, where it cannot."""
-        begin, end = segment.time_at(first), segment.time_at(last)
-        begun = self._clock()
-        while (reached := segment.path.reach(end, STEPS)) != end:
-            spent = self._clock() - begun
-            if spent > PATIENCE:
-                self.spent += spent
-                return Shortfall(reached, SHARE * max(reached - begin, 0.0) / spent)
-        self.spent += self._clock() - begun
-        return None
+    def prepare(self, segment: Segment, stamp: int) -> bool:
+        """Go on towards a stamp (ns) for a moment; return whether the engine is there."""
+        end = segment.time_at(stamp)
+        if self._stretch != (segment, stamp):
+            self._stretch, self.shortfall = (segment, stamp), None
+            self._begin, self._begun = segment.path.reach(end, 0), self.spent
+        before = self._clock()
+        reached = segment.path.reach(end, STEPS)
+        self.spent += self._clock() - before
+        work = self.spent - self._begun
+        if reached == end:
+            self._prepared, self._stretch = stamp, None
+        elif work > max(PATIENCE, (stamp - self._prepared) * 1e-9):
+            self.shortfall = Shortfall(reached, SHARE * (reached - self._begin) / work)
+        return bool(reached == end)

@@ -9,6 +9,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+REST = 5e-5  # s between two ticks however late they are: a lock is not fair, others need a turn
+
 
 class Pacer:
     """Calls `tick` again and again.
@@ -45,8 +47,7 @@ class Pacer:
         try:
             while not self._ending:
                 wait = self._tick()
-                if wait is None or wait > 0:
-                    self._awake.wait(wait)
+                self._awake.wait(None if wait is None else max(wait, REST))
                 self._awake.clear()
         except Exception as error:
             self._failed(error)

@@ -11,6 +11,8 @@ class Ticker:
 
     Attributes
     ----------
+    rate : float
+        In Hz.
     late : int
         Ticks handed out more than a period after their stamp.
     missed : int
@@ -24,7 +26,7 @@ class Ticker:
 
     def restart(self, rate: float, start: int) -> None:
         """Begin another grid; its first tick is at `start`, in ns."""
-        self._rate = rate
+        self.rate = rate
         self._start = start
         self._next = 0
 
@@ -33,7 +35,7 @@ class Ticker:
         """Stamp in ns of the first tick that is not handed out yet."""
         return self._stamp(self._next)
 
-    def due(self, now: int, catch_up: float = CATCH_UP) -> list[int]:
+    def due(self, now: int, catch_up: float, until: int) -> list[int]:
         """Return the stamps that are due, in order, and count what is late or missed.
 
         Parameters
@@ -42,24 +44,28 @@ class Ticker:
             In ns.
         catch_up : float
             Ticks later than this, in s, are missed.
+        until : int
+            None after this is handed out, in ns.
         """
-        last = int((now - self._start) * self._rate / NANOSECONDS)
-        if now < self.next_stamp - NANOSECONDS / self._rate:
-            self.restart(self._rate, now)  # the clock jumped back
+        last = int((now - self._start) * self.rate / NANOSECONDS)
+        if now < self.next_stamp - NANOSECONDS / self.rate:
+            self.restart(self.rate, now)  # the clock jumped back
             last = 0
-        oldest = last - int(catch_up * self._rate)
+        oldest = last - int(catch_up * self.rate)
         if oldest > self._next:
             self.missed += oldest - self._next
             self._next = oldest
-        stamps = [self._stamp(k) for k in range(self._next, last + 1) if self._stamp(k) <= now]
+        stamps = [
+            self._stamp(k) for k in range(self._next, last + 1) if self._stamp(k) <= min(now, until)
+        ]
         self._next += len(stamps)
-        self.late += sum(now - stamp > NANOSECONDS / self._rate for stamp in stamps)
+        self.late += sum(now - stamp > NANOSECONDS / self.rate for stamp in stamps)
         return stamps
 
     def grid(self, stamp: int, count: int) -> list[int]:
         """Return some stamps of the grid in a row, from one of them on."""
-        first = round((stamp - self._start) * self._rate / NANOSECONDS)
+        first = round((stamp - self._start) * self.rate / NANOSECONDS)
         return [self._stamp(k) for k in range(first, first + count)]
 
     def _stamp(self, k: int) -> int:
-        return self._start + round(k * NANOSECONDS / self._rate)
+        return self._start + round(k * NANOSECONDS / self.rate)

@@ -41,8 +41,8 @@ from symtop_ros.run.events import Event
 from symtop_ros.run.segment import Segment
 
 LONGEST_STEP = 1e9  # s
-AHEAD = 16  # samples that are computed at once, and
-AHEAD_SECONDS = 0.05  # not more than these: a kick makes them void
+AHEAD = 0.05  # s of samples that are computed at once; a kick makes them void
+AT_ONCE, AT_ONCE_DRIVEN = 16, 4  # of them at most: the engine's work is parted in small pieces
 SECOND = 1_000_000_000
 JUMP = 1.0  # s; simulation time that is set further than this has jumped
 CLOCK_CHANGES = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
@@ -70,7 +70,7 @@ class TopNode(Node):
         self._ticker = Ticker(self._settings["publish_rate"], self._now())
         self._initial = start
         self._torque = AppliedTorque(self._settings["world_frame"])
-        self._effort, self._spent = Effort(), 0.0
+        self._effort, self._spent = Effort(self._ticker.next_stamp), 0.0
         self._segment = Segment.begin(
             motion(
                 self._settings.top, start, self._settings.friction, self._settings.steady_torque
@@ -116,23 +116,38 @@ class TopNode(Node):
             jumped_to, self._jumped_to = self._jumped_to, None
             if jumped_to is not None:
                 self._follow_jump(jumped_to)
+            self._release_torque()
+            if not self._prepare_block():
+                return 0.0
             simulated = cast(ROSClock, self.get_clock()).ros_time_is_active
-            missed = self._ticker.missed
-            for stamp in self._ticker.due(self._now(), JUMP if simulated else CATCH_UP):
-                self._release_torque(stamp)
-                self._outputs.send_sample(stamp, self._block_at(stamp))
-            if self._ticker.missed > missed:
-                self._tell_gap(self._ticker.missed - missed)
-            return None if simulated else (self._ticker.next_stamp - self._now()) / SECOND
+            self._publish_due(JUMP if simulated else CATCH_UP)
+            stamp = self._ticker.next_stamp
+            if not self._block.holds(self._segment, stamp):
+                return 0.0
+            return None if simulated else (stamp - self._now()) / SECOND
 
-    def _block_at(self, stamp: int) -> Block:
-        if not self._block.holds(self._segment, stamp):
-            rate = self._settings["publish_rate"]
-            stamps = self._ticker.grid(stamp, min(AHEAD, 1 + int(AHEAD_SECONDS * rate)))
-            while shortfall := self._effort.prepare(self._segment, stamps[0], stamps[-1]):
-                self._slow_down(stamp, shortfall)
-            self._block = Block(self._segment, stamps)
-        return self._block
+    def _publish_due(self, catch_up: float) -> None:
+        missed = self._ticker.missed
+        for stamp in self._ticker.due(self._now(), catch_up, self._block.last):
+            self._outputs.send_sample(stamp, self._block)
+        if self._ticker.missed > missed:
+            self._tell_gap(self._ticker.missed - missed)
+
+    def _prepare_block(self) -> bool:
+        """Have the samples of the next stamps at hand; return whether they are."""
+        stamp, segment = self._ticker.next_stamp, self._segment
+        if self._block.holds(segment, stamp):
+            return True
+        at_once = AT_ONCE_DRIVEN if segment.path.driven else AT_ONCE
+        stamps = self._ticker.grid(stamp, min(at_once, 1 + int(AHEAD * self._ticker.rate)))
+        if any(self._torque.value):
+            stamps = [each for each in stamps if each < self._torque.end]
+        ready = self._effort.prepare(segment, stamps[-1])
+        if ready:
+            self._block = Block(segment, stamps)
+        elif self._effort.shortfall:
+            self._slow_down(stamp, self._effort.shortfall)
+        return ready
 
     def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
         reached, factor = shortfall
@@ -216,8 +231,8 @@ class TopNode(Node):
             else:
                 self._drive(stamp, "an applied torque acts")
 
-    def _release_torque(self, stamp: int) -> None:
-        if any(self._torque.value) and stamp >= self._torque.end:
+    def _release_torque(self) -> None:
+        if any(self._torque.value) and self._ticker.next_stamp >= self._torque.end:
             self._torque.release()
             self._drive(self._torque.end, "the applied torque has run out")
 

@@ -20,11 +20,17 @@ class Block:
     segment : Segment
     stamps : sequence of int
         In ns.
+
+    Attributes
+    ----------
+    last : int
+        The last of the stamps.
     """
 
     def __init__(self, segment: Segment, stamps: Sequence[int]) -> None:
         self.segment = segment
         self._stamps = np.array(stamps, dtype=np.int64)
+        self.last = stamps[-1] if stamps else 0
         self._row = {stamp: row for row, stamp in enumerate(stamps)}
         self._numbers: dict[str, list[list[float]]] = {}
 

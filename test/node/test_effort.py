@@ -1,5 +1,7 @@
 """How the engine's work is bounded, with a clock that a test turns."""
 
+import pytest
+
 from symtop_ros.node.effort import PATIENCE, SHARE, STEPS, Effort
 from symtop_ros.physics import Friction, State, Top, motion
 from symtop_ros.run.segment import Segment
@@ -24,28 +26,55 @@ class Clock:
         return self.time
 
 
-def test_the_closed_form_takes_no_effort():
-    path = motion(TOP, START)
-    effort = Effort(Clock(0.0))
-    assert effort.prepare(Segment.begin(path, 0, 100.0), 0, 10**6 * SECOND) is None
-    assert effort.spent == 0.0
+def prepared(effort, segment, stamp):
+    """How many turns it takes until the engine is there, or gives up."""
+    turns = 1
+    while not effort.prepare(segment, stamp) and not effort.shortfall:
+        turns += 1
+    return turns
 
 
-def test_what_is_near_is_prepared():
-    effort = Effort(Clock(PATIENCE / 1000))
-    assert effort.prepare(Segment.begin(fast(), 0, 1.0), 0, SECOND // 10) is None
-    assert 0 < effort.spent < PATIENCE
-
-
-def test_what_takes_too_long_is_given_up_and_says_what_can_be_done():
-    effort = Effort(Clock(PATIENCE / 9.5))
-    shortfall = effort.prepare(Segment.begin(fast(), 0, 1.0), 0, 1000 * SECOND)
-    assert shortfall is not None
-    assert shortfall.reached == fast().reach(1000.0, 10 * STEPS)  # after ten looks at the clock
-    assert shortfall.factor == SHARE * shortfall.reached / effort.spent
+def test_the_closed_form_takes_one_turn_however_far_it_is():
+    effort = Effort(0, Clock(0.001))
+    assert prepared(effort, Segment.begin(motion(TOP, START), 0, 100.0), 10**6 * SECOND) == 1
+    assert effort.shortfall is None
 
 
 def test_at_rest_there_is_nothing_to_prepare():
-    effort = Effort(Clock(1.0))
-    resting = Segment.begin(fast(), 0, 1.0).paused(0)
-    assert effort.prepare(resting, 0, 10**6 * SECOND) is None
+    effort = Effort(0, Clock(1.0))
+    assert prepared(effort, Segment.begin(fast(), 0, 1.0).paused(0), 10**6 * SECOND) == 1
+
+
+def test_what_lasts_longer_than_its_work_is_prepared_in_turns():
+    effort = Effort(0, Clock(0.001))
+    turns = prepared(effort, Segment.begin(fast(), 0, 1.0), SECOND)
+    assert turns > 10
+    assert effort.shortfall is None
+    assert effort.spent == pytest.approx(0.001 * turns)
+
+
+def test_what_takes_longer_than_it_lasts_is_given_up_and_says_what_can_be_done():
+    each = 0.1  # s for a turn
+    effort = Effort(0, Clock(each))
+    turns = prepared(effort, Segment.begin(fast(), 0, 1.0), SECOND)
+    assert turns == 11  # the first with which it takes more than the second
+    reached, factor = effort.shortfall
+    assert reached == fast().reach(1.0, turns * STEPS)
+    assert factor == pytest.approx(SHARE * (reached - fast().reach(1.0, 0)) / (turns * each))
+
+
+def test_a_speed_that_it_says_it_can_do_is_one_that_it_can_do():
+    effort = Effort(0, Clock(0.1))
+    segment = Segment.begin(fast(), 0, 1.0)
+    prepared(effort, segment, SECOND)
+    slower = segment.slowed(*effort.shortfall, SECOND)
+    prepared(effort, slower, 2 * SECOND)
+    assert effort.shortfall is None
+
+
+def test_after_a_long_stop_there_is_as_much_time_for_what_was_missed():
+    effort = Effort(0, Clock(PATIENCE / 10))
+    segment = Segment.begin(fast(), 0, 1.0)
+    prepared(effort, segment, SECOND // 100)
+    prepared(effort, segment, 5 * SECOND)
+    assert effort.shortfall is None

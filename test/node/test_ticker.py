@@ -1,44 +1,56 @@
 """The grid of stamps, without a clock."""
 
-from symtop_ros.node.ticker import Ticker
+from symtop_ros.node.ticker import CATCH_UP, Ticker
 
 MS = 1_000_000
+NEVER = 2**62
+
+
+def due(ticker, now, until=NEVER):
+    return ticker.due(now, CATCH_UP, until)
 
 
 def test_ticks_are_due_on_the_grid_however_late_the_timer_is():
     ticker = Ticker(1000.0, 0)
-    assert ticker.due(0) == [0]
-    assert ticker.due(int(2.5 * MS)) == [MS, 2 * MS]
-    assert ticker.due(int(2.9 * MS)) == []
-    assert ticker.due(3 * MS) == [3 * MS]
+    assert due(ticker, 0) == [0]
+    assert due(ticker, int(2.5 * MS)) == [MS, 2 * MS]
+    assert due(ticker, int(2.9 * MS)) == []
+    assert due(ticker, 3 * MS) == [3 * MS]
     assert ticker.late == 1  # the one at 1 ms, handed out at 2.5 ms
     assert ticker.missed == 0
 
 
 def test_after_a_long_stop_there_is_no_avalanche_and_what_is_missed_is_counted():
     ticker = Ticker(1000.0, 0)
-    ticker.due(0)
-    stamps = ticker.due(5_000 * MS)
+    due(ticker, 0)
+    stamps = due(ticker, 5_000 * MS)
     assert stamps == [k * MS for k in range(4900, 5001)]
     assert ticker.missed == 4899
 
 
 def test_a_clock_that_jumps_back_begins_another_grid():
     ticker = Ticker(100.0, 1_000 * MS)
-    ticker.due(1_000 * MS)
-    assert ticker.due(200 * MS) == [200 * MS]
+    due(ticker, 1_000 * MS)
+    assert due(ticker, 200 * MS) == [200 * MS]
     assert ticker.next_stamp == 210 * MS
 
 
 def test_the_thousandth_tick_of_an_odd_rate_is_where_it_should_be():
     ticker = Ticker(333.0, 7)
-    last = [stamp for second in range(1, 61) for stamp in ticker.due(7 + second * 1_000 * MS)][-1]
+    last = [stamp for second in range(1, 61) for stamp in due(ticker, 7 + second * 1_000 * MS)][-1]
     assert last == 7 + 60_000 * MS
     assert ticker.next_stamp == 7 + round(19981 * 1e9 / 333)
 
 
 def test_the_grid_goes_on_from_any_of_its_stamps():
     ticker = Ticker(333.0, 7)
-    stamps = ticker.due(7 + 1_000 * MS)
+    stamps = due(ticker, 7 + 1_000 * MS)
     assert ticker.grid(stamps[5], 20) == stamps[5:25]
     assert ticker.grid(ticker.next_stamp, 1) == [ticker.next_stamp]
+
+
+def test_nothing_is_handed_out_beyond_what_is_prepared():
+    ticker = Ticker(1000.0, 0)
+    assert due(ticker, 5 * MS, until=2 * MS) == [0, MS, 2 * MS]
+    assert due(ticker, 5 * MS, until=2 * MS) == []
+    assert due(ticker, 5 * MS) == [3 * MS, 4 * MS, 5 * MS]
