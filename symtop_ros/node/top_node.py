@@ -425,6 +425,7 @@ class TopNode(Node):
             self._segment = self._segment.with_factor(settings["real_time_factor"], stamp)
         if "publish_rate" in changes:
             self._ticker.restart(settings["publish_rate"], stamp)
+            self._block = Block(self._segment, [])  # of the old grid
             self._pacer.wake()
         verdict = "; ".join(f"{name} is now {value}" for name, value in changes.items())
         self._announce("parameters", verdict, changes, before)
