@@ -48,9 +48,6 @@ class Ticker:
             None after this is handed out, in ns.
         """
         last = int((now - self._start) * self.rate / NANOSECONDS)
-        if now < self.next_stamp - NANOSECONDS / self.rate:
-            self.restart(self.rate, now)  # the clock jumped back
-            last = 0
         oldest = last - int(catch_up * self.rate)
         if oldest > self._next:
             self.missed += oldest - self._next

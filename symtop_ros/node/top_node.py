@@ -44,7 +44,7 @@ LONGEST_STEP = 1e9  # s
 AHEAD = 0.05  # s of samples that are computed at once; a kick makes them void
 AT_ONCE, AT_ONCE_DRIVEN = 16, 4  # of them at most: the engine's work is parted in small pieces
 SECOND = 1_000_000_000
-JUMP = 1.0  # s; simulation time that is set further than this has jumped
+JUMP = 1.0  # s; a clock that is set further than this has jumped
 CLOCK_CHANGES = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
 
 
@@ -114,6 +114,8 @@ class TopNode(Node):
         """Publish what is due; return how long nothing will be, None where the clock will tell."""
         with self._turn:
             jumped_to, self._jumped_to = self._jumped_to, None
+            if self._now() < self._ticker.next_stamp - JUMP * SECOND:
+                jumped_to = self._now()  # the clock of the system, which tells nobody
             if jumped_to is not None:
                 self._follow_jump(jumped_to)
             self._release_torque()
