@@ -20,7 +20,7 @@ examples:
 
 scenes: {scenes}
 """
-SWITCH = 5e-4  # s; a tick waits no longer than this for the thread that writes the log
+SWITCH = 1e-4  # s; a tick waits no longer than this for the thread that writes the log
 
 
 def main(args: list[str] | None = None) -> int:

@@ -114,7 +114,7 @@ class TopNode(Node):
         """Publish what is due; return how long nothing will be, None where the clock will tell."""
         with self._turn:
             jumped_to, self._jumped_to = self._jumped_to, None
-            if self._now() < self._ticker.next_stamp - JUMP * SECOND:
+            if self._now() < self._ticker.next_stamp - (JUMP + 1 / self._ticker.rate) * SECOND:
                 jumped_to = self._now()  # the clock of the system, which tells nobody
             if jumped_to is not None:
                 self._follow_jump(jumped_to)
@@ -140,16 +140,22 @@ class TopNode(Node):
         stamp, segment = self._ticker.next_stamp, self._segment
         if self._block.holds(segment, stamp):
             return True
-        at_once = AT_ONCE_DRIVEN if segment.path.driven else AT_ONCE
-        stamps = self._ticker.grid(stamp, min(at_once, 1 + int(AHEAD * self._ticker.rate)))
+        stamps = self._ticker.grid(stamp, self._length_of_block())
         if any(self._torque.value):
             stamps = [each for each in stamps if each < self._torque.end]
         ready = self._effort.prepare(segment, stamps[-1])
         if ready:
-            self._block = Block(segment, stamps)
+            self._block = self._block.following(segment, stamps)
         elif self._effort.shortfall:
             self._slow_down(stamp, self._effort.shortfall)
         return ready
+
+    def _length_of_block(self) -> int:
+        """Few samples where a motion begins, so that its first one comes soon, then more."""
+        segment, rate = self._segment, self._ticker.rate
+        most = AT_ONCE_DRIVEN if segment.path.driven else AT_ONCE
+        grown = 4 * self._block.length if self._block.segment is segment else 1
+        return max(1, min(most, grown, int(AHEAD * rate)))
 
     def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
         reached, factor = shortfall

@@ -1,101 +1,148 @@
-"""The load of a real node in another process: what arrives, and how much of a core it takes."""
+"""What a node costs and how steady it is, beside a bare node of rclpy with the same messages."""
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
-import rclpy
-from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import JointState
+import numpy as np
 
-TOPICS = {
-    "orientation": QuaternionStamped,
-    "angular_velocity": TwistStamped,
-    "angular_momentum": Vector3Stamped,
-    "torque": WrenchStamped,
-    "euler_angles": JointState,
-}
+from symtop_ros.report.bare import TOPICS
+from symtop_ros.report.listener import Listener, Traffic
+
 NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
-STARTING = 30.0  # s that the node may take until every topic has a sample
-SETTLING = 1.0  # s
+BARE = "from symtop_ros.report.bare import main; main()"
+RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, of which the highest one that is held is told
+HELD = 1e-3  # share of samples that may be late then
+KICKS = 100
+PAUSE = 0.0137  # s between kicks; no multiple of a period
+Command = Callable[[float], list[str]]  # of a rate in Hz
 
 
-class Load(NamedTuple):
-    """What one rate cost: share of the samples that arrived, and of a core."""
+class Figures(NamedTuple):
+    """What was measured of a node at one rate.
 
-    arrived: float
+    Attributes
+    ----------
+    core : float
+        Share of a core.
+    message : float
+        us of CPU for each message.
+    arrived, late : float
+        Shares of the samples; late is what came more than a period after its time.
+    jitter : (3,) of float
+        p50, p99 and largest deviation from the period, us.
+    """
+
     core: float
+    message: float
+    arrived: float
+    late: float
+    jitter: tuple[float, ...]
 
 
-def measure(rate: float, seconds: float, recording: bool) -> Load:
-    """Run a node at a rate (Hz), with one subscriber on every topic, for some seconds."""
+def top_node(folder: str, recording: bool = False) -> Command:
+    """Command line of our node."""
+
+    def command(rate: float) -> list[str]:
+        options = [f"publish_rate:={rate}", f"record.enabled:={recording}".lower()]
+        options += [f"record.directory:={folder}", "hurry_factor:=1.0"]
+        words = [word for option in options for word in ("-p", option)]
+        return [sys.executable, "-c", NODE, "--ros-args", *words, "--log-level", "warn"]
+
+    return command
+
+
+def bare_node(rate: float) -> list[str]:
+    """Command line of the peer."""
+    return [sys.executable, "-c", BARE, str(rate)]
+
+
+def load(command: Command, rate: float, seconds: float) -> Figures:
+    """Run a node at a rate (Hz) for some seconds."""
+    with _listening(command(rate)) as (listener, pid):
+        return figures(listener.listen(pid, rate, seconds), rate, seconds)
+
+
+def figures(traffic: Traffic, rate: float, seconds: float) -> Figures:
+    """Return what the traffic of some seconds at a rate (Hz) says."""
+    period = 1 / rate
+    gaps = np.diff(traffic.sent)
+    off = np.abs(gaps - period) * 1e6
+    return Figures(
+        core=traffic.cpu / seconds,
+        message=traffic.cpu / max(traffic.messages, 1) * 1e6,
+        arrived=traffic.arrived,
+        late=float((gaps > 2 * period).mean()),
+        jitter=tuple(float(each) for each in np.percentile(off, [50, 99, 100])),
+    )
+
+
+def kick_latency(command: Command, rate: float) -> tuple[float, float]:
+    """Return p50 and p99, in ms, of the time from a request to the first sample it governs."""
+    with _listening(command(rate)) as (listener, _):
+        latencies = [listener.kick(PAUSE) * 1e3 for _ in range(KICKS)]
+    half, most = np.percentile(latencies, [50, 99])
+    return float(half), float(most)
+
+
+def highest_rate(command: Command, seconds: float) -> float:
+    """Return the highest of some rates (Hz) at which hardly a sample is late; 0 for none."""
+    held = [rate for rate in RATES if load(command, rate, seconds).late < HELD]
+    return max(held, default=0.0)
+
+
+def table(seconds: float) -> Iterator[str]:
+    """Yield the lines of the comparison, as they are measured."""
     with tempfile.TemporaryDirectory() as folder:
-        return _measure(rate, seconds, recording, folder)
+        top, recorded = top_node(folder), top_node(folder, recording=True)
+        yield f"{len(TOPICS)} topics, one subscriber each\n{'':36}{'top_node':>12}"
+        yield f"{'bare rclpy':>12}{'ratio':>8}\n"
+        for rate in (200.0, 1000.0):
+            bare = load(bare_node, rate, seconds)
+            yield from _rows(f"{rate:.0f} Hz", load(top, rate, seconds), bare)
+            yield from _rows(f"{rate:.0f} Hz, recording", load(recorded, rate, seconds), bare)[:1]
+        kicks = [kick_latency(command, 1000.0) for command in (top, bare_node)]
+        for k, name in enumerate(("p50", "p99")):
+            yield _row(f"1000 Hz: kick latency {name}", "ms", kicks[0][k], kicks[1][k])
+        rates = [highest_rate(command, seconds / 2) for command in (top, bare_node)]
+        yield _row(f"highest rate, < {HELD:.1%} late", "Hz", *rates)
 
 
-def _measure(rate: float, seconds: float, recording: bool, folder: str) -> Load:
+def _rows(at: str, ours: Figures, bare: Figures) -> list[str]:
+    return [
+        _row(f"{at}: CPU of a core", "%", ours.core * 100, bare.core * 100),
+        _row(f"{at}: CPU per message", "us", ours.message, bare.message),
+        _row(f"{at}: samples arrived", "%", ours.arrived * 100, bare.arrived * 100),
+        _row(f"{at}: samples late", "%", ours.late * 100, bare.late * 100),
+        *(
+            _row(f"{at}: jitter {name}", "us", *both)
+            for name, *both in zip(("p50", "p99", "max"), ours.jitter, bare.jitter, strict=True)
+        ),
+    ]
+
+
+def _row(name: str, unit: str, ours: float, bare: float) -> str:
+    ratio = f"{ours / bare:8.2f}" if bare else f"{'':8}"
+    return f"{name + ' (' + unit + ')':36}{ours:12.4g}{bare:12.4g}{ratio}\n"
+
+
+@contextlib.contextmanager
+def _listening(command: list[str]) -> Iterator[tuple[Listener, int]]:
+    """Run a node in a domain of its own, and listen to it."""
     domain = 100 + os.getpid() % 100
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
-    options = ["--ros-args", "-p", f"publish_rate:={rate}", "--log-level", "warn"]
-    options += ["-p", f"record.enabled:={recording}".lower(), "-p", f"record.directory:={folder}"]
-    with subprocess.Popen([sys.executable, "-c", NODE, *options], env=environment) as node:
+    with subprocess.Popen(command, env=environment) as node:
         try:
-            return _listen(node.pid, domain, rate, seconds)
+            listener = Listener(domain)
+            try:
+                yield listener, node.pid
+            finally:
+                listener.close()
         finally:
             node.terminate()
-
-
-def _listen(pid: int, domain: int, rate: float, seconds: float) -> Load:
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain)
-    try:
-        listener = rclpy.create_node("listener", context=context)
-        got: dict[str, list[bytes]] = {name: [] for name in TOPICS}
-        for name, kind in TOPICS.items():
-            take: Any = got[name].append
-            listener.create_subscription(kind, f"/top/{name}", take, 1000, raw=True)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(listener)
-        _spin(executor, STARTING, lambda: all(got.values()))
-        _spin(executor, SETTLING)
-        for messages in got.values():
-            messages.clear()
-        cpu, began = _cpu_seconds(pid), time.monotonic()
-        _spin(executor, seconds)
-        core = (_cpu_seconds(pid) - cpu) / (time.monotonic() - began)
-        shares = [_arrived(messages, TOPICS[name], rate) for name, messages in got.items()]
-        return Load(min(shares), core)
-    finally:
-        rclpy.shutdown(context=context)
-
-
-def _spin(
-    executor: SingleThreadedExecutor, seconds: float, done: Callable[[], bool] = lambda: False
-) -> None:
-    end = time.monotonic() + seconds
-    while time.monotonic() < end and not done():
-        executor.spin_once(timeout_sec=0.1)
-
-
-def _cpu_seconds(pid: int) -> float:
-    """User and system time of a process (Linux)."""
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
-def _arrived(messages: list[bytes], kind: Any, rate: float) -> float:
-    """Share of the samples between the first and the last stamp."""
-    if not messages:
-        return 0.0
-    first, last = (deserialize_message(messages[i], kind).header.stamp for i in (0, -1))
-    seconds = last.sec - first.sec + (last.nanosec - first.nanosec) * 1e-9
-    return len(messages) / float(round(seconds * rate) + 1)

@@ -10,7 +10,6 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
-from itertools import product
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -32,8 +31,8 @@ def main(args: list[str] | None = None) -> int:
     """Print the table; return the exit status."""
     parser = argparse.ArgumentParser(prog="top_report", description=__doc__.splitlines()[0])
     parser.add_argument("--states", type=int, default=10_000, help="states in an array")
-    parser.add_argument("--node", action="store_true", help="the load of the node instead")
-    parser.add_argument("--seconds", type=float, default=20.0, help="for each rate of --node")
+    parser.add_argument("--node", action="store_true", help="the node instead, beside a bare one")
+    parser.add_argument("--seconds", type=float, default=10.0, help="for each figure of --node")
     options = parser.parse_args(args)
     if options.states < 1:
         print(f"top_report: --states: got {options.states}, allowed is 1 or more", file=sys.stderr)
@@ -56,15 +55,12 @@ def _load_of_the_node(seconds: float) -> int:
         print(f"top_report: --seconds: got {seconds}, allowed is more than 0", file=sys.stderr)
         return 2
     try:
-        from symtop_ros.report.load import measure
+        from symtop_ros.report.load import table
     except ImportError as error:
         print(f"top_report: --node needs ROS 2: {error}", file=sys.stderr)
         return 1
-    print(f"{'rate':>8}{'arrived':>12}{'of a core':>12}   one subscriber on each of five topics")
-    for rate, recording in product((200.0, 1000.0), (False, True)):
-        load = measure(rate, seconds, recording)
-        note = "   recording" if recording else ""
-        print(f"{rate:5.0f} Hz{load.arrived:12.2%}{load.core:12.0%}{note}", flush=True)
+    for part in table(seconds):
+        print(part, end="", flush=True)
     return 0
 
 

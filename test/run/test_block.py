@@ -45,3 +45,9 @@ def test_what_nobody_asks_for_is_not_computed(monkeypatch):
     for stamp in STAMPS:
         assert np.isfinite(block.numbers("torque", stamp)).all()
     assert computed == ["torque"]
+    after = block.following(SEGMENTS["splitting"], STAMPS)
+    assert computed == ["torque", "torque"]  # at hand
+    after.numbers("torque", STAMPS[0])
+    assert computed == ["torque", "torque"]
+    after.following(SEGMENTS["splitting"], STAMPS)
+    assert len(computed) == 3

@@ -1,0 +1,136 @@
+"""One subscriber on each of the five topics of a node in another process."""
+
+from __future__ import annotations
+
+import os
+import struct
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from numpy.typing import NDArray
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile
+from std_msgs.msg import Header
+from std_srvs.srv import Trigger
+
+from symtop_ros.report.bare import TOPICS
+
+LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+STARTING = 30.0  # s that a node may take until every topic has a sample
+SETTLING = 1.0  # s
+Real = NDArray[np.float64]
+
+
+class Traffic(NamedTuple):
+    """What came from a node, and what that cost it.
+
+    Attributes
+    ----------
+    sent : ndarray (n,)
+        When each sample of the first topic was published, s.
+    arrived : float
+        Share of the samples between the first and the last stamp.
+    messages : int
+        On all topics.
+    cpu : float
+        User and system time of the process, s.
+    """
+
+    sent: Real
+    arrived: float
+    messages: int
+    cpu: float
+
+
+class Listener:
+    """Listens in a domain."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self._node = rclpy.create_node("listener", context=self._context)
+        self._got: dict[str, list[bytes]] = {name: [] for name in TOPICS}
+        self._sent: list[int] = []
+        for name, kind in TOPICS.items():
+            take: Any = self._take if name == "orientation" else self._got[name].append
+            self._node.create_subscription(kind, f"/top/{name}", take, 1000, raw=True)
+        self._events: list[DiagnosticArray] = []
+        self._node.create_subscription(DiagnosticArray, "/top/events", self._events.append, LATCHED)
+        self._kick: Any = self._node.create_client(Trigger, "/top/hurry_precession")
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._spin(STARTING, lambda: all(self._got.values()))
+        self._spin(SETTLING)
+
+    def close(self) -> None:
+        """Leave the domain."""
+        rclpy.shutdown(context=self._context)
+
+    def listen(self, pid: int, rate: float, seconds: float) -> Traffic:
+        """Listen for some seconds."""
+        self._forget()
+        cpu = _cpu_seconds(pid)
+        self._spin(seconds)
+        cpu = _cpu_seconds(pid) - cpu
+        arrived = min(_arrived(messages, rate) for messages in self._got.values())
+        count = sum(map(len, self._got.values()))
+        return Traffic(np.array(self._sent) * 1e-9, arrived, count, cpu)
+
+    def kick(self, pause: float) -> float:
+        """Kick after a pause (s); return the s until a sample of the new motion was published."""
+        self._spin(pause)
+        self._events.clear()
+        asked = time.time()
+        answer = self._kick.call_async(Trigger.Request())
+        self._spin(STARTING, lambda: answer.done() and bool(self._events))
+        begin = stamp_of(self._events[-1].header)
+        orientations = self._got["orientation"]
+        self._spin(STARTING, lambda: _stamp(orientations[-1]) >= begin)
+        first = next(k for k, data in enumerate(orientations) if _stamp(data) >= begin)
+        latency = self._sent[first] * 1e-9 - asked
+        self._forget()
+        return latency
+
+    def _forget(self) -> None:
+        self._sent.clear()
+        for messages in self._got.values():
+            messages.clear()
+
+    def _take(self, data: bytes, info: dict[str, Any]) -> None:
+        self._got["orientation"].append(data)
+        self._sent.append(info["source_timestamp"])
+
+    def _spin(self, seconds: float, done: Callable[[], bool] = lambda: False) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and not done():
+            self._executor.spin_once(timeout_sec=0.1)
+
+
+def _cpu_seconds(pid: int) -> float:
+    """User and system time of a process (Linux)."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def _arrived(messages: list[bytes], rate: float) -> float:
+    """Share of the samples between the first and the last stamp."""
+    if not messages:
+        return 0.0
+    seconds = _stamp(messages[-1]) - _stamp(messages[0])
+    return len(messages) / float(round(seconds * rate) + 1)
+
+
+def _stamp(message: bytes) -> float:
+    """Stamp in s of a serialised message that begins with a header."""
+    seconds, nanoseconds = struct.unpack_from("<iI", message, 4)
+    return float(seconds + nanoseconds * 1e-9)
+
+
+def stamp_of(header: Header) -> float:
+    """Stamp of a header in s."""
+    return float(header.stamp.sec + header.stamp.nanosec * 1e-9)
