@@ -9,14 +9,14 @@ import numpy as np
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
-from symtop_ros.node.messages import event_message
 from symtop_ros.node.urdf import robot_description
 from symtop_ros.physics import State, Top, hurry, motion
 from symtop_ros.recording.log_file import Channel, LogFile
-from symtop_ros.run.events import Event
+from symtop_ros.run.events import PREFIX, Event
 from symtop_ros.run.samples import SAMPLES
 from symtop_ros.run.segment import Segment
 from symtop_ros.wire import messages
+from symtop_ros.wire.diagnostics import OK, Status, packed
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
@@ -62,7 +62,7 @@ class Run:
 
     def _announce(self, name: str, before: State, segment: Segment, stamp: int) -> None:
         event = Event.of(stamp, name, "as told", {}, before, segment)
-        data = serialize_message(event_message(event, "world"))
+        data = packed(stamp, "world", [Status(stamp, OK, PREFIX + name, "as told", event.values)])
         self.messages.append(("events", stamp, data))
 
     def _samples(self, segment: Segment, stamps: list[int]) -> None:

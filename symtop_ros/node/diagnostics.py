@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-
-from symtop_ros.node.messages import header
 from symtop_ros.node.parameters import Settings
 from symtop_ros.node.ticker import Ticker
 from symtop_ros.physics import Motion, State, Top, balance, motion, perry
 from symtop_ros.recording.recorder import Recorder
 from symtop_ros.run.segment import Segment
+from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status
 
 SHORTEST = 1e-3  # s of motion that the balances are taken over, at its very start
 
@@ -77,18 +75,18 @@ def _motion(path: Motion, state: State) -> dict[str, Any]:
 
 def diagnostics(
     settings: Settings, segment: Segment, stamp: int, ticker: Ticker, recorder: Recorder
-) -> DiagnosticArray:
-    """Return the message for /diagnostics."""
-    status = [
+) -> list[Status]:
+    """Return the statuses for /diagnostics."""
+    found = [
         _motion_status(segment, stamp),
         _pace(segment, settings["real_time_factor"], ticker),
         _log(recorder),
         _balance(segment, stamp),
     ]
-    return DiagnosticArray(header=header(stamp, settings["world_frame"]), status=status)
+    return [each._replace(stamp=stamp) for each in found]
 
 
-def _motion_status(segment: Segment, stamp: int) -> DiagnosticStatus:
+def _motion_status(segment: Segment, stamp: int) -> Status:
     path, state = segment.path, segment.state_at(stamp)
     now, start = constants(path.top, state), constants(path.top, path.start)
     verdict = perry(path.top, state)
@@ -99,10 +97,10 @@ def _motion_status(segment: Segment, stamp: int) -> DiagnosticStatus:
         "regular_precession_rates": list(verdict.regular_rates),
         "running": segment.running,
     }
-    return _status("top: motion", DiagnosticStatus.OK, str(verdict), facts)
+    return _status("top: motion", OK, str(verdict), facts)
 
 
-def _balance(segment: Segment, stamp: int) -> DiagnosticStatus:
+def _balance(segment: Segment, stamp: int) -> Status:
     """What friction and torque do, and how well dE/dt and dL/dt are what they make them."""
     path, state = segment.path, segment.state_at(stamp)
     t = segment.time_at(stamp)
@@ -117,10 +115,10 @@ def _balance(segment: Segment, stamp: int) -> DiagnosticStatus:
         "angular_momentum.balance": found.angular_momentum.tolist(),
     }
     message = "friction or an applied torque acts" if path.driven else "gravity alone acts"
-    return _status("top: balance", DiagnosticStatus.OK, message, facts)
+    return _status("top: balance", OK, message, facts)
 
 
-def _pace(segment: Segment, asked: float, ticker: Ticker) -> DiagnosticStatus:
+def _pace(segment: Segment, asked: float, ticker: Ticker) -> Status:
     achieved = segment.factor if segment.running else 0.0
     facts = {
         "late": ticker.late,
@@ -133,24 +131,23 @@ def _pace(segment: Segment, asked: float, ticker: Ticker) -> DiagnosticStatus:
     elif ticker.missed:
         message = f"{ticker.missed} ticks missed"
     else:
-        return _status("top: pace", DiagnosticStatus.OK, "on time", facts)
-    return _status("top: pace", DiagnosticStatus.WARN, message, facts)
+        return _status("top: pace", OK, "on time", facts)
+    return _status("top: pace", WARN, message, facts)
 
 
-def _log(recorder: Recorder) -> DiagnosticStatus:
+def _log(recorder: Recorder) -> Status:
     facts = {"file": recorder.path or "", "dropped": recorder.dropped}
     if recorder.failure:
-        return _status("top: log", DiagnosticStatus.ERROR, recorder.failure, facts)
+        return _status("top: log", ERROR, recorder.failure, facts)
     if recorder.dropped:
         message = f"{recorder.dropped} messages were too many for the disk"
-        return _status("top: log", DiagnosticStatus.WARN, message, facts)
+        return _status("top: log", WARN, message, facts)
     message = "recording" if recorder.running else "not recording"
-    return _status("top: log", DiagnosticStatus.OK, message, facts)
+    return _status("top: log", OK, message, facts)
 
 
-def _status(name: str, level: bytes, message: str, facts: dict[str, Any]) -> DiagnosticStatus:
-    values = [KeyValue(key=key, value=_text(value)) for key, value in facts.items()]
-    return DiagnosticStatus(level=level, name=name, message=message, values=values)
+def _status(name: str, level: int, message: str, facts: dict[str, Any]) -> Status:
+    return Status(0, level, name, message, {key: _text(value) for key, value in facts.items()})
 
 
 def _text(value: Any) -> str:

@@ -16,7 +16,7 @@ from symtop_ros.node.fields import (
     numbers,
     refuse,
 )
-from symtop_ros.physics import State, Top, hurry, impulse, set_precession_rate
+from symtop_ros.physics import Motion, State, Top, hurry, impulse, motion, set_precession_rate
 from symtop_ros.physics.kicks import HOLDS, Hold, precession_rate
 from symtop_ros.physics.perry import kick_verdict
 
@@ -30,14 +30,15 @@ NAMES = (*KINDS, "hold")
 
 
 class Kicked(NamedTuple):
-    """The state after a kick, and what it leads to, in a sentence."""
+    """The motion after a kick, and what it leads to, in a sentence."""
 
-    state: State
+    path: Motion
     verdict: str
 
 
-def kicked(top: Top, state: State, values: Mapping[str, Any]) -> Kicked:
-    """Return what a kick makes of a state; RefusedError where it cannot be given."""
+def kicked(path: Motion, state: State, values: Mapping[str, Any]) -> Kicked:
+    """Return what a kick makes of a state on a path; RefusedError where it cannot be given."""
+    top = path.top
     kind = exactly_one(values, KINDS)
     if kind == "angular_impulse":
         if "hold" in values:
@@ -52,7 +53,8 @@ def kicked(top: Top, state: State, values: Mapping[str, Any]) -> Kicked:
     largest = float(np.abs(after.angular_velocity).max())
     if not largest <= LARGEST_RATE:
         raise refuse(kind, values[kind], f"what leaves the top below {LARGEST_RATE:g} rad/s")
-    return Kicked(after, kick_verdict(top, state, after, hold))
+    path = motion(top, after, path.friction, path.applied_torque)
+    return Kicked(path, kick_verdict(path, state, hold))
 
 
 def _with_rate(top: Top, state: State, kind: str, value: float, hold: Hold) -> State:

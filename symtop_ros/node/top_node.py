@@ -27,7 +27,6 @@ from symtop_ros.node.applied_torque import AppliedTorque
 from symtop_ros.node.diagnostics import diagnostics, state_report
 from symtop_ros.node.effort import SHARE, Effort, Shortfall
 from symtop_ros.node.fields import RefusedError, named_values, number
-from symtop_ros.node.messages import event_message
 from symtop_ros.node.metadata import metadata
 from symtop_ros.node.outputs import Outputs
 from symtop_ros.node.pacer import Pacer
@@ -37,8 +36,9 @@ from symtop_ros.node.urdf import robot_description
 from symtop_ros.physics import State, motion, perry
 from symtop_ros.recording.recorder import Limits, Recorder, reason
 from symtop_ros.run.block import Block
-from symtop_ros.run.events import Event
+from symtop_ros.run.events import PREFIX, Event
 from symtop_ros.run.segment import Segment
+from symtop_ros.wire.diagnostics import OK, Status, packed
 
 LONGEST_STEP = 1e9  # s
 AHEAD = 0.05  # s of samples that are computed at once; a kick makes them void
@@ -69,7 +69,7 @@ class TopNode(Node):
         self._outputs.publish_tf(self._settings["publish_tf"])
         self._ticker = Ticker(self._settings["publish_rate"], self._now())
         self._initial = start
-        self._torque = AppliedTorque(self._settings["world_frame"])
+        self._torque = AppliedTorque(self._frame)
         self._effort, self._spent = Effort(self._ticker.next_stamp), 0.0
         self._segment = Segment.begin(
             motion(
@@ -199,7 +199,7 @@ class TopNode(Node):
             if output.wanted:
                 stamp = self._ticker.next_stamp
                 facts = self._segment, stamp, self._ticker, self._recorder
-                output.send_message(stamp, diagnostics(self._settings, *facts))
+                output.send(stamp, packed(stamp, self._frame, diagnostics(self._settings, *facts)))
 
     def _follow_clock(self) -> None:
         """Learn when simulation time is set; then it alone says when ticks are due."""
@@ -256,6 +256,10 @@ class TopNode(Node):
     # events and answers
 
     @property
+    def _frame(self) -> str:
+        return str(self._settings["world_frame"])
+
+    @property
     def _scene(self) -> str:
         return str(self.get_parameter("scene").value)
 
@@ -278,9 +282,8 @@ class TopNode(Node):
     ) -> None:
         stamp = self._ticker.next_stamp if stamp is None else stamp
         event = Event.of(stamp, name, verdict, request, before, self._segment)
-        self._outputs.events.send_message(
-            stamp, event_message(event, self._settings["world_frame"])
-        )
+        status = Status(stamp, OK, PREFIX + name, verdict, event.values)
+        self._outputs.events.send(stamp, packed(stamp, self._frame, [status]))
 
     def _offer_services(self) -> None:
         for name, kind, handle in (
@@ -323,8 +326,8 @@ class TopNode(Node):
     def _kick_by(self, values: Mapping[str, Any]) -> str:
         stamp = self._ticker.next_stamp
         before = self._segment.state_at(stamp)
-        after, verdict = kick.kicked(self._segment.path.top, before, values)
-        self._segment = self._segment.restarted(after, stamp)
+        path, verdict = kick.kicked(self._segment.path, before, values)
+        self._segment = self._segment.onto(path, stamp)
         self._announce("kick", verdict, values, before)
         return verdict
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from symtop_ros.physics.kicks import Hold
-from symtop_ros.physics.motion import motion
+from symtop_ros.physics.motion import Motion, motion
 from symtop_ros.physics.precession import quadratic_roots
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -129,9 +129,17 @@ def perry(top: Top, state: State, hold: Hold = "spin_rate") -> Verdict:
     )
 
 
-def kick_verdict(top: Top, before: State, after: State, hold: Hold = "spin_rate") -> str:
-    """Return in one sentence what a kick asked for, what follows and whether Perry was right."""
-    path = motion(top, after)
+def kick_verdict(path: Motion, before: State, hold: Hold = "spin_rate") -> str:
+    """Return in one sentence what a kick asked for, what follows and whether Perry was right.
+
+    Parameters
+    ----------
+    path : Motion
+        From the state after the kick.
+    before : State
+    hold : {"spin_rate", "spin_momentum"}
+    """
+    top, after = path.top, path.start
     low, high = path.turning_angles
     if _vertical(before):
         return f"kicked off the vertical: {path.kind}, theta {low:.3f} .. {high:.3f} rad"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -99,11 +100,13 @@ class State:
         )
         return cls(orientation, omega)
 
-    @property
+    @cached_property
     def vertical(self) -> Real:
         """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta."""
         w, x, y, z = self._parts
-        return _vector(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+        return _read_only(
+            _vector(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+        )
 
     @property
     def _parts(self) -> tuple[Real, Real, Real, Real]:
@@ -121,7 +124,7 @@ class State:
         psi = np.where(on_vertical, np.where(theta == 0, 2 * upper, -2 * lower), upper - lower)
         return Angles(*(_plain(angle) for angle in (phi, theta, _wrapped(psi))))
 
-    @property
+    @cached_property
     def euler_rates(self) -> Angles:
         """Rates (phi', theta', psi') in rad/s; on the vertical phi' is taken as 0."""
         vertical, omega = self.vertical, self.angular_velocity

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.run.events import Event
+from symtop_ros.run.events import PREFIX, Event
 from symtop_ros.wire.diagnostics import statuses
 from symtop_ros.wire.messages import KINDS, Unpacked, unpacked
 
 EVENTS, TF = "events", "tf"
-PREFIX = "top: "  # of the names of our statuses
 
 
 @dataclass(frozen=True, eq=False)

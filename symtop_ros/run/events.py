@@ -12,6 +12,8 @@ from typing import Any
 from symtop_ros.physics import Friction, State, Top, motion
 from symtop_ros.run.segment import Segment
 
+PREFIX = "top: "  # of the name of an event, where it is the status of a message
+
 
 @dataclass(frozen=True, slots=True)
 class Event:

@@ -53,9 +53,9 @@ class Segment:
         return self.path.at(self.time_at(stamp))
 
     def restarted(self, start: State, stamp: int) -> Segment:
-        """Go on from another state (a start or a kick)."""
+        """Go on from another state."""
         path = self.path
-        return self._on(motion(path.top, start, path.friction, path.applied_torque), stamp)
+        return self.onto(motion(path.top, start, path.friction, path.applied_torque), stamp)
 
     def changed(
         self,
@@ -69,9 +69,10 @@ class Segment:
         top = path.top if top is None else top
         friction = path.friction if friction is None else friction
         torque = path.applied_torque if torque is None else torque
-        return self._on(motion(top, self.state_at(stamp), friction, torque), stamp)
+        return self.onto(motion(top, self.state_at(stamp), friction, torque), stamp)
 
-    def _on(self, path: Motion, stamp: int) -> Segment:
+    def onto(self, path: Motion, stamp: int) -> Segment:
+        """Go on with another motion, from its start."""
         return replace(self, path=path, stamp=stamp, elapsed=0.0)
 
     def paused(self, stamp: int) -> Segment:

@@ -15,6 +15,29 @@ class DecodeError(ValueError):
     """Bytes that are not the message they are said to be."""
 
 
+class Writer:
+    """Puts values into a message, one after the other."""
+
+    def __init__(self) -> None:
+        self._data = bytearray(HEADER)
+
+    @property
+    def data(self) -> bytes:
+        """The message."""
+        return bytes(self._data)
+
+    def integer(self, value: int, code: str = "I") -> None:
+        """Add an integer; `code` as in struct."""
+        self._data += bytes(-(len(self._data) - len(HEADER)) % struct.calcsize(f"<{code}"))
+        self._data += struct.pack(f"<{code}", value)
+
+    def string(self, text: str) -> None:
+        """Add a string."""
+        encoded = text.encode() + b"\0"
+        self.integer(len(encoded))
+        self._data += encoded
+
+
 class Reader:
     """Takes values out of a message, one after the other."""
 

@@ -1,14 +1,15 @@
-"""Reading diagnostic_msgs/DiagnosticArray and std_msgs/String where there is no ROS."""
+"""Writing and reading diagnostic_msgs/DiagnosticArray."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from symtop_ros.wire.cdr import Reader
+from symtop_ros.wire.cdr import Reader, Writer
 from symtop_ros.wire.layout import NANOSECONDS
 
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+OK, WARN, ERROR = range(3)
 
 
 class Status(NamedTuple):
@@ -19,6 +20,25 @@ class Status(NamedTuple):
     name: str
     message: str
     values: Mapping[str, str]
+
+
+def packed(stamp: int, frame: str, found: Sequence[Status]) -> bytes:
+    """Return the message of some statuses; its stamp, in ns, is the one that counts."""
+    writer = Writer()
+    seconds, nanoseconds = divmod(stamp, NANOSECONDS)
+    writer.integer(seconds, "i")
+    writer.integer(nanoseconds)
+    writer.string(frame)
+    writer.integer(len(found))
+    for each in found:
+        writer.integer(each.level, "B")
+        for text in (each.name, each.message, ""):
+            writer.string(text)
+        writer.integer(len(each.values))
+        for pair in each.values.items():
+            for text in pair:
+                writer.string(text)
+    return writer.data
 
 
 def statuses(data: bytes) -> list[Status]:

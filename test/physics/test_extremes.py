@@ -50,7 +50,7 @@ def test_no_combination_of_numbers_breaks_anything(block):
         if isinstance(after, str):
             assert "vertical" in after or "allowed is up to" in after
         else:
-            assert kick_verdict(top, start, after)
+            assert kick_verdict(motion(top, after), start)
 
 
 def hurried(top, start):

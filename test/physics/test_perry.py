@@ -91,16 +91,16 @@ def test_on_the_vertical_the_rule_is_not_defined():
 
 def test_a_kick_is_told_in_one_sentence():
     slow, fast = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
-    raised = kick_verdict(ARTICLE, start(slow), hurry(ARTICLE, start(slow)))
+    raised = kick_verdict(motion(ARTICLE, hurry(ARTICLE, start(slow))), start(slow))
     assert raised.startswith("precession 6.50 -> 9.10 rad/s (regular at 6.50 and 69.82): the top")
     assert "the top rises, theta 0.437 .. 0.500 rad" in raised
     assert "Perry's rule holds here" in raised
-    lowered = kick_verdict(ARTICLE, start(fast), hurry(ARTICLE, start(fast), 1.05))
+    lowered = kick_verdict(motion(ARTICLE, hurry(ARTICLE, start(fast), 1.05)), start(fast))
     assert "the top falls" in lowered
     assert "Perry's rule fails here" in lowered
-    delayed = kick_verdict(ARTICLE, start(slow), hurry(ARTICLE, start(slow), 0.8))
+    delayed = kick_verdict(motion(ARTICLE, hurry(ARTICLE, start(slow), 0.8)), start(slow))
     assert "delayed: Perry's rule holds here" in delayed
-    reversed_ = kick_verdict(ARTICLE, start(slow), hurry(ARTICLE, start(slow), -1.0))
+    reversed_ = kick_verdict(motion(ARTICLE, hurry(ARTICLE, start(slow), -1.0)), start(slow))
     assert "reversed" in reversed_
-    none = kick_verdict(ARTICLE, start(0.0), hurry(ARTICLE, start(0.0)))
+    none = kick_verdict(motion(ARTICLE, hurry(ARTICLE, start(0.0))), start(0.0))
     assert "the precession was not changed" in none

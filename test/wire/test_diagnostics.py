@@ -3,10 +3,10 @@ import contextlib
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from hypothesis import given
 from hypothesis import strategies as st
-from rclpy.serialization import serialize_message
+from rclpy.serialization import deserialize_message, serialize_message
 
 from symtop_ros.wire.cdr import DecodeError
-from symtop_ros.wire.diagnostics import statuses
+from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, packed, statuses
 
 TEXT = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=20)
 
@@ -21,9 +21,51 @@ def test_what_rclpy_writes_is_read(given_statuses):
             level=DiagnosticStatus.WARN, name=name, message=text, hardware_id="x", values=pairs
         )
         message.status.append(status)
-    found = statuses(serialize_message(message))
+    data = serialize_message(message)
+    found = statuses(data)
     assert [(each.name, each.message, dict(each.values)) for each in found] == given_statuses
     assert all(each.stamp == 3_000_000_004 and each.level == 1 for each in found)
+
+
+LEVELS = st.sampled_from([OK, WARN, ERROR])
+STATUSES = st.builds(
+    Status,
+    stamp=st.just(3_000_000_004),
+    level=LEVELS,
+    name=TEXT,
+    message=TEXT,
+    values=st.dictionaries(TEXT, TEXT, max_size=4),
+)
+
+
+@given(TEXT, st.lists(STATUSES, max_size=3))
+def test_what_is_written_is_what_rclpy_reads(frame, given_statuses):
+    data = packed(3_000_000_004, frame, given_statuses)
+    assert statuses(data) == given_statuses
+    message = deserialize_message(data, DiagnosticArray)
+    assert message.header.frame_id == frame
+    assert (message.header.stamp.sec, message.header.stamp.nanosec) == (3, 4)
+    told = [
+        (each.name, each.message, {pair.key: pair.value for pair in each.values}, each.level[0])
+        for each in message.status
+    ]
+    assert told == [(each.name, each.message, each.values, each.level) for each in given_statuses]
+
+
+def test_what_is_written_is_byte_for_byte_what_rclpy_writes():
+    # texts of a length that leaves no padding, in which rclpy leaves what was in memory
+    message = DiagnosticArray()
+    message.header.stamp.sec, message.header.frame_id = 7, "abc"
+    pair = KeyValue(key="key", value="1.5")
+    status = DiagnosticStatus(level=DiagnosticStatus.ERROR, name="abc", message="abcdefg")
+    status.hardware_id, status.values = "", [pair]
+    message.status.append(status)
+    ours = packed(7_000_000_000, "abc", [Status(0, ERROR, "abc", "abcdefg", {"key": "1.5"})])
+    theirs = serialize_message(message)
+    padding = {25, 26, 27, 49, 50, 51}  # after the level, and after the empty hardware_id
+    assert len(theirs) - len(ours) < 8  # rclpy hands out more than it sends
+    for k, byte in enumerate(ours):
+        assert k in padding or byte == theirs[k], k
 
 
 @given(st.binary(max_size=200))
