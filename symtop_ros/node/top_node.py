@@ -296,7 +296,28 @@ class TopNode(Node):
             ("record", SetBool, self._record),
             ("get_state", Trigger, self._get_state),
         ):
-            self.create_service(kind, f"~/{name}", _answering(handle, self._turn))
+            self.create_service(kind, f"~/{name}", self._answering(handle))
+
+    def _answering(self, handle: Any) -> Any:
+        """Turn a sentence or a refusal into the response of any of the service types.
+
+        What is due by then is published at once, and need not wait for the pacer's turn.
+        """
+
+        def answer(request: Any, response: Any) -> Any:
+            with self._turn:
+                try:
+                    granted, sentence = True, handle(request)
+                except RefusedError as refusal:
+                    granted, sentence = False, str(refusal)
+                self._tick()
+            if isinstance(response, SetParametersAtomically.Response):
+                response.result = SetParametersResult(successful=granted, reason=sentence)
+            else:
+                response.success, response.message = granted, sentence
+            return response
+
+        return answer
 
     # what requests do: each returns the sentence of its answer, or raises RefusedError
 
@@ -442,21 +463,3 @@ class TopNode(Node):
         self._announce("parameters", verdict, changes, before)
         if settings.steady_torque != old.steady_torque:
             self._drive(stamp, "the steady torque is another one")
-
-
-def _answering(handle: Any, turn: threading.RLock) -> Any:
-    """Turn a sentence or a refusal into the response of any of the service types."""
-
-    def answer(request: Any, response: Any) -> Any:
-        try:
-            with turn:
-                granted, sentence = True, handle(request)
-        except RefusedError as refusal:
-            granted, sentence = False, str(refusal)
-        if isinstance(response, SetParametersAtomically.Response):
-            response.result = SetParametersResult(successful=granted, reason=sentence)
-        else:
-            response.success, response.message = granted, sentence
-        return response
-
-    return answer
