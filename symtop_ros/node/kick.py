@@ -18,7 +18,6 @@ from symtop_ros.node.fields import (
 )
 from symtop_ros.physics import Motion, State, Top, hurry, impulse, motion, set_precession_rate
 from symtop_ros.physics.kicks import HOLDS, Hold, precession_rate
-from symtop_ros.physics.perry import kick_verdict
 
 KINDS = (
     "precession_rate",
@@ -30,10 +29,10 @@ NAMES = (*KINDS, "hold")
 
 
 class Kicked(NamedTuple):
-    """The motion after a kick, and what it leads to, in a sentence."""
+    """The motion after a kick, and what was held."""
 
     path: Motion
-    verdict: str
+    hold: Hold
 
 
 def kicked(path: Motion, state: State, values: Mapping[str, Any]) -> Kicked:
@@ -53,8 +52,7 @@ def kicked(path: Motion, state: State, values: Mapping[str, Any]) -> Kicked:
     largest = float(np.abs(after.angular_velocity).max())
     if not largest <= LARGEST_RATE:
         raise refuse(kind, values[kind], f"what leaves the top below {LARGEST_RATE:g} rad/s")
-    path = motion(top, after, path.friction, path.applied_torque)
-    return Kicked(path, kick_verdict(path, state, hold))
+    return Kicked(motion(top, after, path.friction, path.applied_torque), hold)
 
 
 def _with_rate(top: Top, state: State, kind: str, value: float, hold: Hold) -> State:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import sys
 
 import rclpy
@@ -52,6 +53,7 @@ def _run() -> None:
     """
     executor = SingleThreadedExecutor()
     top = TopNode()
+    gc.freeze()  # what is there now stays: to look through it for garbage would delay ticks
     try:
         rclpy.spin(top, executor)
     except (ExternalShutdownException, RuntimeError):

@@ -55,6 +55,13 @@ class Output:
     kind : type or str
         Type of its messages; a name alone where the type is not installed: then it is only logged.
     qos : QoSProfile or int
+
+    Attributes
+    ----------
+    channel : int
+        Its number in the log.
+    published : bool
+        Whether it is published at all.
     """
 
     def __init__(
@@ -68,7 +75,7 @@ class Output:
         self._publisher = None if isinstance(kind, str) else _publisher(node, topic, kind, qos)
         self._latched = isinstance(qos, QoSProfile)
         self._recorder = recorder
-        self._channel = recorder.channel(
+        self.channel = recorder.channel(
             node.resolve_topic_name(topic), _name_of(kind), self._latched
         )
         self.published = True
@@ -82,7 +89,7 @@ class Output:
         """Publish and log a message that is serialised already; its stamp is in ns."""
         if self._publisher and (self._latched or self._heard):
             self._publisher.publish(data)
-        self._recorder.add(self._channel, stamp, data)
+        self._recorder.add(self.channel, stamp, data)
 
     def send_message(self, stamp: int, message: Any) -> None:
         """Publish and log a message."""

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -34,6 +35,7 @@ from symtop_ros.node.parameters import DECLARATIONS, Settings, checked, declare
 from symtop_ros.node.ticker import CATCH_UP, Ticker
 from symtop_ros.node.urdf import robot_description
 from symtop_ros.physics import State, motion, perry
+from symtop_ros.physics.perry import kick_verdict
 from symtop_ros.recording.recorder import Limits, Recorder, reason
 from symtop_ros.run.block import Block
 from symtop_ros.run.events import PREFIX, Event
@@ -306,6 +308,7 @@ class TopNode(Node):
 
         def answer(request: Any, response: Any) -> Any:
             with self._turn:
+                self._release_torque()
                 try:
                     granted, sentence = True, handle(request)
                 except RefusedError as refusal:
@@ -333,9 +336,10 @@ class TopNode(Node):
     def _restart(self, name: str, request: Mapping[str, Any], start: State) -> str:
         stamp = self._ticker.next_stamp
         before = self._segment.state_at(stamp)
-        self._segment = self._segment.restarted(start, stamp)
-        verdict = self._verdict()
-        self._announce(name, verdict, request, before)
+        with self._at_once(self._segment.restarted(start, stamp)):
+            verdict = self._verdict()
+            self._publish_ready()
+            self._announce(name, verdict, request, before, stamp)
         return verdict
 
     def _kick(self, request: SetParametersAtomically.Request) -> str:
@@ -347,10 +351,28 @@ class TopNode(Node):
     def _kick_by(self, values: Mapping[str, Any]) -> str:
         stamp = self._ticker.next_stamp
         before = self._segment.state_at(stamp)
-        path, verdict = kick.kicked(self._segment.path, before, values)
-        self._segment = self._segment.onto(path, stamp)
-        self._announce("kick", verdict, values, before)
+        path, hold = kick.kicked(self._segment.path, before, values)
+        with self._at_once(self._segment.onto(path, stamp)):
+            verdict = kick_verdict(path, before, hold)
+            self._publish_ready()
+            self._announce("kick", verdict, values, before, stamp)
         return verdict
+
+    @contextmanager
+    def _at_once(self, segment: Segment) -> Iterator[None]:
+        """Go on with another segment, and publish its first sample before there are words for it.
+
+        In the log its event comes first all the same.
+        """
+        self._segment = segment
+        with self._recorder.behind(self._outputs.events.channel):
+            self._publish_ready()
+            yield
+
+    def _publish_ready(self) -> None:
+        """Publish what is due, if it is prepared in a moment."""
+        if self._prepare_block():
+            self._publish_due(CATCH_UP)
 
     def _pause(self, request: SetBool.Request) -> str:
         stamp, pausing = self._ticker.next_stamp, bool(request.data)

@@ -9,7 +9,8 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,6 +65,7 @@ class Recorder:
         self._channels: list[Channel] = []
         self._latched: dict[int, bytes] = {}
         self._queue: deque[Queued] = deque()
+        self._held: list[Queued] | None = None
         self._thread: threading.Thread | None = None
         self._ending = threading.Event()
         self.dropped = 0
@@ -108,10 +110,27 @@ class Recorder:
             self._latched[channel] = data
         if not self.running:
             return
+        if self._held is None or channel == self._ahead:
+            self._put((channel, stamp, data))
+        else:
+            self._held.append((channel, stamp, data))
+
+    def _put(self, message: Queued) -> None:
         if len(self._queue) < QUEUE:
-            self._queue.append((channel, stamp, data))
+            self._queue.append(message)
         else:
             self.dropped += 1
+
+    @contextmanager
+    def behind(self, channel: int) -> Iterator[None]:
+        """Let what is added meanwhile come after what is added on one channel."""
+        self._ahead, self._held = channel, []
+        try:
+            yield
+        finally:
+            held, self._held = self._held, None
+            for message in held:
+                self._put(message)
 
     def stop(self) -> None:
         """Write what is queued, end the file and return when that is done."""

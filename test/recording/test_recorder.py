@@ -207,3 +207,22 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match=r"\S"):
         made(tmp_path / "file" / "logs").start({})
+
+
+def test_what_comes_behind_a_channel_is_written_after_it(tmp_path):
+    recorder = made(tmp_path)
+    path = recorder.start({})
+    recorder.add(1, 1, b"first")
+    with recorder.behind(0):
+        recorder.add(1, 2, b"sample")
+        recorder.add(0, 2, b"event")
+        recorder.add(1, 3, b"another")
+    recorder.add(1, 4, b"last")
+    recorder.stop()
+    assert [data for _, _, data in contents(path)] == [
+        b"first",
+        b"event",
+        b"sample",
+        b"another",
+        b"last",
+    ]
