@@ -7,7 +7,10 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "symtop_ros"
-MESSAGES = ("rclpy", "geometry_msgs", "sensor_msgs")
+MESSAGES = (
+    *("rclpy", "geometry_msgs", "sensor_msgs", "std_msgs", "std_srvs"),
+    "diagnostic_msgs",
+)
 ARRAYS = {"numpy", "scipy", "symtop_ros.physics"}
 ALLOWED = {
     "physics": ARRAYS,

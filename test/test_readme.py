@@ -11,7 +11,11 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import WrenchStamped
 from log_files import Run
+from node.listener import Listener
 from programs import command, run, running_node
 
 ROOT = Path(__file__).parents[1]
@@ -35,6 +39,25 @@ def test_a_command_of_the_readme_is_granted(words):
     if words == "hurry":
         told = " ".join(result.stdout.split())
         assert told in " ".join(README.split())
+
+
+@pytest.mark.usefixtures("node")
+def test_the_torque_that_the_readme_publishes_acts():
+    """As `ros2 topic pub` would publish it; ros2cli is not on PyPI."""
+    pattern = r"^ros2 topic pub -r \d+ (\S+) geometry_msgs/msg/WrenchStamped '(.+)'$"
+    topic, text = re.search(pattern, README, flags=re.MULTILINE).groups()
+    message = WrenchStamped()
+    ((part, numbers),) = yaml.safe_load(text)["wrench"].items()
+    for axis, value in numbers.items():
+        setattr(getattr(message.wrench, part), axis, float(value))
+    with Listener(DOMAIN) as listener:
+        events = listener.collect(DiagnosticArray, "/top/events")
+        publisher = listener.node.create_publisher(WrenchStamped, topic, 10)
+        listener.spin_until(publisher.get_subscription_count)
+        publisher.publish(message)
+        listener.spin_until(lambda: events)
+    told = {pair.key: pair.value for pair in events[0].status[0].values}
+    assert told["applied_torque"] == "0.0 0.0 0.0005"
 
 
 @pytest.mark.parametrize("words", REPLAYS)

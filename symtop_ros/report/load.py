@@ -20,6 +20,7 @@ BARE = "from symtop_ros.report.bare import main; main()"
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, of which the highest one that is held is told
 HELD = 1e-3  # share of samples that may be late then
 KICKS = 100
+NAME = 40  # columns
 PAUSE = 0.0137  # s between kicks; no multiple of a period
 Command = Callable[[float], list[str]]  # of a rate in Hz
 
@@ -101,7 +102,7 @@ def table(seconds: float) -> Iterator[str]:
     """Yield the lines of the comparison, as they are measured."""
     with tempfile.TemporaryDirectory() as folder:
         top, recorded = top_node(folder), top_node(folder, recording=True)
-        yield f"{len(TOPICS)} topics, one subscriber each\n{'':36}{'top_node':>12}"
+        yield f"{len(TOPICS)} topics, one subscriber each\n{'':{NAME}}{'top_node':>12}"
         yield f"{'bare rclpy':>12}{'ratio':>8}\n"
         for rate in (200.0, 1000.0):
             bare = load(bare_node, rate, seconds)
@@ -129,7 +130,7 @@ def _rows(at: str, ours: Figures, bare: Figures) -> list[str]:
 
 def _row(name: str, unit: str, ours: float, bare: float) -> str:
     ratio = f"{ours / bare:8.2f}" if bare else f"{'':8}"
-    return f"{name + ' (' + unit + ')':36}{ours:12.4g}{bare:12.4g}{ratio}\n"
+    return f"{name + ' (' + unit + ')':{NAME}}{ours:12.4g}{bare:12.4g}{ratio}\n"
 
 
 @contextlib.contextmanager

@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
 
-from symtop_ros.physics import State, Top, motion
+from symtop_ros.physics import Friction, State, Top, motion
+from symtop_ros.report import load
 from symtop_ros.report import main as report
+from symtop_ros.report.listener import Traffic
 from symtop_ros.report.peer import derivative
 
 
@@ -20,22 +22,42 @@ def test_no_states_are_refused(capsys):
     assert "--states: got 0, allowed is 1 or more" in capsys.readouterr().err
 
 
-def test_the_load_of_the_node_is_measured(capsys):
+def test_the_node_is_measured_beside_a_bare_one(capsys, monkeypatch):
+    monkeypatch.setattr(load, "RATES", (500.0,))
+    monkeypatch.setattr(load, "KICKS", 10)
     assert report.main(["--node", "--seconds", "1"]) == 0
-    rates = capsys.readouterr().out.splitlines()[1:]
-    assert [line.split()[0] for line in rates] == ["200", "200", "1000", "1000"]
-    assert ["recording" in line for line in rates] == [False, True, False, True]
-    for line in rates:
-        assert 0 < float(line.split()[2].rstrip("%")) <= 100  # of the samples
-        assert float(line.split()[3].rstrip("%")) > 0
+    lines = capsys.readouterr().out.splitlines()
+    cut = load.NAME
+    figures = {line[:cut].strip(): list(map(float, line[cut:].split())) for line in lines[2:]}
+    for rate in (200, 1000):
+        assert 0 < figures[f"{rate} Hz: samples arrived (%)"][0] <= 100
+        ours, bare, ratio = figures[f"{rate} Hz: CPU per message (us)"]
+        assert ratio == pytest.approx(ours / bare, abs=0.01)  # as printed
+        assert figures[f"{rate} Hz, recording: CPU of a core (%)"][0] > 0
+    assert all(0 < latency < 1e4 for latency in figures["1000 Hz: kick latency p50 (ms)"][:2])
+    assert "highest rate, < 0.1% late (Hz)" in figures
+
+
+def test_late_samples_and_jitter_are_counted_from_when_they_were_sent():
+    sent = np.array([0.0, 0.010, 0.020, 0.0305, 0.0605, 0.070])
+    found = load.figures(Traffic(sent, arrived=1.0, messages=30, cpu=0.003), 100.0, 0.07)
+    assert found.late == pytest.approx(1 / 5)
+    assert found.jitter[2] == pytest.approx(20e3)  # us
+    assert found.message == pytest.approx(100.0)
+    assert found.core == pytest.approx(0.003 / 0.07)
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.5, 3.0])
-def test_the_peer_integrates_the_same_top(theta):
+@pytest.mark.parametrize("friction", [Friction(), Friction(1e-5, 3e-5)])
+def test_the_peer_integrates_the_same_top(theta, friction):
     top = Top(0.0002, 0.0003, -0.05)
-    path = motion(top, State.from_euler(theta=theta, theta_dot=2.0, phi_dot=3.0, psi_dot=50.0))
+    start = State.from_euler(theta=theta, theta_dot=2.0, phi_dot=3.0, psi_dot=50.0)
+    path = motion(top, start, friction)
     h = 1e-4
     ahead, behind = (np.concatenate(list(path.at(t))) for t in (h, -h))
-    slope = derivative(0.0, np.concatenate(list(path.start)), *top.moments)
+    moments = top.moments
+    slope = derivative(
+        0.0, np.concatenate(list(path.start)), *moments, friction.axial, friction.transverse
+    )
     # central difference: h^2/6 times a third derivative of order 50^3, times angular velocity
     np.testing.assert_allclose((ahead - behind) / (2 * h), slope, atol=h**2 * 50**4)

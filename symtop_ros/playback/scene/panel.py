@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from symtop_ros.physics import perry
+from symtop_ros.physics import Motion, perry
 from symtop_ros.run.segment import Segment
 
 
@@ -31,11 +31,23 @@ def panel(segment: Segment, stamp: int, scales: dict[str, str]) -> str:
         "regular precession": f"{rates} rad/s",
         "Ix, Iz": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2",
         "Mgl": f"{top.Mgl:g} J",
+        **_driving(path),
         **{f"1 unit of {name}": scale for name, scale in scales.items()},
     }
     cells = [f"{name} | **{value}**" for name, value in facts.items()]
     rows = [f"| {' | '.join(cells[k : k + 2])} |" for k in range(0, len(cells), 2)]
     return "\n".join(["| | | | |", "|---|---|---|---|", *rows])
+
+
+def _driving(path: Motion) -> dict[str, str]:
+    """What drives or slows the top; then angles, period and rates are those at the event."""
+    if not path.driven:
+        return {}
+    friction, torque = path.friction, " ".join(f"{part:g}" for part in path.applied_torque)
+    return {
+        "friction axial, transverse": f"{friction.axial:g}, {friction.transverse:g} N m s",
+        "applied torque": f"{torque} N m",
+    }
 
 
 def _number(value: float, unit: str) -> str:
