@@ -10,7 +10,7 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
 from symtop_ros.node.urdf import robot_description
-from symtop_ros.physics import State, Top, hurry, motion
+from symtop_ros.physics import Friction, State, Top, hurry, motion
 from symtop_ros.recording.log_file import Channel, LogFile
 from symtop_ros.run.events import PREFIX, Event
 from symtop_ros.run.samples import SAMPLES
@@ -20,6 +20,7 @@ from symtop_ros.wire.diagnostics import OK, Status, packed
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
+NO_FRICTION = Friction()
 BEGIN = 1_795_000_000_000_000_000  # ns
 LAYOUTS = {
     "orientation": messages.quaternion("world"),
@@ -45,10 +46,13 @@ class Run:
     rate: float = 200.0
     hurried: bool = True
     described: bool = False
+    friction: Friction = NO_FRICTION
+    torque: tuple[float, float, float] = (0.0, 0.0, 0.0)
     messages: list[tuple[str, int, bytes]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        segment = Segment.begin(motion(self.top, self.start), BEGIN, 1.0)
+        path = motion(self.top, self.start, self.friction, self.torque)
+        segment = Segment.begin(path, BEGIN, 1.0)
         self._announce("start", self.start, segment, BEGIN)
         count = int(self.seconds * self.rate)
         stamps = [BEGIN + round(k * 1e9 / self.rate) for k in range(count)]

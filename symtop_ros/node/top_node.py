@@ -27,7 +27,7 @@ from symtop_ros.node import initial, kick
 from symtop_ros.node.applied_torque import AppliedTorque
 from symtop_ros.node.diagnostics import diagnostics, state_report
 from symtop_ros.node.effort import SHARE, Effort, Shortfall
-from symtop_ros.node.fields import RefusedError, named_values, number
+from symtop_ros.node.fields import RefusedError, named_values, number, refuse
 from symtop_ros.node.metadata import metadata
 from symtop_ros.node.outputs import Outputs
 from symtop_ros.node.pacer import Pacer
@@ -43,6 +43,7 @@ from symtop_ros.run.segment import Segment
 from symtop_ros.wire.diagnostics import OK, Status, packed
 
 LONGEST_STEP = 1e9  # s
+STEPS_OF_A_STEP = 20_000  # of the engine: nobody else has a turn for half a second
 AHEAD = 0.05  # s of samples that are computed at once; a kick makes them void
 AT_ONCE, AT_ONCE_DRIVEN = 16, 4  # of them at most: the engine's work is parted in small pieces
 SECOND = 1_000_000_000
@@ -121,17 +122,23 @@ class TopNode(Node):
             if jumped_to is not None:
                 self._follow_jump(jumped_to)
             self._release_torque()
-            if not self._prepare_block():
+            if not self._publish_ready() or not self._prepare_block():
                 return 0.0
-            simulated = cast(ROSClock, self.get_clock()).ros_time_is_active
-            self._publish_due(JUMP if simulated else CATCH_UP)
-            stamp = self._ticker.next_stamp
-            if not self._block.holds(self._segment, stamp):
-                return 0.0
-            return None if simulated else (stamp - self._now()) / SECOND
+            return None if self._simulated else (self._ticker.next_stamp - self._now()) / SECOND
 
-    def _publish_due(self, catch_up: float) -> None:
-        missed = self._ticker.missed
+    @property
+    def _simulated(self) -> bool:
+        return cast(ROSClock, self.get_clock()).ros_time_is_active
+
+    def _publish_ready(self) -> bool:
+        """Publish what is due; return whether it was prepared."""
+        ready = self._prepare_block()
+        if ready:
+            self._publish_due()
+        return ready
+
+    def _publish_due(self) -> None:
+        missed, catch_up = self._ticker.missed, JUMP if self._simulated else CATCH_UP
         for stamp in self._ticker.due(self._now(), catch_up, self._block.last):
             self._outputs.send_sample(stamp, self._block)
         if self._ticker.missed > missed:
@@ -145,6 +152,8 @@ class TopNode(Node):
         stamps = self._ticker.grid(stamp, self._length_of_block())
         if any(self._torque.value):
             stamps = [each for each in stamps if each < self._torque.end]
+        if not stamps:  # it ends with the next turn
+            return False
         ready = self._effort.prepare(segment, stamps[-1])
         if ready:
             self._block = self._block.following(segment, stamps)
@@ -194,6 +203,7 @@ class TopNode(Node):
 
     def _diagnose(self) -> None:
         with self._turn:
+            self._release_torque()
             work, self._spent = self._effort.spent - self._spent, self._effort.spent
             self._speed_up(work)
             self._report_failure()
@@ -233,6 +243,7 @@ class TopNode(Node):
 
     def _take_torque(self, message: WrenchStamped) -> None:
         with self._turn:
+            self._release_torque()
             stamp = self._ticker.next_stamp
             try:
                 self._torque.hold(message, stamp, self._settings["applied_torque_timeout"])
@@ -369,11 +380,6 @@ class TopNode(Node):
             self._publish_ready()
             yield
 
-    def _publish_ready(self) -> None:
-        """Publish what is due, if it is prepared in a moment."""
-        if self._prepare_block():
-            self._publish_due(CATCH_UP)
-
     def _pause(self, request: SetBool.Request) -> str:
         stamp, pausing = self._ticker.next_stamp, bool(request.data)
         if pausing != self._segment.running:
@@ -397,6 +403,12 @@ class TopNode(Node):
             raise RefusedError(msg)
         stamp = self._ticker.next_stamp
         before = self._segment.state_at(stamp)
+        end = self._segment.elapsed + duration
+        reached = self._segment.path.reach(end, STEPS_OF_A_STEP)
+        if reached != end:
+            most = reached - self._segment.elapsed
+            allowed = f"up to {most:.6g} s at a time under friction or an applied torque"
+            raise refuse("duration", duration, allowed)
         self._segment = self._segment.stepped(duration, stamp)
         verdict = f"stepped to {self._segment.elapsed:.6f} s of the motion"
         self._announce("step", verdict, values, before)
@@ -458,6 +470,7 @@ class TopNode(Node):
 
     def _apply_parameters(self, parameters: list[Parameter[Any]]) -> None:
         with self._turn:
+            self._release_torque()
             old, self._settings = self._settings, checked(self._with(parameters))
             changes = {
                 name: value for name, value in self._settings.values.items() if value != old[name]

@@ -77,7 +77,8 @@ def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment
     if segment is None:
         deviation.unchecked += len(columns.stamps)
         return
-    computed = SAMPLES[name](segment.path, segment.state_at(columns.stamps))
+    states = segment.state_at(columns.stamps)
+    computed = SAMPLES[name](segment.path, states)
     computed = np.broadcast_to(computed, columns.numbers.shape)
     difference = np.abs(columns.numbers - computed)
     scale = np.concatenate([_size(block) for block in _blocks(computed)], axis=1)
@@ -86,6 +87,11 @@ def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment
         difference[:, :3] = np.minimum(difference[:, :3], turns)
         with np.errstate(divide="ignore"):  # on the vertical itself phi and psi mean nothing
             scale = np.maximum(scale, 1.0) / np.abs(np.sin(computed[:, 1:2]))
+    if segment.path.driven:
+        # integrated in steps: what differs in the last place of a rate grows with the phase
+        rate = np.abs(states.angular_velocity).max(axis=-1)
+        phase = rate * np.abs(segment.time_at(columns.stamps))
+        scale = scale * (1 + np.broadcast_to(phase, len(scale))[:, np.newaxis])
     deviation.add(difference, scale)
 
 

@@ -180,3 +180,16 @@ def test_energy_and_momentum_balances_are_in_diagnostics(start_top, scene):
     assert abs(float(told["energy.balance"])) < 10 * 1e-13 * 1.5 * 4 / STEP
     momentum = [float(part) for part in told["angular_momentum.balance"].split()]
     assert np.abs(momentum).max() < 10 * 1e-13 * 0.02
+
+
+def test_a_step_that_the_engine_would_take_minutes_for_is_refused(start_top):
+    run = start_top(scene="friction")
+    run.switch("pause", True)
+    before = json.loads(run.trigger("get_state")[1])
+    granted, reason = run.set("step", duration=1e9)
+    assert not granted
+    assert "duration: got 1000000000.0, allowed is up to " in reason
+    assert "s at a time under friction or an applied torque" in reason
+    assert json.loads(run.trigger("get_state")[1])["time"] == before["time"]
+    assert run.set("step", duration=1.0)[0]
+    assert json.loads(run.trigger("get_state")[1])["time"] == before["time"] + 1.0

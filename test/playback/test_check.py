@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from log_files import ARTICLE, LAYOUTS, Run
 
-from symtop_ros.physics import State, Top
+from symtop_ros.physics import Friction, State, Top
 from symtop_ros.playback.check import ROUNDING, check
 from symtop_ros.playback.mcap_file import McapFile
 from symtop_ros.playback.top_log import TopLog
@@ -31,6 +31,22 @@ def test_a_good_log_deviates_by_nothing(top, start, tmp_path):
     for name, deviation in deviations_of(Run(top, start, hurried=hurried), tmp_path).items():
         assert (name, deviation.largest, deviation.unchecked) == (name, 0.0, 0)
         assert deviation.samples == 400
+
+
+def test_a_good_log_under_friction_and_torque_deviates_by_nothing(tmp_path):
+    run = Run(friction=Friction(2e-6, 1e-5), torque=(1e-4, 0.0, 2e-4), seconds=4.0)
+    for name, deviation in deviations_of(run, tmp_path).items():
+        assert (name, deviation.largest, deviation.samples) == (name, 0.0, 800)
+
+
+def test_a_log_of_less_friction_than_it_says_is_caught(tmp_path):
+    run = Run(friction=Friction(2e-6, 1e-5))
+    told = Run(friction=Friction(2e-6, 1e-5 * (1 + 1e-7)))
+    run.messages = [
+        truth if truth[0] in LAYOUTS else event
+        for truth, event in zip(run.messages, told.messages, strict=True)
+    ]
+    assert not deviations_of(run, tmp_path)["orientation"].is_rounding
 
 
 @pytest.mark.parametrize("name", list(LAYOUTS))
