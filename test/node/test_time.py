@@ -1,5 +1,7 @@
 """Simulation time: the top follows /clock, and goes on from where it is when the clock jumps."""
 
+from itertools import pairwise
+
 import pytest
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
@@ -49,6 +51,20 @@ def test_stamps_and_motion_follow_the_clock_also_when_it_jumps(start_top):
         stamp, q = stamp_of(message), message.quaternion
         states = [each.state_at(stamp) for each in segments if each.stamp <= stamp]
         assert [q.w, q.x, q.y, q.z] in [state.orientation.tolist() for state in states]
+
+
+def test_while_the_clock_stands_still_so_does_the_top(start_top):
+    run = start_top(use_sim_time=True, publish_rate=100.0)
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    clock = SimulatedClock(run)
+    clock.run_from(50_000 * MS, 5)
+    run.spin_until(lambda: messages and stamp_of(messages[-1]) == 50_040 * MS)
+    told = [run.trigger("get_state")[1] for _ in range(20)]  # real time goes by
+    assert len(set(told)) == 1
+    assert stamp_of(messages[-1]) == 50_040 * MS
+    clock.run_from(50_050 * MS, 3)
+    run.spin_until(lambda: stamp_of(messages[-1]) == 50_070 * MS)
+    assert {b - a for a, b in pairwise(map(stamp_of, messages))} == {10 * MS}
 
 
 def test_a_published_clock_and_simulation_time_contradict_each_other(start_top):
