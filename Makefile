@@ -36,7 +36,7 @@ $(VENV)/ros: setup.py $(VENV)/bin/python
 
 $(VENV)/test: setup.py $(VENV)/ros
 	@echo "Setting up .venv: what the tests need (once) ..."
-	$(BIN)/python -m pip install --editable '.[ros,playback,test,lint]'
+	$(BIN)/python -m pip install --editable '.[ros,playback,report,test,lint]'
 	@touch $@
 
 $(VENV)/vulkan: test/get_vulkan.sh $(VENV)/bin/python

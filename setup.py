@@ -27,6 +27,12 @@ PLAYBACK = [
     "mcap>=1.5",
     "rerun-sdk>=0.41",
 ]
+# What top_report draws.
+REPORT = [
+    "matplotlib>=3.8",
+    "pyarrow>=14",  # tables in Parquet
+    "rerun-sdk>=0.41",
+]
 TEST = [
     "pytest>=8",
     "hypothesis>=6.100",  # random tops, and the worst of them again
@@ -59,7 +65,13 @@ setup(
         "numpy>=1.24",  # arrays; any NumPy that a supported ROS 2 brings
         "scipy>=1.8",  # Carlson's elliptic integral R_F came with 1.8
     ],
-    extras_require={"ros": ROS, "playback": PLAYBACK, "test": TEST, "lint": LINT},
+    extras_require={
+        "ros": ROS,
+        "playback": PLAYBACK,
+        "report": REPORT,
+        "test": TEST,
+        "lint": LINT,
+    },
     entry_points={
         "console_scripts": [
             f"top_node = {NAME}.programs:top_node",

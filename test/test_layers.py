@@ -22,7 +22,11 @@ ALLOWED = {
         *("mcap", "lz4", "zstandard", "rerun", "rerun_cli"),
         *("symtop_ros.run", "symtop_ros.wire", "symtop_ros.playback"),
     },
-    "report": {"numpy", "scipy", "symtop_ros.physics", "symtop_ros.report", *MESSAGES},
+    "report": {
+        *ARRAYS,
+        *("matplotlib", "mpl_toolkits", "pyarrow", "rerun"),
+        *("symtop_ros.playback.scene", "symtop_ros.report", *MESSAGES),
+    },
 }
 FORBIDDEN = {"client": ("symtop_ros.physics",), "node": ("symtop_ros.client", "rerun")}
 

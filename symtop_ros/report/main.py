@@ -10,6 +10,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ SCENES = {
     "near the separatrix": State.from_euler(theta=1e-3, psi_dot=100.0),
 }
 REPEATS = 7
+MOST_POINTS = 4000
 SPANS = (1.0, 10.0, 100.0)  # s
 
 
@@ -36,10 +38,14 @@ def main(args: list[str] | None = None) -> int:
     parser.add_argument("--states", type=int, default=10_000, help="states in an array")
     parser.add_argument("--node", action="store_true", help="the node instead, beside a bare one")
     parser.add_argument("--seconds", type=float, default=10.0, help="for each figure of --node")
+    parser.add_argument("--map", type=Path, metavar="FOLDER", help="Perry's maps instead")
+    parser.add_argument("--points", type=int, default=1000, help="along each side of --map")
     options = parser.parse_args(args)
     if options.states < 1:
         print(f"top_report: --states: got {options.states}, allowed is 1 or more", file=sys.stderr)
         return 2
+    if options.map:
+        return _perrys_maps(options.map, options.points)
     if options.node:
         return _load_of_the_node(options.seconds)
     print(f"{'':24}{'set-up':>12}{'first state':>13}{'at(t)':>10}{'in an array':>14}   (us)")
@@ -57,6 +63,20 @@ def main(args: list[str] | None = None) -> int:
     for t in SPANS[:2]:
         print(_friction_beside_the_peer(SCENES["cusps"], t), flush=True)
     return 0
+
+
+def _perrys_maps(folder: Path, points: int) -> int:
+    """Only this needs matplotlib and Rerun."""
+    if not 2 <= points <= MOST_POINTS:
+        allowed = f"allowed is 2 ... {MOST_POINTS}"
+        print(f"top_report: --points: got {points}, {allowed}", file=sys.stderr)
+        return 2
+    try:
+        from symtop_ros.report.perry.main import chart
+    except ImportError as error:
+        print(f"top_report: --map needs the extra `report`: {error}", file=sys.stderr)
+        return 1
+    return chart(folder, points)
 
 
 def _load_of_the_node(seconds: float) -> int:

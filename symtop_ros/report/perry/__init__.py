@@ -1,0 +1,1 @@
+"""Perry's map: where hurrying the precession raises the top, over whole ranges of tops."""
