@@ -10,6 +10,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import rerun as rr
+import rerun.blueprint as rrb
 from matplotlib import colormaps
 from matplotlib.figure import Figure
 
@@ -68,13 +69,26 @@ def write_table(perry_map: PerryMap, path: Path) -> None:
 def write_recording(maps: list[PerryMap], path: Path) -> None:
     """Write the maps as a Rerun recording: the change of the highest point as a relief."""
     with rr.RecordingStream("symtop_ros_perry") as recording:
-        recording.save(path)
+        recording.save(path, default_blueprint=_blueprint(maps))
         for each in maps:
             picture = io.BytesIO()
             draw(each, picture)
             image = rr.EncodedImage(contents=picture.getvalue(), media_type="image/png")
             recording.log(f"{each.name}/map", image, static=True)
             recording.log(f"{each.name}/relief", _relief(each), static=True)
+
+
+def _blueprint(maps: list[PerryMap]) -> rrb.Blueprint:
+    """The pictures on the left, the reliefs on the right."""
+    rows = [
+        rrb.Horizontal(
+            rrb.Spatial2DView(origin=f"{each.name}/map", name=each.title),
+            rrb.Spatial3DView(origin=f"{each.name}/relief", name="rise of the highest point"),
+            column_shares=[3, 2],
+        )
+        for each in maps
+    ]
+    return rrb.Blueprint(rrb.Vertical(*rows), collapse_panels=True)
 
 
 def _relief(perry_map: PerryMap) -> Any:
