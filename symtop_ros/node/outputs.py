@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
-from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
@@ -151,17 +150,12 @@ class Outputs:
 
 
 def _publisher(node: Node, topic: str, kind: Any, qos: QoSProfile | int) -> Publisher[Any]:
-    """Return a publisher whose QoS can be overridden by the ROS parameters for that.
-
-    Without rclpy's own QoS events: each is waited for anew in every spin, which costs a tenth of a
-    core at 1 kHz. A subscriber with another QoS is warned by its own side.
-    """
+    """Return a publisher whose QoS can be overridden by the ROS parameters for that."""
     return node.create_publisher(
         kind,
         topic,
         qos,
         qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-        event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
     )
 
 
