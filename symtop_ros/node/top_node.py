@@ -124,7 +124,8 @@ class TopNode(Node):
             self._release_torque()
             if not self._publish_ready() or not self._prepare_block():
                 return 0.0
-            return None if self._simulated else (self._ticker.next_stamp - self._now()) / SECOND
+            wait = (self._ticker.next_stamp - self._now()) / SECOND
+            return None if self._simulated and wait > 0 else wait
 
     @property
     def _simulated(self) -> bool:

@@ -41,6 +41,7 @@ class HeavyMotion:
             self.zeros = quotients(self.start, self.heights)
             k = (self.heights.s32 / self.heights.s31).sqrt()
             mean, means = mean_rates(self.start, self.zeros, k)
+            self._means = float(means[0]), float(means[1]), -float(means[2])
             self.nutation_rate = (self.start.pull * self.heights.s31).sqrt() * mean
             self.rates = _argument_rates(moments, Decimal(angular_velocity[2]), means)
             self._K = math.pi / (2 * float(mean)) if mean else INFINITY
@@ -113,11 +114,11 @@ class HeavyMotion:
         values, slopes = (_with_omega(each) for each in self._series.at_start(self._x0))
         nearby = 0.5 * min(1.0, self._Kc / self._K)  # in x, where a nutation may be stretched
         factors = [
-            (change - 1j * float(rate) * start) / (slope * self._speed)
+            (change - 1j * mean * start) / (slope * self._speed)
             if abs(value) < nearby * abs(slope)
             else start / value
-            for start, change, value, slope, rate in zip(
-                *self._given, values, slopes, self.rates, strict=True
+            for start, change, value, slope, mean in zip(
+                *self._given, values, slopes, self._means, strict=True
             )
         ]
         return np.array(factors)[:, np.newaxis]
@@ -140,13 +141,17 @@ def _argument_rates(moments: Three, wz: Decimal, means: tuple[Decimal, ...]) -> 
 def _initial_values(
     moments: Three, orientation: Four, angular_velocity: Three
 ) -> tuple[tuple[complex, ...], tuple[complex, ...]]:
-    """A, B, omega at t = 0 and their changes: q' = q (0, omega)/2, and Euler's equations."""
+    """A, B, omega at t = 0, and their changes but for the turn about the axis by c.
+
+    q' = q (0, omega)/2 and Euler's equations, with p_psi/Ix in the place of omega_z: for a thin rod
+    what the turn adds is so much more that it would leave no digit of the rest.
+    """
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity
     A, B = complex(w, z), complex(x, y)
-    across = complex(wx, wy)
-    A_dot = (1j * wz * A - across.conjugate() * B) / 2
-    B_dot = (across * A - 1j * wz * B) / 2
-    across_dot = -1j * wz * ((Ix - Iz) / Ix) * across + 2 * (Mgl / Ix) * A.conjugate() * B
+    across, half_spin = complex(wx, wy), 0.5j * wz * (Iz / Ix)
+    A_dot = half_spin * A - across.conjugate() * B / 2
+    B_dot = across * A / 2 - half_spin * B
+    across_dot = half_spin * across + 2 * (Mgl / Ix) * A.conjugate() * B
     return (A, B, across), (A_dot, B_dot, across_dot)
 
 

@@ -1,4 +1,4 @@
-"""Numbers with 38 digits for setting a motion up, and how they enter double precision.
+"""Numbers with 50 digits for setting a motion up, and how they enter double precision.
 
 A motion is set up once and evaluated often. Python's decimal module costs some ten microseconds
 more per motion than floats would, and with it the constants of a motion are those of exactly the
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from decimal import Context, Decimal, DivisionByZero, InvalidOperation
 
-PRECISE = Context(prec=38, traps=[InvalidOperation, DivisionByZero])
+PRECISE = Context(prec=50, traps=[InvalidOperation, DivisionByZero])
 ZERO, HALF, ONE, TWO = Decimal(0), Decimal("0.5"), Decimal(1), Decimal(2)
 TWO_PI = Decimal("6.28318530717958647692528676655900576839433879875021")
 
