@@ -17,6 +17,7 @@ from symtop_ros.report.listener import Listener, Traffic
 
 NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
 BARE = "from symtop_ros.report.bare import main; main()"
+LOAD_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, of which the highest one that is held is told
 HELD = 1e-3  # share of samples that may be late then
 KICKS = 100
@@ -104,7 +105,7 @@ def table(seconds: float) -> Iterator[str]:
         top, recorded = top_node(folder), top_node(folder, recording=True)
         yield f"{len(TOPICS)} topics, one subscriber each\n{'':{NAME}}{'top_node':>12}"
         yield f"{'bare rclpy':>12}{'ratio':>8}\n"
-        for rate in (200.0, 1000.0):
+        for rate in LOAD_RATES:
             bare = load(bare_node, rate, seconds)
             yield from _rows(f"{rate:.0f} Hz", load(top, rate, seconds), bare)
             yield from _rows(f"{rate:.0f} Hz, recording", load(recorded, rate, seconds), bare)[:1]
