@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 from mpmath import mp, mpf
 
-DIGITS = 40
-TERMS = 48
-REACH = 2  # rad of the fastest rate in a step: 2^48/48! = 2e-47
+DIGITS = 36
+TERMS = 40
+REACH = 2  # rad of the fastest rate in a step: 2^40/40! = 1e-36
 
 Numbers = Sequence[float]
 

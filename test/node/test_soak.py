@@ -9,8 +9,8 @@ from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
 from programs import running_node
 
-SECONDS = float(os.environ.get("SYMTOP_SOAK_SECONDS", "6"))
-WARM = 4.0  # s until all that is kept is filled: points of the engine, pools of the middleware
+SECONDS = float(os.environ.get("SYMTOP_SOAK_SECONDS", "4"))
+WARM = 3.0  # s until all that is kept is filled: points of the engine, pools of the middleware
 LARGEST_GROWTH = 1.0  # MB; what the allocator may keep, however long it takes
 RATE = 200.0  # Hz, the default
 DOMAINS = {"cusps": 93, "friction": 94}
