@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 from mpmath import mp, mpf
 
-DIGITS = 36
+DIGITS = 38
 TERMS = 40
-REACH = 2  # rad of the fastest rate in a step: 2^40/40! = 1e-36
+CUT = mpf("1e-33")  # of the largest number: what the terms left out of a step are worth
 
 Numbers = Sequence[float]
 
@@ -32,16 +32,12 @@ class DrivenTop:
             y = [mpf(c) / norm for c in orientation] + [mpf(c) for c in angular_velocity]
             left = mpf(t)
             while left:
-                h = self._step(y)
+                series = self._series(y)
+                h = _reach(series)
                 h = left if abs(left) <= h else mp.sign(left) * h
-                y = [_sum(series, h) for series in self._series(y)]
+                y = [_sum(each, h) for each in series]
                 left -= h
             return tuple(y[:4]), tuple(y[4:])
-
-    def _step(self, y):
-        pull = abs(self.Mgl) + sum(map(abs, self.torque))
-        rate = max(map(abs, y[4:])) + mp.sqrt(pull / min(self.Ix, self.Iz))
-        return REACH / (rate + (self.axial + self.transverse) / min(self.Ix, self.Iz))
 
     def _series(self, y):
         """Taylor coefficients of the seven numbers."""
@@ -93,6 +89,13 @@ class DrivenTop:
             ty += a[1] * u + b[1] * v + gy * up
             tz += a[2] * u + b[2] * v + gz * up
         return tx, ty, tz
+
+
+def _reach(series):
+    """How far the series go, by the size of their last terms."""
+    allowed = CUT * max(abs(each[0]) for each in series)
+    last = [(n, max(abs(each[n]) for each in series)) for n in (TERMS - 1, TERMS)]
+    return min(mp.root(allowed / size, n) for n, size in last if size)
 
 
 def _sum(series, h):
