@@ -1,6 +1,6 @@
 """Numbers with 50 digits for setting a motion up, and how they enter double precision.
 
-A motion is set up once and evaluated often. Python's decimal module costs some ten microseconds
+A motion is set up once and evaluated often. Python's decimal module costs some tens of microseconds
 more per motion than floats would, and with it the constants of a motion are those of exactly the
 doubles that were given: nothing in them grows with time, and ranges have no end.
 """

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -45,7 +43,7 @@ class SplitMotion:
             orientation[k] = A.real, B.real, B.imag, A.imag
             angular_velocity[k] = point.rates
 
-    def reach(self, t: float, most: float = math.inf) -> float:
+    def reach(self, t: float, most: float) -> float:
         """Integrate towards t, in so many steps at most; return the time that was reached."""
         return self._trail(t).reach(t, most)
 
