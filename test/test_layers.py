@@ -24,8 +24,8 @@ ALLOWED = {
     },
     "report": {
         *ARRAYS,
-        *("matplotlib", "pyarrow", "rerun"),
-        *("symtop_ros.report", *MESSAGES),
+        *("matplotlib", "mpl_toolkits", "pyarrow", "rerun"),
+        *("symtop_ros.run", "symtop_ros.playback", "symtop_ros.report", *MESSAGES),
     },
 }
 FORBIDDEN = {"client": ("symtop_ros.physics",), "node": ("symtop_ros.client", "rerun")}

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from symtop_ros.physics import Friction, Motion, State, Top, motion, splitting
+from symtop_ros.report.article.main import retell
 from symtop_ros.report.peer import derivative
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
@@ -40,12 +41,15 @@ def main(args: list[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, default=10.0, help="for each figure of --node")
     parser.add_argument("--map", type=Path, metavar="FOLDER", help="Perry's maps instead")
     parser.add_argument("--points", type=int, default=1000, help="along each side of --map")
+    parser.add_argument("--article", type=Path, metavar="FOLDER", help="the article retold instead")
     options = parser.parse_args(args)
     if options.states < 1:
         print(f"top_report: --states: got {options.states}, allowed is 1 or more", file=sys.stderr)
         return 2
     if options.map:
         return _perrys_maps(options.map, options.points)
+    if options.article:
+        return retell(options.article)
     if options.node:
         return _load_of_the_node(options.seconds)
     print(f"{'':24}{'set-up':>12}{'first state':>13}{'at(t)':>10}{'in an array':>14}   (us)")
