@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from decimal import Decimal, localcontext
 from functools import cached_property
@@ -81,15 +82,31 @@ class HeavyMotion:
         phases = self._phases.at(t)
         x = phases[0] + self._x0
         x -= (2 * math.pi) * np.rint(x / (2 * math.pi))
-        values = _with_omega(self._series.values(x))
-        return np.asarray(self._factors * values * np.exp(1j * phases[1:]))
+        turns = np.empty((3, t.size), dtype=complex)
+        turns[:2] = np.exp(1j * phases[1:])
+        turns[2] = turns[1] * turns[0].conj()
+        if self._winding:
+            turns[2] = turns[2] * np.exp(
+                1j * self._winding * x
+            )  # *= rounds a lone number otherwise
+        return np.asarray(self._factors * _with_omega(self._series.values(x)) * turns)
 
     # What only states need is made with the first of them: a verdict asks for none.
 
     @cached_property
     def _phases(self) -> Phases:
         nutation = self.nutation_rate or Decimal(self._speed)
-        return Phases(nutation, *self.rates)
+        return Phases(nutation, *self.rates[:2])
+
+    @cached_property
+    def _winding(self) -> int:
+        """Turns of omega about the vertical, as both are seen in the body, in a nutation.
+
+        Beside the line of nodes omega has theta' and sin(theta) phi', which nutate: its argument
+        grows as that of conj(A) B does but for whole turns, one where phi' reverses.
+        """
+        a, b, across = self.rates
+        return round((across - (b - a)) / self.nutation_rate) if self.nutation_rate else 0
 
     @cached_property
     def _x0(self) -> float:
@@ -121,6 +138,7 @@ class HeavyMotion:
                 *self._given, values, slopes, self._means, strict=True
             )
         ]
+        factors[2] *= cmath.exp(-1j * self._winding * self._x0)
         return np.array(factors)[:, np.newaxis]
 
 

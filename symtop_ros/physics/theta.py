@@ -9,6 +9,7 @@ and the first term left out is below 1e-16 of the sum. (DLMF 20.2, 20.7.30-33.)
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -20,7 +21,8 @@ Complex = NDArray[np.complex128]
 ORDERS = np.arange(1.0, 5.0)
 SQUARES, PRONICS = ORDERS**2, ORDERS**2 - ORDERS
 DISTANT, NEAR = np.hstack([PRONICS, SQUARES + ORDERS]), np.hstack([ORDERS, -ORDERS])
-PARITY = (-1.0) ** np.array([0, 1, 2, 3, 4, 1, 2, 3, 4])
+PARITY = (-1.0) ** np.arange(5)
+SMALL = 2.0**-60  # of the largest coefficient: such a term is no part of any sum
 EXPONENTS = np.concatenate([[0.0], ORDERS, -ORDERS])
 BENEATH = np.array([[True], [False], [False]])  # A has th4 above; B and omega have th3
 
@@ -42,35 +44,43 @@ def series(K: float, Kc: float, sign: list[float], rest: list[float]) -> Series:
 
 
 class DirectSeries:
-    """Sums in the nome q. Basis: 1, cos(n x), sin(n x)."""
+    """Sums in the nome q. Basis: 1 and cos(n x) for the even part, sin(n x) for the odd one."""
 
     def __init__(self, K: float, Kc: float, sign: Real, rest: Real) -> None:
         # q**(n*n) exp(n pi shift/K), the two large exponents combined, and the same with -shift
         weights = np.exp(-math.pi / K * (Kc * DISTANT + rest * NEAR))
         large, small = weights[:, :4], weights[:, 4:]
-        self._matrix = np.zeros((7, 9))
-        self._matrix[:3, 0] = self._matrix[6, 0] = 1.0
-        self._matrix[:3, 1:5] = small + large
-        self._matrix[3:6, 5:] = (small - large) * sign
-        self._matrix[6, 1:5] = 2 * np.exp(-math.pi / K * Kc * SQUARES)
-        self._matrix[[0, 3, 6]] *= PARITY  # th4 for A and below
+        even, odd = np.ones((4, 5)), (small - large) * sign
+        even[:3, 1:] = small + large
+        even[3, 1:] = 2 * np.exp(-math.pi / K * Kc * SQUARES)
+        even[::3] *= PARITY  # th4 for A and below
+        odd[0] *= PARITY[1:]
+        largest = np.abs(even).max(axis=1, keepdims=True)
+        needed = np.flatnonzero((np.abs(even) > SMALL * largest).any(axis=0))
+        self._orders = max(1, int(needed[-1]))
+        self._even, self._odd = even[:, : self._orders + 1], odd[:, : self._orders]
 
     def values(self, x: Real) -> Complex:
         """Quotients (3, n) at phases x (n,)."""
-        rows = _product(self._matrix, _harmonics(x))
-        return np.asarray((rows[:3] + 1j * rows[3:6]) / rows[6])
+        powers = _powers(x, self._orders)
+        even = _product(self._even, [np.ones_like(x), *(power.real for power in powers)])
+        odd = _product(self._odd, [power.imag for power in powers])
+        quotients = np.empty((3, x.size), dtype=complex)
+        np.divide(even[:3], even[3], out=quotients.real)
+        np.divide(odd, even[3], out=quotients.imag)
+        return quotients
 
     def at_start(self, x: float) -> tuple[Complex, Complex]:
         """Values and derivatives with respect to x, each (3,), at one phase."""
-        nx = x * ORDERS
-        cosines, sines = np.cos(nx), np.sin(nx)
-        basis = np.array([[1.0, *cosines, *sines], [0.0, *-ORDERS * sines, *ORDERS * cosines]])
-        rows, slopes = basis @ self._matrix.T
-        values = (rows[:3] + 1j * rows[3:6]) / rows[6]
-        return values, (slopes[:3] + 1j * slopes[3:6] - values * slopes[6]) / rows[6]
+        n = np.arange(self._orders + 1.0)
+        cosines, sines = np.cos(n * x), np.sin(n * x)
+        even, even_slope = self._even @ cosines, self._even @ (-n * sines)
+        odd, odd_slope = self._odd @ sines[1:], self._odd @ (n * cosines)[1:]
+        values = (even[:3] + 1j * odd) / even[3]
+        return values, (even_slope[:3] + 1j * odd_slope - values * even_slope[3]) / even[3]
 
 
-def _product(matrix: Real, basis: Real) -> Real:
+def _product(matrix: Real, basis: Sequence[Real]) -> Real:
     """Matrix product, summed in one order whatever n is: at(array) is then at(each) bit for bit."""
     rows: Real = matrix[:, :1] * basis[0]
     for column, row in zip(matrix.T[1:, :, np.newaxis], basis[1:], strict=True):
@@ -78,14 +88,12 @@ def _product(matrix: Real, basis: Real) -> Real:
     return rows
 
 
-def _harmonics(x: Real) -> Real:
-    basis = np.empty((9, x.size))
-    basis[0] = 1.0
-    z = np.exp(1j * x)
-    square = z * z
-    for order, power in enumerate((z, square, square * z, square * square), start=1):
-        basis[order], basis[order + 4] = power.real, power.imag
-    return basis
+def _powers(x: Real, orders: int) -> list[Complex]:
+    """exp(i n x) for n from 1 on, each (n,)."""
+    powers = [np.exp(1j * x)]
+    for n in range(2, orders + 1):
+        powers.append(powers[n // 2 - 1] * powers[n - n // 2 - 1])
+    return powers
 
 
 class ComplementarySeries:
