@@ -23,7 +23,7 @@ lint: $(VENV)/test
 	@$(BIN)/ruff format --check
 	@$(BIN)/mypy
 
-report: $(VENV)/ros  ## speed against error, on this machine
+report: $(VENV)/report  ## speed against error on this machine, two minutes; plots in report/
 	@$(BIN)/top_report
 
 clean:  ## remove the environment and what was built
@@ -32,6 +32,11 @@ clean:  ## remove the environment and what was built
 $(VENV)/ros: setup.py $(VENV)/bin/python
 	@echo "Setting up .venv: ROS 2, NumPy, SciPy and Rerun (about 1 GB, once) ..."
 	$(BIN)/python -m pip install --editable '.[ros,playback]'
+	@touch $@
+
+$(VENV)/report: setup.py $(VENV)/ros
+	@echo "Setting up .venv: plots, and the peers to measure (about 2 GB, once) ..."
+	$(BIN)/python -m pip install --editable '.[ros,playback,report,peers]'
 	@touch $@
 
 $(VENV)/test: setup.py $(VENV)/ros

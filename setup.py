@@ -32,6 +32,16 @@ REPORT = [
     "matplotlib>=3.8",
     "pyarrow>=14",  # tables in Parquet
     "rerun-sdk>=0.41",
+    "tqdm>=4.60",  # how far it has got
+]
+# What top_report measures beside SciPy, each where it is installed.
+PEERS = [
+    "heyoka>=7",
+    "mujoco>=3.3",
+    "drake>=1.40",
+    "pin>=3.4",
+    "exudyn>=1.13",
+    "diffrax>=0.7",
 ]
 TEST = [
     "pytest>=8",
@@ -51,7 +61,7 @@ setup(
     name=NAME,
     version=VERSION,
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
-    package_data={NAME: ["py.typed"]},
+    package_data={NAME: ["py.typed", "report/precision/reference.json"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
@@ -69,6 +79,7 @@ setup(
         "ros": ROS,
         "playback": PLAYBACK,
         "report": REPORT,
+        "peers": PEERS,
         "test": TEST,
         "lint": LINT,
     },

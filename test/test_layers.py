@@ -24,7 +24,8 @@ ALLOWED = {
     },
     "report": {
         *ARRAYS,
-        *("matplotlib", "mpl_toolkits", "pyarrow", "rerun"),
+        *("matplotlib", "pyarrow", "rerun", "tqdm"),
+        *("diffrax", "exudyn", "heyoka", "jax", "mujoco", "pinocchio", "pydrake"),
         *("symtop_ros.run", "symtop_ros.playback", "symtop_ros.report", *MESSAGES),
     },
 }

@@ -80,7 +80,7 @@ class DirectSeries:
         return values, (even_slope[:3] + 1j * odd_slope - values * even_slope[3]) / even[3]
 
 
-def _product(matrix: Real, basis: Sequence[Real]) -> Real:
+def _product(matrix: Real, basis: Real | Sequence[Real]) -> Real:
     """Matrix product, summed in one order whatever n is: at(array) is then at(each) bit for bit."""
     rows: Real = matrix[:, :1] * basis[0]
     for column, row in zip(matrix.T[1:, :, np.newaxis], basis[1:], strict=True):

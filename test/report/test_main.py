@@ -1,63 +1,60 @@
-import numpy as np
+import subprocess
+import sys
+
 import pytest
 
-from symtop_ros.physics import Friction, State, Top, motion
-from symtop_ros.report import load
 from symtop_ros.report import main as report
-from symtop_ros.report.listener import Traffic
-from symtop_ros.report.peer import derivative
+from symtop_ros.report.article import main as article
+from symtop_ros.report.perry import main as perry
+from symtop_ros.report.precision import chapters
+from symtop_ros.report.precision import main as precision
+
+ONE_EACH = {
+    "--full": (precision, "measure", "report", chapters.FULL),
+    "--article": (article, "retell", "report"),
+    "--map": (perry, "chart", "report", 1000),
+}
 
 
-def test_the_report_prints_costs_and_ratios(capsys, monkeypatch):
-    monkeypatch.setattr(report, "REPEATS", 1)
-    monkeypatch.setattr(report, "SPANS", (0.1,))
-    assert report.main(["--states", "100"]) == 0
-    printed = capsys.readouterr().out
-    assert "cusps" in printed
-    assert "DOP853" in printed
+@pytest.mark.parametrize("option", ONE_EACH)
+def test_an_option_chooses_what_is_done(option, monkeypatch):
+    module, name, folder, *rest = ONE_EACH[option]
+    called = []
+    monkeypatch.setattr(module, name, lambda *arguments: called.append(arguments) or 0)
+    assert report.main([option]) == 0
+    assert str(called[0][0]) == folder
+    assert list(called[0][1 : 1 + len(rest)]) == rest
 
 
-def test_no_states_are_refused(capsys):
-    assert report.main(["--states", "0"]) == 2
-    assert "--states: got 0, allowed is 1 or more" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--map", "--points", "1"], "--points: got 1, allowed is 2 ... 4000"),
+        (["--map", "--points", "many"], "--points: got many, allowed is 2 ... 4000"),
+        (["--node", "--seconds", "0"], "--seconds: got 0, allowed is more than 0, up to 3600"),
+        (["--node", "--seconds", "nan"], "--seconds: got nan, allowed is more than 0"),
+        (["--node", "--map"], "not allowed with argument"),
+    ],
+)
+def test_a_wrong_option_is_refused_as_usage(words, told, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        report.main(words)
+    assert stopped.value.code == 2
+    assert told in capsys.readouterr().err
 
 
-def test_the_node_is_measured_beside_a_bare_one(capsys, monkeypatch):
-    monkeypatch.setattr(load, "LOAD_RATES", (1000.0,))
-    monkeypatch.setattr(load, "RATES", (500.0,))
-    monkeypatch.setattr(load, "KICKS", 10)
-    assert report.main(["--node", "--seconds", "1"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    cut = load.NAME
-    figures = {line[:cut].strip(): list(map(float, line[cut:].split())) for line in lines[2:]}
-    assert 0 < figures["1000 Hz: samples arrived (%)"][0] <= 100
-    ours, bare, ratio = figures["1000 Hz: CPU per message (us)"]
-    assert ratio == pytest.approx(ours / bare, abs=0.01)  # as printed
-    assert figures["1000 Hz, recording: CPU of a core (%)"][0] > 0
-    assert all(0 < latency < 1e4 for latency in figures["1000 Hz: kick latency p50 (ms)"][:2])
-    assert "highest rate, < 0.1% late (Hz)" in figures
-
-
-def test_late_samples_and_jitter_are_counted_from_when_they_were_sent():
-    sent = np.array([0.0, 0.010, 0.020, 0.0305, 0.0605, 0.070])
-    found = load.figures(Traffic(sent, arrived=1.0, messages=30, cpu=0.003), 100.0, 0.07)
-    assert found.late == pytest.approx(1 / 5)
-    assert found.jitter[2] == pytest.approx(20e3)  # us
-    assert found.message == pytest.approx(100.0)
-    assert found.core == pytest.approx(0.003 / 0.07)
-
-
-@pytest.mark.parametrize("theta", [0.0, 0.5, 3.0])
-@pytest.mark.parametrize("friction", [Friction(), Friction(1e-5, 3e-5)])
-def test_the_peer_integrates_the_same_top(theta, friction):
-    top = Top(0.0002, 0.0003, -0.05)
-    start = State.from_euler(theta=theta, theta_dot=2.0, phi_dot=3.0, psi_dot=50.0)
-    path = motion(top, start, friction)
-    h = 1e-4
-    ahead, behind = (np.concatenate(list(path.at(t))) for t in (h, -h))
-    moments = top.moments
-    slope = derivative(
-        0.0, np.concatenate(list(path.start)), *moments, friction.axial, friction.transverse
-    )
-    # central difference: h^2/6 times a third derivative of order 50^3, times angular velocity
-    np.testing.assert_allclose((ahead - behind) / (2 * h), slope, atol=h**2 * 50**4)
+@pytest.mark.parametrize(
+    ("module", "option"), [("matplotlib", "--article"), ("rerun", "--map"), ("tqdm", "--full")]
+)
+def test_what_is_missing_is_named_with_the_extra_that_brings_it(module, option, tmp_path):
+    hidden = f"import sys; sys.modules[{module!r}] = None; "
+    program = f"from symtop_ros.report.main import main; sys.exit(main([{option!r}]))"
+    result = subprocess.run(
+        [sys.executable, "-c", hidden + program],
+        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert result.returncode == 1
+    (line,) = result.stderr.splitlines()
+    assert line.startswith("top_report: needs the extra `report`: pip install '.[report]'")
+    assert module in line
+    assert list(tmp_path.iterdir()) == []

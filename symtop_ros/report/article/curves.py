@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from symtop_ros.physics import Motion, motion
 from symtop_ros.report.article.motions import RATES, THETA, TOP, Rate, cusps, regular, start
 from symtop_ros.report.article.on_nutation import horizontal_square
 from symtop_ros.report.article.spheres import turn
-from symtop_ros.report.article.style import BLUE, GREY, INK, RED, columns, new_figure, rows
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from symtop_ros.report.style import BLUE, GREY, INK, RED, columns, new_figure, rows
 
 Real = NDArray[np.float64]
 TIMES = np.linspace(0.0, 0.5, 2001)  # s; three nutations of cusps

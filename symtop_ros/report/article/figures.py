@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
 
 from symtop_ros.report.article import curves
 from symtop_ros.report.article.motions import cusps, regular
 from symtop_ros.report.article.parabola import parabola
 from symtop_ros.report.article.spheres import sphere
-from symtop_ros.report.article.style import RESOLUTION, SETTINGS
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from symtop_ros.report.style import RESOLUTION, SETTINGS
 
 FIGURES: dict[str, Callable[[], Figure]] = {
     "regular_precession": lambda: sphere(regular()),
@@ -32,13 +31,9 @@ def write_figures(folder: Path) -> list[Path]:
 
     Raises
     ------
-    ImportError
-        Where there is no matplotlib.
     OSError
         Where a file cannot be written.
     """
-    from matplotlib import rc_context
-
     with rc_context(SETTINGS):
         return [file for name, draw in FIGURES.items() for file in _write(draw(), folder / name)]
 

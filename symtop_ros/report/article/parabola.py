@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from symtop_ros.report.article.equations import theta_acceleration
 from symtop_ros.report.article.motions import FAST, PRINTED, PSI_DOT, RATES, SLOW, THETA, TOP
-from symtop_ros.report.article.style import BLUE, INK, PALE, RED, new_figure
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from symtop_ros.report.style import BLUE, INK, PALE, RED, new_figure
 
 PHI_DOTS = np.linspace(-8.0, 85.0, 400)  # rad/s
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import rerun as rr
 
 from symtop_ros.physics import Motion, perry
 from symtop_ros.playback.batch import Batch, Columns
+from symtop_ros.playback.scene.scene import Scene
 from symtop_ros.report.article.motions import cusps, regular
 from symtop_ros.run.events import Event
 from symtop_ros.run.samples import SAMPLES
@@ -23,8 +25,6 @@ def write_recordings(folder: Path) -> list[Path]:
 
     Raises
     ------
-    ImportError
-        Where there is no rerun-sdk.
     OSError
         Where a file cannot be written.
     """
@@ -36,10 +36,6 @@ def write_recordings(folder: Path) -> list[Path]:
 
 def record(path: Motion, target: Path) -> None:
     """Write the scene of a motion, as `top_replay` draws it from a log."""
-    import rerun as rr
-
-    from symtop_ros.playback.scene.scene import Scene
-
     target.open("wb").close()  # Rerun would only warn
     recording = rr.RecordingStream(APPLICATION, recording_id=target.stem)
     recording.save(target)

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from symtop_ros.physics import Motion
-from symtop_ros.report.article.style import BLUE, GOLD, GREY, INK, RED, new_figure
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from symtop_ros.report.style import BLUE, GOLD, GREY, INK, RED, new_figure
 
 Real = NDArray[np.float64]
 Axes3D = Any  # matplotlib has no types for space

@@ -18,7 +18,7 @@ def chart(folder: Path, points: int) -> int:
         maps = [_written(make, folder, points) for make in (over_spin, over_tilt)]
         write_recording(maps, folder / "perry.rrd")
     except OSError as error:
-        print(f"top_report: --map: {folder}: {error.strerror or error}", file=sys.stderr)
+        print(f"top_report: {folder}: {error.strerror or error}", file=sys.stderr)
         return 1
     print(f"in Rerun: rerun {folder / 'perry.rrd'}")
     return 0

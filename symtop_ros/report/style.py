@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 INK, BLUE, RED, GOLD = "#20242c", "#1f5f9e", "#cf5a2b", "#e3a72f"  # from dark to light
 GREY, PALE = "#8a8f98", "#c9cdd3"
@@ -43,8 +42,6 @@ SETTINGS: Any = {
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
     """Return an empty figure of this size in inches, on no screen."""
-    from matplotlib.figure import Figure
-
     return Figure(figsize=(width, height))
 
 
