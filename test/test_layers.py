@@ -26,7 +26,8 @@ ALLOWED = {
         *ARRAYS,
         *("matplotlib", "pyarrow", "rerun", "tqdm"),
         *("diffrax", "exudyn", "heyoka", "jax", "mujoco", "pinocchio", "pydrake"),
-        *("symtop_ros.run", "symtop_ros.playback", "symtop_ros.report", *MESSAGES),
+        *("symtop_ros.run", "symtop_ros.playback", "symtop_ros.client"),
+        *("symtop_ros.report", *MESSAGES),
     },
 }
 FORBIDDEN = {"client": ("symtop_ros.physics",), "node": ("symtop_ros.client", "rerun")}

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import struct
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +17,7 @@ from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
 from symtop_ros.report.bare import TOPICS
+from symtop_ros.report.processes import cpu_seconds
 
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 STARTING = 30.0  # s that a node may take until every topic has a sample
@@ -74,9 +73,9 @@ class Listener:
     def listen(self, pid: int, rate: float, seconds: float) -> Traffic:
         """Listen for some seconds."""
         self._forget()
-        cpu = _cpu_seconds(pid)
+        cpu = cpu_seconds(pid)
         self._spin(seconds)
-        cpu = _cpu_seconds(pid) - cpu
+        cpu = cpu_seconds(pid) - cpu
         arrived = min(_arrived(messages, rate) for messages in self._got.values())
         count = sum(map(len, self._got.values()))
         return Traffic(np.array(self._sent) * 1e-9, arrived, count, cpu)
@@ -109,12 +108,6 @@ class Listener:
         end = time.monotonic() + seconds
         while time.monotonic() < end and not done():
             self._executor.spin_once(timeout_sec=0.1)
-
-
-def _cpu_seconds(pid: int) -> float:
-    """User and system time of a process (Linux)."""
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def _arrived(messages: list[bytes], rate: float) -> float:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -14,8 +12,8 @@ import numpy as np
 
 from symtop_ros.report.bare import TOPICS
 from symtop_ros.report.listener import Listener, Traffic
+from symtop_ros.report.processes import domain, node_command, running
 
-NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
 BARE = "from symtop_ros.report.bare import main; main()"
 LOAD_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, of which the highest one that is held is told
@@ -52,10 +50,10 @@ def top_node(folder: str, recording: bool = False) -> Command:
     """Command line of our node."""
 
     def command(rate: float) -> list[str]:
-        options = [f"publish_rate:={rate}", f"record.enabled:={recording}".lower()]
-        options += [f"record.directory:={folder}", "hurry_factor:=1.0"]
-        words = [word for option in options for word in ("-p", option)]
-        return [sys.executable, "-c", NODE, "--ros-args", *words, "--log-level", "warn"]
+        return node_command(
+            *(f"publish_rate:={rate}", f"record.enabled:={recording}".lower()),
+            *(f"record.directory:={folder}", "hurry_factor:=1.0"),
+        )
 
     return command
 
@@ -136,15 +134,10 @@ def _row(name: str, unit: str, ours: float, bare: float) -> str:
 
 @contextlib.contextmanager
 def _listening(command: list[str]) -> Iterator[tuple[Listener, int]]:
-    """Run a node in a domain of its own, and listen to it."""
-    domain = 100 + os.getpid() % 100
-    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain)}
-    with subprocess.Popen(command, env=environment) as node:
+    """Run a node, and listen to it."""
+    with running(command) as node:
+        listener = Listener(domain())
         try:
-            listener = Listener(domain)
-            try:
-                yield listener, node.pid
-            finally:
-                listener.close()
+            yield listener, node.pid
         finally:
-            node.terminate()
+            listener.close()

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 MOST_POINTS = 4000
+LONGEST = 1e6  # s
 DESCRIPTION = """Speed against error, beside the integrators that are installed: tables, plots and
 JSON in a folder. Or the article retold, Perry's maps, or the node's load, one of them at a time."""
 
@@ -17,7 +18,11 @@ def main(args: list[str] | None = None) -> int:
     try:
         return _chosen(options)
     except ImportError as error:
-        needed = "ROS 2" if options.node else "the extra `report`: pip install '.[report]'"
+        needed = (
+            "ROS 2"
+            if options.node or options.soak
+            else "the extra `report`: pip install '.[report]'"
+        )
         print(f"top_report: needs {needed} ({error})", file=sys.stderr)
         return 1
 
@@ -32,8 +37,11 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--article", action="store_true", help="the article's figures and claims")
     one.add_argument("--map", action="store_true", help="where hurrying raises the top")
     one.add_argument("--node", action="store_true", help="the node beside a bare one; no files")
+    one.add_argument("--soak", action="store_true", help="the node kicked at random; no files")
     parser.add_argument("--points", type=_points, default=1000, help="along each side of --map")
-    parser.add_argument("--seconds", type=_seconds, default=10.0, help="for each figure of --node")
+    parser.add_argument(
+        "--seconds", type=_seconds, help="for each figure of --node (10), or of --soak (3600)"
+    )
     return parser
 
 
@@ -49,8 +57,8 @@ def _seconds(text: str) -> float:
         seconds = float(text)
     except ValueError:
         seconds = 0.0
-    if not 0 < seconds <= 3600:
-        msg = f"got {text}, allowed is more than 0, up to 3600"
+    if not 0 < seconds <= LONGEST:
+        msg = f"got {text}, allowed is more than 0, up to {LONGEST:g}"
         raise argparse.ArgumentTypeError(msg)
     return seconds
 
@@ -60,9 +68,16 @@ def _chosen(options: argparse.Namespace) -> int:
     if options.node:
         from symtop_ros.report.load import table
 
-        for part in table(options.seconds):
+        for part in table(options.seconds or 10.0):
             print(part, end="", flush=True)
         return 0
+    if options.soak:
+        from symtop_ros.report.soak import HEAD, row, soak
+
+        print(HEAD)
+        for reading in soak(options.seconds or 3600.0):
+            print(row(reading), flush=True)
+        return 0 if reading.good else 1
     if options.map:
         from symtop_ros.report.perry.main import chart
 

@@ -57,9 +57,7 @@ def _add_top(system: Any, task: Task) -> Any:
         )
     )
     inertia = [Ix, Ix, Iz, 0.0, 0.0, 0.0]
-    body = system.AddObject(
-        ObjectRigidBody(nodeNumber=node, physicsMass=1.0, physicsInertia=inertia)
-    )
+    body = system.AddObject(ObjectRigidBody(nodeNumber=node, mass=1.0, inertia=inertia))
     for height, force in ((1.0, -Mgl), (0.0, Mgl)):
         place = [0.0, 0.0, height]
         marker = system.AddMarker(MarkerBodyPosition(bodyNumber=body, localPosition=place))
