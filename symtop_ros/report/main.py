@@ -38,9 +38,12 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--map", action="store_true", help="where hurrying raises the top")
     one.add_argument("--node", action="store_true", help="the node beside a bare one; no files")
     one.add_argument("--soak", action="store_true", help="the node kicked at random; no files")
+    one.add_argument("--stress", action="store_true", help="the node under loads; no files")
     parser.add_argument("--points", type=_points, default=1000, help="along each side of --map")
     parser.add_argument(
-        "--seconds", type=_seconds, help="for each figure of --node (10), or of --soak (3600)"
+        "--seconds",
+        type=_seconds,
+        help="for each figure of --node and --stress (10), of --soak (3600)",
     )
     return parser
 
@@ -78,6 +81,15 @@ def _chosen(options: argparse.Namespace) -> int:
         for reading in soak(options.seconds or 3600.0):
             print(row(reading), flush=True)
         return 0 if reading.good else 1
+    if options.stress:
+        from symtop_ros.report import stress
+
+        print(stress.HEAD)
+        good = True
+        for outcome in stress.stress(options.seconds or 10.0):
+            print(stress.row(outcome), flush=True)
+            good = good and outcome.good
+        return 0 if good else 1
     if options.map:
         from symtop_ros.report.perry.main import chart
 

@@ -6,29 +6,23 @@ Every finished log is computed again from its events, as `top_replay --check` do
 from __future__ import annotations
 
 import random
-import struct
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import rclpy
-from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import QuaternionStamped
-
-from symtop_ros.client.connection import Connection
-from symtop_ros.report.processes import descriptors, domain, memory, node_command, running
+from symtop_ros.report.follower import Follower, request
+from symtop_ros.report.processes import descriptors, memory, node_command, running
 
 RATE = 1000.0  # Hz
 PART = 20.0  # s of a log
 LINE = 10.0  # s between two lines
 LONGEST_PAUSE = 1.0  # s between two requests
 WARM = 10.0  # s until all that is kept is filled: pools of the middleware and the allocator
-STARTING = 30.0  # s
 REQUESTS: tuple[tuple[str, Any], ...] = (
     ("hurry_precession", None),
     ("kick", {"precession_rate_change": 2.0}),
@@ -126,7 +120,6 @@ def soak(seconds: float) -> Iterator[Reading]:
 
 
 def _readings(user: User, pid: int, seconds: float) -> Iterator[Reading]:
-    user.spin(STARTING, until_sample=True)
     user.begin()
     began, warm = time.monotonic(), 0.0
     while (passed := time.monotonic() - began) < seconds:
@@ -141,74 +134,34 @@ def _readings(user: User, pid: int, seconds: float) -> Iterator[Reading]:
         )
 
 
-class User:
+class User(Follower):
     """Somebody who listens to a node and makes requests at random."""
 
     def __init__(self) -> None:
-        self._context = rclpy.Context()
-        rclpy.init(context=self._context, domain_id=domain())
-        node = rclpy.create_node("soak", context=self._context)
-        self._connection = Connection(node, timeout=STARTING)
-        node.create_subscription(QuaternionStamped, "/top/orientation", self._take, 5000, raw=True)
-        node.create_subscription(DiagnosticArray, "/diagnostics", self._note, 10)
+        super().__init__(RATE)
         self._random = random.Random(1)
-        self._facts: dict[str, str] = {}
-        self.begin()
-
-    def close(self) -> None:
-        """Leave the domain."""
-        rclpy.shutdown(context=self._context)
-
-    def begin(self) -> None:
-        """Count from here."""
-        self._samples, self._gaps, self._requests, self._balance = 0, 0, 0, 0.0
-        self._stamp, self._missed_before = 0, int(self._facts.get("missed", 0))
-
-    def spin(self, seconds: float, until_sample: bool = False) -> None:
-        """Listen."""
-        self._connection.spin_until(lambda: until_sample and self._samples > 0, seconds)
+        self._requests = 0
 
     def play(self, seconds: float) -> None:
         """Listen, and make requests at random moments."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             self.spin(min(left, self._random.uniform(0.0, LONGEST_PAUSE)))
-            self._request(*self._random.choice(REQUESTS))
+            request(self.connection, *self._random.choice(REQUESTS))
+            self._requests += 1
 
     def counted(self, seconds: float) -> Reading:
         """Return what was counted since the beginning."""
-        missed = int(self._facts.get("missed", 0)) - self._missed_before
         return Reading(
             seconds=seconds,
-            samples=self._samples,
-            lost=max(0, self._gaps - missed),
+            samples=self.samples,
+            lost=self.lost,
             requests=self._requests,
-            late=int(self._facts.get("late", 0)),
-            missed=missed,
-            dropped=int(self._facts.get("dropped", 0)),
-            balance=self._balance,
+            late=self.fact("late"),
+            missed=self.missed,
+            dropped=self.fact("dropped"),
+            balance=self.balance,
         )
-
-    def _request(self, service: str, values: Mapping[str, Any] | bool | None) -> None:
-        if values is None:
-            self._connection.trigger(service)
-        elif isinstance(values, bool):
-            self._connection.switch(service, values)
-        else:
-            self._connection.set(service, values)
-        self._requests += 1
-
-    def _take(self, data: bytes) -> None:
-        seconds, nanoseconds = struct.unpack_from("<iI", data, 4)
-        stamp = seconds * 1_000_000_000 + nanoseconds
-        if self._stamp:
-            self._gaps += round((stamp - self._stamp) * 1e-9 * RATE) - 1
-        self._stamp = stamp
-        self._samples += 1
-
-    def _note(self, message: DiagnosticArray) -> None:
-        self._facts.update((pair.key, pair.value) for s in message.status for pair in s.values)
-        self._balance = max(self._balance, abs(float(self._facts["energy.balance"])))
 
 
 class Logs:
