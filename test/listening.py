@@ -48,14 +48,17 @@ def _readable(address: str) -> str:
 def _family(pid: int) -> Iterator[int]:
     yield pid
     for task in (PROC / str(pid) / "task").iterdir():
-        for child in (task / "children").read_text().split():
+        children = ""
+        with contextlib.suppress(OSError):  # a thread that has ended since
+            children = (task / "children").read_text()
+        for child in children.split():
             yield from _family(int(child))
 
 
 def _sockets(pid: int) -> Iterator[str]:
-    folder = PROC / str(pid) / "fd"
-    for link in folder.iterdir():
-        with contextlib.suppress(FileNotFoundError):  # closed since
+    for link in (PROC / str(pid) / "fd").iterdir():
+        target = ""
+        with contextlib.suppress(OSError):  # closed since
             target = os.readlink(link)
-            if target.startswith("socket:["):
-                yield target[8:-1]
+        if target.startswith("socket:["):
+            yield target[8:-1]

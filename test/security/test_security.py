@@ -1,5 +1,6 @@
 """What SECURITY.md promises of one machine."""
 
+import socket
 import subprocess
 import time
 
@@ -47,6 +48,9 @@ def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_pat
         process.terminate()
         process.wait(timeout=TIMEOUT)
     assert {address for address, _ in addresses} == {"127.0.0.1"}
+    for address in addresses:  # the viewer has ended with the program
+        with socket.socket() as probe:
+            assert probe.connect_ex(address) != 0
 
 
 def waited_for(look, count):
