@@ -65,7 +65,8 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
-        (f"share/{NAME}/config", sorted(glob("config/*.yaml"))),
+        # scenes; a policy for SROS2, and profiles for Fast DDS
+        (f"share/{NAME}/config", sorted(glob("config/*.yaml") + glob("config/*.xml"))),
         # where `ros2 run` looks; pip puts console scripts into bin only
         (f"lib/{NAME}", sorted(glob("resource/top_*"))),
     ],

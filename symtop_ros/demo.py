@@ -11,12 +11,14 @@ import rclpy
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.node.scene import scene_folder
 from symtop_ros.playback import viewer
 from symtop_ros.playback.mcap_file import LogError, McapFile
 from symtop_ros.playback.replay import replay
 from symtop_ros.playback.top_log import TopLog
 
 SCENE = "cusps"
+PROFILE = "fastdds_loopback.xml"
 NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
 WATCHED = 1.5  # s before and after the kick: nine nutations of this scene
 
@@ -24,6 +26,8 @@ WATCHED = 1.5  # s before and after the kick: nine nutations of this scene
 def main() -> int:
     """Run the demonstration; return the exit status."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    # which alone leaves ports open to hosts that name this one as a peer
+    os.environ.setdefault("FASTDDS_DEFAULT_PROFILES_FILE", str(scene_folder() / PROFILE))
     os.environ["ROS_DOMAIN_ID"] = str(100 + os.getpid() % 100)  # apart from tops that run already
     print(f"starting top_node on the scene {SCENE!r} ...", flush=True)
     options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "--log-level", "warn"]

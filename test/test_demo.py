@@ -2,6 +2,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from listening import udp_addresses
+
 from symtop_ros.playback.check import check
 from symtop_ros.playback.mcap_file import McapFile
 from symtop_ros.playback.top_log import TopLog
@@ -12,16 +14,22 @@ def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(
 ):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    result = subprocess.run(
+    monkeypatch.delenv("FASTDDS_DEFAULT_PROFILES_FILE", raising=False)
+    demo = subprocess.Popen(
         [sys.executable, "-m", "symtop_ros.demo"],
         cwd=tmp_path,
-        capture_output=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
         text=True,
-        timeout=120,
-        check=False,
     )
-    assert result.returncode == 0, result.stderr
-    said, went, log, recording, ended = result.stdout.splitlines()[-5:]
+    heard = [demo.stdout.readline() for _ in range(2)]  # the second when samples have come
+    first = 7400 + 250 * (100 + demo.pid % 100)  # of its domain
+    listening = udp_addresses(range(first, first + 250))
+    printed, errors = demo.communicate(timeout=120)
+    assert demo.returncode == 0, (heard, errors)
+    assert len(listening) >= 4
+    assert {address for address, _ in listening} == {"127.0.0.1"}
+    said, went, log, recording, ended = printed.splitlines()[-5:]
     assert "the moving top is lifted" in said
     promised = said.split("theta ")[1].split(" rad")[0]
     assert f"theta {promised} rad" in went  # the same to a thousandth of a radian

@@ -12,7 +12,7 @@ from symtop_ros import __version__
 
 ROOT = Path(__file__).parents[1]
 PARTS = ("symtop_ros", "config", "resource", "setup.py", "setup.cfg", "package.xml", "README.md")
-SCENES = sorted(path.name for path in (ROOT / "config").glob("*.yaml"))
+CONFIG = sorted(path.name for path in (ROOT / "config").iterdir())
 
 
 @pytest.fixture(scope="module")
@@ -27,11 +27,11 @@ def sources(tmp_path_factory):
 
 
 def assert_tree(prefix, programs):
-    """Package marker, scenes, package.xml and programs are where ROS 2 looks for them."""
+    """Package marker, configuration, package.xml and programs are where ROS 2 looks for them."""
     assert (prefix / "share/ament_index/resource_index/packages/symtop_ros").is_file()
     assert (prefix / "share/symtop_ros/package.xml").is_file()
-    installed = (prefix / "share/symtop_ros/config").glob("*.yaml")
-    assert sorted(path.name for path in installed) == SCENES
+    installed = (prefix / "share/symtop_ros/config").iterdir()
+    assert sorted(path.name for path in installed) == CONFIG
     for name in ("top_node", "top_ctl", "top_replay", "top_live", "top_report"):
         assert os.access(programs / name, os.X_OK)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import signal
 import socket
 import subprocess
 import sys
@@ -31,6 +32,7 @@ def main(args: list[str] | None = None) -> int:
     """Stream until interrupted, or until the viewer that was opened is closed."""
     arguments = sys.argv if args is None else ["top_live", *args]
     options = _parser().parse_args(remove_ros_args(arguments)[1:])
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a viewer is not left behind
     try:
         with _viewer(options.port, options.web) as process, rclpy.init(args=arguments):
             _stream(f"/{options.node.strip('/')}", options.port, process)

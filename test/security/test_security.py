@@ -1,0 +1,82 @@
+"""What SECURITY.md promises of one machine."""
+
+import socket
+import subprocess
+import time
+
+import pytest
+from listening import tcp_addresses
+from log_files import Run
+from node.running_top import RunningTop
+from programs import command, environment, run
+from rclpy.parameter import Parameter
+
+from symtop_ros.playback import viewer
+
+DOMAIN = 95
+PROGRAMS = (("top_node",), ("top_ctl", "state"), ("top_live", "--web"))
+TIMEOUT = 20.0
+
+
+@pytest.mark.parametrize("words", PROGRAMS, ids=lambda words: words[0])
+def test_told_to_be_secure_a_program_does_not_run_without(words, tmp_path, monkeypatch):
+    name = words[0]
+    (tmp_path / "enclaves" / "top" / name).mkdir(parents=True)  # of which all files are missing
+    monkeypatch.setenv("ROS_SECURITY_ENABLE", "true")
+    monkeypatch.setenv("ROS_SECURITY_STRATEGY", "Enforce")
+    for keystore in (tmp_path, tmp_path / "missing"):
+        monkeypatch.setenv("ROS_SECURITY_KEYSTORE", str(keystore))
+        result = run(*words, "--ros-args", "--enclave", f"/top/{name}", domain=DOMAIN)
+        assert result.returncode == 1
+        assert result.stderr.splitlines()[-1].startswith(f"{name}: ")
+
+
+@pytest.mark.parametrize("program", ["top_replay", "top_live"])
+def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_path):
+    log = Run(seconds=0.5).write(tmp_path)
+    port = viewer.free_port()
+    words = [str(log)] if program == "top_replay" else ["--port", str(port)]
+    process = subprocess.Popen(
+        command(program, *words, "--web"),
+        env=environment(DOMAIN),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        addresses = waited_for(lambda: tcp_addresses(process.pid), 2)
+    finally:
+        process.terminate()
+        process.wait(timeout=TIMEOUT)
+    assert {address for address, _ in addresses} == {"127.0.0.1"}
+    for address in addresses:  # the viewer has ended with the program
+        with socket.socket() as probe:
+            assert probe.connect_ex(address) != 0
+
+
+def waited_for(look, count):
+    """What is seen as soon as there are so many of it."""
+    deadline = time.monotonic() + TIMEOUT
+    while len(found := look()) < count:
+        assert time.monotonic() < deadline, f"only {found} in time"
+        time.sleep(0.02)
+    return found
+
+
+def test_no_text_that_can_be_set_from_afar_is_a_path():
+    run = RunningTop()
+    try:
+        texts = {
+            name: parameter.value
+            for name, parameter in run.top.get_parameters_by_prefix("").items()
+            if parameter.type_ == Parameter.Type.STRING
+        }
+        assert {"scene", "record.directory", "world_frame"} <= set(texts)
+        for name, value in texts.items():
+            granted, why = run.connection.set("set_parameters_atomically", {name: "/tmp/elsewhere"})
+            assert not granted
+            assert "read-only" in why or "allowed is" in why, (name, why)
+            assert run.top.get_parameter(name).value == value
+        granted, _ = run.connection.set("set_parameters_atomically", {"record.path": "/tmp/else"})
+        assert not granted
+    finally:
+        run.close()

@@ -1,0 +1,152 @@
+"""A top on one host and its users on another: discovery, a bad network, and none at all."""
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from programs import command
+from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
+
+pytestmark = pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}")
+CONFIG = Path(__file__).parents[2] / "config"
+WITNESS = Path(__file__).with_name("witness.py")
+SETTINGS = (
+    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    "ROS_STATIC_PEERS",
+    "FASTDDS_DEFAULT_PROFILES_FILE",
+)
+RANGE, PEERS, PROFILE = SETTINGS
+LOOPBACK = {PROFILE: str(CONFIG / "fastdds_loopback.xml")}
+LOSSY = {PROFILE: str(CONFIG / "fastdds_lossy.xml")}
+LOCAL, OFF, TO_THE_TOP = {RANGE: "LOCALHOST"}, {RANGE: "OFF"}, {PEERS: ADDRESSES[0]}
+# of the top, of the one who asks, and whether the top is found
+DISCOVERIES = [
+    ({}, {}, True),
+    (LOCAL, {}, False),
+    (LOCAL, LOCAL, False),
+    (LOCAL, {**LOCAL, **TO_THE_TOP}, True),
+    ({**LOCAL, **LOOPBACK}, {**LOCAL, **TO_THE_TOP}, False),
+    ({**OFF, PEERS: ADDRESSES[1]}, {**OFF, **TO_THE_TOP}, False),
+]
+BAD = Weather(loss=0.05, delay=0.020, jitter=0.005, reorder=0.10)
+TIMEOUT = 20.0
+
+
+@pytest.fixture(scope="module")
+def hosts():
+    with two_hosts() as joined:
+        yield joined
+
+
+def environment(domain, settings):
+    bare = {name: value for name, value in os.environ.items() if name not in SETTINGS}
+    return {**bare, "ROS_DOMAIN_ID": str(domain), **settings}
+
+
+@contextlib.contextmanager
+def running(host, domain, settings, *words):
+    """Run a program on a host; a line that is written to it is answered by a line."""
+    process = subprocess.Popen(
+        host.words(*words),
+        env=environment(domain, settings),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def top(host, domain, settings):
+    return running(
+        host, domain, settings, *command("top_node", "--ros-args", "--log-level", "warn")
+    )
+
+
+def witness(host, domain, settings):
+    return running(host, domain, settings, sys.executable, str(WITNESS))
+
+
+def top_ctl(host, domain, settings, *words, timeout=TIMEOUT):
+    words = command("top_ctl", "--timeout", str(timeout), *words)
+    return running(host, domain, settings, *words)
+
+
+def ask(process, word):
+    process.stdin.write(f"{word}\n")
+    process.stdin.flush()
+    return json.loads(process.stdout.readline())
+
+
+def report_of(process, done):
+    """The first report for which something holds."""
+    deadline = time.monotonic() + TIMEOUT
+    while not done(report := ask(process, "report")):
+        assert time.monotonic() < deadline, report
+        time.sleep(0.1)
+    return report
+
+
+def counted(report):
+    return sum(samples["count"] for samples in report["samples"].values())
+
+
+def test_the_top_is_found_from_another_host_where_the_settings_say_so(hosts):
+    here, there, _ = hosts
+    with contextlib.ExitStack() as stack:
+        asking = []
+        for domain, (of_top, of_user, _) in enumerate(DISCOVERIES):
+            stack.enter_context(top(here, domain, of_top))
+            user = top_ctl(there, domain, of_user, "state", timeout=6.0)
+            asking.append(stack.enter_context(user))
+        found = [process.wait(timeout=3 * TIMEOUT) == 0 for process in asking]
+    assert found == [expected for *_, expected in DISCOVERIES]
+
+
+def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(hosts):
+    here, there, cable = hosts
+    with top(here, 10, LOSSY), witness(there, 10, LOSSY) as user:
+        ask(user, "kick")
+        report_of(user, lambda report: len(report["samples"]) == 5)
+        cable.weather = BAD
+        try:
+            waits = [ask(user, "kick") for _ in range(40)]
+            report_of(user, lambda report: counted(report) > 4000)
+        finally:
+            cable.weather = Weather()
+        report = report_of(user, lambda report: report["events"] == ["start", *["kick"] * 41])
+        assert cable.lost > 100
+        assert max(waits) < 1.0
+        for samples in report["samples"].values():
+            assert (samples["lost"], samples["unordered"]) == (0, 0)
+
+
+def test_after_a_link_was_down_samples_go_on_and_all_events_are_there(hosts):
+    here, there, _ = hosts
+    with top(here, 11, {}), witness(there, 11, {}) as user:
+        ask(user, "kick")
+        report_of(user, lambda report: len(report["samples"]) == 5)
+        here.link("down")
+        cut = time.monotonic()
+        try:
+            with top_ctl(here, 11, {}, "hurry") as nearby:  # the top itself goes on
+                assert nearby.wait(timeout=TIMEOUT) == 0
+        finally:
+            here.link("up")
+        seconds = time.monotonic() - cut
+        with top_ctl(there, 11, {}, "hurry") as distant:
+            assert distant.wait(timeout=TIMEOUT) == 0
+        assert ask(user, "kick") < 5.0
+        events = ["start", *["kick"] * 4]
+        report = report_of(user, lambda report: report["events"] == events)
+        for samples in report["samples"].values():
+            assert samples["unordered"] == 0
+            assert samples["longest_gap"] < seconds + 0.5

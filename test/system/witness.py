@@ -1,0 +1,107 @@
+"""A program on another host: it follows a top as top_live does, kicks it, and says what it saw.
+
+A line `kick` or `report` on its standard input is answered by a line of JSON.
+"""
+
+from __future__ import annotations
+
+import json
+import queue
+import sys
+import threading
+import time
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import Header
+
+from symtop_ros.live.feed import DEPTH, LATCHED, TYPES
+
+SECOND = 1_000_000_000
+PERIOD = SECOND // 200  # of the samples of a top
+KICK = Parameter("precession_rate", value=9.0).to_parameter_msg()
+
+
+class Samples:
+    """The samples of one topic as they arrived."""
+
+    def __init__(self) -> None:
+        self.stamps: list[int] = []
+        self.delays: list[float] = []
+
+    def take(self, data: bytes) -> None:
+        stamp = deserialize_message(data, Header).stamp
+        self.stamps.append(stamp.sec * SECOND + stamp.nanosec)
+        self.delays.append((time.time_ns() - self.stamps[-1]) / SECOND)
+
+    def report(self) -> dict[str, Any]:
+        steps = [b - a for a, b in pairwise(self.stamps)]
+        return {
+            "count": len(self.stamps),
+            "lost": sum(step // PERIOD - 1 for step in steps if step > 0),
+            "unordered": sum(step <= 0 for step in steps),
+            "longest_gap": max(steps, default=0) / SECOND,
+            "delay": np.quantile(self.delays, (0.5, 0.99, 1.0)).tolist(),
+        }
+
+
+class Witness:
+    """Subscribes to all topics of a top."""
+
+    def __init__(self) -> None:
+        node = rclpy.create_node("witness")
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(node)
+        self._samples = {name: Samples() for name in TYPES}
+        self._events: list[str] = []
+        for name, kind in TYPES.items():
+            take = self._samples[name].take
+            node.create_subscription(kind, f"/top/{name}", take, DEPTH, raw=True)
+        node.create_subscription(DiagnosticArray, "/top/events", self._take_event, LATCHED)
+        self._client = node.create_client(SetParametersAtomically, "/top/kick")
+
+    def report(self) -> dict[str, Any]:
+        """What has come so far, by topic."""
+        samples = {name: each.report() for name, each in self._samples.items() if each.stamps}
+        return {"samples": samples, "events": self._events}
+
+    def kick(self) -> float:
+        """Kick the top, and return how long the answer took."""
+        self.spin_until(self._client.service_is_ready)
+        asked = time.monotonic()
+        future = self._client.call_async(SetParametersAtomically.Request(parameters=[KICK]))
+        self.spin_until(future.done)
+        assert future.result().result.successful
+        return time.monotonic() - asked
+
+    def spin_until(self, done: Callable[[], bool]) -> None:
+        while not done():
+            self._executor.spin_once(timeout_sec=0.02)
+
+    def _take_event(self, message: DiagnosticArray) -> None:
+        self._events.append(message.status[0].name.removeprefix("top: "))
+
+
+def main() -> None:
+    rclpy.init()
+    witness = Witness()
+    commands = {"kick": witness.kick, "report": witness.report}
+    words: queue.Queue[str] = queue.Queue()
+    read = partial(iter, sys.stdin.readline, "")
+    threading.Thread(target=lambda: [words.put(each) for each in read()], daemon=True).start()
+    while True:
+        witness.spin_until(lambda: not words.empty())
+        print(json.dumps(commands[words.get().strip()]()), flush=True)
+
+
+if __name__ == "__main__":
+    main()
