@@ -36,6 +36,7 @@ class Connection:
         self.node = node
         self.name = "/" + name.strip("/")
         self._timeout = timeout
+        self._clients: dict[str, Client[Any, Any]] = {}
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
 
@@ -67,21 +68,21 @@ class Connection:
         return done()
 
     def _call(self, kind: Any, service: str, request: Any) -> Any:
-        client: Client[Any, Any] = self.node.create_client(kind, f"{self.name}/{service}")
-        try:
-            if not self.spin_until(client.service_is_ready, self._timeout):
-                msg = (
-                    f"no answer from {self.name} within {self._timeout:g} s: "
-                    "is top_node running, with the same ROS_DOMAIN_ID and --node?"
-                )
-                raise UnreachableError(msg)
-            future = client.call_async(request)
-            if not self.spin_until(future.done, self._timeout):
-                msg = f"{self.name}/{service} did not answer within {self._timeout:g} s"
-                raise UnreachableError(msg)
-            return future.result()
-        finally:
-            self.node.destroy_client(client)
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(kind, f"{self.name}/{service}")
+        client = self._clients[service]
+        if not self.spin_until(client.service_is_ready, self._timeout):
+            msg = (
+                f"no answer from {self.name} within {self._timeout:g} s: "
+                "is top_node running, with the same ROS_DOMAIN_ID and --node?"
+            )
+            raise UnreachableError(msg)
+        future = client.call_async(request)
+        if not self.spin_until(future.done, self._timeout):
+            client.remove_pending_request(future)
+            msg = f"{self.name}/{service} did not answer within {self._timeout:g} s"
+            raise UnreachableError(msg)
+        return future.result()
 
 
 def _messages(values: Mapping[str, Any]) -> list[ParameterMessage]:
