@@ -29,6 +29,8 @@ SCENES = {
 }
 REPEATS = 7
 MOST_POINTS = 4000
+MOST_STATES = 10_000_000
+LONGEST = 3600.0  # s for each figure of the node
 SPANS = (1.0, 10.0, 100.0)  # s
 
 
@@ -41,8 +43,9 @@ def main(args: list[str] | None = None) -> int:
     parser.add_argument("--map", type=Path, metavar="FOLDER", help="Perry's maps instead")
     parser.add_argument("--points", type=int, default=1000, help="along each side of --map")
     options = parser.parse_args(args)
-    if options.states < 1:
-        print(f"top_report: --states: got {options.states}, allowed is 1 or more", file=sys.stderr)
+    if options.states < 1 or options.states > MOST_STATES:
+        allowed = f"allowed is 1 or more, up to {MOST_STATES}"
+        print(f"top_report: --states: got {options.states}, {allowed}", file=sys.stderr)
         return 2
     if options.map:
         return _perrys_maps(options.map, options.points)
@@ -81,8 +84,9 @@ def _perrys_maps(folder: Path, points: int) -> int:
 
 def _load_of_the_node(seconds: float) -> int:
     """Only this needs ROS."""
-    if not seconds > 0:
-        print(f"top_report: --seconds: got {seconds}, allowed is more than 0", file=sys.stderr)
+    if not 0 < seconds <= LONGEST:
+        allowed = f"allowed is more than 0, up to {LONGEST:g}"
+        print(f"top_report: --seconds: got {seconds}, {allowed}", file=sys.stderr)
         return 2
     try:
         from symtop_ros.report.load import table
