@@ -182,7 +182,8 @@ def _without_dust(array: Real) -> Real:
 
 def _normalised(q: Real) -> Real:
     """Unit quaternions; those which are one to rounding stay as they are."""
-    norm = np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    with np.errstate(over="ignore"):
+        norm = np.sqrt((q * q).sum(axis=-1, keepdims=True))
     off = np.abs(norm - 1)
     largest = off.max(initial=0.0)
     if largest <= ROUNDING:
