@@ -176,6 +176,17 @@ class TopNode(Node):
         grown = 4 * self._block.length if self._block.segment is segment else 1
         return max(1, min(most, grown, int(AHEAD * rate)))
 
+    def _settle(self) -> None:
+        """Begin the turn of a request: the state that it finds is at hand."""
+        self._release_torque()
+        self._keep_up(self._ticker.next_stamp)
+
+    def _keep_up(self, stamp: int) -> None:
+        """Have the state at a stamp at hand; a motion that is too fast for it is slowed down."""
+        while not self._effort.prepare(self._segment, stamp):
+            if self._effort.shortfall:
+                self._slow_down(stamp, self._effort.shortfall)
+
     def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
         reached, factor = shortfall
         asked, before = self._segment.factor, self._segment.path.at(reached)
@@ -211,7 +222,7 @@ class TopNode(Node):
 
     def _diagnose(self) -> None:
         with self._turn:
-            self._release_torque()
+            self._settle()
             work, self._spent = self._effort.spent - self._spent, self._effort.spent
             self._speed_up(work)
             self._report_failure()
@@ -241,6 +252,7 @@ class TopNode(Node):
     def _follow_jump(self, now: int) -> None:
         """A clock that jumps takes the motion along from where it is."""
         stamp = self._ticker.next_stamp
+        self._keep_up(stamp)
         before = self._segment.state_at(stamp)
         self._segment = self._segment.moved(stamp, now)
         self._ticker.restart(self._settings["publish_rate"], now)
@@ -251,7 +263,7 @@ class TopNode(Node):
 
     def _take_torque(self, message: WrenchStamped) -> None:
         with self._turn:
-            self._release_torque()
+            self._settle()
             stamp = self._ticker.next_stamp
             try:
                 self._torque.hold(message, stamp, self._settings["applied_torque_timeout"])
@@ -262,6 +274,7 @@ class TopNode(Node):
 
     def _release_torque(self) -> None:
         if any(self._torque.value) and self._ticker.next_stamp >= self._torque.end:
+            self._keep_up(self._torque.end)
             self._torque.release()
             self._drive(self._torque.end, "the applied torque has run out")
 
@@ -327,7 +340,7 @@ class TopNode(Node):
 
         def answer(request: Any, response: Any) -> Any:
             with self._turn:
-                self._release_torque()
+                self._settle()
                 try:
                     granted, sentence = True, handle(request)
                 except RefusedError as refusal:
@@ -485,7 +498,7 @@ class TopNode(Node):
 
     def _apply_parameters(self, parameters: list[Parameter[Any]]) -> None:
         with self._turn:
-            self._release_torque()
+            self._settle()
             old, self._settings = self._settings, checked(self._with(parameters))
             changes = {
                 name: value for name, value in self._settings.values.items() if value != old[name]
