@@ -66,7 +66,7 @@ def number(name: str, value: object, low: float = -math.inf, high: float = math.
     allowed = _range(low, high)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise refuse(name, value, allowed)
-    if not math.isfinite(value) or not low <= value <= high:
+    if not low <= value <= high or not math.isfinite(value):
         raise refuse(name, value, allowed)
     return float(value)
 
