@@ -28,7 +28,7 @@ def main() -> int:
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     # which alone leaves ports open to hosts that name this one as a peer
     os.environ.setdefault("FASTDDS_DEFAULT_PROFILES_FILE", str(scene_folder() / PROFILE))
-    os.environ["ROS_DOMAIN_ID"] = str(100 + os.getpid() % 100)  # apart from tops that run already
+    os.environ["ROS_DOMAIN_ID"] = str(60 + os.getpid() % 30)  # apart from tops that run already
     print(f"starting top_node on the scene {SCENE!r} ...", flush=True)
     options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "--log-level", "warn"]
     node = subprocess.Popen([sys.executable, "-c", NODE, "--ros-args", *options])

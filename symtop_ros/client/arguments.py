@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from symtop_ros.wire.text import one_line
+
+SHOWN = 60  # characters of a word
+
 
 class UsageError(ValueError):
     """Words that cannot be read."""
@@ -22,10 +26,10 @@ def named_values(words: Iterable[str]) -> dict[str, Any]:
     for word in words:
         name, equals, text = word.partition("=")
         if not equals or not name:
-            msg = f"{word!r}: allowed is name=value, such as precession_rate=9"
+            msg = f"{one_line(repr(word), SHOWN)}: allowed is name=value, such as precession_rate=9"
             raise UsageError(msg)
         if name in values:
-            msg = f"{name}: got it more than once, allowed is once"
+            msg = f"{one_line(name, SHOWN)}: got it more than once, allowed is once"
             raise UsageError(msg)
         values[name] = _value(text)
     return values

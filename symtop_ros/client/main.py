@@ -16,6 +16,7 @@ from rclpy.utilities import remove_ros_args
 from symtop_ros.client.arguments import UsageError, named_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.watch import watch
+from symtop_ros.wire.text import one_line
 
 Answer = tuple[bool, str]
 NAMED = {
@@ -37,19 +38,20 @@ def main(args: list[str] | None = None) -> int:
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
         values = named_values(getattr(options, "values", ()))
-    except UsageError as error:
-        print(f"top_ctl: {error}", file=sys.stderr)
-        return 2
-    try:
         with rclpy.init(args=arguments):
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
             granted, text = _run(options, values, Connection(node, options.node, options.timeout))
     except (KeyboardInterrupt, ExternalShutdownException):
         return 0
+    except UsageError as error:
+        print(f"top_ctl: {error}", file=sys.stderr)
+        return 2
     except Exception as error:
-        granted, text = False, " ".join(str(error).split()) or type(error).__name__
-    if text:
-        print(text if granted else f"top_ctl: {text}", file=sys.stdout if granted else sys.stderr)
+        granted, text = False, str(error) or type(error).__name__
+    if granted and text:
+        print(text)
+    elif text:
+        print(f"top_ctl: {one_line(text)}", file=sys.stderr)
     return 0 if granted else 1
 
 

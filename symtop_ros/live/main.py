@@ -21,6 +21,7 @@ from symtop_ros.playback import viewer
 from symtop_ros.playback.mcap_file import LogError
 from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.scene.scene import Scene
+from symtop_ros.wire.text import one_line
 
 PORT = 9876  # Rerun's own
 SENDING = 0.05  # s between two batches
@@ -31,15 +32,15 @@ STARTING = 30.0  # s that a viewer may take to come up
 def main(args: list[str] | None = None) -> int:
     """Stream until interrupted, or until the viewer that was opened is closed."""
     arguments = sys.argv if args is None else ["top_live", *args]
-    options = _parser().parse_args(remove_ros_args(arguments)[1:])
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a viewer is not left behind
     try:
+        options = _parser().parse_args(remove_ros_args(arguments)[1:])
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # a viewer is not left behind
         with _viewer(options.port, options.web) as process, rclpy.init(args=arguments):
             _stream(f"/{options.node.strip('/')}", options.port, process)
     except (KeyboardInterrupt, ExternalShutdownException):
         return 0
     except Exception as error:
-        print(f"top_live: {' '.join(str(error).split())}", file=sys.stderr)
+        print(f"top_live: {one_line(error) or type(error).__name__}", file=sys.stderr)
         return 1
     return 0
 
@@ -51,9 +52,16 @@ def _parser() -> argparse.ArgumentParser:
         "which may end and come again, or in one of its own.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
-    parser.add_argument("--port", type=int, default=PORT, help=f"of the viewer (default {PORT})")
+    parser.add_argument("--port", type=_port, default=PORT, help=f"of the viewer (default {PORT})")
     parser.add_argument("--web", action="store_true", help="serve a browser on this machine")
     return parser
+
+
+def _port(text: str) -> int:
+    port = int(text)
+    if not 0 < port < 2**16:
+        raise ValueError
+    return port
 
 
 @contextlib.contextmanager

@@ -10,9 +10,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType
 from rclpy.parameter import parameter_value_to_python
 
 LARGEST_RATE = 1e9  # rad/s
+SHOWN = 60  # characters of a value
 
 
 class RefusedError(ValueError):
@@ -26,13 +28,15 @@ def refuse(name: str, got: object, allowed: str) -> RefusedError:
 
 def shown(value: object) -> str:
     """Return a value as text, however long or odd it is."""
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    some = value[:SHOWN] if isinstance(value, list | tuple | str) else value
+    text = repr(some)
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."
 
 
 def named_values(parameters: Iterable[ParameterMessage], allowed: Iterable[str]) -> dict[str, Any]:
     """Return the values of a request by name; refuse unknown, repeated and empty ones."""
-    names = tuple(allowed)
+    parameters, names = tuple(parameters), tuple(allowed)
+    check_types(parameters)
     values: dict[str, Any] = {}
     for parameter in parameters:
         name = parameter.name
@@ -48,12 +52,21 @@ def named_values(parameters: Iterable[ParameterMessage], allowed: Iterable[str])
     return values
 
 
+def check_types(parameters: Iterable[ParameterMessage]) -> None:
+    """Refuse values of a type that ROS does not have."""
+    for parameter in parameters:
+        kind, last = parameter.value.type, ParameterType.PARAMETER_STRING_ARRAY
+        if kind > last:
+            msg = f"{shown(parameter.name)}: got type {kind}, allowed is a type from 0 to {last}"
+            raise RefusedError(msg)
+
+
 def number(name: str, value: object, low: float = -math.inf, high: float = math.inf) -> float:
     """Return a finite number within [low, high]."""
     allowed = _range(low, high)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise refuse(name, value, allowed)
-    if not math.isfinite(value) or not low <= value <= high:
+    if not low <= value <= high or not math.isfinite(value):
         raise refuse(name, value, allowed)
     return float(value)
 
@@ -61,11 +74,13 @@ def number(name: str, value: object, low: float = -math.inf, high: float = math.
 def numbers(name: str, value: Any, size: int, limit: float) -> tuple[float, ...]:
     """Return `size` finite numbers, none larger than the limit."""
     allowed = f"{size} numbers, each {_range(-limit, limit).removeprefix('a number ')}"
+    if isinstance(value, str):
+        raise refuse(name, value, allowed)
     try:
         parts = tuple(value)
     except TypeError:
         raise refuse(name, value, allowed) from None
-    if isinstance(value, str) or len(parts) != size:
+    if len(parts) != size:
         raise refuse(name, list(parts), allowed)
     try:
         return tuple(number(name, part, -limit, limit) for part in parts)

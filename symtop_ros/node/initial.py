@@ -88,10 +88,13 @@ def _from_euler(top: Top, values: Mapping[str, Any]) -> State:
 
 
 def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
-    roots = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
+    rates = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
+    roots = [rate for rate in rates if abs(rate) <= LARGEST_RATE]
     if len(roots) > PRECESSIONS.index(which):
         return roots[PRECESSIONS.index(which)]
     found = f"only {roots[0]:.6g} rad/s" if roots else "no real root"
+    if len(roots) < len(rates):
+        found += f" below {LARGEST_RATE:g} rad/s"
     msg = (
         f'precession: got "{which}", but at theta {theta:g} rad and psi_dot {psi_dot:g} rad/s '
         f"regular precession has {found}; allowed is another theta or psi_dot"

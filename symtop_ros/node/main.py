@@ -12,6 +12,7 @@ from rclpy.utilities import remove_ros_args
 
 from symtop_ros.node.scene import scene_names
 from symtop_ros.node.top_node import TopNode
+from symtop_ros.wire.text import one_line
 
 HELP = """\
 examples:
@@ -41,7 +42,7 @@ def main(args: list[str] | None = None) -> int:
     except (KeyboardInterrupt, ExternalShutdownException):
         return 0
     except Exception as error:
-        print(f"top_node: {_one_line(error)}", file=sys.stderr)
+        print(f"top_node: {one_line(error) or type(error).__name__}", file=sys.stderr)
         return 1
     return 0
 
@@ -63,7 +64,3 @@ def _run() -> None:
         top.close()
     if top.failure:
         raise top.failure
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split()) or type(error).__name__

@@ -6,7 +6,7 @@ bad value is refused in our own words, at start-up as well as later.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sized
 from dataclasses import dataclass, fields
 from functools import partial
 from typing import Any
@@ -21,6 +21,7 @@ from symtop_ros.physics import Friction, Top
 
 Check = Callable[[str, Any], Any]
 TURN = 3.141592653589793
+LONGEST_FRAME = 200  # characters; it stands in every message
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,21 +61,27 @@ def _rate(description: str) -> Declaration:
 
 def _list(description: str, size: int, limit: float) -> Declaration:
     def check(name: str, value: Any) -> list[float]:
-        return list(numbers(name, value, size, limit)) if len(value or ()) else []
+        empty = not isinstance(value, str) and isinstance(value, Sized) and len(value) == 0
+        return [] if empty else list(numbers(name, value, size, limit))
 
     return Declaration([0.0] * 0, description, f"{size} numbers, or empty: not set", check)
 
 
+def _printable(value: Any) -> bool:
+    return isinstance(value, str) and bool(value.strip()) and value.isprintable()
+
+
 def _frame(name: str, value: Any) -> str:
-    if not isinstance(value, str) or not value.strip():
-        raise refuse(name, value, "the name of a frame")
-    return value
+    if not _printable(value) or len(value) > LONGEST_FRAME:
+        allowed = f"the name of a frame, up to {LONGEST_FRAME} printable characters"
+        raise refuse(name, value, allowed)
+    return str(value)
 
 
 def _folder(name: str, value: Any) -> str:
-    if not isinstance(value, str) or not value.strip() or "\0" in value:
-        raise refuse(name, value, "the name of a folder")
-    return value
+    if not _printable(value):
+        raise refuse(name, value, "the name of a folder, in printable characters")
+    return str(value)
 
 
 def _precession(name: str, value: Any) -> str:

@@ -33,6 +33,7 @@ from symtop_ros.node.outputs import Outputs
 from symtop_ros.node.pacer import Pacer
 from symtop_ros.node.parameters import DECLARATIONS, Settings, checked, declare
 from symtop_ros.node.ticker import CATCH_UP, Ticker
+from symtop_ros.node.typed_requests import with_known_types
 from symtop_ros.node.urdf import robot_description
 from symtop_ros.physics import State, motion, perry
 from symtop_ros.physics.perry import kick_verdict
@@ -48,6 +49,7 @@ AHEAD = 0.05  # s of samples that are computed at once; a kick makes them void
 AT_ONCE, AT_ONCE_DRIVEN = 16, 4  # of them at most: the engine's work is parted in small pieces
 SECOND = 1_000_000_000
 JUMP = 1.0  # s; a clock that is set further than this has jumped
+SIM_TIME = "use_sim_time"
 CLOCK_CHANGES = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
 
 
@@ -60,9 +62,7 @@ class TopNode(Node):
     def __init__(self, **options: Any) -> None:
         super().__init__("top", **options)
         self._settings = declare(self)
-        if self._settings["publish_clock"] and self.get_parameter("use_sim_time").value:
-            msg = "publish_clock: got true together with use_sim_time, allowed is one or the other"
-            raise RefusedError(msg)
+        self._refuse_own_clock(self.get_parameter(SIM_TIME).value)
         start = initial.initial_state(self._settings.top, self._settings.initial, {})
         self._turn = threading.RLock()
         self._failure_told = False
@@ -107,6 +107,13 @@ class TopNode(Node):
         if hasattr(self, "_pacer"):
             self.close()
         super().destroy_node()
+
+    def create_service(self, *arguments: Any, **options: Any) -> Any:
+        """Offer a service; rclpy makes its own, for parameters, by this too."""
+        kind, name, handle, *others = arguments
+        return super().create_service(
+            kind, name, with_known_types(kind, handle), *others, **options
+        )
 
     # time
 
@@ -169,6 +176,17 @@ class TopNode(Node):
         grown = 4 * self._block.length if self._block.segment is segment else 1
         return max(1, min(most, grown, int(AHEAD * rate)))
 
+    def _settle(self) -> None:
+        """Begin the turn of a request: the state that it finds is at hand."""
+        self._release_torque()
+        self._keep_up(self._ticker.next_stamp)
+
+    def _keep_up(self, stamp: int) -> None:
+        """Have the state at a stamp at hand; a motion that is too fast for it is slowed down."""
+        while not self._effort.prepare(self._segment, stamp):
+            if self._effort.shortfall:
+                self._slow_down(stamp, self._effort.shortfall)
+
     def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
         reached, factor = shortfall
         asked, before = self._segment.factor, self._segment.path.at(reached)
@@ -204,7 +222,7 @@ class TopNode(Node):
 
     def _diagnose(self) -> None:
         with self._turn:
-            self._release_torque()
+            self._settle()
             work, self._spent = self._effort.spent - self._spent, self._effort.spent
             self._speed_up(work)
             self._report_failure()
@@ -234,6 +252,7 @@ class TopNode(Node):
     def _follow_jump(self, now: int) -> None:
         """A clock that jumps takes the motion along from where it is."""
         stamp = self._ticker.next_stamp
+        self._keep_up(stamp)
         before = self._segment.state_at(stamp)
         self._segment = self._segment.moved(stamp, now)
         self._ticker.restart(self._settings["publish_rate"], now)
@@ -244,7 +263,7 @@ class TopNode(Node):
 
     def _take_torque(self, message: WrenchStamped) -> None:
         with self._turn:
-            self._release_torque()
+            self._settle()
             stamp = self._ticker.next_stamp
             try:
                 self._torque.hold(message, stamp, self._settings["applied_torque_timeout"])
@@ -255,6 +274,7 @@ class TopNode(Node):
 
     def _release_torque(self) -> None:
         if any(self._torque.value) and self._ticker.next_stamp >= self._torque.end:
+            self._keep_up(self._torque.end)
             self._torque.release()
             self._drive(self._torque.end, "the applied torque has run out")
 
@@ -320,7 +340,7 @@ class TopNode(Node):
 
         def answer(request: Any, response: Any) -> Any:
             with self._turn:
-                self._release_torque()
+                self._settle()
                 try:
                     granted, sentence = True, handle(request)
                 except RefusedError as refusal:
@@ -461,9 +481,16 @@ class TopNode(Node):
     def _check_parameters(self, parameters: list[Parameter[Any]]) -> SetParametersResult:
         try:
             checked(self._with(parameters))
+            self._refuse_own_clock(any(each.name == SIM_TIME and each.value for each in parameters))
         except RefusedError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
         return SetParametersResult(successful=True)
+
+    def _refuse_own_clock(self, simulated: Any) -> None:
+        """Refuse to follow a clock that is one's own: it would stand still."""
+        if simulated and self._settings["publish_clock"]:
+            msg = "publish_clock: got true together with use_sim_time, allowed is one or the other"
+            raise RefusedError(msg)
 
     def _with(self, parameters: list[Parameter[Any]]) -> dict[str, Any]:
         changes = {each.name: each.value for each in parameters if each.name in DECLARATIONS}
@@ -471,7 +498,7 @@ class TopNode(Node):
 
     def _apply_parameters(self, parameters: list[Parameter[Any]]) -> None:
         with self._turn:
-            self._release_torque()
+            self._settle()
             old, self._settings = self._settings, checked(self._with(parameters))
             changes = {
                 name: value for name, value in self._settings.values.items() if value != old[name]

@@ -7,15 +7,18 @@ body is the frame that /tf moves, so that rviz and Rerun show it without one.
 from __future__ import annotations
 
 import math
+from xml.sax.saxutils import escape
 
 from symtop_ros.physics import Top
 
 LENGTH = 0.1  # m, from the pivot to the upper end: only a drawing, Mgl does not tell size from mass
 GRAVITY = 9.81
+QUOTES = {'"': "&quot;"}
 
 
 def robot_description(top: Top, world_frame: str, top_frame: str) -> str:
     """Return the URDF of a top."""
+    world_frame, top_frame = (escape(name, QUOTES) for name in (world_frame, top_frame))
     distance = 0.6 * LENGTH * (1 if top.Mgl >= 0 else -1)
     mass = abs(top.Mgl) / (GRAVITY * abs(distance))
     # Ix is about the pivot (Steiner); a drawing whose mass does not fit keeps Ix >= Iz/2

@@ -64,6 +64,7 @@ def _rate(path: Motion, t: float) -> float:
     """Rate in rad/s at which the vectors of the balance change: nutation, swing and decay."""
     top, state = path.top, path.at(t)
     nutation = float(np.linalg.norm(top.body_angular_momentum(state))) / top.Ix
-    pull = float(np.linalg.norm(path.applied_torque)) + abs(top.Mgl)
+    torque = float(np.linalg.norm(path.applied_torque))
+    swing = math.sqrt(abs(top.Mgl) / top.Ix + torque / min(top.Ix, top.Iz))
     decay = path.friction.transverse / top.Ix + path.friction.axial / top.Iz
-    return max(nutation + math.sqrt(pull / top.Ix) + decay, 1e-300)
+    return max(nutation + swing + decay, 1e-300)

@@ -27,7 +27,7 @@ def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[fl
 def quadratic_roots(a: float, b: float, c: float) -> tuple[float, ...]:
     """Real roots of a p^2 - b p + c = 0, the smaller one in size first."""
     if a == 0:
-        return (c / b,) if b else ()
+        return _finite(c / b) if b else ()
     half = b / 2
     discriminant = half * half - a * c
     if discriminant < 0:
@@ -35,4 +35,9 @@ def quadratic_roots(a: float, b: float, c: float) -> tuple[float, ...]:
     q = half + math.copysign(math.sqrt(discriminant), half)
     if q == 0:
         return (0.0, 0.0)
-    return tuple(sorted((c / q, q / a), key=abs))
+    return tuple(sorted(_finite(c / q, q / a), key=abs))
+
+
+def _finite(*roots: float) -> tuple[float, ...]:
+    """Roots that doubles can hold."""
+    return tuple(root for root in roots if math.isfinite(root))

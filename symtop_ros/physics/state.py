@@ -183,7 +183,8 @@ def _without_dust(array: Real) -> Real:
 def _normalised(q: Real) -> Real:
     """Unit quaternions; those which are one to rounding stay as they are."""
     w, x, y, z = np.moveaxis(q, -1, 0)
-    norm = np.sqrt((w * w + z * z) + (x * x + y * y))[..., np.newaxis]
+    with np.errstate(over="ignore"):
+        norm = np.sqrt((w * w + z * z) + (x * x + y * y))[..., np.newaxis]
     off = np.abs(norm - 1)
     largest = off.max(initial=0.0)
     if largest <= ROUNDING:

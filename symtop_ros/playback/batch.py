@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from symtop_ros.run.events import PREFIX, Event
 from symtop_ros.wire.diagnostics import statuses
 from symtop_ros.wire.messages import KINDS, Unpacked, unpacked
+from symtop_ros.wire.text import one_line
 
 EVENTS, TF = "events", "tf"
 
@@ -127,9 +128,10 @@ class BatchReader:
                     name = status.name.removeprefix(PREFIX)
                     event = Event(status.stamp, name, status.message, status.values)
                     event.segment()
+                    event.state()
                     found.append((place, event))
             except ValueError as error:
-                self.unreadable[EVENTS] = str(error)
+                self.unreadable[EVENTS] = one_line(error)
         return found
 
     def _of_the_top(self, parts: list[Unpacked]) -> list[Unpacked]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.playback.batch import Columns
+from symtop_ros.playback.patience import Patience
 from symtop_ros.playback.top_log import TopLog
 from symtop_ros.run.samples import SAMPLES
 from symtop_ros.run.segment import Segment
@@ -33,12 +34,15 @@ class Deviation:
         Largest difference over what the numbers are as large as.
     unchecked : int
         Samples before the first event, or without one.
+    unreached : int
+        Samples of a motion too fast, or too long, to be integrated for a check.
     """
 
     samples: int = 0
     largest: float = 0.0
     relative: float = 0.0
     unchecked: int = 0
+    unreached: int = 0
 
     @property
     def is_rounding(self) -> bool:
@@ -65,18 +69,30 @@ def check(log: TopLog) -> dict[str, Deviation]:
     """Return the deviations by the names of `run.samples`, of the topics that are there."""
     deviations: dict[str, Deviation] = {}
     segment: Segment | None = None
+    patience = Patience()
     for batch in log.batches():
         for event, samples in batch.stretches():
             segment = event.segment() if event else segment
             for name, columns in samples.items():
-                _compare(deviations.setdefault(name, Deviation()), name, columns, segment)
+                deviation = deviations.setdefault(name, Deviation())
+                if segment and _reached(segment, columns, patience):
+                    with np.errstate(all="ignore"):
+                        _compare(deviation, name, columns, segment)
+                elif segment:
+                    deviation.unreached += len(columns.stamps)
+                else:
+                    deviation.unchecked += len(columns.stamps)
     return deviations
 
 
-def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment | None) -> None:
-    if segment is None:
-        deviation.unchecked += len(columns.stamps)
-        return
+def _reached(segment: Segment, columns: Columns, patience: Patience) -> bool:
+    """Whether the states of some samples can be computed in a time that makes sense."""
+    times = np.atleast_1d(segment.time_at(columns.stamps))
+    ends = float(times.min()), float(times.max())
+    return patience.reaches(segment.path, ends, len(columns.stamps))
+
+
+def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment) -> None:
     states = segment.state_at(columns.stamps)
     computed = SAMPLES[name](segment.path, states)
     computed = np.broadcast_to(computed, columns.numbers.shape)

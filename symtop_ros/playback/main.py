@@ -8,9 +8,10 @@ import tempfile
 from pathlib import Path
 
 from symtop_ros.playback.check import Deviation, check
-from symtop_ros.playback.mcap_file import LogError, McapFile
+from symtop_ros.playback.mcap_file import LogError, McapFile, told
 from symtop_ros.playback.repair import repair
 from symtop_ros.playback.top_log import TopLog
+from symtop_ros.wire.text import one_line
 
 
 def main(args: list[str] | None = None) -> int:
@@ -19,7 +20,7 @@ def main(args: list[str] | None = None) -> int:
     try:
         return _run(options)
     except LogError as error:
-        print(f"top_replay: {error}", file=sys.stderr)
+        print(f"top_replay: {one_line(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 0
@@ -60,6 +61,10 @@ def _check(log: TopLog) -> int:
     _tell(log.problems)
     for name, deviation in deviations.items():
         print(_row(log.topics[name], deviation))
+    unreached = sum(each.unreached for each in deviations.values())
+    if unreached:
+        msg = f"{unreached} samples are of a motion too fast or too long to be integrated again"
+        raise LogError(msg)
     if not any(each.samples for each in deviations.values()):
         msg = "nothing could be checked: no sample comes after an event"
         raise LogError(msg)
@@ -103,7 +108,7 @@ def _show(log: TopLog, save: Path | None, web: bool) -> int:
 
 
 def _tell(problems: list[str]) -> None:
-    for problem in problems:
+    for problem in told(problems):
         print(f"top_replay: {problem}", file=sys.stderr)
 
 

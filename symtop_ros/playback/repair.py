@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from mcap.writer import CompressionType, Writer
@@ -18,7 +20,7 @@ def repair(file: McapFile, target: Path) -> int:
         Where the target is there already, or cannot be written.
     """
     try:
-        with target.open("xb") as stream:
+        with target.open("xb") as stream, _removed_on_failure(target):
             writer = Writer(stream, compression=CompressionType.ZSTD)
             writer.start(file.profile, "symtop_ros top_replay --repair")
             count = _copy(file, writer)
@@ -30,6 +32,15 @@ def repair(file: McapFile, target: Path) -> int:
         msg = f"{target}: {error.strerror}"
         raise LogError(msg) from None
     return count
+
+
+@contextmanager
+def _removed_on_failure(target: Path) -> Iterator[None]:
+    try:
+        yield
+    except BaseException:
+        target.unlink()
+        raise
 
 
 def _copy(file: McapFile, writer: Writer) -> int:

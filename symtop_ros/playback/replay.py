@@ -7,7 +7,7 @@ from pathlib import Path
 
 import rerun as rr
 
-from symtop_ros.playback.mcap_file import LogError
+from symtop_ros.playback.mcap_file import LogError, told
 from symtop_ros.playback.scene.scene import Scene
 from symtop_ros.playback.top_log import TopLog
 
@@ -35,7 +35,7 @@ def replay(log: TopLog, target: Path) -> None:
     for batch in log.batches():
         scene.send(batch)
         _progress(log.file.offset, log.file.size)
-    for problem in log.problems:
+    for problem in told(log.problems):
         scene.tell(problem)
     recording.flush()
     recording.disconnect()

@@ -13,8 +13,8 @@ NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
 
 
 def domain() -> int:
-    """ROS domain of this process, apart from tops that run already."""
-    return 100 + os.getpid() % 100
+    """ROS domain of this process, apart from tops that run already; its ports are no others'."""
+    return 60 + os.getpid() % 30
 
 
 def node_command(*parameters: str) -> list[str]:

@@ -7,12 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from symtop_ros.physics import Friction, State, Top, motion
 from symtop_ros.run.segment import Segment
 
 PREFIX = "top: "  # of the name of an event, where it is the status of a message
+LATEST = 2**62  # ns; ROS has 32 bits of seconds
+LONGEST = 1e18  # s of motion
+SLOWEST, FASTEST = 1e-300, 1e6  # seconds of motion per second
+
+Number = TypeVar("Number", int, float)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +88,20 @@ class Event:
         except (KeyError, TypeError) as error:
             msg = f"event {self.name!r}: {error} is missing or incomplete"
             raise ValueError(msg) from None
+        except ArithmeticError:
+            msg = f"event {self.name!r}: no motion has such numbers"
+            raise ValueError(msg) from None
+
+    def state(self) -> State:
+        """Return the state right after the event, as it was told: nothing is computed.
+
+        Raises
+        ------
+        ValueError
+            Where it is missing or is not what it should be.
+        """
+        names = ("after.orientation", "after.angular_velocity")
+        return State(*(_numbers(self.values.get(name, "")) for name in names))
 
     def _segment(self) -> Segment:
         values = self.values
@@ -96,9 +115,14 @@ class Event:
                 Friction(*_numbers(values["friction"])),
                 _numbers(values["applied_torque"]),
             ),
-            stamp=int(values["motion.stamp"]),
-            elapsed=float(values["motion.elapsed"]),
-            factor=float(values["motion.real_time_factor"]),
+            stamp=_within(-LATEST, "motion.stamp", int(values["motion.stamp"]), LATEST),
+            elapsed=_within(-LONGEST, "motion.elapsed", float(values["motion.elapsed"]), LONGEST),
+            factor=_within(
+                SLOWEST,
+                "motion.real_time_factor",
+                float(values["motion.real_time_factor"]),
+                FASTEST,
+            ),
             running=values["motion.running"] == "true",
         )
 
@@ -109,6 +133,13 @@ def _text(value: Any) -> str:
     if isinstance(value, Sequence) and not isinstance(value, str):
         return " ".join(repr(float(part)) for part in value)
     return repr(value) if isinstance(value, float) else str(value)
+
+
+def _within(low: float, name: str, value: Number, high: float) -> Number:
+    if not low <= value <= high:
+        msg = f"{name}: got {value:.6g}, allowed is {low:.6g} to {high:.6g}"
+        raise ValueError(msg)
+    return value
 
 
 def _numbers(text: str) -> list[float]:

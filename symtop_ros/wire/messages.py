@@ -16,6 +16,7 @@ from symtop_ros.wire.cdr import DecodeError, Reader
 from symtop_ros.wire.layout import Count, Doubles, Layout, Stamp, Text
 
 JOINTS = ("precession", "tilt", "spin")  # of the URDF: z-x-z
+MOST_LAYOUTS = 256  # of one topic at a time: frames of /tf
 
 
 def quaternion(frame: str) -> Layout:
@@ -92,6 +93,9 @@ def _joints_of(data: bytes) -> Named:
     reader = Reader(data)
     reader.skip(4, 2)
     frame, names = reader.string(), reader.strings()
+    if len(names) != len(JOINTS):
+        msg = f"{len(names)} joints, readable are {len(JOINTS)}"
+        raise DecodeError(msg)
     return joints(frame, names), (frame, *names)
 
 
@@ -137,10 +141,10 @@ def unpacked(kind: str, messages: Sequence[bytes]) -> tuple[list[Unpacked], list
         What is wrong with each message that is of another kind, or varies in more than doubles.
     """
     sizes = np.fromiter(map(len, messages), np.int64, len(messages))
-    left = np.arange(len(messages))
+    left, unread = np.arange(len(messages)), np.ones(len(messages), dtype=bool)
     found: list[Unpacked] = []
     refused: list[str] = []
-    while left.size:
+    while left.size and len(found) < MOST_LAYOUTS:
         alike = left[sizes[left] == sizes[left[0]]]
         try:
             found.append(_of_first_layout(kind, messages, alike))
@@ -148,7 +152,9 @@ def unpacked(kind: str, messages: Sequence[bytes]) -> tuple[list[Unpacked], list
         except DecodeError as error:
             refused.append(str(error))
             done = left[:1]
-        left = np.setdiff1d(left, done)
+        unread[done] = False
+        left = left[unread[left]]
+    refused += [f"more than {MOST_LAYOUTS} frames on one topic"] * left.size
     return found, refused
 
 
@@ -156,11 +162,15 @@ def _of_first_layout(kind: str, messages: Sequence[bytes], which: NDArray[np.int
     """Read those of some messages of one size that have the layout of the first of them."""
     first = messages[which[0]]
     layout, names = LAYOUT_OF[kind](first)
-    rows = np.frombuffer(b"".join(messages[k] for k in which), np.uint8)
-    rows = rows.reshape(len(which), -1)[:, : layout.size]
     # rclpy's serialize_message hands out up to seven bytes more than are sent
-    if not 0 <= len(first) - layout.size < 8 or not layout.fits(rows[:1])[0]:
+    if not 0 <= len(first) - layout.size < 8 or not layout.fits(_rows([first], layout))[0]:
         msg = f"{len(first)} bytes that are not a {kind} of one sample"
         raise DecodeError(msg)
+    rows = _rows([messages[k] for k in which], layout)
     fits = layout.fits(rows)
     return Unpacked(names, which[fits], *layout.unpack(rows[fits]))
+
+
+def _rows(messages: Sequence[bytes], layout: Layout) -> NDArray[np.uint8]:
+    """Messages of one size as an array, without what is behind the layout."""
+    return np.frombuffer(b"".join(messages), np.uint8).reshape(len(messages), -1)[:, : layout.size]

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import math
 
-from symtop_ros.physics import Motion, perry
+from symtop_ros.physics import Motion, State, perry
 from symtop_ros.run.segment import Segment
 
 
-def panel(segment: Segment, stamp: int, scales: dict[str, str]) -> str:
+def panel(segment: Segment, state: State, scales: dict[str, str]) -> str:
     """Return what holds from an event on.
 
     Parameters
     ----------
     segment : Segment
-    stamp : int
-        Of the event, ns.
+    state : State
+        Right after the event.
     scales : dict
         What one unit of the scene is, by the name of the arrow.
     """
     path = segment.path
-    top, state = path.top, segment.state_at(stamp)
+    top = path.top
     low, high = path.turning_angles
     rates = ", ".join(f"{rate:.4g}" for rate in perry(top, state).regular_rates) or "none"
     facts = {

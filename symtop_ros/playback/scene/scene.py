@@ -77,7 +77,11 @@ class Scene:
         self._style()
 
     def send(self, batch: Batch) -> None:
-        """Add a batch."""
+        """Add a batch; of numbers that cannot be drawn nothing is seen."""
+        with np.errstate(all="ignore"):
+            self._send_batch(batch)
+
+    def _send_batch(self, batch: Batch) -> None:
         for event, columns in batch.stretches():
             if self._origin is None:
                 self._origin = _first_stamp(event, columns)
@@ -109,7 +113,7 @@ class Scene:
         asked = event.values.get("request", "")
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._recording.log(paths.EVENTS, rr.TextLog(sentence, level="INFO"))
-        text = panel(self._segment, event.stamp, self._scale_texts())
+        text = panel(self._segment, event.state(), self._scale_texts())
         self._recording.log(paths.PANEL, rr.TextDocument(text, media_type="text/markdown"))
 
     def _samples(self, columns: Mapping[str, Columns]) -> None:
