@@ -40,11 +40,6 @@ MISUSED = [
     ("top_ctl", "kick", CONTROL),
     ("top_ctl", "kick", LONG),
     ("top_ctl", "kick", f"{CONTROL}=1", f"{CONTROL}=2"),
-    ("top_report", "--states", "1000000000000"),
-    ("top_report", "--states", "-1"),
-    ("top_report", "--node", "--seconds", "inf"),
-    ("top_report", "--node", "--seconds", "nan"),
-    ("top_report", "--map", "maps", "--points", "1000000"),
 ]
 UNREADABLE = [
     ("top_ctl",),
@@ -57,7 +52,9 @@ UNREADABLE = [
     ("top_live", "--port", "9" * 5000),
     ("top_replay",),
     ("top_replay", "a", "b"),
-    ("top_report", "--states", "1e3"),
+    ("top_report", "--node", "--seconds", "inf"),
+    ("top_report", "--node", "--seconds", "nan"),
+    ("top_report", "--map", "--points", "1000000"),
     ("top_report", "--points", CONTROL),
 ]
 

@@ -26,7 +26,7 @@ ALLOWED = {
         *ARRAYS,
         *("matplotlib", "pyarrow", "rerun", "tqdm"),
         *("diffrax", "exudyn", "heyoka", "jax", "mujoco", "pinocchio", "pydrake"),
-        *("symtop_ros.run", "symtop_ros.playback", "symtop_ros.client"),
+        *("symtop_ros.run", "symtop_ros.playback", "symtop_ros.client", "symtop_ros.wire"),
         *("symtop_ros.report", *MESSAGES),
     },
 }

@@ -6,6 +6,7 @@ What nobody listens to and is not logged is not computed.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -120,6 +121,7 @@ class Outputs:
     """
 
     def __init__(self, node: Node, recorder: Recorder, world: str, top: str, clock: bool) -> None:
+        self._recorder = recorder
         make = partial(Output, node, recorder)
         self.events = make("~/events", DiagnosticArray, EVENTS)  # first, hence first in every log
         self.description = make("/robot_description", String, LATCHED)
@@ -135,6 +137,10 @@ class Outputs:
         self._clock = make("/clock", Clock) if clock else None
         if not TFMessage:
             node.get_logger().info("tf2_msgs is not installed: /tf is logged, not published")
+
+    def behind_events(self) -> AbstractContextManager[None]:
+        """Let what is sent meanwhile come after the events in the log."""
+        return self._recorder.behind(self.events.channel)
 
     def publish_tf(self, wanted: bool) -> None:
         """Publish /tf or not; it is logged in any case."""

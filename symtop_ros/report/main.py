@@ -6,6 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
+from symtop_ros.wire.text import one_line
+
 MOST_POINTS = 4000
 LONGEST = 1e6  # s
 DESCRIPTION = """Speed against error, beside the integrators that are installed: tables, plots and
@@ -50,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _points(text: str) -> int:
     if not text.isdecimal() or not 2 <= int(text) <= MOST_POINTS:
-        msg = f"got {text}, allowed is 2 ... {MOST_POINTS}"
+        msg = f"got {one_line(text)}, allowed is 2 ... {MOST_POINTS}"
         raise argparse.ArgumentTypeError(msg)
     return int(text)
 
@@ -61,7 +63,7 @@ def _seconds(text: str) -> float:
     except ValueError:
         seconds = 0.0
     if not 0 < seconds <= LONGEST:
-        msg = f"got {text}, allowed is more than 0, up to {LONGEST:g}"
+        msg = f"got {one_line(text)}, allowed is more than 0, up to {LONGEST:g}"
         raise argparse.ArgumentTypeError(msg)
     return seconds
 

@@ -75,8 +75,8 @@ class Watched(RunningTop):
 
     def assert_moves_as_its_motion_says(self):
         segment = None
-        while segment is not self.top._segment:
-            segment = self.top._segment
+        while segment is not self.top.course.segment:
+            segment = self.top.course.segment
             self.spin_until(lambda begin=segment.stamp: stamp_of(self.samples[-1]) > begin)
         q = self.samples[-1].quaternion
         expected = segment.state_at(stamp_of(self.samples[-1])).orientation.tolist()
@@ -157,11 +157,11 @@ def test_a_million_numbers_are_refused_in_one_sentence(run):
 
 @pytest.mark.parametrize("service", list(NAMES))
 def test_a_type_that_ros_does_not_have_is_refused(run, service):
-    before = run.top._segment.path
+    before = run.top.course.segment.path
     message = Parameter(name="top.Ix", value=ParameterValue(type=77))
     expected = (False, "'top.Ix': got type 77, allowed is a type from 0 to 9")
     assert run.ask(service, [message, message])[0] == expected
-    assert run.top._segment.path is before
+    assert run.top.course.segment.path is before
 
 
 @pytest.mark.parametrize("name", ["initial.orientation", "steady_torque", "top.Ix", "publish_rate"])
@@ -184,8 +184,8 @@ def test_a_torque_that_ends_before_the_engine_is_found_too_slow_ends():
     run = Watched(publish_rate=10.0, applied_torque_timeout=0.001)
     try:
         run.push([1e30, 0.0, 0.0], "world")
-        run.spin_until(lambda: any(run.top._segment.path.applied_torque))
-        run.spin_until(lambda: not any(run.top._segment.path.applied_torque))
+        run.spin_until(lambda: any(run.top.course.segment.path.applied_torque))
+        run.spin_until(lambda: not any(run.top.course.segment.path.applied_torque))
         assert json.loads(run.trigger("get_state")[1])["engine"] == "closed form"
     finally:
         run.close()

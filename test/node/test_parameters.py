@@ -86,7 +86,7 @@ def test_a_bad_value_at_start_up_is_refused_in_words(start_top, values, sentence
 
 def test_a_whole_number_is_as_good_as_a_double(start_top):
     run = start_top(publish_rate=100, top__Mgl=0)
-    assert run.top._settings["publish_rate"] == 100.0
+    assert run.top.course.settings["publish_rate"] == 100.0
     assert json.loads(run.trigger("get_state")[1])["engine"] == "elementary"
 
 
@@ -102,11 +102,11 @@ def test_a_whole_number_is_as_good_as_a_double(start_top):
 )
 def test_a_bad_value_later_is_refused_and_the_motion_goes_on(start_top, name, value, sentence):
     run = start_top()
-    before = run.top._segment
+    before = run.top.course.segment
     granted, reason = run.connection.set(SET, {name: value})
     assert not granted
     assert sentence in reason
-    assert run.top._segment is before
+    assert run.top.course.segment is before
 
 
 def test_every_parameter_is_described_with_what_is_allowed(start_top):

@@ -3,8 +3,9 @@
 import math
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
-from node.running_top import stamp_of
+from node.running_top import LATCHED, segment_of, stamp_of
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 
@@ -125,7 +126,7 @@ def messages(run):
 
 def assert_untouched(run, messages, before):
     """The same segment goes on, and what is published is still its motion."""
-    assert run.top._segment is before
+    assert run.top.course.segment is before
     seen = len(messages)
     run.spin_until(lambda: len(messages) > seen + 3)
     q = messages[-1].quaternion
@@ -137,7 +138,7 @@ def assert_untouched(run, messages, before):
 def test_a_bad_request_is_refused_in_words_and_changes_nothing(
     run, messages, service, values, sentence
 ):
-    before = run.top._segment
+    before = run.top.course.segment
     granted, reason = run.set(service, **values)
     assert not granted
     assert sentence in reason
@@ -150,7 +151,7 @@ def test_a_repeated_name_is_refused(run, messages, name):
     service = START if name == "theta" else "kick"
     value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=1.0)
     twice = [Parameter(name=name, value=value)] * 2
-    before = run.top._segment
+    before = run.top.course.segment
     request = SetParametersAtomically.Request(parameters=twice)
     result = run.connection._call(SetParametersAtomically, service, request).result
     assert (result.successful, result.reason) == (
@@ -161,7 +162,7 @@ def test_a_repeated_name_is_refused(run, messages, name):
 
 
 def test_a_field_without_a_value_is_refused(run, messages):
-    before = run.top._segment
+    before = run.top.course.segment
     request = SetParametersAtomically.Request(parameters=[Parameter(name="theta")])
     result = run.connection._call(SetParametersAtomically, START, request).result
     assert "theta: got 'no value', allowed is a value" in result.reason
@@ -170,7 +171,7 @@ def test_a_field_without_a_value_is_refused(run, messages):
 
 def test_a_kick_by_rate_is_refused_on_the_vertical(start_top):
     run = start_top(scene="sleeping")
-    before = run.top._segment
+    before = run.top.course.segment
     for values in ({"precession_rate": 9.0}, {"precession_rate_factor": 2.0}):
         granted, reason = run.set("kick", **values)
         assert not granted
@@ -178,5 +179,30 @@ def test_a_kick_by_rate_is_refused_on_the_vertical(start_top):
     granted, reason = run.trigger("hurry_precession")
     assert not granted
     assert "undefined there, allowed is an angular impulse" in reason
-    assert run.top._segment is before
+    assert run.top.course.segment is before
     assert run.set("kick", angular_impulse=[1e-4, 0.0, 0.0])[0]
+
+
+def test_a_request_that_fails_by_a_mistake_of_ours_is_told_and_the_motion_goes_on(
+    start_top, monkeypatch
+):
+    run = start_top()
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.spin_until(lambda: events)
+
+    def mistake(*_):
+        raise ZeroDivisionError("by a\nmistake")
+
+    monkeypatch.setattr("symtop_ros.node.requests.kick_verdict", mistake)
+    before = run.top.course.segment
+    told = "~/hurry_precession failed: ZeroDivisionError: by a mistake"
+    assert run.trigger("hurry_precession") == (False, told)
+    run.spin_until(lambda: len(events) > 1)
+    assert (events[-1].status[0].name, events[-1].status[0].message) == ("top: failure", told)
+    # the kick itself was given before there were words for it, and the event says so
+    assert segment_of(events[-1]).path.start.orientation.tolist() == (
+        run.top.course.segment.path.start.orientation.tolist()
+    )
+    assert run.top.course.segment is not before
+    monkeypatch.undo()
+    assert run.trigger("hurry_precession")[0]

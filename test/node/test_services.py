@@ -87,7 +87,7 @@ def test_a_start_on_a_root_is_regular_and_the_rest_comes_from_the_parameters(sta
     assert granted
     assert answer.startswith("regular: the top stays")
     state = json.loads(run.trigger("get_state")[1])
-    expected = regular_precession_rates(run.top._settings.top, theta=0.7, psi_dot=200.0)[1]
+    expected = regular_precession_rates(run.top.course.settings.top, theta=0.7, psi_dot=200.0)[1]
     assert state["euler_rates"]["phi"] == pytest.approx(expected, rel=1e-13)  # psi turns fast
     assert state["kind"] == "regular"
 

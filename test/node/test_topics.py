@@ -75,14 +75,14 @@ def test_a_rate_that_does_not_divide_a_second_does_not_drift(start_top):
 def test_a_topic_without_a_subscriber_is_not_computed(start_top, monkeypatch):
     run = start_top(publish_rate=500.0)
     computed = []
-    original = type(run.top._segment).state_at
+    original = type(run.top.course.segment).state_at
     monkeypatch.setattr(
-        type(run.top._segment),
+        type(run.top.course.segment),
         "state_at",
         lambda segment, stamp: computed.append(stamp) or original(segment, stamp),
     )
-    handed_out = run.top._ticker._next
-    run.spin_until(lambda: run.top._ticker._next > handed_out + 50)
+    handed_out = run.top.course.ticker._next
+    run.spin_until(lambda: run.top.course.ticker._next > handed_out + 50)
     assert computed == []
 
 
