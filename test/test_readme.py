@@ -18,10 +18,14 @@ from log_files import Run
 from node.listener import Listener
 from programs import command, run, running_node
 
+from symtop_ros.report import main as report
+
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
 DOMAIN = 99
 REPLAYS = re.findall(r"^top_replay (.+?) *#", README, flags=re.MULTILINE)
+REPORTS = re.findall(r"^top_report (.*?) *#|`top_report (--\w+)`", README, flags=re.MULTILINE)
+REPORTS = ["".join(each) for each in REPORTS]
 COMMANDS = re.findall(r"^top_ctl (.+)$", README, flags=re.MULTILINE)
 
 
@@ -93,6 +97,7 @@ def page(address):
 def test_there_are_commands_in_the_readme():
     assert len(COMMANDS) >= 12
     assert len(REPLAYS) == 5
+    assert len(REPORTS) >= 5
 
 
 def test_the_example_of_the_library_runs():
@@ -102,6 +107,12 @@ def test_the_example_of_the_library_runs():
         exec(example[1], {})
     assert printed.getvalue().startswith("cusps (0.5, 0.66")
     assert "the top rises" in printed.getvalue()
+
+
+@pytest.mark.parametrize("words", REPORTS)
+def test_a_report_of_the_readme_is_one_that_there_is(words):
+    """Each of them runs in test/report, in a smaller form."""
+    assert report._parser().parse_args(words.split()).folder
 
 
 @pytest.mark.parametrize("target", ["demo", "test", "report"])

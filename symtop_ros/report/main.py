@@ -34,7 +34,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("folder", type=Path, nargs="?", default=Path("report"), help="./report")
     one = parser.add_mutually_exclusive_group()
     one.add_argument(
-        "--full", action="store_true", help="all seven motions and long runs of the peers: an hour"
+        "--full",
+        action="store_true",
+        help="seven motions, long runs of the peers: half an hour",
     )
     one.add_argument("--article", action="store_true", help="the article's figures and claims")
     one.add_argument("--map", action="store_true", help="where hurrying raises the top")

@@ -53,7 +53,7 @@ class Form:
 
 
 QUICK = Form(1, 0.5, 1.0, tuple(10**k for k in range(7)), HARD_PEERS[1:])
-FULL = Form(7, 10.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
+FULL = Form(7, 2.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
 SMALL = Form(1, 0.01, 0.02, (1, 10), ())
 
 
