@@ -12,6 +12,7 @@ from symtop_ros.report.precision.reference import Problem
 
 REPEATS = 5
 LEAST = 0.05  # s of runs for each figure, so that a clock of microseconds will do
+LONG = 1.0  # s; a run as long as this is steady enough by itself
 
 
 @dataclass(frozen=True)
@@ -76,11 +77,11 @@ def sweep(peer: Peer, problem: Problem, t: float, budget: float) -> Curve:
 
 
 def run(solve: Solve, problem: Problem, t: float, budget: float) -> tuple[float, float]:
-    """Return error and seconds of a motion to t; a run longer than the budget is the only one."""
+    """Return error and seconds of a motion to t; a long run is the only one."""
     began = time.perf_counter()
     error = problem.error(t, solve(t))
     first = time.perf_counter() - began
-    return error, first if first > budget / REPEATS else median(lambda: solve(t))
+    return error, first if first > min(LONG, budget / REPEATS) else median(lambda: solve(t))
 
 
 def median(call: Callable[[], object]) -> float:
