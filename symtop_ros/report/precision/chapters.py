@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -53,7 +54,7 @@ class Form:
 
 
 QUICK = Form(1, 0.5, 1.0, tuple(10**k for k in range(7)), HARD_PEERS[1:])
-FULL = Form(7, 2.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
+FULL = Form(7, 1.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
 SMALL = Form(1, 0.01, 0.02, (1, 10), ())
 
 
@@ -119,6 +120,7 @@ class Results:
             if each.peer == CLOSED_FORM:
                 name = next(iter(problems))
                 points += [(name, t, e) for t, e in zip(each.times, each.errors, strict=True)]
+                points += [(name, t, inf) for t in problems[name].times if t > max(each.times)]
         missed = [
             f"{name} at {t:g} s: {error:.1e}"
             for name, t, error in points
@@ -174,7 +176,10 @@ def _grow(peer: Peer, problem: Problem, form: Form, results: Results) -> None:
     solve = peer.prepare(task_of(problem), curve.best.setting)
     times, errors, seconds = [], [], []
     for t in (t for t in problem.times if t >= SPAN):
-        error, taken = run(solve, problem, t, form.growth_budget)
+        try:
+            error, taken = run(solve, problem, t, form.growth_budget)
+        except Exception:  # a peer has gone as far as it can, each with an error of its own
+            break
         times.append(t)
         errors.append(error)
         seconds.append(taken)

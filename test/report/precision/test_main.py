@@ -7,10 +7,11 @@ import pytest
 from PIL import Image
 
 from symtop_ros.report.precision import main as report
-from symtop_ros.report.precision.chapters import SMALL, Growth, HardCase, Results
+from symtop_ros.report.precision.chapters import SMALL, Growth, HardCase, Results, _grow
 from symtop_ros.report.precision.document import table
 from symtop_ros.report.precision.measure import Curve, Point
 from symtop_ros.report.precision.peers.own import CLOSED_FORM, SPLITTING
+from symtop_ros.report.precision.peers.peer import Peer
 from symtop_ros.report.precision.reference import EPS, Reference
 
 PLOTS = ("work_precision", "motions", "long_times", "arrays", "hard_cases")
@@ -74,7 +75,7 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
     results = Results(
         checks={"a peer": 0.5},
         curves=[curve(CLOSED_FORM, "cusps", 1e-10), curve(SPLITTING, "cusps with friction", 1e-9)],
-        growth=[Growth(CLOSED_FORM, 0.0, (10.0, 1e6), (1e-16, 1.0), (1e-4, 1e-4))],
+        growth=[Growth(CLOSED_FORM, 0.0, (10.0, 1e5), (1e-16, 1.0), (1e-4, 1e-4))],
         hard=[HardCase("tilt", 0.1, EPS, 20 * EPS, {}), HardCase("spin", 1.0, EPS, EPS, {})],
     )
     monkeypatch.setattr(report, "_measured", lambda *_: results)
@@ -84,7 +85,8 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
         "top_report: not as promised: a peer: another model",
         "top_report: not as promised: tilt, 0.1",
         "top_report: not as promised: cusps at 10 s: 1.0e-10",
-        "top_report: not as promised: cusps at 1e+06 s: 1.0e+00",
+        "top_report: not as promised: cusps at 100000 s: 1.0e+00",
+        "top_report: not as promised: cusps at 1e+06 s: inf",
         "top_report: not as promised: symtop_ros, splitting: 1.0e-09",
     ]
 
@@ -106,3 +108,17 @@ def test_the_cheapest_point_is_the_fastest_that_is_good_enough():
     assert found.cheapest(1e-6).seconds == 2.0
     assert found.cheapest(1e-9) is None
     assert found.best.setting == 0.01
+
+
+def test_a_peer_that_cannot_go_on_ends_where_it_is():
+    problem = Reference.read().article[0]
+
+    def solve(t):
+        if t > 10.0:
+            raise RuntimeError("too many steps")
+        return problem.start.orientation
+
+    peer = Peer("a peer", (1.0,), "step", lambda *_: solve)
+    results = Results(curves=[curve("a peer", "cusps", 1e-3)])
+    _grow(peer, problem, SMALL, results)
+    assert [each.times for each in results.growth] == [(10.0,)]

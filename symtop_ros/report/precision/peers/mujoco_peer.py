@@ -27,6 +27,9 @@ MODEL = """
 </mujoco>
 """
 
+# Steps that are not stable show in their errors; MuJoCo would write a file where one happens to be.
+mujoco.set_mju_user_warning(lambda _: None)
+
 
 def prepare(method: str, task: Task, step: float) -> Solve:
     """Compile the model; a solution goes back to the start first."""
