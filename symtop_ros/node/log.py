@@ -66,9 +66,14 @@ class Log:
             return f"recorded to {path}"
         return self._note(f"recording to {self.begin()}")
 
+    @property
+    def untold(self) -> str:
+        """Why a recording failed, as long as nobody was told."""
+        return "" if self._failure_told else self._recorder.failure
+
     def report_failure(self) -> None:
         """Say once that a recording has ended by itself; the motion goes on."""
-        if self._recorder.failure and not self._failure_told:
+        if self.untold:
             self._failure_told = True
             self._logger.error(self._note(f"recording stopped: {self._recorder.failure}"))
 

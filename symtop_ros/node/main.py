@@ -49,15 +49,18 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _run(listen: Callable[[], None]) -> int:
-    """Spin until shutdown; return 1 where a tick failed, which the log has told."""
+    """Spin until shutdown; return 1 where a tick failed, which was told, or the end of the log."""
     executor = SingleThreadedExecutor()
     top = TopNode()
     gc.freeze()  # what is there now stays: to look through it for garbage would delay ticks
     try:
         listen()
         rclpy.spin(top, executor)
-    except ExternalShutdownException:
-        return 1 if top.failure else 0
+    except Exception:
+        if rclpy.ok():
+            raise
     finally:
         top.close()
-    return 0
+    if top.log.untold:
+        print(f"top_node: recording stopped: {top.log.untold}", file=sys.stderr)
+    return 1 if top.failure or top.log.untold else 0

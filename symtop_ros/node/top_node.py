@@ -44,6 +44,8 @@ class TopNode(Node):
     ----------
     course : Course
         What moves, and how far it is published.
+    log : Log
+        What of it is recorded.
     failure : Exception or None
         What the ticks ended with.
     """
@@ -76,10 +78,10 @@ class TopNode(Node):
         clock = cast(ROSClock, self.get_clock())
         self.course = Course(settings, start, self._outputs, clock, logger)
         self.course.announce("start", self.course.verdict, {"scene": scene}, start)
-        self._log = Log(self._recorder, self.course, scene, logger)
+        self.log = Log(self._recorder, self.course, scene, logger)
         if settings["record.enabled"]:
-            self._log.begin()
-        self._requests = Requests(self.course, self._log, start)
+            self.log.begin()
+        self._requests = Requests(self.course, self.log, start)
         self._namesakes = Namesakes(self)
         logger.info(f"scene {scene}: {self.course.verdict}")
 
@@ -123,7 +125,7 @@ class TopNode(Node):
             course, output = self.course, self._outputs.diagnostics
             course.settle()
             course.speed_up()
-            self._log.report_failure()
+            self.log.report_failure()
             if output.wanted:
                 facts = course.segment, course.stamp, course.ticker, self._recorder, self._namesakes
                 found = diagnostics(course.settings, *facts)

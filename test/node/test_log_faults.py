@@ -3,16 +3,27 @@
 import contextlib
 import shutil
 import subprocess
+import sys
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, stamps_of
+from node.listener import Listener
 from node.running_top import LATCHED
+from programs import environment
 from sensor_msgs.msg import JointState
 
+DOMAIN = 97
 MS = 1_000_000
+LATE = """
+import sys
+from symtop_ros.programs import top_node
+from symtop_ros.recording import recorder
+recorder.FLUSH = 3600.0
+sys.exit(top_node())
+"""
 
 
 class Recording:
@@ -148,3 +159,23 @@ def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_pat
         recording.assert_works()
         assert recording.errors == [f"recording stopped: {path}: No space left on device"]
         recording.run.top.close()
+
+
+def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
+    options = [f"-p record.directory:={tmp_path}", "-p record.enabled:=true", "--log-level warn"]
+    words = [word for each in options for word in each.split()]
+    node = subprocess.Popen(
+        [sys.executable, "-c", LATE, "--ros-args", *words],
+        env=environment(DOMAIN),
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    with Listener(DOMAIN) as listener:
+        angles = listener.collect(JointState, "/top/euler_angles")
+        listener.spin_until(lambda: len(angles) > 20)
+    (path,) = tmp_path.iterdir()
+    path.unlink()
+    node.terminate()
+    _, told = node.communicate(timeout=20)
+    assert told == f"top_node: recording stopped: {path}: it has vanished\n"
+    assert node.returncode == 1
