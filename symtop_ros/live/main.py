@@ -100,15 +100,18 @@ def _stream(
 ) -> None:
     scene: Scene | None = None
     probed = 0.0
-    while process is None or process.poll() is None:
-        now = time.monotonic()
-        if now - probed > PROBING:
-            probed = now
-            scene = _followed(scene, feed, port)
-        _spin(executor, now + SENDING)
-        batch = feed.batch()
-        if scene:
-            scene.send(batch)
+    try:
+        while process is None or process.poll() is None:
+            now = time.monotonic()
+            if now - probed > PROBING:
+                probed = now
+                scene = _followed(scene, feed, port)
+            _spin(executor, now + SENDING)
+            batch = feed.batch()
+            if scene:
+                scene.send(batch)
+    finally:
+        scene = None  # it hands over what it holds, as long as there is the viewer
 
 
 def _followed(scene: Scene | None, feed: Feed, port: int) -> Scene | None:
