@@ -12,6 +12,7 @@ from node.running_top import LATCHED
 from programs import environment
 
 from symtop_ros.node.course import Course
+from symtop_ros.node.outputs import Output
 
 DOMAIN = 97
 MISTAKE = "ZeroDivisionError: by a mistake"
@@ -124,14 +125,15 @@ def test_one_in_a_request_that_was_half_done_leaves_the_log_exact(run, failures,
 def test_the_log_has_the_sample_complete_in_which_ros_ends(run, tmp_path, monkeypatch):
     heard = run.collect(QuaternionStamped, "/top/orientation")
     run.spin_until(lambda: len(heard) > 10)
-    send = type(run.top._outputs).send_sample
+    first = run.top._outputs._samples["orientation"].output
+    send = Output.send
 
-    def ended(outputs, stamp, block):
-        if run.context.ok():
+    def ended(output, stamp, data):
+        send(output, stamp, data)
+        if output is first and run.context.ok():
             run.context.handle.shutdown()
-        send(outputs, stamp, block)
 
-    monkeypatch.setattr(type(run.top._outputs), "send_sample", ended)
+    monkeypatch.setattr(Output, "send", ended)
     while run.context.ok():
         pass
     run.top.close()

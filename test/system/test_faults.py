@@ -70,13 +70,15 @@ def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
         ]
         for node in nodes:
             stack.callback(node.kill)
-        lines = [node.stderr.readline() for node in nodes]
+        lines = [
+            next(each for each in iter(node.stderr.readline, "") if NAMED_TOO in each)
+            for node in nodes
+        ]
         result = run("top_ctl", "hurry", domain=DOMAIN)
         for node in nodes:
             node.terminate()
         rest = [node.communicate(timeout=20)[1] for node in nodes]
-    assert all(NAMED_TOO in line for line in lines)
     assert all("--ros-args -r __node:=NAME or -r __ns:=/NAME" in line for line in lines)
-    assert rest == ["", ""]
+    assert not any(NAMED_TOO in each for each in rest)
     assert (result.returncode, result.stderr) == (0, "")
     assert len(result.stdout.splitlines()) == 1
