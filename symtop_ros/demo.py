@@ -19,7 +19,7 @@ from symtop_ros.playback.top_log import TopLog
 
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"
-NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
+NODE = "import sys; from symtop_ros.programs import top_node; sys.exit(top_node())"
 WATCHED = 1.5  # s before and after the kick: nine nutations of this scene
 
 

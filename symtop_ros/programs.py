@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import signal
 import sys
 
 PLAIN = {"mcap", "numpy", "scipy"}  # no ROS 2 brings the first; the others come with it
@@ -29,12 +30,22 @@ def top_live() -> int:
 
 
 def _run(name: str, module: str) -> int:
+    """Run a program; a signal while it is loaded, or after its end, ends the process in silence."""
+    _be_ended_by_signals()
     try:
         main = importlib.import_module(module).main
     except ModuleNotFoundError as error:
         print(f"{name}: {error.name} is missing: {_remedy(error.name)}", file=sys.stderr)
         return 1
-    return int(main())
+    try:
+        return int(main())
+    finally:
+        _be_ended_by_signals()
+
+
+def _be_ended_by_signals() -> None:
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def _remedy(module: str | None) -> str:

@@ -1,9 +1,18 @@
 import builtins
+import signal
 import sys
 
 import pytest
 
 from symtop_ros import programs
+
+
+@pytest.fixture(autouse=True)
+def _signals_as_before():
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
 
 
 @pytest.mark.parametrize("program", [programs.top_node, programs.top_ctl, programs.top_live])

@@ -16,6 +16,7 @@ from rclpy.utilities import remove_ros_args
 from symtop_ros.client.arguments import UsageError, named_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.watch import watch
+from symtop_ros.ending import ros
 from symtop_ros.wire.text import one_line
 
 Answer = tuple[bool, str]
@@ -33,23 +34,25 @@ PLAIN: dict[str, tuple[str, Callable[[Connection], Answer]]] = {
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run one command; return 0 (granted), 1 (refused, unreachable) or 2 (usage)."""
+    """Run one command; return 0 (granted), 1 (refused, unreachable, ended) or 2 (usage)."""
     arguments = sys.argv if args is None else ["top_ctl", *args]
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
         values = named_values(getattr(options, "values", ()))
-        with rclpy.init(args=arguments):
+        with ros(arguments) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
-            granted, text = _run(options, values, Connection(node, options.node, options.timeout))
-    except (KeyboardInterrupt, ExternalShutdownException):
-        return 0
+            top = Connection(node, options.node, options.timeout)
+            listen()
+            granted, text = _run(options, values, top)
+    except ExternalShutdownException:
+        granted, text = options.command == "watch", "ended before the answer came"
     except UsageError as error:
         print(f"top_ctl: {error}", file=sys.stderr)
         return 2
     except Exception as error:
         granted, text = False, str(error) or type(error).__name__
-    if granted and text:
-        print(text)
+    if granted:
+        print(text, end="\n" if text else "")
     elif text:
         print(f"top_ctl: {one_line(text)}", file=sys.stderr)
     return 0 if granted else 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import signal
 import socket
 import subprocess
 import sys
@@ -16,6 +15,7 @@ import rerun as rr
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
+from symtop_ros.ending import ros
 from symtop_ros.live.feed import Feed
 from symtop_ros.playback import viewer
 from symtop_ros.playback.mcap_file import LogError
@@ -34,10 +34,15 @@ def main(args: list[str] | None = None) -> int:
     arguments = sys.argv if args is None else ["top_live", *args]
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
-        signal.signal(signal.SIGTERM, signal.default_int_handler)  # a viewer is not left behind
-        with _viewer(options.port, options.web) as process, rclpy.init(args=arguments):
-            _stream(f"/{options.node.strip('/')}", options.port, process)
-    except (KeyboardInterrupt, ExternalShutdownException):
+        with ros(arguments) as listen:
+            node = rclpy.create_node("top_live", start_parameter_services=False)
+            executor = SingleThreadedExecutor()
+            executor.add_node(node)
+            feed = Feed(node, f"/{options.node.strip('/')}")
+            listen()
+            with _viewer(options.port, options.web) as process:
+                _stream(executor, feed, options.port, process)
+    except ExternalShutdownException:
         return 0
     except Exception as error:
         print(f"top_live: {one_line(error) or type(error).__name__}", file=sys.stderr)
@@ -76,7 +81,7 @@ def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
     process = viewer.start(port=port, web=web)
     try:
         deadline = time.monotonic() + STARTING
-        while not _listens(port):
+        while rclpy.ok() and not _listens(port):
             if process.poll() is not None or time.monotonic() > deadline:
                 msg = "the Rerun viewer did not start"
                 raise LogError(msg)
@@ -87,22 +92,26 @@ def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
         process.wait()
 
 
-def _stream(name: str, port: int, process: subprocess.Popen[bytes] | None) -> None:
-    node = rclpy.create_node("top_live", start_parameter_services=False)
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    feed = Feed(node, name)
+def _stream(
+    executor: SingleThreadedExecutor,
+    feed: Feed,
+    port: int,
+    process: subprocess.Popen[bytes] | None,
+) -> None:
     scene: Scene | None = None
     probed = 0.0
-    while process is None or process.poll() is None:
-        now = time.monotonic()
-        if now - probed > PROBING:
-            probed = now
-            scene = _followed(scene, feed, port)
-        _spin(executor, now + SENDING)
-        batch = feed.batch()
-        if scene:
-            scene.send(batch)
+    try:
+        while process is None or process.poll() is None:
+            now = time.monotonic()
+            if now - probed > PROBING:
+                probed = now
+                scene = _followed(scene, feed, port)
+            _spin(executor, now + SENDING)
+            batch = feed.batch()
+            if scene:
+                scene.send(batch)
+    finally:
+        scene = None  # it hands over what it holds, as long as there is the viewer
 
 
 def _followed(scene: Scene | None, feed: Feed, port: int) -> Scene | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from symtop_ros.node.namesakes import Namesakes
 from symtop_ros.node.parameters import Settings
 from symtop_ros.node.ticker import Ticker
 from symtop_ros.physics import Motion, State, Top, balance, motion, perry
@@ -74,7 +75,12 @@ def _motion(path: Motion, state: State) -> dict[str, Any]:
 
 
 def diagnostics(
-    settings: Settings, segment: Segment, stamp: int, ticker: Ticker, recorder: Recorder
+    settings: Settings,
+    segment: Segment,
+    stamp: int,
+    ticker: Ticker,
+    recorder: Recorder,
+    namesakes: Namesakes,
 ) -> list[Status]:
     """Return the statuses for /diagnostics."""
     found = [
@@ -82,6 +88,7 @@ def diagnostics(
         _pace(segment, settings["real_time_factor"], ticker),
         _log(recorder),
         _balance(segment, stamp),
+        _name(namesakes),
     ]
     return [each._replace(stamp=stamp) for each in found]
 
@@ -144,6 +151,11 @@ def _log(recorder: Recorder) -> Status:
         return _status("top: log", WARN, message, facts)
     message = "recording" if recorder.running else "not recording"
     return _status("top: log", OK, message, facts)
+
+
+def _name(namesakes: Namesakes) -> Status:
+    facts = {"name": namesakes.name, "others": namesakes.count}
+    return _status("top: name", WARN if namesakes.count else OK, namesakes.sentence, facts)
 
 
 def _status(name: str, level: int, message: str, facts: dict[str, Any]) -> Status:

@@ -46,25 +46,36 @@ class Log:
         except (OSError, ImportError) as error:
             msg = f"record: no log in {settings['record.directory']!r}: {reason(error)}"
             raise RefusedError(msg) from None
+        self._failure_told = False
         self._logger.info(f"recording to {path}")
         return path
 
     def switch(self, on: bool) -> str:
         """Begin or end a recording; return what was done."""
+        self.report_failure()
         path = self._recorder.path
         if on == bool(path):
             return f"recording already, to {path}" if path else "not recording"
         if path:
             self._note(f"recording to {path} ended")
             self._recorder.stop()
+            if self._recorder.failure:
+                self.report_failure()
+                msg = f"record: {self._recorder.failure}"
+                raise RefusedError(msg)
             return f"recorded to {path}"
         return self._note(f"recording to {self.begin()}")
 
+    @property
+    def untold(self) -> str:
+        """Why a recording failed, as long as nobody was told."""
+        return "" if self._failure_told else self._recorder.failure
+
     def report_failure(self) -> None:
         """Say once that a recording has ended by itself; the motion goes on."""
-        if self._recorder.failure and not self._failure_told:
+        if self.untold:
+            self._failure_told = True
             self._logger.error(self._note(f"recording stopped: {self._recorder.failure}"))
-        self._failure_told = bool(self._recorder.failure)
 
     def _note(self, sentence: str) -> str:
         return self._course.change("record", self._course.segment, {}, sentence)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 import gc
 import sys
+from collections.abc import Callable
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
+from symtop_ros.ending import ros
 from symtop_ros.node.scene import scene_names
 from symtop_ros.node.top_node import TopNode
 from symtop_ros.wire.text import one_line
@@ -37,30 +39,28 @@ def main(args: list[str] | None = None) -> int:
     try:
         parser.parse_args(remove_ros_args(arguments)[1:])
         sys.setswitchinterval(SWITCH)
-        with rclpy.init(args=arguments):
-            _run()
-    except (KeyboardInterrupt, ExternalShutdownException):
+        with ros(arguments) as listen:
+            return _run(listen)
+    except ExternalShutdownException:
         return 0
     except Exception as error:
         print(f"top_node: {one_line(error) or type(error).__name__}", file=sys.stderr)
         return 1
-    return 0
 
 
-def _run() -> None:
-    """Spin until shutdown; a signal may end the context before the first tick or within one.
-
-    The executor comes first: made after a signal it would fail half-way, and say so at its end.
-    """
+def _run(listen: Callable[[], None]) -> int:
+    """Spin until shutdown; return 1 where a tick failed, which was told, or the end of the log."""
     executor = SingleThreadedExecutor()
     top = TopNode()
     gc.freeze()  # what is there now stays: to look through it for garbage would delay ticks
     try:
+        listen()
         rclpy.spin(top, executor)
-    except (ExternalShutdownException, RuntimeError):
+    except Exception:
         if rclpy.ok():
             raise
     finally:
         top.close()
-    if top.failure:
-        raise top.failure
+    if top.log.untold:
+        print(f"top_node: recording stopped: {top.log.untold}", file=sys.stderr)
+    return 1 if top.failure or top.log.untold else 0

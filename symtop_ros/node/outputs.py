@@ -73,6 +73,7 @@ class Output:
         qos: QoSProfile | int = DEPTH,
     ) -> None:
         self._publisher = None if isinstance(kind, str) else _publisher(node, topic, kind, qos)
+        self._context = node.context
         self._latched = isinstance(qos, QoSProfile)
         self._recorder = recorder
         self.channel = recorder.channel(
@@ -86,9 +87,16 @@ class Output:
         return self._recorder.running or self._heard
 
     def send(self, stamp: int, data: bytes) -> None:
-        """Publish and log a message that is serialised already; its stamp is in ns."""
-        if self._publisher and (self._latched or self._heard):
-            self._publisher.publish(data)
+        """Publish and log a message that is serialised already; its stamp is in ns.
+
+        Where ROS ends in the middle of a sample the log has it complete.
+        """
+        try:
+            if self._publisher and (self._latched or self._heard):
+                self._publisher.publish(data)
+        except RuntimeError:
+            if self._context.ok():
+                raise
         self._recorder.add(self.channel, stamp, data)
 
     def send_message(self, stamp: int, message: Any) -> None:

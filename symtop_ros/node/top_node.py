@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -19,6 +21,7 @@ from symtop_ros.node.course import JUMP, SECOND, Course
 from symtop_ros.node.diagnostics import diagnostics
 from symtop_ros.node.fields import RefusedError
 from symtop_ros.node.log import Log, limits
+from symtop_ros.node.namesakes import Namesakes
 from symtop_ros.node.outputs import Outputs
 from symtop_ros.node.pacer import Pacer
 from symtop_ros.node.parameters import DECLARATIONS, Settings, checked, declare
@@ -41,6 +44,8 @@ class TopNode(Node):
     ----------
     course : Course
         What moves, and how far it is published.
+    log : Log
+        What of it is recorded.
     failure : Exception or None
         What the ticks ended with.
     """
@@ -52,6 +57,7 @@ class TopNode(Node):
         start = initial.initial_state(settings.top, settings.initial, {})
         self._turn = threading.RLock()
         self.failure: Exception | None = None
+        self._mistakes: dict[str, str] = {}
         self._jumped_to: int | None = None
         self._begin(settings, start)
         self._offer_services()
@@ -72,10 +78,11 @@ class TopNode(Node):
         clock = cast(ROSClock, self.get_clock())
         self.course = Course(settings, start, self._outputs, clock, logger)
         self.course.announce("start", self.course.verdict, {"scene": scene}, start)
-        self._log = Log(self._recorder, self.course, scene, logger)
+        self.log = Log(self._recorder, self.course, scene, logger)
         if settings["record.enabled"]:
-            self._log.begin()
-        self._requests = Requests(self.course, self._log, start)
+            self.log.begin()
+        self._requests = Requests(self.course, self.log, start)
+        self._namesakes = Namesakes(self)
         logger.info(f"scene {scene}: {self.course.verdict}")
 
     def close(self) -> None:
@@ -109,17 +116,18 @@ class TopNode(Node):
         """End the node when a tick cannot be done; a context that has ended is no failure."""
         if self.context.ok():
             self.failure = error
-            self.get_logger().fatal(f"a tick failed: {error}")
+            self.get_logger().fatal(f"a tick failed: {type(error).__name__}: {one_line(error)}")
             self.context.try_shutdown()
 
     def _diagnose(self) -> None:
-        with self._turn:
+        with self._turn, self._mistakes_told("/diagnostics"):
+            self._namesakes.look()
             course, output = self.course, self._outputs.diagnostics
             course.settle()
             course.speed_up()
-            self._log.report_failure()
+            self.log.report_failure()
             if output.wanted:
-                facts = course.segment, course.stamp, course.ticker, self._recorder
+                facts = course.segment, course.stamp, course.ticker, self._recorder, self._namesakes
                 found = diagnostics(course.settings, *facts)
                 output.send(course.stamp, packed(course.stamp, course.frame, found))
 
@@ -172,21 +180,38 @@ class TopNode(Node):
         return answer
 
     def _answer(self, name: str, handle: Handle, request: Any) -> tuple[bool, str]:
-        """Do what is asked; after a mistake of our own the motion goes on, and an event tells."""
+        """Do what is asked; return whether it was done, and a sentence."""
         self.course.settle()
+        with self._mistakes_told(f"~/{name}") as told:
+            try:
+                return True, handle(request)
+            except RefusedError as refusal:
+                return False, str(refusal)
+        return False, told[0]
+
+    @contextmanager
+    def _mistakes_told(self, name: str) -> Iterator[list[str]]:
+        """After a mistake of our own the motion goes on, and a line and an event tell it.
+
+        What is given holds the sentence then. A mistake is not told again and again.
+        """
+        told: list[str] = []
         stamp, before = self.course.stamp, self.course.segment
         try:
-            return True, handle(request)
-        except RefusedError as refusal:
-            return False, str(refusal)
+            yield told
+            self._mistakes.pop(name, None)
         except Exception as error:
-            sentence = f"~/{name} failed: {type(error).__name__}: {one_line(error)}"
-            self.get_logger().error(sentence)
-            self.course.announce("failure", sentence, {}, before.state_at(stamp), stamp)
-            return False, sentence
+            if not self.context.ok():
+                raise
+            told.append(f"{name} failed: {type(error).__name__}: {one_line(error)}")
+            if self._mistakes.get(name) != told[0] or self.course.segment is not before:
+                self._mistakes[name] = told[0]
+                self.get_logger().error(told[0])
+                state = before.state_at(stamp)
+                self.course.announce("failure", told[0], {}, state, stamp)
 
     def _take_torque(self, message: WrenchStamped) -> None:
-        with self._turn:
+        with self._turn, self._mistakes_told("~/applied_torque"):
             self.course.settle()
             try:
                 self.course.hold_torque(message)
@@ -197,11 +222,13 @@ class TopNode(Node):
 
     def _check_parameters(self, parameters: list[Parameter[Any]]) -> SetParametersResult:
         simulated = any(each.name == SIM_TIME and each.value for each in parameters)
-        try:
-            self._refuse_own_clock(checked(self._with(parameters)), simulated)
-        except RefusedError as refusal:
-            return SetParametersResult(successful=False, reason=str(refusal))
-        return SetParametersResult(successful=True)
+        with self._turn, self._mistakes_told("a check of parameters") as told:
+            try:
+                self._refuse_own_clock(checked(self._with(parameters)), simulated)
+            except RefusedError as refusal:
+                return SetParametersResult(successful=False, reason=str(refusal))
+            return SetParametersResult(successful=True)
+        return SetParametersResult(successful=False, reason=told[0])
 
     def _refuse_own_clock(self, settings: Settings, simulated: Any) -> None:
         """Refuse to follow a clock that is one's own: it would stand still."""
@@ -214,7 +241,7 @@ class TopNode(Node):
         return {**self.course.settings.values, **changes}
 
     def _apply_parameters(self, parameters: list[Parameter[Any]]) -> None:
-        with self._turn:
+        with self._turn, self._mistakes_told("a change of parameters"):
             self.course.settle()
             settings = checked(self._with(parameters))
             self._outputs.publish_tf(settings["publish_tf"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -13,17 +14,21 @@ from symtop_ros.playback.repair import repair
 from symtop_ros.playback.top_log import TopLog
 from symtop_ros.wire.text import one_line
 
+ENDED = 130  # as a shell says it of Ctrl-C
+
 
 def main(args: list[str] | None = None) -> int:
-    """Replay, check or repair a log; return 0 (good), 1 (failed) or 2 (usage)."""
+    """Replay, check or repair a log; return 0 (good), 1 (failed), 2 (usage) or 130 (ended)."""
     options = _parser().parse_args(args)
     try:
+        for number in (signal.SIGINT, signal.SIGTERM):  # what is half written is removed
+            signal.signal(number, signal.default_int_handler)
         return _run(options)
     except LogError as error:
         print(f"top_replay: {one_line(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return 0
+        return ENDED
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -50,6 +50,8 @@ def show(recording: Path, web: bool) -> int:
     process = start(str(recording), web=web)
     try:
         return 0 if process.wait() == 0 else 1
+    except KeyboardInterrupt:
+        return 0
     finally:
         process.terminate()
         process.wait()

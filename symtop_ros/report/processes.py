@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-NODE = "import sys; from symtop_ros.node.main import main; sys.exit(main())"
+NODE = "import sys; from symtop_ros.programs import top_node; sys.exit(top_node())"
 
 
 def domain() -> int:

@@ -43,7 +43,7 @@ class RunningTop:
         self.user.destroy_node()
         self.top.close()
         self.top.destroy_node()
-        rclpy.shutdown(context=self.context)
+        rclpy.try_shutdown(context=self.context)
 
     def spin_until(self, done: Callable[[], Any], timeout: float = TIMEOUT) -> None:
         deadline = time.monotonic() + timeout

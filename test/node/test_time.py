@@ -1,10 +1,14 @@
 """Simulation time: the top follows /clock, and goes on from where it is when the clock jumps."""
 
+import random
+import time
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
+from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped
 from node.running_top import LATCHED, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
@@ -70,3 +74,75 @@ def test_while_the_clock_stands_still_so_does_the_top(start_top):
 def test_a_published_clock_and_simulation_time_contradict_each_other(start_top):
     with pytest.raises(RefusedError, match="publish_clock: got true together with use_sim_time"):
         start_top(use_sim_time=True, publish_clock=True)
+
+
+def exact_log_of(run):
+    granted, answer = run.switch("record", False)
+    assert granted, answer
+    path = Path(answer.removeprefix("recorded to "))
+    assert assert_exact(path) > 20
+    return path
+
+
+def test_a_clock_that_goes_back_and_forth_among_kicks_leaves_the_log_exact(start_top, tmp_path):
+    run = start_top(
+        use_sim_time=True,
+        publish_rate=100.0,
+        record__enabled=True,
+        record__directory=str(tmp_path),
+    )
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    clock, chance = SimulatedClock(run), random.Random(1)
+    for _ in range(20):
+        clock.run_from(chance.randrange(10_000, 90_000) * MS, 10)
+        assert run.set("kick", precession_rate=chance.uniform(5.0, 15.0))[0]
+
+    def names():
+        return [each.status[0].name for each in events]
+
+    run.spin_until(
+        lambda: [names().count(f"top: {each}") for each in ("kick", "clock")] == [20, 20]
+    )
+    exact_log_of(run)
+
+
+def test_when_the_clock_stops_for_good_requests_are_answered_and_the_log_ends(start_top, tmp_path):
+    run = start_top(
+        use_sim_time=True,
+        publish_rate=100.0,
+        record__enabled=True,
+        record__directory=str(tmp_path),
+    )
+    clock = SimulatedClock(run)
+    clock.run_from(50_000 * MS, 50)
+    run.user.destroy_publisher(clock.publisher)
+    for _ in range(3):
+        assert run.trigger("hurry_precession")[0]
+        assert run.switch("pause", True)[0]
+        assert run.set("step", duration=0.01)[0]
+        assert run.switch("pause", False)[0]
+    exact_log_of(run)
+    assert run.switch("record", True)[0]
+
+
+def test_simulation_time_switched_on_and_off_while_recording_leaves_the_log_exact(
+    start_top, tmp_path
+):
+    run = start_top(publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path))
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    clock = None
+    for begin in (50_000, 20_000, 70_000):
+        granted, answer = run.connection.set("set_parameters_atomically", {"use_sim_time": True})
+        assert granted, answer
+        clock = clock or SimulatedClock(run)
+        clock.run_from(begin * MS, 20)
+        assert run.trigger("hurry_precession")[0]
+        run.spin_until(
+            lambda: any(0 < stamp_of(each) - begin * MS < 1000 * MS for each in messages)  # noqa: B023
+        )
+        assert run.connection.set("set_parameters_atomically", {"use_sim_time": False})[0]
+        seen = len(messages)
+        run.spin_until(lambda: len(messages) > seen + 20)  # noqa: B023
+        assert run.trigger("reset")[0]
+        assert abs(stamp_of(messages[-1]) - time.time_ns()) < 5_000 * MS
+    exact_log_of(run)

@@ -111,7 +111,7 @@ def test_diagnostics_tell_the_motion_and_constants_that_do_not_drift(start_top):
     assert abs(float(told["energy.drift"])) < 1e-15
     assert abs(float(told["L_z'.drift"])) < 1e-17
     names = [status.name for status in messages[-1].status]
-    assert names == ["top: motion", "top: pace", "top: log", "top: balance"]
+    assert names == ["top: motion", "top: pace", "top: log", "top: balance", "top: name"]
     pace = {pair.key: pair.value for pair in messages[-1].status[1].values}
     assert pace["missed"] == "0"
     assert pace["real_time_factor.achieved"] == "1.0"

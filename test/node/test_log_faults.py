@@ -1,0 +1,181 @@
+"""A folder of logs that fails: one error, a motion that goes on, and a next log that is whole."""
+
+import contextlib
+import shutil
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from exact_log import assert_exact, stamps_of
+from node.listener import Listener
+from node.running_top import LATCHED
+from programs import environment
+from sensor_msgs.msg import JointState
+
+DOMAIN = 97
+MS = 1_000_000
+LATE = """
+import sys
+from symtop_ros.programs import top_node
+from symtop_ros.recording import recorder
+recorder.FLUSH = 3600.0
+sys.exit(top_node())
+"""
+
+
+class Recording:
+    """A top that records into a folder, and what it says of that."""
+
+    def __init__(self, start_top, folder):
+        self.run = start_top(publish_rate=500.0, record__directory=str(folder))
+        self._events = self.run.collect(DiagnosticArray, "/top/events", LATCHED)
+        self._angles = self.run.collect(JointState, "/top/euler_angles", raw=True)
+        self.run.spin_until(lambda: self._events)
+
+    @property
+    def errors(self):
+        messages = [each.status[0].message for each in self._events]
+        return [each for each in messages if each.startswith("recording stopped: ")]
+
+    def begin(self):
+        granted, answer = self.run.switch("record", True)
+        return Path(answer.removeprefix("recording to ")) if granted else answer
+
+    def end(self):
+        granted, answer = self.run.switch("record", False)
+        return Path(answer.removeprefix("recorded to ")) if granted else answer
+
+    def go_on(self, samples=100):
+        seen = len(self._angles)
+        self.run.spin_until(lambda: len(self._angles) > seen + samples)
+
+    def assert_works(self):
+        """The motion goes on, and the next recording is as it should be."""
+        self.go_on()
+        path = self.begin()
+        self.go_on()
+        assert self.run.trigger("hurry_precession")[0]
+        self.go_on()
+        assert self.end() == path
+        assert assert_exact(path) > 20
+        assert not any((b - a) % (2 * MS) for a, b in pairwise(stamps_of(path)))
+
+
+@contextlib.contextmanager
+def mounted(folder, options):
+    mount = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)]
+    if shutil.which("mount") is None or subprocess.run(mount, check=False).returncode:
+        pytest.skip("a file system cannot be mounted: not root")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+def remount(folder, options):
+    subprocess.run(["mount", "-o", f"remount,{options}", str(folder)], check=True)
+
+
+def test_a_folder_that_is_read_only_is_refused_until_it_is_not(start_top, tmp_path):
+    with mounted(tmp_path, "ro,size=10m"):
+        recording = Recording(start_top, tmp_path)
+        told = f"record: no log in {str(tmp_path)!r}: Read-only file system"
+        assert [recording.begin() for _ in range(2)] == [told] * 2
+        remount(tmp_path, "rw")
+        recording.assert_works()
+        assert recording.errors == []
+        recording.run.top.close()
+
+
+def test_a_folder_that_a_file_takes_the_place_of_is_one_error(start_top, tmp_path):
+    folder = tmp_path / "logs"
+    recording = Recording(start_top, folder)
+    path = recording.begin()
+    recording.go_on()
+    shutil.rmtree(folder)
+    folder.write_text("")
+    recording.run.spin_until(lambda: recording.errors)
+    assert recording.begin() == f"record: no log in {str(folder)!r}: File exists"
+    folder.unlink()
+    recording.assert_works()
+    assert recording.errors == [f"recording stopped: {path}: it has vanished"]
+
+
+def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_path):
+    recording = Recording(start_top, tmp_path)
+    path = recording.begin()
+    recording.go_on()
+    path.unlink()
+    recording.run.spin_until(lambda: recording.errors)
+    recording.assert_works()
+    assert recording.errors == [f"recording stopped: {path}: it has vanished"]
+
+
+def test_each_of_two_failures_in_a_second_is_told_once(start_top, tmp_path, monkeypatch):
+    recording = Recording(start_top, tmp_path)
+    monkeypatch.setattr(type(recording.run.top), "_diagnose", lambda _: None)
+    paths = []
+    for _ in range(2):
+        paths.append(recording.begin())
+        paths[-1].unlink()
+        recording.run.spin_until(lambda: recording.run.top._recorder.failure)
+    assert not recording.run.top._recorder.running
+    assert recording.run.switch("record", False) == (True, "not recording")
+    recording.run.spin_until(lambda: len(recording.errors) == 2)
+    assert recording.errors == [f"recording stopped: {path}: it has vanished" for path in paths]
+    recording.assert_works()
+
+
+def test_a_recording_whose_end_fails_is_refused_and_one_error(start_top, tmp_path, monkeypatch):
+    monkeypatch.setattr("symtop_ros.recording.recorder.FLUSH", 3600.0)
+    recording = Recording(start_top, tmp_path)
+    path = recording.begin()
+    recording.go_on()
+    path.unlink()
+    assert recording.end() == f"record: {path}: it has vanished"
+    recording.assert_works()
+    assert recording.errors == [f"recording stopped: {path}: it has vanished"]
+
+
+def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_path):
+    folder = tmp_path / "small"
+    folder.mkdir()
+    with mounted(folder, "size=2m"):
+        recording = Recording(start_top, folder)
+        ballast = folder / "ballast"
+        path = recording.begin()
+        recording.go_on(400)  # a flush and more
+        with contextlib.suppress(OSError), ballast.open("wb", buffering=0) as file:
+            while True:
+                file.write(bytes(4096))
+        recording.run.spin_until(lambda: recording.errors)
+        assert "No space left on device" in recording.begin()
+        assert assert_exact(path) > 100
+        assert set(folder.iterdir()) == {path, ballast}
+        ballast.unlink()
+        recording.assert_works()
+        assert recording.errors == [f"recording stopped: {path}: No space left on device"]
+        recording.run.top.close()
+
+
+def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
+    options = [f"-p record.directory:={tmp_path}", "-p record.enabled:=true", "--log-level warn"]
+    words = [word for each in options for word in each.split()]
+    node = subprocess.Popen(
+        [sys.executable, "-c", LATE, "--ros-args", *words],
+        env=environment(DOMAIN),
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    with Listener(DOMAIN) as listener:
+        angles = listener.collect(JointState, "/top/euler_angles")
+        listener.spin_until(lambda: len(angles) > 20)
+    (path,) = tmp_path.iterdir()
+    path.unlink()
+    node.terminate()
+    _, told = node.communicate(timeout=20)
+    assert told == f"top_node: recording stopped: {path}: it has vanished\n"
+    assert node.returncode == 1

@@ -1,0 +1,84 @@
+"""Faults of processes: one that is stopped again and again, and two of one name."""
+
+import contextlib
+import os
+import random
+import signal
+import subprocess
+import time
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+from exact_log import assert_exact, stamps_of
+from node.listener import Listener
+from programs import command, environment, run, running_node
+from sensor_msgs.msg import JointState
+
+DOMAIN = 94
+MS = 1_000_000
+NAMED_TOO = "another node is named /top, and requests reach any of them: give this one"
+
+
+def pace_of(message):
+    return {pair.key: pair.value for pair in message.status[1].values}
+
+
+def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(tmp_path):
+    chance = random.Random(1)
+    stops = [1.0, *(chance.uniform(0.02, 0.3) for _ in range(8))]
+    parameters = ("publish_rate:=1000", "record.enabled:=true", f"record.directory:={tmp_path}")
+    with running_node(DOMAIN, *parameters) as node, Listener(DOMAIN) as listener:
+        angles = listener.collect(JointState, "/top/euler_angles", raw=True)
+        diagnostics = listener.collect(DiagnosticArray, "/diagnostics")
+        listener.spin_until(lambda: len(angles) > 100)
+        for seconds in stops:
+            os.kill(node.pid, signal.SIGSTOP)
+            time.sleep(seconds)
+            os.kill(node.pid, signal.SIGCONT)
+            listener.spin(chance.uniform(0.0, 0.1))
+        told = len(diagnostics)
+        listener.spin_until(lambda: len(diagnostics) > told + 1)
+        missed = int(pace_of(diagnostics[-1])["missed"])
+        stamp = diagnostics[-1].header.stamp
+        asked = time.time_ns()
+        angles.clear()
+        listener.spin_until(lambda: angles)
+    (path,) = tmp_path.iterdir()
+    stamps = stamps_of(path)
+    gaps = np.diff(stamps)
+    assert not (gaps % MS).any()
+    assert gaps.min() == MS
+    until = stamp.sec * 1000 * MS + stamp.nanosec
+    counted = np.array(stamps[1:]) <= until
+    assert missed == sum(gaps[counted] // MS - 1) > 800
+    assert abs(stamps[-1] - asked) < 5_000 * MS  # where the clock is
+    assert_exact(path)
+
+
+def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
+    with contextlib.ExitStack() as stack:
+        nodes = [
+            stack.enter_context(
+                subprocess.Popen(
+                    command("top_node", "--ros-args", "--log-level", "warn"),
+                    env=environment(DOMAIN),
+                    stderr=subprocess.PIPE,
+                    text=True,
+                )
+            )
+            for _ in range(2)
+        ]
+        for node in nodes:
+            stack.callback(node.kill)
+        lines = [
+            next(each for each in iter(node.stderr.readline, "") if NAMED_TOO in each)
+            for node in nodes
+        ]
+        result = run("top_ctl", "hurry", domain=DOMAIN)
+        for node in nodes:
+            node.terminate()
+        rest = [node.communicate(timeout=20)[1] for node in nodes]
+    assert all("--ros-args -r __node:=NAME or -r __ns:=/NAME" in line for line in lines)
+    assert not any(NAMED_TOO in each for each in rest)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert len(result.stdout.splitlines()) == 1
