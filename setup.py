@@ -90,7 +90,7 @@ setup(
             f"top_ctl = {NAME}.programs:top_ctl",
             f"top_replay = {NAME}.programs:top_replay",
             f"top_live = {NAME}.programs:top_live",
-            f"top_report = {NAME}.report.main:main",
+            f"top_report = {NAME}.programs:top_report",
         ]
     },
     author="The symtop_ros authors",

@@ -29,6 +29,11 @@ def top_live() -> int:
     return _run("top_live", "symtop_ros.live.main")
 
 
+def top_report() -> int:
+    """Measure, and draw."""
+    return _run("top_report", "symtop_ros.report.main")
+
+
 def _run(name: str, module: str) -> int:
     """Run a program; a signal while it is loaded, or after its end, ends the process in silence."""
     _be_ended_by_signals()

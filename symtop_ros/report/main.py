@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from pathlib import Path
 
 from symtop_ros.wire.text import one_line
 
 MOST_POINTS = 4000
+ENDED = 130  # as a shell says it of Ctrl-C
 LONGEST = 1e6  # s
 DESCRIPTION = """Speed against error, beside the integrators that are installed: tables, plots and
 JSON in a folder. Or the article retold, Perry's maps, or the node's load, one of them at a time."""
 
 
 def main(args: list[str] | None = None) -> int:
-    """Do what the options say; return the exit status."""
+    """Do what the options say; return 0 (good), 1 (failed), 2 (usage) or 130 (ended)."""
     options = _parser().parse_args(args)
     try:
+        for number in (signal.SIGINT, signal.SIGTERM):  # nodes that were started are ended
+            signal.signal(number, signal.default_int_handler)
         return _chosen(options)
+    except KeyboardInterrupt:
+        return ENDED
     except ImportError as error:
         needed = (
             "ROS 2"
