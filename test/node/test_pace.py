@@ -3,6 +3,7 @@
 import time
 
 import numpy as np
+import pytest
 import rclpy
 from node.running_top import stamp_of
 from programs import running_node
@@ -15,6 +16,7 @@ DOMAIN = 96
 SAMPLES = 20_000
 
 
+@pytest.mark.untraced
 def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():
     with running_node(DOMAIN, "publish_rate:=1000"):
         got = listen()

@@ -233,6 +233,7 @@ def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
     assert sent - log_times[-1] * 1e-9 < 0.6
 
 
+@pytest.mark.untraced
 def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path):
     rng = random.Random(3)
     for attempt in range(20):

@@ -11,6 +11,7 @@ from symtop_ros.physics import Friction, State, Top, motion
 from symtop_ros.physics.split_motion import SplitMotion
 from symtop_ros.physics.splitting import ORDER, PUSHES, TURNS, Point, Splitting
 
+pytestmark = pytest.mark.untraced
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
 DRIVES = {
