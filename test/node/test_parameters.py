@@ -193,7 +193,7 @@ def test_a_run_starts_from_the_quaternion_of_the_parameters(start_top):
 
 def test_another_factor_hurries_by_it(start_top):
     run = start_top(scene="hurry_slow", hurry_factor=2.0)
-    assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 13.00 rad/s")
+    assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 12.99 rad/s")
     run.trigger("reset")
     assert run.connection.set(SET, {"hurry_factor": 0.5})[0]
     assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 3.25 rad/s")
