@@ -33,16 +33,17 @@ def pytest_runtestloop(session):
         )  # fmt: skip
 
 
-@pytest.fixture(autouse=True)
-def _untraced(request, monkeypatch):
-    """Coverage rests during a test that is marked so, and in the programs that it starts."""
+@pytest.fixture(autouse=True, scope="module")
+def _untraced(request):
+    """Coverage rests during a module that is marked so, and in the programs that it starts."""
     coverage = request.node.get_closest_marker("untraced") and Coverage.current()
     if not coverage:
         yield
         return
-    monkeypatch.delenv(TRACED)
-    coverage.stop()
-    yield
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv(TRACED)
+        coverage.stop()
+        yield
     coverage.start()
 
 

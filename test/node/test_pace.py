@@ -12,11 +12,11 @@ from rclpy.serialization import deserialize_message
 
 from symtop_ros.report.load import TOPICS
 
+pytestmark = pytest.mark.untraced
 DOMAIN = 96
 SAMPLES = 20_000
 
 
-@pytest.mark.untraced
 def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():
     with running_node(DOMAIN, "publish_rate:=1000"):
         got = listen()
