@@ -15,8 +15,11 @@ help:  ## this list
 demo: $(VENV)/ros  ## a top on cusps, its precession hurried through the service, and the replay
 	@$(BIN)/python -m symtop_ros.demo
 
-test: lint $(VENV)/vulkan  ## style, types and all tests
-	@$(BIN)/python -m pytest
+test: lint $(VENV)/vulkan  ## style, types and all tests, and what they cover
+	@$(BIN)/coverage erase
+	@$(BIN)/coverage run -m pytest
+	@$(BIN)/coverage combine --quiet
+	@$(BIN)/coverage report --skip-covered
 
 lint: $(VENV)/test
 	@$(BIN)/ruff check

@@ -45,6 +45,7 @@ PEERS = [
 ]
 TEST = [
     "pytest>=8",
+    "coverage>=7.10",  # 7.10 measures programs that tests start
     "hypothesis>=6.100",  # random tops, and the worst of them again
     "rosbags>=0.10",  # an independent reader of logs
     "pillow>=10",  # rendered scenes are looked at

@@ -8,10 +8,12 @@ import subprocess
 import sys
 
 import pytest
+from coverage import Coverage
 
 SOAK = pytest.StashKey[subprocess.Popen[str]]()
 SOAK_SECONDS = pytest.StashKey[float]()
 ALL = 1000  # tests; so many are a run of all of them
+TRACED = "COVERAGE_PROCESS_CONFIG"  # by which coverage reaches programs that tests start
 PROGRAM = "import sys; from symtop_ros.report.main import main; sys.exit(main())"
 
 
@@ -27,7 +29,22 @@ def pytest_runtestloop(session):
         session.config.stash[SOAK] = subprocess.Popen(
             [sys.executable, "-c", PROGRAM, "--soak", "--seconds", seconds],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            env={name: value for name, value in os.environ.items() if name != TRACED},
         )  # fmt: skip
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _untraced(request):
+    """Coverage rests during a module that is marked so, and in the programs that it starts."""
+    coverage = request.node.get_closest_marker("untraced") and Coverage.current()
+    if not coverage:
+        yield
+        return
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv(TRACED)
+        coverage.stop()
+        yield
+    coverage.start()
 
 
 @pytest.fixture

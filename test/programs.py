@@ -35,10 +35,12 @@ def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[
 
 
 @contextlib.contextmanager
-def running_node(domain: int, *parameters: str) -> Iterator[subprocess.Popen[bytes]]:
+def running_node(
+    domain: int, *parameters: str, name: str = "top"
+) -> Iterator[subprocess.Popen[bytes]]:
     """Run top_node with parameters such as publish_rate:=1000, and end it."""
     words = [word for parameter in parameters for word in ("-p", parameter)]
-    options = ["--ros-args", *words, "--log-level", "warn"]
+    options = ["--ros-args", *words, "-r", f"__node:={name}", "--log-level", "warn"]
     node = subprocess.Popen(command("top_node", *options), env=environment(domain))
     try:
         yield node

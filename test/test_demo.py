@@ -2,8 +2,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from listening import udp_addresses
+from log_files import Run
 
+from symtop_ros import demo
+from symtop_ros.client.connection import Connection
+from symtop_ros.playback import viewer
 from symtop_ros.playback.check import check
 from symtop_ros.playback.mcap_file import McapFile
 from symtop_ros.playback.top_log import TopLog
@@ -37,3 +42,35 @@ def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(
     path = tmp_path / Path(log.split()[-1])
     assert all(each.largest == 0.0 for each in check(TopLog(McapFile(path))).values())
     assert (tmp_path / Path(recording.split()[-1])).stat().st_size > 100_000
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A folder, and an environment that the demonstration may change."""
+    for name in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "FASTDDS_DEFAULT_PROFILES_FILE", "ROS_DOMAIN_ID"):
+        monkeypatch.setenv(name, "LOCALHOST" if name.endswith("RANGE") else "")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.usefixtures("here")
+def test_a_node_that_does_not_come_up_is_told(monkeypatch, capsys):
+    monkeypatch.setattr(demo, "NODE", "pass")
+    monkeypatch.setattr(demo, "Connection", lambda node, timeout: Connection(node, timeout=0.1))
+    assert demo.main() == 1
+    assert capsys.readouterr().err.startswith("demo: no answer from /top within 0.1 s")
+
+
+def test_a_log_that_cannot_be_replayed_is_told(here, capsys):
+    assert demo._replay(here / "none.mcap") == 1
+    assert capsys.readouterr().err.endswith("none.mcap: No such file or directory\n")
+
+
+def test_where_there_is_a_screen_the_replay_is_shown(here, monkeypatch, capsys):
+    shown = []
+    monkeypatch.setattr(viewer, "has_screen", lambda: True)
+    monkeypatch.setattr(viewer, "show", lambda *files, web: shown.append((files, web)) or 0)
+    log = Run(seconds=0.5).write(here)
+    assert demo._replay(log) == 0
+    assert shown == [((log.with_suffix(".rrd"),), False)]
+    assert "the viewer is open" in capsys.readouterr().out

@@ -59,10 +59,12 @@ def test_the_scene_follows_a_node_and_finds_it_again(live):
 
 def test_a_viewer_that_was_closed_is_found_again():
     port = viewer.free_port()
-    with running_node(DOMAIN, "scene:=cusps"):
+    gyro = ("--node", "/gyro")
+    with running_node(DOMAIN, "scene:=cusps", name="gyro"):
+        assert run("top_ctl", *gyro, "hurry", domain=DOMAIN).returncode == 0
         with running_viewer(port=port) as (client, _):
             process = subprocess.Popen(
-                command("top_live", "--port", str(port)),
+                command("top_live", *gyro, "--port", str(port)),
                 env=environment(DOMAIN),
                 stderr=subprocess.PIPE,
                 stdout=subprocess.PIPE,

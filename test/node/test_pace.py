@@ -3,6 +3,7 @@
 import time
 
 import numpy as np
+import pytest
 import rclpy
 from node.running_top import stamp_of
 from programs import running_node
@@ -11,6 +12,7 @@ from rclpy.serialization import deserialize_message
 
 from symtop_ros.report.load import TOPICS
 
+pytestmark = pytest.mark.untraced
 DOMAIN = 96
 SAMPLES = 20_000
 

@@ -5,6 +5,7 @@ import os
 import signal
 
 import numpy as np
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
@@ -12,6 +13,7 @@ from node.running_top import LATCHED, facts, stamp_of
 from node.test_torque import assert_recomputed, named
 from programs import running_node
 
+pytestmark = pytest.mark.untraced
 # a nutation of 5e6 rad/s a hundred times as fast: ten million steps for each second
 HOPELESS = {
     "top__Ix": 1e-4,

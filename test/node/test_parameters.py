@@ -1,14 +1,17 @@
 """Parameters: descriptors, scenes, refusals at start-up and later, and changes that take effect."""
 
 import json
+import math
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import QuaternionStamped
-from node.running_top import LATCHED, facts, stamp_of
+from geometry_msgs.msg import QuaternionStamped, TransformStamped
+from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rclpy.qos import QoSReliabilityPolicy
+from std_msgs.msg import String
 
+from symtop_ros.node import outputs
 from symtop_ros.node.fields import RefusedError
 from symtop_ros.node.parameters import DECLARATIONS
 from symtop_ros.node.scene import scene_names
@@ -148,3 +151,75 @@ def test_the_qos_of_a_topic_can_be_overridden(start_top):
     run = start_top(**{"qos_overrides./top/orientation.publisher.reliability": "best_effort"})
     info = run.top.get_publishers_info_by_topic("/top/orientation")[0]
     assert info.qos_profile.reliability == QoSReliabilityPolicy.BEST_EFFORT
+
+
+def test_a_run_starts_from_the_initial_parameters(start_top):
+    start = {
+        "theta": 0.7,
+        "phi": 0.2,
+        "psi": -0.3,
+        "theta_dot": 0.4,
+        "phi_dot": 3.0,
+        "psi_dot": 9.0,
+    }
+    run = start_top(**{f"initial__{name}": value for name, value in start.items()})
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.spin_until(lambda: events)
+    first = segment_of(events[0])
+    state = first.state_at(stamp_of(events[0]))
+    phi, theta, psi = state.euler_angles
+    # a quaternion and back: a few ulp, more where rates are divided by sin 0.7
+    assert [theta, phi, psi] == pytest.approx(
+        [start[k] for k in ("theta", "phi", "psi")], abs=1e-14
+    )
+    rates = [start[f"{k}_dot"] for k in ("phi", "theta", "psi")]
+    assert list(state.euler_rates) == pytest.approx(rates, abs=1e-13)
+
+
+def test_a_run_starts_on_the_root_that_the_parameters_name(start_top):
+    run = start_top(initial__precession="fast", initial__psi_dot=200.0)
+    assert json.loads(run.trigger("get_state")[1])["kind"] == "regular"
+
+
+def test_a_run_starts_from_the_quaternion_of_the_parameters(start_top):
+    half = math.sqrt(0.5)
+    run = start_top(
+        initial__orientation=[half, 0.0, 0.0, half], initial__angular_velocity=[0.0, 0.0, 150.0]
+    )
+    state = json.loads(run.trigger("get_state")[1])
+    assert state["turning_angles"][0] == pytest.approx(math.pi / 2, abs=1e-15)
+    assert state["euler_rates"]["psi"] != 0
+
+
+def test_another_factor_hurries_by_it(start_top):
+    run = start_top(scene="hurry_slow", hurry_factor=2.0)
+    assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 12.99 rad/s")
+    run.trigger("reset")
+    assert run.connection.set(SET, {"hurry_factor": 0.5})[0]
+    assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 3.25 rad/s")
+
+
+def test_messages_and_description_bear_the_frames_that_were_asked_for(start_top):
+    run = start_top(world_frame="map", top_frame="gyro")
+    samples = run.collect(QuaternionStamped, "/top/orientation")
+    described = run.collect(String, "/robot_description", LATCHED)
+    run.spin_until(lambda: samples and described)
+    assert samples[0].header.frame_id == "map"
+    assert '"map"' in described[0].data
+    assert '"gyro"' in described[0].data
+
+
+def test_transforms_are_published_while_they_are_wanted(start_top, monkeypatch):
+    """With a type that is installed in the place of tf2_msgs': the bytes are looked at alone."""
+    monkeypatch.setattr(outputs, "TFMessage", TransformStamped)
+    run = start_top()
+    transforms = run.collect(TransformStamped, "/tf", raw=True)
+    samples = run.collect(QuaternionStamped, "/top/orientation")
+    run.spin_until(lambda: len(transforms) > 5)
+    assert all(b"world" in data and b"top" in data for data in transforms)
+    assert run.connection.set(SET, {"publish_tf": False})[0]
+    seen = len(samples)
+    run.spin_until(lambda: len(samples) > seen + 5)
+    transforms.clear()
+    run.spin_until(lambda: len(samples) > seen + 30)
+    assert transforms == []

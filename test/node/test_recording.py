@@ -144,6 +144,18 @@ def test_a_log_that_begins_in_the_middle_of_a_run_stands_alone(start_top, tmp_pa
         assert log.problems == []
 
 
+def test_a_log_that_is_large_enough_is_followed_by_another(start_top, tmp_path):
+    run = start_top(record__directory=str(tmp_path), record__max_size=50_000, record__enabled=True)
+    run.spin_until(lambda: len(list(tmp_path.iterdir())) == 3)
+    stop_and_read(run)
+    first, second, _ = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
+    for path in (first, second):
+        assert path.stat().st_size > 50_000
+        log = TopLog(McapFile(path))
+        assert all(each.largest == 0.0 and not each.unchecked for each in check(log).values())
+        assert log.problems == []
+
+
 def test_a_folder_that_cannot_be_written_is_refused_and_the_motion_goes_on(start_top, tmp_path):
     (tmp_path / "file").write_text("")
     folder = str(tmp_path / "file" / "logs")

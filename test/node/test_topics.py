@@ -3,12 +3,15 @@
 from xml.etree import ElementTree
 
 import numpy as np
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+
+pytestmark = pytest.mark.untraced
 
 
 def vector(message):

@@ -10,6 +10,7 @@ from physics.tops import EPS, Case, random_case
 
 from symtop_ros.physics import State, Top, motion
 
+pytestmark = pytest.mark.untraced
 REFERENCE = Path(__file__).parents[3] / "shared" / "reference" / "motions.json"
 MOTIONS = json.loads(REFERENCE.read_text()) if REFERENCE.is_file() else []
 needs_reference = pytest.mark.skipif(not MOTIONS, reason="the reference motions are not here")

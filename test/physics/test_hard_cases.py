@@ -10,6 +10,7 @@ from physics.tops import EPS, random_case
 
 from symtop_ros.physics import State, Top, motion, regular_precession_rates
 
+pytestmark = pytest.mark.untraced
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 DISC = Top(Ix=0.001, Iz=0.0019, Mgl=-0.05)
 UPRIGHT, HANGING = (0.6, 0.0, 0.0, 0.8), (0.0, 0.8, -0.6, 0.0)

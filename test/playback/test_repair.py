@@ -1,6 +1,7 @@
 import pytest
 from log_files import Run
 from mcap.reader import make_reader
+from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 
 from symtop_ros.playback.mcap_file import LogError, McapFile
@@ -45,3 +46,20 @@ def test_the_target_is_never_overwritten(cut, tmp_path):
 def test_a_target_that_cannot_be_written_is_told(cut, tmp_path):
     with pytest.raises(LogError, match="No such file or directory"):
         repair(McapFile(cut), tmp_path / "none" / "whole.mcap")
+
+
+def test_messages_of_a_channel_that_nobody_describes_are_left_out_and_told(tmp_path):
+    path = tmp_path / "odd.mcap"
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start("ros2")
+        known = writer.register_channel("/known", "cdr", 0)
+        writer.add_message(known, 1, b"mine", 1)
+        writer.add_message(known + 1, 2, b"whose", 2)
+        writer.finish()
+    file = McapFile(path)
+    assert repair(file, tmp_path / "whole.mcap") == 1
+    assert any("is not described anywhere: its messages are lost" in each for each in file.problems)
+    with (tmp_path / "whole.mcap").open("rb") as stream:
+        found = [message.data for _, _, message in make_reader(stream).iter_messages()]
+    assert found == [b"mine"]

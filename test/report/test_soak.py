@@ -2,6 +2,8 @@
 
 import pytest
 
+from symtop_ros.report import main as report
+from symtop_ros.report import soak as soaking
 from symtop_ros.report.soak import HEAD, Reading, row
 
 GROWTH = 4.0  # MB; what pools of the allocator still take after ten seconds, however long it runs
@@ -26,6 +28,18 @@ def test_at_full_rate_nothing_is_lost_and_every_log_is_what_its_events_say(soak)
     assert files <= first[9]
     assert growth < GROWTH
     assert balance < BALANCE
+
+
+def test_a_line_comes_in_time_and_a_log_is_checked_as_soon_as_it_is_finished(monkeypatch, capsys):
+    for name, value in {"RATE": 200.0, "PART": 1.5, "LINE": 2.0, "WARM": 1.0}.items():
+        monkeypatch.setattr(soaking, name, value)
+    assert report.main(["--soak", "--seconds", "5"]) == 0
+    head, *rows = capsys.readouterr().out.splitlines()
+    assert head == HEAD
+    logs = [int(line.split()[-3]) for line in rows]
+    assert len(logs) >= 3
+    assert logs[-1] >= 2
+    assert logs == sorted(logs)
 
 
 def test_a_reading_that_lost_something_is_not_good():

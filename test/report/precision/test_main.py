@@ -8,7 +8,7 @@ from PIL import Image
 
 from symtop_ros.report.precision import main as report
 from symtop_ros.report.precision.chapters import SMALL, Growth, HardCase, Results, _grow
-from symtop_ros.report.precision.document import table
+from symtop_ros.report.precision.document import _other_motions, table
 from symtop_ros.report.precision.measure import Curve, Point
 from symtop_ros.report.precision.peers.own import CLOSED_FORM, SPLITTING
 from symtop_ros.report.precision.peers.peer import Peer
@@ -122,3 +122,12 @@ def test_a_peer_that_cannot_go_on_ends_where_it_is():
     results = Results(curves=[curve("a peer", "cusps", 1e-3)])
     _grow(peer, problem, SMALL, results)
     assert [each.times for each in results.growth] == [(10.0,)]
+
+
+def test_the_documents_table_of_other_motions_has_a_row_for_each_peer():
+    problem = Reference.read().article[0]
+    curves = [curve(peer, name, 1e-9) for name in ("looping", "sleeping") for peer in ("a", "b")]
+    text = _other_motions(Results(curves=[curve("a", problem.name, 1e-3), *curves]), problem)
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert rows[0] == "|  | looping | sleeping |"
+    assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]

@@ -1,0 +1,45 @@
+import sys
+
+import pytest
+from sensor_msgs.msg import JointState
+
+from symtop_ros.client import watch as module
+from symtop_ros.client.connection import UnreachableError
+from symtop_ros.client.watch import watch
+
+SAMPLE = JointState(position=[0.1, 0.5, 0.2], velocity=[9.0, 0.0, 200.0])
+
+
+class Top:
+    """A connection that has so many samples, one at each look."""
+
+    name = "/top"
+
+    def __init__(self, samples):
+        self._left = samples
+        self._take = None
+
+    def follow(self, kind, topic, take):
+        assert (kind, topic) == (JointState, "euler_angles")
+        self._take = take
+
+    def spin_until(self, done, timeout):
+        if self._left:
+            self._left -= 1
+            self._take(SAMPLE)
+        return done()
+
+
+def test_on_a_terminal_there_is_one_line_that_changes(monkeypatch, capsys):
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    monkeypatch.setattr(module, "INTERVAL", 0.0)
+    watch(Top(samples=10**9), seconds=0.01, timeout=1.0)
+    told = capsys.readouterr().out
+    assert told.count("\n") == 1
+    assert told.startswith("theta 0.5000 rad [....|")
+    assert told.endswith("rad/s\r\n")
+
+
+def test_samples_that_end_are_told():
+    with pytest.raises(UnreachableError, match="no samples from /top within 1 s"):
+        watch(Top(samples=4), seconds=60.0, timeout=1.0)
