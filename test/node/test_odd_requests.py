@@ -108,7 +108,7 @@ def test_what_is_granted_is_a_sound_motion_and_can_be_told(top, driving, asked, 
     state = segment.state_at(0)
     assert all(np.isfinite(numbers(path, state)).all() for numbers in SAMPLES.values())
     json.loads(json.dumps(state_report(segment, 0), allow_nan=False))
-    alone = SimpleNamespace(count=0, sentence="no other node")
+    alone = SimpleNamespace(name="/top", count=0, sentence="no other node")
     diagnostics(settings, segment, 0, Ticker(1.0, 0), Recorder(None, Limits()), alone)
     again = Event.of(0, "start", "", asked, start, segment).segment()
     assert (again.path.start, again.elapsed) == (path.start, segment.elapsed)
