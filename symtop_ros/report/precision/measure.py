@@ -11,7 +11,7 @@ from symtop_ros.report.precision.peers.peer import Peer, Solve, Task
 from symtop_ros.report.precision.reference import Problem
 
 REPEATS = 5
-LEAST = 0.05  # s of runs for each figure, so that a clock of microseconds will do
+LEAST = 0.05  # s for each figure, so that a clock of microseconds will do
 LONG = 1.0  # s; a run as long as this is steady enough by itself
 
 
@@ -86,8 +86,8 @@ def run(solve: Solve, problem: Problem, t: float, budget: float) -> tuple[float,
 
 def median(call: Callable[[], object]) -> float:
     """Return the median seconds of some calls, of many where they are short."""
-    times: list[float] = []
-    while len(times) < REPEATS or sum(times) < LEAST:
+    times, end = [], time.perf_counter() + LEAST
+    while len(times) < REPEATS or time.perf_counter() < end:
         began = time.perf_counter()
         call()
         times.append(time.perf_counter() - began)
