@@ -7,7 +7,9 @@ import pytest
 from pictures import picture, running_viewer, views
 from programs import command, environment, run, running_node
 
+from symtop_ros.live import main as module
 from symtop_ros.playback import viewer
+from symtop_ros.playback.mcap_file import LogError
 
 DOMAIN = 96
 TIMEOUT = 30.0
@@ -91,6 +93,16 @@ def test_without_viewer_and_screen_it_says_what_else_there_is(monkeypatch):
     assert result.returncode == 1
     expected = f"no viewer listens on port {port}, and there is no screen for one: try --web"
     assert result.stderr == f"top_live: {expected}\n"
+
+
+def test_a_viewer_that_ends_at_once_is_told(monkeypatch):
+    monkeypatch.setattr(viewer, "start", lambda **_: subprocess.Popen(["false"]))
+    monkeypatch.setattr(module.rclpy, "ok", lambda: True)
+    with (
+        pytest.raises(LogError, match="the Rerun viewer did not start"),
+        module._viewer(viewer.free_port(), web=True),
+    ):
+        pass
 
 
 def test_help_is_answered():
