@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
-.PHONY: help demo test lint report clean
+.PHONY: help demo test test-physics test-rest lint report clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 10
@@ -17,9 +17,15 @@ demo: $(VENV)/ros  ## a top on cusps, its precession hurried through the service
 
 test: lint $(VENV)/vulkan  ## style, types and all tests, and what they cover
 	@$(BIN)/coverage erase
-	@$(BIN)/coverage run -m pytest
+	@$(MAKE) --no-print-directory -j2 test-physics test-rest
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
+
+test-physics:  # needs a core and no ROS: it gives way to what is about time
+	@nice -n 19 $(BIN)/coverage run -m pytest -q test/physics
+
+test-rest:
+	@$(BIN)/coverage run -m pytest --ignore=test/physics
 
 lint: $(VENV)/test
 	@$(BIN)/ruff check

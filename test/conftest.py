@@ -12,7 +12,7 @@ from coverage import Coverage
 
 SOAK = pytest.StashKey[subprocess.Popen[str]]()
 SOAK_SECONDS = pytest.StashKey[float]()
-ALL = 1000  # tests; so many are a run of all of them
+ALL = 600  # tests; so many are a run of all but physics
 TRACED = "COVERAGE_PROCESS_CONFIG"  # by which coverage reaches programs that tests start
 PROGRAM = "import sys; from symtop_ros.report.main import main; sys.exit(main())"
 

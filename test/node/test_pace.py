@@ -1,4 +1,4 @@
-"""One subscriber on every topic of a node in another process, at 1000 Hz for 20 s."""
+"""One subscriber on every topic of a node in another process, at 1000 Hz for 10 s."""
 
 import time
 
@@ -14,7 +14,7 @@ from symtop_ros.report.load import TOPICS
 
 pytestmark = pytest.mark.untraced
 DOMAIN = 96
-SAMPLES = 20_000
+SAMPLES = 10_000
 
 
 def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():

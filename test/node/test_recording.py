@@ -237,7 +237,7 @@ def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
 
 def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path):
     rng = random.Random(3)
-    for attempt in range(20):
+    for attempt in range(10):
         folder = tmp_path / str(attempt)
         folder.mkdir()
         node, path = started(folder)

@@ -8,11 +8,14 @@ import subprocess
 import time
 
 import numpy as np
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from programs import command, environment, run, running_node
 from sensor_msgs.msg import JointState
+
+pytestmark = pytest.mark.untraced
 
 DOMAIN = 94
 MS = 1_000_000

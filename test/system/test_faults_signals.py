@@ -19,6 +19,8 @@ from symtop_ros.playback.check import check
 from symtop_ros.playback.mcap_file import McapFile
 from symtop_ros.playback.top_log import TopLog
 
+pytestmark = pytest.mark.untraced
+
 DOMAIN = 94
 TIMEOUT = 20.0
 SILENT = {-signal.SIGINT, -signal.SIGTERM}  # ended before there was anything to put in order

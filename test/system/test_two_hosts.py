@@ -12,7 +12,10 @@ import pytest
 from programs import command
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 
-pytestmark = pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}")
+pytestmark = [
+    pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}"),
+    pytest.mark.untraced,
+]
 CONFIG = Path(__file__).parents[2] / "config"
 WITNESS = Path(__file__).with_name("witness.py")
 SETTINGS = (
