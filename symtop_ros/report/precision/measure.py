@@ -86,7 +86,8 @@ def run(solve: Solve, problem: Problem, t: float, budget: float) -> tuple[float,
 
 def median(call: Callable[[], object]) -> float:
     """Return the median seconds of some calls, of many where they are short."""
-    times, end = [], time.perf_counter() + LEAST
+    times: list[float] = []
+    end = time.perf_counter() + LEAST
     while len(times) < REPEATS or time.perf_counter() < end:
         began = time.perf_counter()
         call()
