@@ -2,12 +2,13 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+CALM := test/physics test/report/article test/report/perry test/report/precision
 
 # Nothing here is meant for the network, and a ROS or another environment that is active stays out.
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
-.PHONY: help demo test test-physics test-rest lint report clean
+.PHONY: help demo test test-calm test-rest lint report clean
 
 help:  ## this list
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 10
@@ -17,15 +18,15 @@ demo: $(VENV)/ros  ## a top on cusps, its precession hurried through the service
 
 test: lint $(VENV)/vulkan  ## style, types and all tests, and what they cover
 	@$(BIN)/coverage erase
-	@$(MAKE) --no-print-directory -j2 test-physics test-rest
+	@$(MAKE) --no-print-directory -j2 test-calm test-rest
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
 
-test-physics:  # needs a core and no ROS: it gives way to what is about time
-	@nice -n 19 $(BIN)/coverage run -m pytest -q test/physics
+test-calm:  # they need a core and no ROS, and give way to what is about time
+	@nice -n 19 $(BIN)/coverage run -m pytest -q $(CALM)
 
 test-rest:
-	@$(BIN)/coverage run -m pytest --ignore=test/physics
+	@$(BIN)/coverage run -m pytest $(addprefix --ignore=,$(CALM))
 
 lint: $(VENV)/test
 	@$(BIN)/ruff check

@@ -12,7 +12,7 @@ from coverage import Coverage
 
 SOAK = pytest.StashKey[subprocess.Popen[str]]()
 SOAK_SECONDS = pytest.StashKey[float]()
-ALL = 600  # tests; so many are a run of all but physics
+ALL = 400  # tests; so many are a run of all that `make test` runs beside the soak
 TRACED = "COVERAGE_PROCESS_CONFIG"  # by which coverage reaches programs that tests start
 PROGRAM = "import sys; from symtop_ros.report.main import main; sys.exit(main())"
 
