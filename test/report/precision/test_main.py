@@ -118,7 +118,7 @@ def test_a_peer_that_cannot_go_on_ends_where_it_is():
             raise RuntimeError("too many steps")
         return problem.start.orientation
 
-    peer = Peer("a peer", (1.0,), "step", lambda *_: solve)
+    peer = Peer("a peer", (1.0,), lambda *_: solve)
     results = Results(curves=[curve("a peer", "cusps", 1e-3)])
     _grow(peer, problem, SMALL, results)
     assert [each.times for each in results.growth] == [(10.0,)]

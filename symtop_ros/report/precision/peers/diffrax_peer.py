@@ -44,6 +44,6 @@ def prepare(method: Any, task: Task, rtol: float) -> Solve:
 
 
 PEERS = [
-    Peer(f"diffrax {name}", SETTINGS, "tolerance", partial(prepare, method), friction="also")
+    Peer(f"diffrax {name}", SETTINGS, partial(prepare, method), friction="also")
     for name, method in METHODS.items()
 ]

@@ -67,6 +67,6 @@ def _plant(task: Task) -> tuple[Any, Any]:
 
 
 PEERS = [
-    Peer(f"Drake {name}", ACCURACIES[name], "tolerance", partial(prepare, scheme))
+    Peer(f"Drake {name}", ACCURACIES[name], partial(prepare, scheme))
     for name, scheme in SCHEMES.items()
 ]

@@ -66,6 +66,5 @@ def _add_top(system: Any, task: Task) -> Any:
 
 
 PEERS = [
-    Peer(f"EXUDYN {name}", SETTINGS, "step", partial(prepare, method))
-    for name, method in METHODS.items()
+    Peer(f"EXUDYN {name}", SETTINGS, partial(prepare, method)) for name, method in METHODS.items()
 ]

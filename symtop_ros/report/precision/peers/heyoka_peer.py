@@ -50,4 +50,4 @@ def prepare_grid(task: Task) -> Callable[[Real], Real]:
     return solve
 
 
-PEERS = [Peer("heyoka", SETTINGS, "tolerance", prepare, friction="also")]
+PEERS = [Peer("heyoka", SETTINGS, prepare, friction="also")]

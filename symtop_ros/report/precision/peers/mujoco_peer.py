@@ -57,6 +57,6 @@ def _model(method: str, task: Task, step: float) -> str:
 
 
 PEERS = [
-    Peer(f"MuJoCo {method}", settings, "step", partial(prepare, method))
+    Peer(f"MuJoCo {method}", settings, partial(prepare, method))
     for method, settings in METHODS.items()
 ]

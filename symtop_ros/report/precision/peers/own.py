@@ -14,6 +14,6 @@ def prepare(task: Task, _: float) -> Solve:
 
 
 PEERS = [
-    Peer(CLOSED_FORM, (0.0,), "none", prepare),
-    Peer(SPLITTING, (0.0,), "none", prepare, friction="only"),
+    Peer(CLOSED_FORM, (0.0,), prepare),
+    Peer(SPLITTING, (0.0,), prepare, friction="only"),
 ]

@@ -35,8 +35,6 @@ class Peer:
         As in tables and plots.
     settings : tuple of float
         Tolerances, or steps in s, from coarse to fine; the package's own engines have one.
-    kind : {"tolerance", "step", "none"}
-        What the settings are.
     prepare : callable
         Builds a model for a task and a setting: compiling and loading are done here.
     friction : {"no", "also", "only"}
@@ -45,7 +43,6 @@ class Peer:
 
     name: str
     settings: tuple[float, ...]
-    kind: Literal["tolerance", "step", "none"]
     prepare: Callable[[Task, float], Solve]
     friction: Literal["no", "also", "only"] = "no"
 

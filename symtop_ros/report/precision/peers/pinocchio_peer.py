@@ -59,4 +59,4 @@ def _model(task: Task) -> pinocchio.Model:
     return model
 
 
-PEERS = [Peer("Pinocchio, RK4 in Python", SETTINGS, "step", prepare)]
+PEERS = [Peer("Pinocchio, RK4 in Python", SETTINGS, prepare)]

@@ -65,9 +65,9 @@ def _peers() -> list[Peer]:
     for method in METHODS:
         name, tolerances = f"SciPy {method}", TOLERANCES
         solve = partial(on_quaternions, method)
-        found.append(Peer(f"{name}, quaternion", tolerances, "tolerance", solve, friction="also"))
+        found.append(Peer(f"{name}, quaternion", tolerances, solve, friction="also"))
         angles = partial(on_euler_angles, method)
-        found.append(Peer(f"{name}, Euler angles", tolerances, "tolerance", angles))
+        found.append(Peer(f"{name}, Euler angles", tolerances, angles))
     return found
 
 
