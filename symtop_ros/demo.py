@@ -16,10 +16,10 @@ from symtop_ros.playback import viewer
 from symtop_ros.playback.mcap_file import LogError, McapFile
 from symtop_ros.playback.replay import replay
 from symtop_ros.playback.top_log import TopLog
+from symtop_ros.report.processes import NODE, domain
 
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"
-NODE = "import sys; from symtop_ros.programs import top_node; sys.exit(top_node())"
 WATCHED = 1.5  # s before and after the kick: nine nutations of this scene
 
 
@@ -28,7 +28,7 @@ def main() -> int:
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     # which alone leaves ports open to hosts that name this one as a peer
     os.environ.setdefault("FASTDDS_DEFAULT_PROFILES_FILE", str(scene_folder() / PROFILE))
-    os.environ["ROS_DOMAIN_ID"] = str(60 + os.getpid() % 30)  # apart from tops that run already
+    os.environ["ROS_DOMAIN_ID"] = str(domain())
     print(f"starting top_node on the scene {SCENE!r} ...", flush=True)
     options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "--log-level", "warn"]
     node = subprocess.Popen([sys.executable, "-c", NODE, "--ros-args", *options])

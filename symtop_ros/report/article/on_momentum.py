@@ -80,24 +80,26 @@ def momentum_changes_by_gravity(path: Motion) -> Claim:
     """dL/dt in the world is gravity's torque."""
     times = TIMES[::10]
     found = slope(lambda t: path.top.angular_momentum(path.at(t)), times)
-    off, error = _relative(found, path.top.torque(path.at(times)))
-    return Claim(
-        f"dL/dt is gravity's torque and nothing else ({path.kind}).",
-        f"differentiated at {len(times)} times in {SPAN:g} s, dL/dt is off by {off:.0e} of the "
-        f"torque; the difference itself may be off by {error:.0e}",
-        off < DIFFERENTIATED,
-    )
+    sentence = f"dL/dt is gravity's torque and nothing else ({path.kind})."
+    return _agree(sentence, found, path.top.torque(path.at(times)), ("dL/dt is", "torque"))
 
 
 def equations_hold(path: Motion) -> Claim:
     """The article's phi'', theta'' and psi'' are those of the motion."""
     times = TIMES[::10]
     found = slope(lambda t: np.stack(path.at(t).euler_rates, axis=-1), times)
-    off, error = _relative(found, accelerations(path.top, path.at(times)))
+    sentence = f"phi'', theta'' and psi'' obey the article's three equations ({path.kind})."
+    expected = accelerations(path.top, path.at(times))
+    return _agree(sentence, found, expected, ("the rates are", "largest"))
+
+
+def _agree(sentence: str, found: Slope, expected: Real, words: tuple[str, str]) -> Claim:
+    """A claim that derivatives are what is expected, in words for them and for their size."""
+    (what, size), (off, error) = words, _relative(found, expected)
     return Claim(
-        f"phi'', theta'' and psi'' obey the article's three equations ({path.kind}).",
-        f"differentiated at {len(times)} times in {SPAN:g} s, the rates are off by {off:.0e} of "
-        f"the largest; the difference itself may be off by {error:.0e}",
+        sentence,
+        f"differentiated at {len(expected)} times in {SPAN:g} s, {what} off by {off:.0e} of the "
+        f"{size}; the difference itself may be off by {error:.0e}",
         off < DIFFERENTIATED,
     )
 

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.physics import Top
 from symtop_ros.physics.perry_map import Hurried, fall_torque, hurried
+from symtop_ros.report.article.motions import PSI_DOT, THETA, TOP
 
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-THETA, PSI_DOT = 0.5, 200.0  # the article's, rad and rad/s
 FACTOR = 1.4
 PHI_DOTS = (-60.0, 120.0)  # rad/s
 PSI_DOTS = (-400.0, 400.0)  # rad/s
@@ -52,7 +50,7 @@ def over_spin(points: int) -> PerryMap:
     """Return the map of points x points over psi' and phi', at the article's tilt."""
     phi_dot, psi_dot = _axes(points, PSI_DOTS)
     place = THETA, phi_dot[:, np.newaxis], psi_dot
-    found, torque = hurried(ARTICLE, *place, FACTOR), fall_torque(ARTICLE, *place)
+    found, torque = hurried(TOP, *place, FACTOR), fall_torque(TOP, *place)
     title = f"theta = {THETA:g} rad"
     return PerryMap("spin", title, "spin rate psi' (rad/s)", psi_dot, phi_dot, found, torque)
 
@@ -61,7 +59,7 @@ def over_tilt(points: int) -> PerryMap:
     """Return the map of points x points over theta and phi', at the article's spin."""
     phi_dot, theta = _axes(points, THETAS)
     place = theta, phi_dot[:, np.newaxis], PSI_DOT
-    found, torque = hurried(ARTICLE, *place, FACTOR), fall_torque(ARTICLE, *place)
+    found, torque = hurried(TOP, *place, FACTOR), fall_torque(TOP, *place)
     title = f"psi' = {PSI_DOT:g} rad/s"
     return PerryMap("tilt", title, "tilt theta (rad)", theta, phi_dot, found, torque)
 

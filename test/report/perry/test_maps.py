@@ -7,7 +7,7 @@ from PIL import Image
 
 from symtop_ros.physics import State, hurry, motion, regular_precession_rates
 from symtop_ros.report import main as report
-from symtop_ros.report.perry.maps import ARTICLE, FACTOR, PSI_DOT, THETA, over_spin, over_tilt
+from symtop_ros.report.perry.maps import FACTOR, PSI_DOT, THETA, TOP, over_spin, over_tilt
 
 SIDES = ("highest", "lowest")
 FILES = {"perry.rrd"} | {
@@ -21,7 +21,7 @@ def test_the_points_of_a_table_are_those_of_the_closed_form(tmp_path):
     assert len(rows) == 81
     for row in rows[::7]:
         start = State.from_euler(theta=THETA, phi_dot=row["phi_dot"], psi_dot=row["psi_dot"])
-        before, after = motion(ARTICLE, start), motion(ARTICLE, hurry(ARTICLE, start, FACTOR))
+        before, after = motion(TOP, start), motion(TOP, hurry(TOP, start, FACTOR))
         found = [row[f"{which}_{when}"] for when in ("before", "after") for which in SIDES]
         # an angle near a pole is the square root of what is good to rounding
         assert found == pytest.approx([*before.turning_angles, *after.turning_angles], abs=1e-7)
@@ -34,7 +34,7 @@ def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
         theta, psi_dot = (
             (THETA, found.across[k]) if make is over_spin else (found.across[k], PSI_DOT)
         )
-        rates = regular_precession_rates(ARTICLE, theta=theta, psi_dot=psi_dot)
+        rates = regular_precession_rates(TOP, theta=theta, psi_dot=psi_dot)
         inside = [each for each in rates if found.phi_dot[0] < each < found.phi_dot[-1]]
         changes = np.diff(np.sign(found.torque[:, k])) != 0
         assert changes.sum() == len(inside)
