@@ -1,32 +1,73 @@
 """The heavy symmetric top: exact motion, constants, regular precession, kicks and Perry's rule.
 
-Needs NumPy and SciPy only. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an
-orientation is a unit quaternion (w, x, y, z) from body to world.
+It needs NumPy and SciPy only. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an
+orientation is a unit quaternion (w, x, y, z) from body to world. All names that other code needs
+are exported here.
+
+Examples
+--------
+>>> from symtop_ros.physics import Motion, State, Top
+>>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+>>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+>>> motion.kind
+'cusps'
 """
 
 from symtop_ros.physics.balance import Balance, balance
-from symtop_ros.physics.friction import Friction
-from symtop_ros.physics.kicks import hurry, impulse, push, set_precession_rate
-from symtop_ros.physics.motion import Motion, motion
-from symtop_ros.physics.perry import Verdict, perry
-from symtop_ros.physics.precession import regular_precession_rates
+from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
+from symtop_ros.physics.kicks import (
+    HOLDS,
+    Hold,
+    apply_impulse,
+    hurry,
+    precession_rate,
+    set_precession_rate,
+    validate_hold,
+)
+from symtop_ros.physics.kind import Kind
+from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.perry import Direction
+from symtop_ros.physics.perry_map import HurryEffect, compare_hurried
+from symtop_ros.physics.potential import EffectivePotential
+from symtop_ros.physics.precession import (
+    regular_precession_rates,
+    theta_acceleration,
+    theta_torque,
+)
 from symtop_ros.physics.state import Angles, State
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.verdict import Verdict, kick_verdict, perrys_rule
 
 __all__ = [
+    "HOLDS",
+    "STANDARD_GRAVITY",
     "Angles",
     "Balance",
+    "Body",
+    "Direction",
+    "EffectivePotential",
+    "ExactTimes",
     "Friction",
+    "Hold",
+    "HurryEffect",
+    "Kind",
     "Motion",
     "State",
     "Top",
     "Verdict",
+    "apply_impulse",
     "balance",
+    "compare_hurried",
     "hurry",
-    "impulse",
-    "motion",
-    "perry",
-    "push",
+    "kick_verdict",
+    "perrys_rule",
+    "point_acceleration",
+    "precession_rate",
     "regular_precession_rates",
     "set_precession_rate",
+    "specific_force",
+    "theta_acceleration",
+    "theta_torque",
+    "validate_hold",
 ]

@@ -1,4 +1,4 @@
-"""Balances of a motion over a stretch of time: how well it obeys the equations it stands for."""
+"""Balances of a motion over a stretch of time: how well it obeys its equations of motion."""
 
 from __future__ import annotations
 
@@ -6,65 +6,88 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.values import Real, refuse, validate_number
 
-Real = NDArray[np.float64]
-
-NODES = 24  # of a Gauss-Legendre quadrature: to rounding over a stretch of STRETCH radians
+NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
 STRETCH = 4.0  # rad of the fastest rate
 
 
 @dataclass(frozen=True)
 class Balance:
-    """What changed over a stretch of a motion, less what should have changed it.
+    """Residuals of the equations of motion, integrated over a stretch of a motion.
 
     Attributes
     ----------
     energy : float
-        Change of the energy less the work of friction and applied torque (dE/dt = torque . omega;
-        gravity's is in the potential), in J.
+        Change of the energy minus the work of friction and applied torque, in J. Gravity's work is
+        in the potential.
     angular_momentum : ndarray (3,)
-        Change of L less the integral of all torque (dL/dt = torque), world frame, in N m s.
+        Change of L minus the integral of the total torque, world frame, in N m s.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Motion, State, Top, balance
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> abs(balance(motion, end=2.0, longest=1.0).energy) < 1e-13
+    True
     """
 
     energy: float
     angular_momentum: Real
 
 
-def balance(path: Motion, end: float, longest: float) -> Balance:
-    """Return the balances up to a time.
+def balance(motion: Motion, end: float, longest: float) -> Balance:
+    """Return the balances of energy and angular momentum over a stretch that ends at a time.
 
     Parameters
     ----------
-    path : Motion
+    motion : Motion
     end : float
-        In s.
+        End of the stretch in s.
     longest : float
-        Length of the stretch before it, in s; less where the motion is faster than a quadrature of
-        24 nodes can follow.
+        Largest length of the stretch in s, > 0. It is shorter if the motion is too fast for a
+        quadrature of 24 nodes.
+
+    Raises
+    ------
+    ValueError
+        If a time is refused.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from symtop_ros.physics import Friction, Motion, State, Top, balance
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0), Friction(axial=2e-6))
+    >>> bool(np.abs(balance(motion, end=2.0, longest=1.0).angular_momentum).max() < 1e-13)
+    True
     """
-    begin = end - min(longest, STRETCH / _rate(path, end))
+    end, longest = validate_number("end", end, "s"), validate_number("longest", longest, "s")
+    if longest <= 0:
+        raise refuse("longest", "> 0 s", longest)
+    begin = end - min(longest, STRETCH / _fastest_rate(motion, end))
     points, weights = np.polynomial.legendre.leggauss(NODES)
     half = (end - begin) / 2
-    states = path.at(begin + half * (1 + points))
-    added = (path.driving_torque(states) * states.to_world(states.angular_velocity)).sum(axis=-1)
-    before, after = path.at(begin), path.at(end)
-    top = path.top
+    states = motion.at(begin + half * (1 + points))
+    power = (motion.added_torque(states) * states.to_world(states.angular_velocity)).sum(axis=-1)
+    before, after = motion.at(begin), motion.at(end)
+    top = motion.top
     return Balance(
-        float(top.energy(after) - top.energy(before) - half * (weights @ added)),
+        float(top.energy(after) - top.energy(before) - half * (weights @ power)),
         top.angular_momentum(after)
         - top.angular_momentum(before)
-        - half * (weights @ path.torque(states)),
+        - half * (weights @ motion.total_torque(states)),
     )
 
 
-def _rate(path: Motion, t: float) -> float:
-    """Rate in rad/s at which the vectors of the balance change: nutation, swing and decay."""
-    top, state = path.top, path.at(t)
+def _fastest_rate(motion: Motion, t: float) -> float:
+    """Rate in rad/s at which the integrands change: nutation, swing and decay."""
+    top, state = motion.top, motion.at(t)
     nutation = float(np.linalg.norm(top.body_angular_momentum(state))) / top.Ix
-    torque = float(np.linalg.norm(path.applied_torque))
+    torque = float(np.linalg.norm(motion.applied_torque))
     swing = math.sqrt(abs(top.Mgl) / top.Ix + torque / min(top.Ix, top.Iz))
-    decay = path.friction.transverse / top.Ix + path.friction.axial / top.Iz
+    decay = motion.friction.transverse / top.Ix + motion.friction.axial / top.Iz
     return max(nutation + swing + decay, 1e-300)

@@ -1,62 +1,75 @@
-"""The motion without a torque that turns the axis: Mgl = 0, or an axis at rest on the vertical."""
+"""The free motion, without a torque that turns the axis: Mgl = 0, or a resting vertical axis."""
 
 from __future__ import annotations
 
 import math
 from decimal import Decimal, localcontext
 
-import numpy as np
+from symtop_ros.physics.elementary import Components, Number, multiply
+from symtop_ros.physics.kind import Kind, classify_free
+from symtop_ros.physics.precise import HALF, PRECISE, Phases
+from symtop_ros.physics.spin import spin_reverses_free
+from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.values import Quaternion, Vector
 
-from symtop_ros.physics.kind import Kind, free_kind
-from symtop_ros.physics.nutation import Four, Three
-from symtop_ros.physics.phase import Phases
-from symtop_ros.physics.precise import HALF, PRECISE
-from symtop_ros.physics.theta import Complex, Real
-
-UPRIGHT: Four = (1.0, 0.0, 0.0, 0.0)
+UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 
 class FreeMotion:
-    """Rotation about L by |L| t/Ix, after a rotation about the axis by c t (Landau & Lifshitz, 33).
+    """Rotation about L by |L| t/Ix, after a rotation about the axis by c t.
 
-    c = p_psi (1/Iz - 1/Ix). An axis at rest on the vertical stays there, and L is along it.
+    c = p_psi (1/Iz - 1/Ix) (Landau & Lifshitz, Mechanics, section 33). A resting vertical axis
+    stays where it is, and L is along it: the same formula holds.
+
+    Parameters
+    ----------
+    moments : (float, float, float)
+        Ix and Iz in kg m^2, and Mgl, which is not used.
+    orientation : (float, float, float, float)
+        (w, x, y, z) at t = 0.
+    angular_velocity : (float, float, float)
+        In the body frame at t = 0, in rad/s.
     """
 
     kind: Kind
 
-    def __init__(self, moments: Three, orientation: Four, angular_velocity: Three) -> None:
+    def __init__(self, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> None:
         with localcontext(PRECISE):
             Ix, Iz = Decimal(moments[0]), Decimal(moments[1])
             wx, wy, wz = (Decimal(rate) for rate in angular_velocity)
             L = (Ix * wx, Ix * wy, Iz * wz)
             size = sum((part * part for part in L), Decimal(0)).sqrt()
+            # p_psi (1/Iz - 1/Ix) without the difference of reciprocals, which would cancel for a
+            # body that is nearly a sphere.
             c = wz * (Ix - Iz) / Ix
             self.nutation_rate = size / Ix
             self._phases = Phases(HALF * self.nutation_rate, HALF * c, -c)
-            lx, ly, lz = (float(part / size) if size else 0.0 for part in L)
-        self._turn_rate = float(c)
+            # A top without angular momentum rests: then any axis does, and its own gives theta.
+            lx, ly, lz = (float(part / size) for part in L) if size else (0.0, 0.0, 1.0)
+        self._c = float(c)
         self._direction = lx, ly, lz
-        self._start = orientation, complex(*angular_velocity[:2])
-        self._tilt, self._cone = _tilt(orientation, self._direction), _tilt(UPRIGHT, (lx, ly, lz))
+        norm = math.hypot(*orientation)
+        w, x, y, z = (component / norm for component in orientation)
+        orientation = w, x, y, z
+        self._start, self._omega_z = (orientation, angular_velocity[:2]), angular_velocity[2]
+        self._tilt = _angle_to_vertical(orientation, self._direction)
+        self._cone = _angle_to_vertical(UPRIGHT, self._direction)
         resting = angular_velocity[0] == angular_velocity[1] == 0
         vertical = orientation[0] == orientation[3] == 0 or orientation[1] == orientation[2] == 0
-        self.kind = "sleeping" if resting and vertical else free_kind(self._tilt, self._cone)
+        self.kind = "sleeping" if resting and vertical else classify_free(self._tilt, self._cone)
 
-    def parameters(self, t: Real) -> Complex:
-        """A, B and omega (3, n) at times t (n,) in s."""
-        half, half_c, turn = self._phases.at(t)
+    def cayley_klein(self, t: Number | ExactTimes) -> Components:
+        """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
+        (c, s), turn, turn_omega = (phase.unit for phase in self._phases.at(t))
         lx, ly, lz = self._direction
-        cosine, sine = np.cos(half), np.sin(half)
-        (w, x, y, z), across = self._start
-        A, B = complex(w, z), complex(x, y)
-        along, over = cosine + 1j * lz * sine, complex(lx, ly) * sine
-        spin = np.exp(1j * half_c)
-        return np.stack(
-            [
-                (A * along - B * over.conjugate()) * spin,
-                (A * over + B * along.conjugate()) / spin,
-                across * np.exp(1j * turn),
-            ]
+        (w, x, y, z), omega_xy = self._start
+        along, over = (c, lz * s), (lx * s, ly * s)
+        a, b = multiply((w, z), along), multiply((x, y), (over[0], -over[1]))
+        d, e = multiply((w, z), over), multiply((x, y), (along[0], -along[1]))
+        return (
+            multiply((a[0] - b[0], a[1] - b[1]), turn),
+            multiply((d[0] + e[0], d[1] + e[1]), (turn[0], -turn[1])),
+            multiply(omega_xy, turn_omega),
         )
 
     @property
@@ -73,17 +86,41 @@ class FreeMotion:
 
     @property
     def mean_rates(self) -> tuple[float, float]:
-        """Mean phi' and psi' in rad/s: phi counts the poles that the axis goes round."""
-        if self.kind == "sleeping":
-            return math.nan, math.nan
+        """Mean phi' and psi' in rad/s.
+
+        The circle of the axis about L goes round the upper pole, round the lower pole, or round
+        neither. This decides how many turns of phi and psi belong to one turn about L.
+        """
         half = float(self.nutation_rate) / 2
-        a = math.copysign(half, math.pi - self._tilt - self._cone)
-        b = math.copysign(half, self._cone - self._tilt)
-        return a + b, a - b + self._turn_rate
+        upper, lower = self._turns
+        return (upper + lower) * half, (upper - lower) * half + self._c
+
+    @property
+    def precession_per_nutation(self) -> float:
+        """Turns of the precession in a turn about L: 1, 0 or -1; nan for a top at rest."""
+        return sum(self._turns) / 2 if self.nutation_rate else math.nan
+
+    @property
+    def spin_reverses(self) -> bool:
+        """True if psi' takes both signs."""
+        if self.kind == "sleeping":
+            return False
+        rate, omega_z = float(self.nutation_rate), self._omega_z
+        return spin_reverses_free(self._tilt, self._cone, rate, omega_z)
+
+    @property
+    def _turns(self) -> tuple[float, float]:
+        """Half turns of arg A and arg B in a turn about L, by the poles that are encircled."""
+        upper = math.copysign(1.0, math.pi - self._tilt - self._cone)
+        return upper, math.copysign(1.0, self._cone - self._tilt)
 
 
-def _tilt(orientation: Four, direction: Three) -> float:
-    """Angle (rad) between z' and a body-frame direction at an orientation."""
+def _angle_to_vertical(orientation: Quaternion, direction: Vector) -> float:
+    """Return the angle in rad between z' and a body-frame direction at an orientation.
+
+    The arc tangent of cross and scalar product keeps the digits of a small angle, which the arc
+    cosine of the scalar product alone would lose.
+    """
     w, x, y, z = orientation
     gx, gy = 2 * (x * z - w * y), 2 * (y * z + w * x)
     gz = (w * w + z * z) - (x * x + y * y)

@@ -1,4 +1,4 @@
-"""What kind of motion it is: what phi' does at the two turning angles of theta."""
+"""The kind of a motion: the sign of phi' at the two turning angles of theta."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import math
 from decimal import Decimal, localcontext
 from typing import Literal
 
-from symtop_ros.physics.nutation import Heights, Start
-from symtop_ros.physics.precise import PRECISE
-from symtop_ros.physics.quotients import Quotient
+from symtop_ros.physics.nutation import Nutation, Roots
+from symtop_ros.physics.precise import ONE, PRECISE
+from symtop_ros.physics.quotients import Zero
+from symtop_ros.physics.values import START_ROUNDING
 
 Kind = Literal[
     "regular",
@@ -20,47 +21,73 @@ Kind = Literal[
     "sleeping",
 ]
 
-ROUNDING = Decimal(64 * 2.0**-52)  # what rounding of the start alone does to a sum of its terms
+ROUNDING = Decimal(START_ROUNDING)
 
 
-def kind_of(start: Start, heights: Heights, zeros: tuple[Quotient, ...]) -> Kind:
-    """Return the kind of a motion whose axis moves; what rounding alone makes differ is equal."""
+def classify(nutation: Nutation, roots: Roots, zeros: tuple[Zero, ...]) -> Kind:
+    """Return the kind of a motion whose axis moves.
+
+    Numbers that differ by rounding of the start alone count as equal: a start that is computed to
+    lie on a root of regular precession is regular, although its doubles miss the root.
+    """
     with localcontext(PRECISE):
         above = zeros[1]
-        if heights.s32 <= ROUNDING * heights.s3 and _no_momentum(start, start.below):
+        if roots.s32 == 0:
             return "spiralling"
-        if _regular(start):
+        if _is_regular(nutation):
             return "regular"
-        if _no_momentum(start, -start.above) or (
-            _no_momentum(start, start.below) and above.from_u2 <= above.from_u3
-        ):
+        rounding = ROUNDING * largest_precession(nutation, zeros)
+        lower_pole, upper_pole = abs(zeros[0].d), abs(above.d)
+        if lower_pole <= rounding or (upper_pole <= rounding and above.from_u2 <= above.from_u3):
             return "through the pole"
-        if _no_momentum(start, heights.s1) or _no_momentum(start, heights.s2):
+        lower, upper = nutation.b_minus_au_at(roots.s1), nutation.b_minus_au_at(roots.s2)
+        if min(abs(lower), abs(upper)) <= rounding:
             return "cusps"
-        lower, upper = start.momentum_about(heights.s1), start.momentum_about(heights.s2)
         return "unidirectional" if (lower > 0) == (upper > 0) else "looping"
 
 
-def _no_momentum(start: Start, s: Decimal) -> bool:
-    """Whether phi' sin^2(theta) vanishes at height u0 + s."""
-    terms = abs(start.around) + abs(start.spin * s)
-    return abs(start.momentum_about(s)) <= ROUNDING * terms
+def largest_precession(nutation: Nutation, zeros: tuple[Zero, ...]) -> Decimal:
+    """Return a bound on the terms of b - a u = sin^2(theta) phi' during a nutation, in rad/s.
+
+    A state of the motion is known to rounding of these, not to rounding of the terms at the start:
+    they may all be small there, near a cusp.
+    """
+    sine_squared = largest_sine_squared(zeros)
+    rate = (nutation.beta * zeros[2].from_u1).sqrt()  # largest |omega_xy|
+    return rate * sine_squared.sqrt() + abs(nutation.a) * sine_squared
 
 
-def _regular(start: Start) -> bool:
-    """Whether theta' = theta'' = 0 at the start."""
-    across = start.across * abs(start.u)
-    gravity = start.pull * start.above * start.below / 2
-    spin = start.spin * start.around
-    bend = spin - start.u * start.across - gravity
-    still = start.fall**2 <= ROUNDING**2 * start.across * start.above * start.below
-    return still and abs(bend) <= ROUNDING * (abs(spin) + across + gravity)
+def largest_sine_squared(zeros: tuple[Zero, ...]) -> Decimal:
+    """Return the largest sin^2(theta) of a nutation."""
+    below, above, _ = zeros
+    if below.from_u1 < 1 < below.from_u2:  # u1 < 0 < u2: the axis becomes horizontal
+        return ONE
+    return max(below.from_u1 * above.from_u1, below.from_u2 * above.from_u2)
 
 
-def free_kind(tilt_of_momentum: float, cone: float) -> Kind:
-    """Return the kind of a motion without torque: a circle of radius `cone` about L."""
+def _is_regular(nutation: Nutation) -> bool:
+    """Return True if theta' = theta'' = 0 at the start."""
+    centrifugal = nutation.omega_xy_squared * abs(nutation.u)
+    gravity = nutation.beta * nutation.one_plus_u * nutation.one_minus_u / 2
+    spin = nutation.a * nutation.b_minus_au
+    u_dot_dot = spin - nutation.u * nutation.omega_xy_squared - gravity
+    sine_squared = nutation.one_plus_u * nutation.one_minus_u
+    is_still = nutation.u_dot**2 <= ROUNDING**2 * nutation.omega_xy_squared * sine_squared
+    return is_still and abs(u_dot_dot) <= ROUNDING * (abs(spin) + centrifugal + gravity)
+
+
+def classify_free(tilt_of_momentum: float, cone: float) -> Kind:
+    """Return the kind of a motion without torque, whose axis moves on a circle about L.
+
+    Parameters
+    ----------
+    tilt_of_momentum : float
+        Angle between L and the vertical, in rad.
+    cone : float
+        Angle between the axis and L, in rad.
+    """
     inside, far = tilt_of_momentum - cone, tilt_of_momentum + cone
-    rounding = float(ROUNDING) * math.pi
+    rounding = START_ROUNDING * math.pi
     if min(math.sin(tilt_of_momentum), math.sin(cone)) <= rounding:
         return "regular"
     if abs(inside) <= rounding or abs(far - math.pi) <= rounding:

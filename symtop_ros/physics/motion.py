@@ -1,40 +1,47 @@
-"""The motion of a top from a start: the state at any time, and what is constant about it."""
+"""The motion of a top from a start: the state at any time, and its constant properties."""
 
 from __future__ import annotations
 
 import math
-from typing import Literal, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from symtop_ros.physics.closed_form import HeavyMotion
+from symtop_ros.physics.closed_form import ClosedFormMotion
+from symtop_ros.physics.elementary import Components, Number
 from symtop_ros.physics.free import FreeMotion
-from symtop_ros.physics.friction import Friction
+from symtop_ros.physics.integrated import IntegratedMotion
 from symtop_ros.physics.kind import Kind
-from symtop_ros.physics.nutation import Four
-from symtop_ros.physics.split_motion import SplitMotion
-from symtop_ros.physics.splitting import Three
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.values import (
+    Quaternion,
+    Real,
+    Vector,
+    refuse,
+    validate_array,
+    validate_vector,
+)
 
-Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
-BLOCK = 4096  # times evaluated at once: the intermediate arrays then stay in the cache
+# Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
+BLOCK = 12288
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
-WEIGHTLESS = 1e-200  # of the kinetic energy: weight that no phase can tell from none
+# Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
+# root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
+WEIGHTLESS = 1e-200
 
 
 class Engine(Protocol):
-    """A solved motion with Mgl >= 0."""
+    """A solved motion with Mgl >= 0, no friction and no applied torque."""
 
     @property
     def kind(self) -> Kind:
         """Name of the motion."""
 
-    def parameters(self, t: Real) -> Complex:
-        """A, B and omega_x + i omega_y (3, n) at times t (n,) in s."""
+    def cayley_klein(self, t: Number | ExactTimes) -> Components:
+        """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
 
     @property
     def nutation_period(self) -> float:
@@ -48,174 +55,21 @@ class Engine(Protocol):
     def mean_rates(self) -> tuple[float, float]:
         """Mean phi' and psi' in rad/s."""
 
+    @property
+    def precession_per_nutation(self) -> float:
+        """Turns of the precession in a nutation."""
+
+    @property
+    def spin_reverses(self) -> bool:
+        """True if psi' takes both signs."""
+
 
 class Motion:
-    """The motion of `top` that starts from `start`: see `motion`.
+    """The motion of a top from a state.
 
-    Under friction or an applied torque kind, turning angles, nutation period and mean rates are
-    those at the start: of the motion that would go on from there without.
-
-    Attributes
-    ----------
-    top : Top
-    start : State
-        The state at t = 0.
-    friction : Friction
-    applied_torque : (3,) of float
-        In the world frame, N m.
-    engine : {"closed form", "elementary", "splitting"}
-        Elliptic functions; circular ones where Mgl is 0 or the axis rests on the vertical; small
-        steps under friction or an applied torque.
-    """
-
-    engine: Literal["closed form", "elementary", "splitting"]
-
-    def __init__(
-        self,
-        top: Top,
-        start: State,
-        friction: Friction = NO_FRICTION,
-        torque: Three = NO_TORQUE,
-    ) -> None:
-        if start.orientation.ndim != 1:
-            msg = f"start: got {start.orientation.shape[0]} states, allowed is one"
-            raise ValueError(msg)
-        self.top = top
-        self.start = start
-        self._mirrored = top.Mgl < 0  # solved with the world turned by pi about x'
-        w, x, y, z = (float(part) for part in start.orientation)
-        wx, wy, wz = (float(rate) for rate in start.angular_velocity)
-        orientation: Four = (-x, w, -z, y) if self._mirrored else (w, x, y, z)
-        moments = (top.Ix, top.Iz, abs(top.Mgl))
-        resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
-        weightless = abs(top.Mgl) <= WEIGHTLESS * top.Ix * max(abs(wx), abs(wy), abs(wz)) ** 2
-        solver = FreeMotion if resting or weightless else HeavyMotion
-        self._engine: Engine = solver(moments, orientation, (wx, wy, wz))
-        self.engine = "elementary" if solver is FreeMotion else "closed form"
-        self.friction, self.applied_torque = friction, torque
-        self._split: SplitMotion | None = None
-        if self.driven:
-            self._split = SplitMotion(top, start, friction, torque)
-            self.engine = "splitting"
-
-    @property
-    def driven(self) -> bool:
-        """Whether friction or an applied torque acts."""
-        return bool(self.friction) or any(self.applied_torque)
-
-    def at(self, t: ArrayLike) -> State:
-        """Return the state at one time, or the states at many.
-
-        Parameters
-        ----------
-        t : float or array_like (n,)
-            Time since the start in s, any finite number of either sign. Under friction or an
-            applied torque the cost grows with it: about 0.2 ms for each radian of nutation.
-
-        Returns
-        -------
-        State
-            orientation (4,) and angular_velocity (3,), or (n, 4) and (n, 3).
-        """
-        times = np.asarray(t, dtype=float)
-        if not np.isfinite(times).all():
-            msg = f"t: got {t!r}, allowed are finite times in s"
-            raise ValueError(msg)
-        flat = times.reshape(-1)
-        orientation = np.empty((flat.size, 4))
-        angular_velocity = np.empty((flat.size, 3))
-        if self._split:
-            self._split.fill(flat, orientation, angular_velocity)
-        else:
-            self._fill(flat, orientation, angular_velocity)
-        shape = times.shape
-        return State.unchecked(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
-
-    def reach(self, t: float, steps: float) -> float:
-        """Prepare the states up to a time.
-
-        Parameters
-        ----------
-        t : float
-            In s.
-        steps : float
-            How many steps may be spent on it; the exact engines need none.
-
-        Returns
-        -------
-        float
-            The time up to which `at` now answers at once, t or nearer to the start.
-        """
-        return self._split.reach(t, steps) if self._split else t
-
-    def _fill(self, t: Real, orientation: Real, angular_velocity: Real) -> None:
-        angular_velocity[:, 2] = self.start.angular_velocity[2]
-        for first in range(0, t.size, BLOCK):
-            block = slice(first, first + BLOCK)
-            self._fill_block(t[block], orientation[block], angular_velocity[block])
-
-    def _fill_block(self, t: Real, orientation: Real, angular_velocity: Real) -> None:
-        A, B, across = self._engine.parameters(t)
-        if self._mirrored:
-            A, B = B.conj(), -A.conj()
-        orientation[:, 0], orientation[:, 3] = A.real, A.imag
-        orientation[:, 1], orientation[:, 2] = B.real, B.imag
-        angular_velocity[:, 0], angular_velocity[:, 1] = across.real, across.imag
-
-    def torque(self, state: State) -> Real:
-        """All torque about the pivot at a state in the world frame, (..., 3), N m.
-
-        Gravity's, friction's and the applied one.
-        """
-        torque = self.top.torque(state)
-        return torque + self.driving_torque(state) if self.driven else torque
-
-    def driving_torque(self, state: State) -> Real:
-        """What friction and the applied torque add to gravity's, (..., 3), N m."""
-        return state.to_world(self.friction.torque(state)) + self.applied_torque
-
-    @property
-    def kind(self) -> Kind:
-        """What phi' does at the two turning angles, in a word.
-
-        "regular" (they are equal), "unidirectional" (same sign), "cusps" (zero at one), "looping"
-        (opposite), "through the pole", "spiralling" (towards the vertical, for ever) or "sleeping"
-        (the axis rests on the vertical).
-        """
-        return self._engine.kind
-
-    @property
-    def nutation_period(self) -> float:
-        """Period of theta in s; infinite for a motion that does not come back, or rests."""
-        return self._engine.nutation_period
-
-    @property
-    def turning_angles(self) -> tuple[float, float]:
-        """Smallest and largest theta in rad."""
-        low, high = self._engine.turning_angles
-        return (math.pi - high, math.pi - low) if self._mirrored else (low, high)
-
-    @property
-    def mean_precession_rate(self) -> float:
-        """Mean phi' over a nutation in rad/s; nan for an axis at rest on the vertical."""
-        rate = self._engine.mean_rates[0]
-        return -rate if self._mirrored else rate
-
-    @property
-    def mean_spin_rate(self) -> float:
-        """Mean psi' over a nutation in rad/s; nan for an axis at rest on the vertical."""
-        return self._engine.mean_rates[1]
-
-
-def motion(
-    top: Top,
-    start: State,
-    friction: Friction = NO_FRICTION,
-    torque: ArrayLike = NO_TORQUE,
-) -> Motion:
-    """Return the motion of a top from a state.
-
-    Without friction and an applied torque it is exact for any time.
+    Without friction and applied torque it is exact at any time. With them it is integrated; kind,
+    turning angles, nutation period and mean rates are then those of the motion that would follow
+    from the start under gravity alone.
 
     Parameters
     ----------
@@ -223,27 +77,358 @@ def motion(
     start : State
         One state, at t = 0.
     friction : Friction
-        At the pivot and in the air.
+        Friction at the pivot and in the air.
     torque : array_like (3,)
         Applied torque in the world frame, constant, in N m.
 
+    Attributes
+    ----------
+    top : Top
+    start : State
+    friction : Friction
+    applied_torque : (float, float, float)
+        In the world frame, in N m.
+    engine : {"closed form", "free", "splitting"}
+        Method of solution: elliptic functions; circular functions if Mgl is 0 or if the axis rests
+        on the vertical; with friction or an applied torque Taylor series, from which the spin about
+        the axis is split off.
+
+    Raises
+    ------
+    ValueError
+        If an argument is refused.
+
     Examples
     --------
+    >>> from symtop_ros.physics import Motion, State, Top
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> path = motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
-    >>> path.kind
-    'cusps'
-    >>> theta = path.at(10.0).euler_angles.theta
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> motion.kind, motion.engine
+    ('cusps', 'closed form')
+    >>> round(motion.nutation_period, 6)
+    0.159545
+    >>> motion.at([0.0, 10.0, 1e6]).orientation.shape
+    (3, 4)
     """
-    return Motion(top, start, friction, _checked(torque))
+
+    engine: Literal["closed form", "free", "splitting"]
+
+    def __init__(
+        self,
+        top: Top,
+        start: State,
+        friction: Friction = NO_FRICTION,
+        torque: ArrayLike = NO_TORQUE,
+    ) -> None:
+        _validate_types(top, start, friction)
+        self.top = top
+        self.start = start
+        self.friction = friction
+        self.applied_torque: Vector = (
+            NO_TORQUE
+            if torque is NO_TORQUE
+            else validate_vector("torque", torque, "N m, world frame")
+        )
+        # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
+        self._is_turned_over = top.Mgl < 0
+        self._spin = float(start.angular_velocity[2])
+        self._engine = self._solve()
+        self.engine = "free" if isinstance(self._engine, FreeMotion) else "closed form"
+        self._integrated: IntegratedMotion | None = None
+        if self.is_integrated:
+            self._integrated = IntegratedMotion(top, start, friction, self.applied_torque)
+            self.engine = "splitting"
+
+    def _solve(self) -> Engine:
+        w, x, y, z = self.start.given_orientation.tolist()
+        wx, wy, wz = self.start.angular_velocity.tolist()
+        orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
+        Ix, Iz, Mgl = self.top.Ix, self.top.Iz, abs(self.top.Mgl)
+        is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
+        is_weightless = Mgl <= WEIGHTLESS * Ix * max(abs(wx), abs(wy), abs(wz)) ** 2
+        solver = FreeMotion if is_resting or is_weightless else ClosedFormMotion
+        return solver((Ix, Iz, Mgl), orientation, (wx, wy, wz))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle a motion by its arguments: copies share no integrator."""
+        return Motion, (self.top, self.start, self.friction, self.applied_torque)
+
+    @property
+    def is_integrated(self) -> bool:
+        """True if friction or an applied torque acts, so that the motion is integrated."""
+        return bool(self.friction) or any(self.applied_torque)
+
+    def at(self, t: ArrayLike | ExactTimes) -> State:
+        """Return the state at one time, or the states at many.
+
+        Parameters
+        ----------
+        t : float, array_like (...) or ExactTimes
+            Time since the start in s, any finite number of either sign, or exact times in ns. An
+            integrated motion takes the nearest doubles in s of exact times, and it costs about
+            0.04 ms for each radian of nutation on the way.
+
+        Returns
+        -------
+        State
+            orientation (4,) and angular_velocity (3,), or (..., 4) and (..., 3).
+
+        Raises
+        ------
+        ValueError
+            If a time is not a finite number, or if an integrated motion becomes too fast on the
+            way to it.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> round(motion.at(motion.nutation_period).euler_angles.theta, 9)
+        0.5
+        """
+        times: float | Real | ExactTimes = t if isinstance(t, ExactTimes) else _validate_times(t)
+        if self._integrated:
+            seconds = np.asarray(times.seconds if isinstance(times, ExactTimes) else times)
+            return self._integrate(self._integrated, seconds)
+        if isinstance(times, np.ndarray) or (isinstance(times, ExactTimes) and times.shape):
+            return self._compute_many(times)
+        return self._compute_one(times)
+
+    def _compute_one(self, time: float | ExactTimes) -> State:
+        w, x, y, z, wx, wy = self._evaluate(time)
+        wz = self._spin
+        return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, wz)))
+
+    def _compute_many(self, times: Real | ExactTimes) -> State:
+        count = math.prod(times.shape)
+        flat = times if isinstance(times, ExactTimes) else times.reshape(-1)
+        orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
+        angular_velocity[:, 2] = self._spin
+        for first in range(0, count, BLOCK):
+            block = slice(first, first + BLOCK)
+            part = flat.select(block) if isinstance(flat, ExactTimes) else flat[block]
+            columns = self._evaluate(part)
+            for k, column in enumerate(columns[:4]):
+                orientation[block, k] = column
+            angular_velocity[block, 0], angular_velocity[block, 1] = columns[4:]
+        return _wrap(orientation, angular_velocity, times.shape)
+
+    def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
+        """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
+        (w, z), (x, y), (wx, wy) = self._engine.cayley_klein(times)
+        if self._is_turned_over:
+            w, x, y, z = x, -w, z, -y
+        # One step to norm 1. Newton's would correct A and B by the same factor, and so give a small
+        # B the error of A. Least squares correct the larger one more, by |A|^2/(|A|^4 + |B|^4) of
+        # the step, and B by |B|^2 over the same; a cubic of |A|^2 = 1 - |B|^2 is near enough. Of
+        # equal sizes both take the same, which removes their common error.
+        upper, lower = w * w + z * z, x * x + y * y
+        step = 0.5 - 0.5 * (upper + lower)
+        share = step * (upper - lower)
+        of_B = step - upper * share
+        of_A = of_B + share
+        return w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, wx, wy
+
+    def _integrate(self, integrated: IntegratedMotion, seconds: Real) -> State:
+        orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
+        integrated.fill(seconds.reshape(-1), orientation, angular_velocity)
+        return _wrap(orientation, angular_velocity, seconds.shape)
+
+    def reach(self, t: float, steps: float) -> float:
+        """Prepare the states up to a time, within a limited number of steps.
+
+        Parameters
+        ----------
+        t : float
+            Time in s.
+        steps : float
+            Largest number of integration steps; the exact engines need none.
+
+        Returns
+        -------
+        float
+            Time up to which `at` now answers without integrating: t, or nearer to the start.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Friction, Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> start = State.from_euler(theta=0.5, psi_dot=200.0)
+        >>> Motion(top, start).reach(1e6, steps=0)
+        1000000.0
+        >>> 0 < Motion(top, start, Friction(axial=2e-6)).reach(10.0, steps=100) < 10
+        True
+        """
+        return self._integrated.reach(t, steps) if self._integrated else t
+
+    def total_torque(self, state: State) -> Real:
+        """Return the torque of gravity, friction and the applied torque about the pivot.
+
+        Parameters
+        ----------
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In the world frame, in N m.
+        """
+        torque = self.top.gravity_torque(state)
+        return torque + self.added_torque(state) if self.is_integrated else torque
+
+    def added_torque(self, state: State) -> Real:
+        """Return the torque of friction and the applied torque, without gravity.
+
+        Parameters
+        ----------
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In the world frame, in N m.
+        """
+        return state.to_world(self.friction.torque(state)) + self.applied_torque
+
+    @property
+    def kind(self) -> Kind:
+        """Name of the motion, by phi' at the two turning angles.
+
+        "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
+        zero at one angle), "looping" (phi' has opposite signs), "through the pole", "spiralling"
+        (the axis approaches the vertical for ever) or "sleeping" (it rests on the vertical).
+        """
+        return self._engine.kind
+
+    @property
+    def nutation_period(self) -> float:
+        """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
+        return self._engine.nutation_period
+
+    @property
+    def turning_angles(self) -> tuple[float, float]:
+        """Smallest and largest theta in rad."""
+        low, high = self._engine.turning_angles
+        return (math.pi - high, math.pi - low) if self._is_turned_over else (low, high)
+
+    @property
+    def mean_precession_rate(self) -> float:
+        """Mean phi' over a nutation in rad/s.
+
+        It is nan for an axis that rests on the vertical, and for one that passes through a pole:
+        there phi jumps by half a turn, to the left or to the right as rounding will have it.
+        """
+        rate = self._mean_rates[0]
+        return -rate if self._is_turned_over else rate
+
+    @property
+    def mean_spin_rate(self) -> float:
+        """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
+        return self._mean_rates[1]
+
+    @property
+    def _mean_rates(self) -> tuple[float, float]:
+        return (math.nan, math.nan) if self._is_undefined else self._engine.mean_rates
+
+    @property
+    def _is_undefined(self) -> bool:
+        return self.kind in ("sleeping", "through the pole")
+
+    @property
+    def precession_per_nutation(self) -> float:
+        """Precession in a nutation as a fraction of a turn, 2 pi rad.
+
+        The trace of the axis closes if it is a ratio of integers. It is nan where the mean phi' is,
+        and for a motion that does not return.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> round(motion.precession_per_nutation, 6)
+        0.168557
+        """
+        turns = math.nan if self._is_undefined else self._engine.precession_per_nutation
+        return -turns if self._is_turned_over else turns
+
+    @property
+    def spin_reverses(self) -> bool:
+        """True if psi' takes both signs in a nutation, although L_z is constant.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> start = State.from_euler(theta=0.8, phi_dot=-60.0, psi_dot=60.0)
+        >>> Motion(top, start).spin_reverses
+        True
+        """
+        return self._engine.spin_reverses
+
+    @property
+    def nutation_rate(self) -> float:
+        """2 pi over the nutation period in rad/s; 0 if the motion does not return."""
+        return 2 * math.pi / self.nutation_period
+
+    @property
+    def fast_top_precession_rate(self) -> float:
+        """Mean phi' of the fast top in rad/s: Mgl/p_psi (Goldstein, section 5.7); nan if p_psi = 0.
+
+        It is the textbooks' approximation for p_psi^2 >> 4 Ix Mgl and an axis let go at rest. The
+        exact value is `mean_precession_rate`.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> round(motion.fast_top_precession_rate, 3), round(motion.mean_precession_rate, 3)
+        (5.944, 6.638)
+        """
+        p_psi = float(self.top.axial_momentum(self.start))
+        return self.top.Mgl / p_psi if p_psi else math.nan
+
+    @property
+    def fast_top_nutation_rate(self) -> float:
+        """Nutation rate of the fast top in rad/s: |p_psi|/Ix (Goldstein, section 5.7).
+
+        The exact value is `nutation_rate`.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> round(motion.fast_top_nutation_rate, 2), round(motion.nutation_rate, 2)
+        (50.18, 39.38)
+        """
+        return abs(float(self.top.axial_momentum(self.start))) / self.top.Ix
 
 
-def _checked(torque: ArrayLike) -> Three:
-    try:
-        x, y, z = np.asarray(torque, dtype=float).tolist()
-    except (TypeError, ValueError):
-        x = y = z = math.nan
-    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
-        msg = f"torque: got {torque!r}, allowed are 3 finite numbers (N m, world)"
-        raise ValueError(msg)
-    return x, y, z
+def _validate_times(t: Any) -> float | Real:
+    if type(t) is float and math.isfinite(t):  # the common case
+        return t
+    array = validate_array("t", t, unit="s")
+    return array if array.ndim else float(array)
+
+
+def _wrap(orientation: Real, angular_velocity: Real, shape: tuple[int, ...]) -> State:
+    """Return the states of arrays (n, 4) and (n, 3)."""
+    for array in (orientation, angular_velocity):
+        array.flags.writeable = False  # so that it cannot be written to as `base` of a view
+    return State.wrap(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
+
+
+def _validate_types(top: Any, start: Any, friction: Any) -> None:
+    if not isinstance(top, Top):
+        raise refuse("top", "a Top", repr(top))
+    if not isinstance(start, State):
+        raise refuse("start", "a State", repr(start))
+    if not isinstance(friction, Friction):
+        raise refuse("friction", "a Friction", repr(friction))
+    if start.orientation.ndim != 1:
+        raise refuse("start", "one state", f"states of shape {start.orientation.shape[:-1]}")

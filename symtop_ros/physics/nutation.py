@@ -1,150 +1,263 @@
-"""The cubic that the height u = cos(theta) of the axis obeys, (du/dt)**2 = f(u), and its roots.
+"""The cubic of the nutation, (du/dt)^2 = f(u) for u = cos(theta), and its roots.
 
-The height is measured from the start, s = u - u0: expanded about u = 0 the coefficients of f lose
-the digits of a small tilt, about the start each is a sum of products of the data. All rates are
-divided by Ix, which leaves `pull` = 2 Mgl/Ix and `spin` = p_psi/Ix beside the angular velocity.
+Goldstein (Classical Mechanics, section 5.7) writes
+
+    (du/dt)^2 = (1 - u^2)(alpha - beta u) - (b - a u)^2.
+
+Expanded in powers of u, as there, the coefficients cancel: for a small tilt the roots are near 1,
+and their distances from 1, on which everything depends, keep no digit. So the height is measured
+from the start, s = u - u0. Each coefficient is then a sum of products of the given numbers:
+
+=====================  ===========================  ================================================
+name                   textbook                     in terms of the start
+=====================  ===========================  ================================================
+`a`                    a = p_psi/Ix                 (Iz/Ix) omega_z, in rad/s
+`beta`                 beta = 2 Mgl/Ix              in rad^2/s^2
+`one_minus_u`          1 - u0                       2 |B|^2, with Cayley-Klein parameters A and B
+`one_plus_u`           1 + u0                       2 |A|^2
+`b_minus_au`           b - a u0                     sin^2(theta) phi', in rad/s
+`u_dot`                du/dt                        -sin(theta) theta', in rad/s
+`omega_xy_squared`     alpha - beta u0              theta'^2 + sin^2(theta) phi'^2, in rad^2/s^2
+`b_minus_a`            b - a                        (p_phi - p_psi)/Ix, in rad/s
+`alpha_minus_beta`     alpha - beta                 kinetic energy left upright, in rad^2/s^2
+=====================  ===========================  ================================================
+
+On the separatrix b = a and alpha = beta: the axis has just the energy to come to rest upright. Near
+it the last two numbers decide on everything, and all digits of their terms may cancel. They are
+then computed in fractions of integers, exactly.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 
 from symtop_ros.physics.precise import HALF, TWO, ZERO
+from symtop_ros.physics.values import EPS, Quaternion, Vector
 
-SAME = Decimal("1e-30")  # two roots closer than sqrt(SAME) of their size are one, given as doubles
-Four = tuple[float, float, float, float]
-Three = tuple[float, float, float]
+# A sum below this share of its terms has lost 10 of its 50 digits. It is computed exactly instead.
+CANCELLED = Decimal("1e-10")
+CONVERGED = Decimal("1e-26")  # the square of this share of a root is below 50 digits
+MOST_STEPS = 60  # of Newton's method in doubles; from the bound some 5 are usual
 
 
 @dataclass(frozen=True, slots=True)
-class Start:
-    """What the motion of the axis depends on, at t = 0.
+class Nutation:
+    """The numbers at t = 0 on which the motion of the axis depends; names as in the table above."""
 
-    Attributes
-    ----------
-    pull : Decimal
-        2 Mgl/Ix, in rad^2/s^2.
-    spin : Decimal
-        p_psi/Ix = (Iz/Ix) omega_z, in rad/s.
-    below, above : Decimal
-        1 - u0 = 2 |B|^2 and 1 + u0 = 2 |A|^2, the distances from the two poles.
-    around : Decimal
-        sin^2(theta) phi', in rad/s.
-    fall : Decimal
-        sin(theta) theta' = -du/dt, in rad/s.
-    across : Decimal
-        theta'^2 + sin^2(theta) phi'^2, in rad^2/s^2: the angular velocity across the axis, squared.
-    """
-
-    pull: Decimal
-    spin: Decimal
-    below: Decimal
-    above: Decimal
-    around: Decimal
-    fall: Decimal
-    across: Decimal
+    a: Decimal
+    beta: Decimal
+    one_minus_u: Decimal
+    one_plus_u: Decimal
+    b_minus_au: Decimal
+    u_dot: Decimal
+    omega_xy_squared: Decimal
+    b_minus_a: Decimal
+    alpha_minus_beta: Decimal
 
     @classmethod
-    def of(cls, moments: Three, orientation: Four, angular_velocity: Three) -> Start:
-        """Return the start of a top (Ix, Iz, Mgl) at (w, x, y, z) with a body angular velocity."""
+    def of(cls, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> Nutation:
+        """Return the nutation of a top (Ix, Iz, Mgl) that starts at a state.
+
+        Parameters
+        ----------
+        moments : (float, float, float)
+            Ix and Iz in kg m^2, Mgl in J.
+        orientation : (float, float, float, float)
+            (w, x, y, z), of any norm near 1.
+        angular_velocity : (float, float, float)
+            In the body frame, in rad/s.
+        """
         Ix, Iz, Mgl = (Decimal(x) for x in moments)
         w, x, y, z = (Decimal(c) for c in orientation)
         wx, wy, wz = (Decimal(c) for c in angular_velocity)
         upper, lower = w * w + z * z, x * x + y * y
+        # The doubles of a quaternion have norm 1 to rounding only. With this factor 1 - u0 and
+        # 1 + u0 have the sum 2 exactly, as the cubic assumes.
         twice = TWO / (upper + lower)
-        gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)
+        gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)  # z' seen from the body
+        a, beta, one_minus_u = wz * Iz / Ix, TWO * Mgl / Ix, twice * lower
+        b_minus_au, omega_xy_squared = wx * gx + wy * gy, wx * wx + wy * wy
+        b_minus_a = b_minus_au - a * one_minus_u
+        alpha_minus_beta = omega_xy_squared - beta * one_minus_u
+        if (
+            abs(b_minus_a) <= CANCELLED * (abs(wx * gx) + abs(wy * gy))
+            or abs(alpha_minus_beta) <= CANCELLED * omega_xy_squared
+        ):
+            b_minus_a, alpha_minus_beta = _compare_with_upright(
+                moments, orientation, angular_velocity
+            )
         return cls(
-            pull=TWO * Mgl / Ix,
-            spin=wz * Iz / Ix,
-            below=twice * lower,
-            above=twice * upper,
-            around=wx * gx + wy * gy,
-            fall=wx * gy - wy * gx,
-            across=wx * wx + wy * wy,
+            a=a,
+            beta=beta,
+            one_minus_u=one_minus_u,
+            one_plus_u=twice * upper,
+            b_minus_au=b_minus_au,
+            u_dot=wy * gx - wx * gy,
+            omega_xy_squared=omega_xy_squared,
+            b_minus_a=b_minus_a,
+            alpha_minus_beta=alpha_minus_beta,
         )
 
     @property
     def u(self) -> Decimal:
         """cos(theta) at the start."""
-        return (self.above - self.below) * HALF
+        return (self.one_plus_u - self.one_minus_u) * HALF
 
-    def momentum_about(self, s: Decimal) -> Decimal:
-        """(p_phi - p_psi u)/Ix at u = u0 + s, in rad/s: sin^2(theta) phi' at that height."""
-        return self.around - self.spin * s
+    @property
+    def height_left(self) -> Decimal:
+        """alpha/beta - u0: how much higher the axis could rise if all energy were potential."""
+        return self.omega_xy_squared / self.beta
+
+    def b_minus_au_at(self, s: Decimal) -> Decimal:
+        """Return b - a u = sin^2(theta) phi' at the height u = u0 + s, in rad/s."""
+        return self.b_minus_au - self.a * s
+
+
+def _compare_with_upright(
+    moments: Vector, orientation: Quaternion, angular_velocity: Vector
+) -> tuple[Decimal, Decimal]:
+    """Return b - a and alpha - beta, formed exactly and then rounded to the digits in use."""
+    Ix, Iz, Mgl = map(Fraction, moments)
+    w, x, y, z = map(Fraction, orientation)
+    wx, wy, wz = map(Fraction, angular_velocity)
+    lower = x * x + y * y
+    twice = 2 / (w * w + z * z + lower)
+    gx, gy = x * z - w * y, y * z + w * x
+    b_minus_a = twice * (wx * gx + wy * gy - wz * Iz / Ix * lower)
+    alpha_minus_beta = wx * wx + wy * wy - 2 * Mgl / Ix * twice * lower
+    return _round(b_minus_a), _round(alpha_minus_beta)
+
+
+def _round(x: Fraction) -> Decimal:
+    return Decimal(x.numerator) / Decimal(x.denominator)
 
 
 @dataclass(frozen=True, slots=True)
-class Heights:
-    """Roots s1 <= 0 <= s2 <= s3 of f, measured from the start, and their differences."""
+class Roots:
+    """Roots s1 <= 0 <= s2 <= s3 of f, measured from the start.
+
+    `s21` and `s32` are their differences s2 - s1 and s3 - s2; `below_pole` and `above_pole` are the
+    distances 1 - u2 and u3 - 1 from the upper pole. They are stored because subtraction would lose
+    their digits where roots nearly meet.
+    """
 
     s1: Decimal
     s2: Decimal
     s3: Decimal
     s21: Decimal
     s32: Decimal
+    below_pole: Decimal
+    above_pole: Decimal
 
     @property
     def s31(self) -> Decimal:
-        """The largest difference."""
+        """s3 - s1."""
         return self.s21 + self.s32
 
 
-def turning_heights(start: Start) -> Heights:
-    """Roots of f(s)/pull = s**3 + a2 s**2 + a1 s + a0.
+def find_roots(nutation: Nutation) -> Roots:
+    """Return the roots of f(s)/beta = s^3 + a2 s^2 + a1 s + a0.
 
-    f(0) = (du/dt)**2 and f'(0) = 2 d2u/dt2 at the start. Newton's method finds the root that stands
-    alone, coming from outside, where it is monotone; the other two follow from their sum and
-    product (Vieta).
+    a0 = (du/dt)^2/beta and a1 = 2 (d2u/dt2)/beta at the start. One root is well apart from the
+    other two, on one side of their mean -a2/3. Newton's method finds it from outside, where the
+    cubic is convex and the iteration monotone: it cannot jump to another root. The other two
+    follow from their sum and their product (Vieta). Viete's trigonometric solution would give all
+    three to the absolute error of the largest, which leaves no digit of a small s2.
     """
-    pull, u = start.pull, start.u
-    bend = start.spin * start.around - u * start.across
-    a2 = TWO * u - (start.across + start.spin * start.spin) / pull
-    a1 = TWO * bend / pull - start.above * start.below
-    a0 = start.fall * start.fall / pull
-    middle = -a2 / 3
-    if _cubic(middle, a2, a1, a0) > 0:  # s1 < middle < s2: the lower root stands alone
-        s1 = min(-_outer_root(-a2, a1, -a0, start.above), ZERO)
-        total = -(a2 + s1)  # of s2 and s3
-        if total >= -s1:
-            product = a1 - s1 * total
-        else:  # both are small beside s1, and their sum has lost its digits
-            product = -a0 / s1
-            total = (a1 - product) / s1
-        half_sum = total * HALF
-        half_gap = _half_gap(half_sum, product)
-        s3 = half_sum + half_gap
-        s2 = product / s3
-        return Heights(s1, s2, s3, s2 - s1, TWO * half_gap)
-    bound = max(-a2, ZERO) + max(-a1, ZERO).sqrt()  # Lagrange's: a0 >= 0
-    s3 = _outer_root(a2, a1, a0, max(bound, start.below))
-    product = a0 / s3  # of s2 and -s1
-    half_sum = (a1 + product) / (TWO * s3)
+    beta, u = nutation.beta, nutation.u
+    u_dot_dot = nutation.a * nutation.b_minus_au - u * nutation.omega_xy_squared
+    a2 = TWO * u - (nutation.omega_xy_squared + nutation.a * nutation.a) / beta
+    a1 = TWO * u_dot_dot / beta - nutation.one_plus_u * nutation.one_minus_u
+    a0 = nutation.u_dot * nutation.u_dot / beta
+    mean = -a2 / 3
+    if _cubic(mean, a2, a1, a0) > 0:  # s1 < mean < s2
+        return _roots_from_lowest(nutation, a2, a1, a0)
+    return _roots_from_highest(nutation, a2, a1, a0)
+
+
+def _roots_from_lowest(nutation: Nutation, a2: Decimal, a1: Decimal, a0: Decimal) -> Roots:
+    # s1 is the largest root of the reflected cubic; u1 >= -1 bounds it.
+    s1 = min(-_find_largest_root(-a2, a1, -a0, nutation.one_plus_u), ZERO)
+    total = -(a2 + s1)  # s2 + s3
+    # If s2 and s3 are both small compared with s1, their sum has lost its digits.
+    product = a1 - s1 * total if total >= -s1 else -a0 / s1
+    below, above = _distances_from_pole(nutation, nutation.one_minus_u - s1)
+    s3 = nutation.one_minus_u + above
+    s2 = product / s3  # one_minus_u - below would cancel
+    return Roots(s1, s2, s3, s2 - s1, below + above, below, above)
+
+
+def _distances_from_pole(nutation: Nutation, v1: Decimal) -> tuple[Decimal, Decimal]:
+    """Return 1 - u2 and u3 - 1, which decide how near the separatrix is.
+
+    In terms of v = 1 - u the cubic is
+
+        f/beta = -v^3 + ... + 2 (alpha - beta - a (b - a)) v/beta - (b - a)^2/beta
+
+    so that v2 + v3 and v2 v3 follow from two numbers that are known to all digits, and from the
+    root v1 = 1 - u1 that is apart. v2 >= 0 >= v3 makes their difference free of cancellation. From
+    the coefficients of powers of s, gaps below 1e-19 would have no digit left.
+    """
+    scale = nutation.beta * v1
+    product = nutation.b_minus_a * nutation.b_minus_a / scale  # -v2 v3
+    excess = nutation.alpha_minus_beta - nutation.a * nutation.b_minus_a
+    half_sum = HALF * product / v1 - excess / scale
     half_gap = (half_sum * half_sum + product).sqrt()
+    if half_sum > 0:
+        return half_sum + half_gap, product / (half_sum + half_gap)
+    above = half_gap - half_sum
+    return product / above if above else ZERO, above
+
+
+def _roots_from_highest(nutation: Nutation, a2: Decimal, a1: Decimal, a0: Decimal) -> Roots:
+    # Lagrange's bound on the largest root (a0 >= 0 adds nothing to it); u3 >= 1 is another.
+    bound = max(-a2, ZERO) + max(-a1, ZERO).sqrt()
+    s3 = _find_largest_root(a2, a1, a0, max(bound, nutation.one_minus_u))
+    product = a0 / s3  # -s1 s2
+    half_sum = (a1 + product) / (TWO * s3)  # -(a2 + s3)/2 would cancel: s3 may be huge
+    half_gap = (half_sum * half_sum + product).sqrt()
+    # Of half_sum + half_gap and half_sum - half_gap one cancels; it comes from the product.
     s2 = half_sum + half_gap if half_sum >= 0 else product / (half_gap - half_sum)
     s1 = half_sum - half_gap if half_sum < 0 else -product / s2 if s2 else ZERO
-    return Heights(s1, s2, s3, TWO * half_gap, s3 - s2)
-
-
-def _half_gap(half_sum: Decimal, product: Decimal) -> Decimal:
-    """Half the difference of two roots; 0 where they agree to all digits that doubles can tell."""
-    square = half_sum * half_sum
-    discriminant = square - product
-    return discriminant.sqrt() if discriminant > SAME * square else ZERO
+    below, above = nutation.one_minus_u - s2, s3 - nutation.one_minus_u
+    return Roots(s1, s2, s3, TWO * half_gap, s3 - s2, below, above)
 
 
 def _cubic(s: Decimal, a2: Decimal, a1: Decimal, a0: Decimal) -> Decimal:
     return ((s + a2) * s + a1) * s + a0
 
 
-def _outer_root(a2: Decimal, a1: Decimal, a0: Decimal, s: Decimal) -> Decimal:
-    """Largest root, by Newton's method from a bound s on it, until rounding stops the descent."""
+def _find_largest_root(a2: Decimal, a1: Decimal, a0: Decimal, s: Decimal) -> Decimal:
+    """Return the largest root, by Newton's method from an upper bound s.
+
+    The iterates decrease until rounding stops them, or until the next step would be lost in it:
+    the root is apart from the others, so that each step is about the square of the one before.
+    """
+    estimate = _estimate_largest_root(float(a2), float(a1), float(a0), float(s))
+    if 3 * estimate > -a2 and _cubic(estimate, a2, a1, a0) > 0:  # above the root as well
+        s = estimate
     while True:
         value = _cubic(s, a2, a1, a0)
         slope = (3 * s + TWO * a2) * s + a1
         if value <= 0 or slope <= 0:
             return s
-        following = s - value / slope
-        if not following < s:
-            return s
-        s = following
+        step = value / slope
+        if step < CONVERGED * s:
+            return s - step
+        s -= step
+
+
+def _estimate_largest_root(a2: float, a1: float, a0: float, s: float) -> Decimal:
+    """Return a number just above the largest root, found in doubles from an upper bound s.
+
+    In doubles that are too coarse or too small the number is wrong; the caller tests it.
+    """
+    for _ in range(MOST_STEPS):
+        value, slope = ((s + a2) * s + a1) * s + a0, (3 * s + 2 * a2) * s + a1
+        if not (value > 0 and slope > 0) or value < 4 * EPS * slope * s:
+            break
+        s -= value / slope
+    return Decimal(s * (1 + 32 * EPS)) if math.isfinite(s) else ZERO

@@ -1,43 +1,230 @@
-"""Regular precession: the rates at which the tilt stays as it is."""
+"""Regular precession, and the angular acceleration of the tilt that it balances.
+
+At any theta' (the article's first displayed equation)
+
+    theta'' = sin(theta)/Ix (a phi'^2 - b phi' + Mgl).
+
+The roots of the quadratic are the rates of regular precession. Its coefficients depend on what is
+held while phi' varies:
+
+===============  ======================  ==================
+held             a                       b
+===============  ======================  ==================
+spin rate psi'   (Ix - Iz) cos(theta)    Iz psi'
+spin momentum    Ix cos(theta)           p_psi = Iz omega_z
+===============  ======================  ==================
+
+At the same state both give the same theta''.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from symtop_ros.physics.kicks import Hold
+from symtop_ros.physics.precise import PRECISE, ZERO, compute_cosine
 from symtop_ros.physics.top import Top
+from symtop_ros.physics.values import EPS, START_ROUNDING, Real, validate_number
+
+
+@dataclass(frozen=True, slots=True)
+class TiltQuadratic:
+    """The quadratic a phi'^2 - b phi' + Mgl = Ix theta''/sin(theta), in N m.
+
+    Parameters
+    ----------
+    a, b : float or ndarray (...)
+        Coefficients, in kg m^2 and N m s.
+    Mgl : float
+        In J.
+
+    Examples
+    --------
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> quadratic = TiltQuadratic.of(top, math.cos(0.5), spin=200.0)
+    >>> [round(root, 2) for root in quadratic.roots]
+    [6.5, 69.82]
+    """
+
+    a: Any
+    b: Any
+    Mgl: float
+
+    @classmethod
+    def of(cls, top: Top, cosine: Any, spin: Any, hold: Hold = "spin_rate") -> TiltQuadratic:
+        """Return the quadratic of one tilt or many.
+
+        Parameters
+        ----------
+        top : Top
+        cosine : float or ndarray (...)
+            cos(theta).
+        spin : float or ndarray (...)
+            Present psi' if the spin rate is held, omega_z if the spin momentum is held, in rad/s.
+        hold : {"spin_rate", "spin_momentum"}
+            The quantity that is held while phi' varies.
+        """
+        cosine = np.where(np.abs(cosine) <= EPS, 0.0, cosine)[()]  # no double is exactly pi/2
+        transverse = top.Ix if hold == "spin_momentum" else top.Ix - top.Iz
+        return cls(transverse * cosine, top.Iz * spin, top.Mgl)
+
+    def at(self, phi_dot: Any) -> Any:
+        """Return the quadratic at precession rates in rad/s, (...), in N m."""
+        return (self.a * phi_dot - self.b) * phi_dot + self.Mgl
+
+    def change(self, before: Any, after: Any) -> Any:
+        """Return at(after) - at(before), (...), in N m.
+
+        The difference of the two values would lose all digits for a small change of the rate, and
+        Mgl would hide what is smaller than its rounding. As a product it is right to rounding.
+        """
+        return (after - before) * (self.a * (before + after) - self.b)
+
+    def is_balanced(self, phi_dot: float) -> bool:
+        """Return True if the quadratic vanishes at a rate, up to rounding of its terms."""
+        p = abs(phi_dot)
+        terms = (abs(self.a) * p + abs(self.b)) * p + abs(self.Mgl)
+        return bool(abs(self.at(phi_dot)) <= START_ROUNDING * terms)
+
+    @property
+    def roots(self) -> tuple[float, ...]:
+        """Real roots in rad/s, the one of smaller size first."""
+        return solve_quadratic(self.a, self.b, self.Mgl)
 
 
 def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[float, ...]:
-    """Rates phi' (rad/s) of regular precession at tilt theta (rad) and spin rate psi' (rad/s).
+    """Return the rates phi' of regular precession at one tilt and spin rate.
+
+    They are the roots of (Ix - Iz) cos(theta) p^2 - Iz psi' p + Mgl = 0, formed without
+    cancellation.
+
+    Parameters
+    ----------
+    top : Top
+    theta : float
+        Tilt in rad.
+    psi_dot : float
+        Spin rate psi' in rad/s.
 
     Returns
     -------
     tuple of float
-        (slow, fast) with |slow| <= |fast|, one rate where the equation is linear, or none where
-        the spin is too small. Roots of (Ix - Iz) cos(theta) p^2 - Iz psi' p + Mgl = 0, formed
-        without cancellation.
+        (slow, fast) in rad/s with |slow| <= |fast|; one rate if the equation is linear; none if the
+        spin is too small. They are the nearest doubles to the exact rates of the doubles given,
+        but |cos(theta)| <= 2.2e-16 counts as zero: no double is exactly pi/2.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not a finite number.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Top, regular_precession_rates
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> [round(rate, 2) for rate in regular_precession_rates(top, theta=0.5, psi_dot=200.0)]
+    [6.5, 69.82]
     """
-    for name, value in (("theta", theta), ("psi_dot", psi_dot)):
-        if not math.isfinite(value):
-            msg = f"{name}: got {value}, allowed is a finite number"
-            raise ValueError(msg)
-    return quadratic_roots((top.Ix - top.Iz) * math.cos(theta), top.Iz * psi_dot, top.Mgl)
+    theta = validate_number("theta", theta, "rad")
+    psi_dot = validate_number("psi_dot", psi_dot, "rad/s")
+    with localcontext(PRECISE) as context:
+        context.prec = 120
+        Ix, Iz, Mgl, spin = (Decimal(value) for value in (*top.moments, psi_dot))
+        is_horizontal = abs(math.cos(theta)) <= EPS
+        cosine = ZERO if is_horizontal else compute_cosine(Decimal(theta))
+        return solve_quadratic((Ix - Iz) * cosine, Iz * spin, Mgl)
 
 
-def quadratic_roots(a: float, b: float, c: float) -> tuple[float, ...]:
-    """Real roots of a p^2 - b p + c = 0, the smaller one in size first."""
-    if a == 0:
-        return _finite(c / b) if b else ()
-    half = b / 2
-    discriminant = half * half - a * c
-    if discriminant < 0:
-        return ()
-    q = half + math.copysign(math.sqrt(discriminant), half)
-    if q == 0:
-        return (0.0, 0.0)
-    return tuple(sorted(_finite(c / q, q / a), key=abs))
+def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
+    """Return Ix theta''/sin(theta): zero where precession is regular, negative if the top rises.
+
+    Parameters
+    ----------
+    top : Top
+    theta : array_like (...)
+        Tilt in rad.
+    phi_dot, psi_dot : array_like (...)
+        Rates in rad/s.
+
+    Returns
+    -------
+    ndarray (...)
+        (Ix - Iz) cos(theta) phi'^2 - Iz psi' phi' + Mgl, in N m.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Top, theta_torque
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> round(float(theta_torque(top, theta=0.5, phi_dot=9.1, psi_dot=200.0)), 6)
+    -0.023692
+    """
+    theta, phi_dot, psi_dot = (np.asarray(each, dtype=float) for each in (theta, phi_dot, psi_dot))
+    return np.asarray(TiltQuadratic.of(top, np.cos(theta), psi_dot).at(phi_dot))
 
 
-def _finite(*roots: float) -> tuple[float, ...]:
-    """Roots that doubles can hold."""
+def theta_acceleration(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
+    """Return theta'' as displayed in the article: sin(theta)/Ix times `theta_torque`.
+
+    Parameters
+    ----------
+    top : Top
+    theta : array_like (...)
+        Tilt in rad.
+    phi_dot, psi_dot : array_like (...)
+        Rates in rad/s.
+
+    Returns
+    -------
+    ndarray (...)
+        theta'' in rad/s^2.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Top, theta_acceleration
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> round(float(theta_acceleration(top, theta=0.5, phi_dot=9.1, psi_dot=200.0)), 1)
+    -49.8
+    """
+    torque = theta_torque(top, theta, phi_dot, psi_dot)
+    return np.asarray(np.sin(np.asarray(theta, dtype=float)) / top.Ix * torque)
+
+
+def solve_quadratic(
+    a: float | Decimal, b: float | Decimal, c: float | Decimal
+) -> tuple[float, ...]:
+    """Return the real roots of a p^2 - b p + c = 0, the one of smaller size first.
+
+    The textbook formula (b -+ sqrt(b^2 - 4 a c))/(2 a) cancels in the slow root, which of a fast
+    top is the smaller one by far. Here b/2 and the root of the discriminant are added with equal
+    signs: q = b/2 + sign(b) sqrt(b^2/4 - a c). The roots are then c/q and q/a (Press et al.,
+    Numerical Recipes, section 5.6). Where roots merge the discriminant cancels. Of doubles it is
+    exact with 120 digits, so that the number of roots is right.
+
+    Examples
+    --------
+    >>> solve_quadratic(1.0, 1e9, 1.0)
+    (1e-09, 1000000000.0)
+    """
+    with localcontext(PRECISE) as context:
+        context.prec = 120
+        a, b, c = Decimal(a), Decimal(b), Decimal(c)
+        if a == 0:
+            return _keep_finite(float(c / b)) if b else ()
+        half = b / 2
+        discriminant = half * half - a * c
+        if discriminant < 0:
+            return ()
+        q = half + discriminant.sqrt().copy_sign(half)
+        if q == 0:
+            return (0.0, 0.0)
+        return tuple(sorted(_keep_finite(float(c / q), float(q / a)), key=abs))
+
+
+def _keep_finite(*roots: float) -> tuple[float, ...]:
     return tuple(root for root in roots if math.isfinite(root))

@@ -1,15 +1,16 @@
-"""The three functions of time that make up the motion, each a quotient of theta functions.
+"""The three functions of time that make up the motion: quotients of theta functions.
 
-A, B and conj(omega), the Cayley-Klein parameters and the angular velocity omega = omega_x +
-i omega_y across the axis, are all of the form
+A, B and conj(omega_xy), that is the Cayley-Klein parameters and the angular velocity
+omega_xy = omega_x + i omega_y across the axis, all have the form
 
-    C  th_k(v + i shift) / th4(v)  exp(i rate t),        v = v0 + Omega t.
+    C  th_k(v + i shift)/th4(v)  exp(i rate t),        v = v0 + Omega t
 
-Each vanishes at one height u_P of the axis: A at the lower pole u = -1, B at the upper pole u = 1,
-omega where the whole energy would be potential. There f(u_P) = -d**2, d = (p_phi - p_psi u_P)/Ix,
-and shift and rate follow from d and the distances of u_P from the three roots of f in the same way
-for all three. (Klein & Sommerfeld, Theory of the Top, ch. VI; Whittaker, Analytical Dynamics,
-sections 72-73. The third function obeys the same argument.)
+(Klein & Sommerfeld, The Theory of the Top, chapter VI; Whittaker, Analytical Dynamics, sections
+72-73; the argument holds for the third function as well). Each vanishes at one height u_P of the
+axis: A at the lower pole u = -1, B at the upper pole u = 1, omega_xy at u = alpha/beta, where the
+whole energy would be potential. There f(u_P) = -d^2 with d = b - a u_P (Goldstein's a and b, see
+`nutation`). Shift and rate follow from d and from the distances of u_P to the three roots of f, in
+the same way for all three.
 """
 
 from __future__ import annotations
@@ -20,20 +21,27 @@ from decimal import Decimal
 
 from scipy.special import elliprf
 
-from symtop_ros.physics.nutation import Heights, Start
+from symtop_ros.physics.nutation import CANCELLED, Nutation, Roots
 from symtop_ros.physics.precise import HALF, ONE, TWO, ZERO
 
-CONVERGED = Decimal("1e-17")  # convergence is quadratic: this leaves 34 digits
+CONVERGED = Decimal("1e-24")  # convergence is quadratic: this leaves 48 digits
 
 
 @dataclass(frozen=True, slots=True)
-class Quotient:
-    """Where one quotient vanishes: d and the distances of u_P from u1, u2, u3.
+class Zero:
+    """The height u_P at which one of the three functions vanishes.
 
-    `beneath` tells A, which vanishes below the motion, from the other two, which do so above it.
+    Attributes
+    ----------
+    is_below : bool
+        True for A, whose zero lies below the motion; False for B and omega_xy.
+    d : Decimal
+        b - a u_P in rad/s.
+    from_u1, from_u2, from_u3 : Decimal
+        Distances of u_P from the roots of f, all >= 0.
     """
 
-    beneath: bool
+    is_below: bool
     d: Decimal
     from_u1: Decimal
     from_u2: Decimal
@@ -41,84 +49,112 @@ class Quotient:
 
     @property
     def nearness(self) -> Decimal:
-        """Distance of u_P from the near turning point, relative to that from the far one."""
-        if self.beneath:
+        """Distance of u_P from the near turning point divided by that from the far one."""
+        if self.is_below:
             return self.from_u1 / self.from_u2
         return self.from_u2 / self.from_u1
 
 
-def quotients(start: Start, heights: Heights) -> tuple[Quotient, Quotient, Quotient]:
-    """Return where A, B and omega vanish."""
+def find_zeros(nutation: Nutation, roots: Roots) -> tuple[Zero, Zero, Zero]:
+    """Return the zeros of A, B and omega_xy."""
+    above = nutation.omega_xy_squared / nutation.beta
+    d = nutation.b_minus_au_at(above)
+    from_u2, from_u3 = above - roots.s2, roots.s3 - above
+    if roots.s32 < CANCELLED * nutation.one_minus_u:
+        # All three heights are so near the pole that from the start no digit would be left.
+        lift = nutation.alpha_minus_beta / nutation.beta  # alpha/beta - 1
+        d = nutation.b_minus_a - nutation.a * lift
+        from_u2, from_u3 = roots.below_pole + lift, roots.above_pole - lift
     return (
-        _vanishing_beneath(start, heights),
-        _vanishing_above(start, heights, start.below),
-        _vanishing_above(start, heights, start.across / start.pull),
+        _zero_below(nutation, roots),
+        _zero_above(
+            nutation,
+            nutation.b_minus_a,
+            (nutation.one_minus_u - roots.s1, roots.below_pole, roots.above_pole),
+        ),
+        _zero_above(nutation, d, (above - roots.s1, from_u2, from_u3)),
     )
 
 
-def _vanishing_beneath(start: Start, heights: Heights) -> Quotient:
-    d = start.momentum_about(-start.above)
-    from_u2, from_u3 = start.above + heights.s2, start.above + heights.s3
-    return Quotient(True, d, d * d / (start.pull * from_u2 * from_u3), from_u2, from_u3)
+def _zero_below(nutation: Nutation, roots: Roots) -> Zero:
+    """Return the zero at u = -1.
+
+    Near the pole u1 + 1 would be the difference of nearly equal numbers. It comes from the product
+    beta (u_P - u1)(u_P - u2)(u_P - u3) = f(u_P) = -d^2, whose other factors are not small.
+    """
+    d = nutation.b_minus_au_at(-nutation.one_plus_u)
+    from_u2, from_u3 = nutation.one_plus_u + roots.s2, nutation.one_plus_u + roots.s3
+    return Zero(True, d, d * d / (nutation.beta * from_u2 * from_u3), from_u2, from_u3)
 
 
-def _vanishing_above(start: Start, heights: Heights, height: Decimal) -> Quotient:
-    """Of the distances from u2 and u3 the smaller comes from the product f(u_P) = -d**2."""
-    d = start.momentum_about(height)
-    from_u1, from_u2, from_u3 = height - heights.s1, height - heights.s2, heights.s3 - height
-    product = d * d / (start.pull * from_u1)
-    if heights.s32 == 0:
+def _zero_above(nutation: Nutation, d: Decimal, distances: tuple[Decimal, ...]) -> Zero:
+    """Return a zero that lies between u2 and u3, at these distances from u1, u2 and u3.
+
+    The smaller of the distances from u2 and u3 comes from the product, as in `_zero_below`.
+    """
+    from_u1, from_u2, from_u3 = distances
+    product = d * d / (nutation.beta * from_u1)
+    if from_u2 + from_u3 == 0:
         from_u2 = from_u3 = ZERO
     elif from_u2 <= from_u3:
         from_u2 = product / from_u3
     else:
         from_u3 = product / from_u2
-    return Quotient(False, d, from_u1, from_u2, from_u3)
+    return Zero(False, d, from_u1, from_u2, from_u3)
 
 
-def shifts(found: tuple[Quotient, ...], heights: Heights) -> list[float]:
-    """K' - |shift| of each quotient, to rounding however close to K' the shift is.
+def compute_shift_complement(zero: Zero, roots: Roots) -> float:
+    """Return K' - |shift|, right to rounding however close to K' the shift is.
 
-    The complement of an elliptic integral of the first kind, by Carlson's R_F (DLMF 19.25.5).
+    The textbooks give the shift itself as an incomplete elliptic integral of the first kind. When
+    the axis passes near a pole it is close to K', and all depends on the difference, which a
+    subtraction would lose. The difference is again such an integral, from the other limit: one
+    Carlson R_F (DLMF 19.25.5). R_F is homogeneous, so its arguments are scaled to be near 1.
     """
-    return [_from_quarter_period(quotient, heights) for quotient in found]
-
-
-def _from_quarter_period(quotient: Quotient, heights: Heights) -> float:
-    s21, s31, s32 = heights.s21, heights.s31, heights.s32
-    g1, g2, g3 = quotient.from_u1, quotient.from_u2, quotient.from_u3
-    if quotient.beneath:
+    s21, s31, s32 = roots.s21, roots.s31, roots.s32
+    g1, g2, g3 = zero.from_u1, zero.from_u2, zero.from_u3
+    if zero.is_below:
         share = float(s21 / g2)
         return math.sqrt(g1 / g2) * float(elliprf(share, share * float(g3 / s31), 1.0))
     if s32 == 0:
-        return 0.0  # both roots are the pole, reached at t = infinity only
+        return 0.0  # u2 = u3 is the pole itself, which is reached at t = infinity only
     share = float(s21 / g1)
     scale = math.sqrt(g2 / s32 * s31 / g1)
     return scale * float(elliprf(share * float(g3 / s32), share, 1.0))
 
 
-def mean_rates(
-    start: Start, found: tuple[Quotient, ...], k: Decimal
+def compute_mean_rates(
+    nutation: Nutation, zeros: tuple[Zero, ...], k: Decimal
 ) -> tuple[Decimal, tuple[Decimal, ...]]:
-    """Arithmetic-geometric mean of 1 and k, and the mean of d/(2 |u - u_P|) over a nutation.
+    """Return the arithmetic-geometric mean of 1 and k, and the mean rates of the three functions.
 
-    k = sqrt(1 - m) is the complementary modulus. The means are complete elliptic integrals of the
-    third kind divided by the one of the first kind, computed as in R. Bulirsch, Numer. Math. 13
-    (1969) 305, procedure cel, with its first step done by hand: it is the one that would divide by
-    the distance from a pole which the axis passes.
+    A mean rate is the mean of d/(2 |u - u_P|) over a nutation. k = sqrt(1 - m) is the
+    complementary modulus. The means are complete elliptic integrals of the third kind divided by
+    the one of the first kind, computed as in R. Bulirsch, Numer. Math. 13 (1969) 305, procedure
+    cel. Its first step divides by the distance of u_P from the near turning point, which is zero
+    for a pole that the axis passes; here this step is done by hand, and the distance cancels.
     """
-    if k == 0:
-        return ZERO, tuple(q.d / (TWO * q.from_u2) if q.beneath else ZERO for q in found)
-    mean, products = _means(k)
+    if k == 0:  # the separatrix: the axis spends all its time at u2 = u3, except for an instant
+        return ZERO, tuple(z.d / (TWO * z.from_u2) if z.is_below else ZERO for z in zeros)
+    mean, products = _iterate_mean(k)
     rates = []
-    for quotient in found:
-        scale = mean * HALF * (start.pull * quotient.from_u3).sqrt()
-        rates.append((scale * _third_kind(quotient, k, mean, products)).copy_sign(quotient.d))
+    for zero in zeros:
+        rate = (nutation.beta * zero.from_u3).sqrt()
+        # sqrt(nearness), by the product of the three distances: a root of 50 digits is slow.
+        near = zero.from_u2 if zero.is_below else zero.from_u1
+        root = abs(zero.d) / (rate * near) if rate else zero.nearness.sqrt()
+        integral = _third_kind(zero, root, k, mean, products)
+        rates.append((mean * HALF * rate * integral).copy_sign(zero.d))
     return mean, tuple(rates)
 
 
-def _means(k: Decimal) -> tuple[Decimal, list[Decimal]]:
-    """Arithmetic-geometric mean of 1 and k, and 4**n a_n b_n of its steps from the first on."""
+def compute_mean(k: Decimal) -> Decimal:
+    """Return the arithmetic-geometric mean of 1 and k."""
+    return _iterate_mean(k)[0]
+
+
+def _iterate_mean(k: Decimal) -> tuple[Decimal, list[Decimal]]:
+    """Return the arithmetic-geometric mean of 1 and k, and 4^n a_n b_n of its steps n >= 1."""
     a, b, power, products = ONE, k, ONE, []
     while a - b > CONVERGED * a:
         a, b, power = (a + b) * HALF, (a * b).sqrt(), 4 * power
@@ -126,14 +162,20 @@ def _means(k: Decimal) -> tuple[Decimal, list[Decimal]]:
     return (a + b) * HALF, products
 
 
-def _third_kind(quotient: Quotient, k: Decimal, mean: Decimal, products: list[Decimal]) -> Decimal:
-    """Complete integral of the third kind times sqrt(g1 g2) 2/pi, for near/far = g1/g2 or g2/g1."""
-    near = quotient.nearness
+def _third_kind(
+    zero: Zero, root: Decimal, k: Decimal, mean: Decimal, products: list[Decimal]
+) -> Decimal:
+    """Return the complete integral of the third kind, times 2/pi sqrt(from_u1 from_u2).
+
+    `root` is the square root of the nearness.
+    """
+    near = root * root
+    # With root = sqrt(near) these are Bulirsch's a, b/root and p root after the first step. In
+    # these variables nothing is divided by the nearness, which is 0 for a pole on the way.
     c, d = ONE + near, TWO * (ONE + k)
-    p = ONE + k * near if quotient.beneath else k + near
+    p = ONE + k * near if zero.is_below else k + near
     for product in products:
         e = product / p
         c, d, p = near * d / p + c, TWO * (c * e + d), near * e + p
     m = mean * Decimal(2 ** (len(products) + 1))
-    root = near.sqrt()
     return (c * m + root * d) / (m * (root * m + p))

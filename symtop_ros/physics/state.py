@@ -1,4 +1,4 @@
-"""The state of the top: a unit quaternion and a body angular velocity, one or many."""
+"""The state of the top: a unit quaternion and a body angular velocity, for one instant or many."""
 
 from __future__ import annotations
 
@@ -8,18 +8,40 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Real = NDArray[np.float64]
+from symtop_ros.physics.values import (
+    EPS,
+    LARGEST_ANGULAR_VELOCITY,
+    Real,
+    refuse,
+    validate_array,
+    validate_number,
+)
 
-NORM_TOLERANCE = 1e-3  # an orientation further from norm 1 is a mistake, not rounding
-ROUNDING = 4 * np.finfo(float).eps
-SMALLEST = 1e-100
-LARGEST_RATE = 1e150  # rad/s; squares of it stay finite
+NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
+NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding
+SMALLEST = 1e-100  # the square of anything smaller would underflow
 
 
 class Angles(NamedTuple):
-    """Euler angles z-x-z or their rates: precession phi, tilt theta, spin psi (rad or rad/s)."""
+    """Euler angles z-x-z, or their rates.
+
+    Attributes
+    ----------
+    phi : float or ndarray (...)
+        Precession, in rad or rad/s.
+    theta : float or ndarray (...)
+        Tilt of the axis from the vertical, in rad or rad/s.
+    psi : float or ndarray (...)
+        Spin, in rad or rad/s.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State
+    >>> State.from_euler(theta=0.5, psi_dot=200.0).euler_angles
+    Angles(phi=0.0, theta=0.5, psi=0.0)
+    """
 
     phi: Any
     theta: Any
@@ -33,43 +55,69 @@ class State:
     Parameters
     ----------
     orientation : array_like (..., 4)
-        Unit quaternion (w, x, y, z), body -> world. Normalised on the way in; numbers below 1e-100
-        are zero, here and in the angular velocity.
+        Unit quaternion (w, x, y, z), body to world. It is normalised. Components below 1e-100 are
+        set to zero, here and in the angular velocity.
     angular_velocity : array_like (..., 3)
-        In the body frame, rad/s.
+        Angular velocity in the body frame, in rad/s, at most 1e150.
+
+    Attributes
+    ----------
+    given_orientation : ndarray (..., 4)
+        The orientation before it is normalised. A motion starts from these doubles, normalised with
+        50 digits: the rounding of `orientation` would be an error that grows with time.
 
     Raises
     ------
     ValueError
-        Where shapes do not fit, a number is not finite, a norm is off by more than 1e-3, or an
-        angular velocity exceeds 1e150 rad/s.
+        If the shapes do not match, a number is not finite, a norm differs from 1 by more than
+        1e-3, or an angular velocity is too large.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State
+    >>> state = State(orientation=(1, 0, 0, 0), angular_velocity=(0, 0, 200))
+    >>> state.euler_rates.psi
+    200.0
     """
 
     orientation: Real
     angular_velocity: Real
+    given_orientation: Real  # not normalised: a motion normalises it with 50 digits
 
     def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None:
-        q = _without_dust(_finite("orientation", orientation, 4))
-        omega = _without_dust(_finite("angular_velocity", angular_velocity, 3))
+        q = _flush_tiny(validate_array("orientation", orientation, 4))
+        omega = _flush_tiny(validate_array("angular_velocity", angular_velocity, 3, "rad/s"))
         if q.shape[:-1] != omega.shape[:-1]:
-            msg = f"orientation {q.shape} and angular_velocity {omega.shape} do not go together"
-            raise ValueError(msg)
-        if omega.size and np.abs(omega).max() > LARGEST_RATE:
-            largest = np.abs(omega).max()
-            msg = f"angular_velocity: got {largest:g} rad/s, allowed is up to {LARGEST_RATE:g}"
-            raise ValueError(msg)
-        self._set(q, omega)
+            shape = (*q.shape[:-1], 3)
+            condition = f"of shape {shape} to match the orientation"
+            raise refuse("angular_velocity", condition, f"shape {omega.shape}")
+        largest = float(np.abs(omega).max(initial=0.0))
+        if largest > LARGEST_ANGULAR_VELOCITY:
+            condition = f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s"
+            raise refuse("angular_velocity", condition, largest)
+        self._set(q, _normalize(q), omega)
 
     @classmethod
-    def unchecked(cls, orientation: Real, angular_velocity: Real) -> State:
-        """Return the state of finite arrays that fit; they become read-only, and its own."""
+    def wrap(cls, orientation: Real, angular_velocity: Real) -> State:
+        """Return the state of arrays that are known to be valid, without copying them.
+
+        The arrays become read-only. This skips the validation of many computed states.
+
+        Parameters
+        ----------
+        orientation : ndarray (..., 4)
+            Finite quaternions of norm 1 to rounding; they are not normalised.
+        angular_velocity : ndarray (..., 3)
+            Finite angular velocities of the same leading shape, in rad/s.
+        """
         state = object.__new__(cls)
-        state._set(orientation, angular_velocity)
+        state._set(orientation, orientation, angular_velocity)
         return state
 
-    def _set(self, orientation: Real, angular_velocity: Real) -> None:
-        object.__setattr__(self, "orientation", _read_only(_normalised(orientation)))
-        object.__setattr__(self, "angular_velocity", _read_only(angular_velocity))
+    def _set(self, given: Real, orientation: Real, angular_velocity: Real) -> None:
+        object.__setattr__(self, "given_orientation", _make_read_only(given))
+        object.__setattr__(self, "orientation", _make_read_only(orientation))
+        object.__setattr__(self, "angular_velocity", _make_read_only(angular_velocity))
 
     @classmethod
     def from_euler(
@@ -82,13 +130,38 @@ class State:
         phi_dot: float = 0.0,
         psi_dot: float = 0.0,
     ) -> State:
-        """Return the state with these Euler angles z-x-z (rad) and rates (rad/s)."""
-        angles = {"theta": theta, "phi": phi, "psi": psi}
-        rates = {"theta_dot": theta_dot, "phi_dot": phi_dot, "psi_dot": psi_dot}
-        for name, value in {**angles, **rates}.items():
-            if not np.isfinite(value):
-                msg = f"{name}: got {value}, allowed is a finite number"
-                raise ValueError(msg)
+        """Return the state with these Euler angles z-x-z and rates.
+
+        The quaternion and the angular velocity are rounded to doubles once. The motion then starts
+        from exactly these doubles.
+
+        Parameters
+        ----------
+        theta, phi, psi : float
+            Tilt, precession and spin angle in rad.
+        theta_dot, phi_dot, psi_dot : float
+            Their rates in rad/s.
+
+        Raises
+        ------
+        ValueError
+            If a value is not a finite number.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import State
+        >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
+        >>> round(state.euler_rates.phi, 12)
+        6.5
+        """
+        phi, theta, psi = (
+            validate_number(name, value, "rad")
+            for name, value in (("phi", phi), ("theta", theta), ("psi", psi))
+        )
+        phi_dot, theta_dot, psi_dot = (
+            validate_number(f"{name}_dot", value, "rad/s")
+            for name, value in (("phi", phi_dot), ("theta", theta_dot), ("psi", psi_dot))
+        )
         plus, minus = (phi + psi) / 2, (phi - psi) / 2
         c, s = np.cos(theta / 2), np.sin(theta / 2)
         orientation = c * np.cos(plus), s * np.cos(minus), s * np.sin(minus), c * np.sin(plus)
@@ -102,49 +175,85 @@ class State:
 
     @cached_property
     def vertical(self) -> Real:
-        """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta."""
-        w, x, y, z = self._parts
-        return _read_only(
-            _vector(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+        """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta.
+
+        The components are products of the quaternion's. No angle and no quotient is formed, so a
+        small tilt keeps all its digits.
+        """
+        w, x, y, z = self._components
+        return _make_read_only(
+            _stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
         )
 
     @property
-    def _parts(self) -> tuple[Real, Real, Real, Real]:
+    def is_vertical(self) -> Any:
+        """True where the axis is exactly vertical and phi' is undefined, (...)."""
+        return (self.vertical[..., 0] == 0) & (self.vertical[..., 1] == 0)
+
+    @property
+    def _components(self) -> tuple[Real, Real, Real, Real]:
         q = self.orientation
         return q[..., 0], q[..., 1], q[..., 2], q[..., 3]
 
     @property
     def euler_angles(self) -> Angles:
-        """Angles (phi, theta, psi) in rad, 0 <= theta <= pi; on the vertical phi is taken as 0."""
-        w, x, y, z = self._parts
+        """Angles (phi, theta, psi) in rad, with 0 <= theta <= pi; phi is 0 on the vertical."""
+        # Copies, because the components are strided views: NumPy 1.26 takes another vectorised
+        # arctan2 for two strided elements than for one or for many, which differs in the last bit.
+        # The angles of a state would then depend on the states that are computed with it.
+        w, x, y, z = (component.copy() for component in self._components)
+        # acos(cos theta) would lose half the digits of a small tilt; this quotient keeps them all.
         theta = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
-        upper, lower = np.arctan2(z, w), np.arctan2(y, x)
+        upper, lower = np.arctan2(z, w), np.arctan2(y, x)  # (phi + psi)/2 and (phi - psi)/2
         on_vertical = (theta == 0) | (theta == np.pi)
-        phi = np.where(on_vertical, 0.0, _wrapped(upper + lower))
+        phi = np.where(on_vertical, 0.0, _wrap_angle(upper + lower))
         psi = np.where(on_vertical, np.where(theta == 0, 2 * upper, -2 * lower), upper - lower)
-        return Angles(*(_plain(angle) for angle in (phi, theta, _wrapped(psi))))
+        return Angles(*(_to_float(angle) for angle in (phi, theta, _wrap_angle(psi))))
 
     @cached_property
     def euler_rates(self) -> Angles:
-        """Rates (phi', theta', psi') in rad/s; on the vertical phi' is taken as 0."""
+        """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
         vertical, omega = self.vertical, self.angular_velocity
         gx, gy, gz = vertical[..., 0], vertical[..., 1], vertical[..., 2]
         wx, wy, wz = omega[..., 0], omega[..., 1], omega[..., 2]
         sine = np.hypot(gx, gy)
         with np.errstate(invalid="ignore", divide="ignore"):
+            # Divided twice: the square of a sine below 1e-154 would underflow.
             phi_dot = np.where(sine > 0, (wx * gx + wy * gy) / sine / sine, 0.0)
             theta_dot = np.where(sine > 0, (wx * gy - wy * gx) / sine, np.hypot(wx, wy))
         psi_dot = wz - phi_dot * gz
-        return Angles(*(_plain(rate) for rate in (phi_dot, theta_dot, psi_dot)))
+        return Angles(*(_to_float(rate) for rate in (phi_dot, theta_dot, psi_dot)))
 
     def to_world(self, vector: ArrayLike) -> Real:
-        """Turn a body-frame vector (..., 3) into the world frame."""
-        return _turned(*self._parts, np.asarray(vector, dtype=float))
+        """Rotate body-frame vectors into the world frame.
+
+        Parameters
+        ----------
+        vector : array_like (..., 3)
+            Components in the body frame.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            Components in the world frame.
+        """
+        return _rotate(*self._components, np.asarray(vector, dtype=float))
 
     def to_body(self, vector: ArrayLike) -> Real:
-        """Turn a world-frame vector (..., 3) into the body frame."""
-        w, x, y, z = self._parts
-        return _turned(-w, x, y, z, np.asarray(vector, dtype=float))
+        """Rotate world-frame vectors into the body frame.
+
+        Parameters
+        ----------
+        vector : array_like (..., 3)
+            Components in the world frame.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            Components in the body frame.
+        """
+        w, x, y, z = self._components
+        return _rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
     def __iter__(self) -> Iterator[Real]:
         """Unpack as orientation, angular_velocity."""
@@ -159,66 +268,52 @@ class State:
     __hash__ = None  # type: ignore[assignment]
 
 
-def _finite(name: str, value: ArrayLike, size: int) -> Real:
-    try:
-        array = np.array(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        msg = f"{name}: got {value!r}, allowed are {size} numbers"
-        raise ValueError(msg) from error
-    if array.ndim == 0 or array.shape[-1] != size:
-        msg = f"{name}: got shape {array.shape}, allowed is (..., {size})"
-        raise ValueError(msg)
-    if not np.isfinite(array).all():
-        msg = f"{name}: got {value!r}, allowed are finite numbers"
-        raise ValueError(msg)
-    return array
-
-
-def _without_dust(array: Real) -> Real:
-    """Zero for what is too small to be squared; no motion can tell it from zero."""
+def _flush_tiny(array: Real) -> Real:
+    """Set to zero, in place, the numbers whose squares would underflow."""
     array[np.abs(array) < SMALLEST] = 0.0
     return array
 
 
-def _normalised(q: Real) -> Real:
-    """Unit quaternions; those which are one to rounding stay as they are."""
+def _normalize(q: Real) -> Real:
+    """Return unit quaternions; those with norm 1 to rounding are unchanged, bit for bit."""
     w, x, y, z = np.moveaxis(q, -1, 0)
     with np.errstate(over="ignore"):
         norm = np.sqrt((w * w + z * z) + (x * x + y * y))[..., np.newaxis]
-    off = np.abs(norm - 1)
-    largest = off.max(initial=0.0)
-    if largest <= ROUNDING:
+    deviation = np.abs(norm - 1)
+    largest = deviation.max(initial=0.0)
+    if largest <= NORM_ROUNDING:
         return q
     if largest > NORM_TOLERANCE:
-        worst = float(norm.flat[off.argmax()])
-        msg = f"orientation: got a norm of {worst:g}, allowed is 1 within {NORM_TOLERANCE:g}"
-        raise ValueError(msg)
-    return np.asarray(np.where(off > ROUNDING, q / norm, q))
+        worst = float(norm.flat[deviation.argmax()])
+        condition = f"a quaternion of norm 1 within {NORM_TOLERANCE:g}"
+        raise refuse("orientation", condition, f"a norm of {worst:g}")
+    return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
 
 
-def _turned(w: Real, x: Real, y: Real, z: Real, v: Real) -> Real:
+def _rotate(w: Real, x: Real, y: Real, z: Real, v: Real) -> Real:
     """Return q v q* = v + w t + (x, y, z) x t with t = 2 (x, y, z) x v."""
     a, b, c = v[..., 0], v[..., 1], v[..., 2]
     t, u, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
-    return _vector(
+    return _stack(
         a + w * t + (y * s - z * u), b + w * u + (z * t - x * s), c + w * s + (x * u - y * t)
     )
 
 
-def _vector(x: Real, y: Real, z: Real) -> Real:
+def _stack(x: Real, y: Real, z: Real) -> Real:
     vector = np.empty((*np.shape(x), 3))
     vector[..., 0], vector[..., 1], vector[..., 2] = x, y, z
     return vector
 
 
-def _wrapped(angle: Real) -> Real:
+def _wrap_angle(angle: Real) -> Real:
     return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
 
 
-def _plain(value: Real) -> Any:
+def _to_float(value: Real) -> Any:
+    """Return a float for an array without dimensions, and other arrays unchanged."""
     return float(value) if value.ndim == 0 else value
 
 
-def _read_only(array: Real) -> Real:
+def _make_read_only(array: Real) -> Real:
     array.flags.writeable = False
     return array

@@ -1,12 +1,12 @@
-"""The article's equations, derived again in two ways, and the path as a solution of them."""
+"""The article's equations, derived again in two ways, and the motion as a solution of them."""
 
 import numpy as np
 import pytest
-from physics.tops import EPS, random_case, random_states
+from physics.tops import ARTICLE, DISC, EPS, random_case, random_states
 
-from symtop_ros.physics import Top, motion
+from symtop_ros.physics import Motion, Top, theta_acceleration, theta_torque
 
-TOPS = [Top(0.000228, 0.0000572, 0.068), Top(0.0002, 0.00035, -0.05), Top(2.0, 2.0, 7.0)]
+TOPS = [ARTICLE, DISC, Top(2.0, 2.0, 7.0)]
 
 
 def accelerations_of_the_article(top, angles, rates):
@@ -62,13 +62,26 @@ def test_eulers_equations_give_the_accelerations_of_the_article(top):
 
 
 @pytest.mark.parametrize("top", TOPS)
+def test_theta_acceleration_is_the_articles(top):
+    states = random_states(500)
+    angles, rates = states.euler_angles, states.euler_rates
+    expected, _, _ = accelerations_of_the_article(top, angles, rates)
+    found = theta_acceleration(top, angles.theta, rates.phi, rates.psi)
+    terms = (abs(rates.phi) + abs(rates.psi)) ** 2 + abs(top.Mgl) / top.Ix
+    assert (np.abs(found - expected) <= 16 * EPS * terms).all()  # sums of three products
+    # without sin(theta)/Ix, which the product takes back to a few roundings
+    torque = theta_torque(top, angles.theta, rates.phi, rates.psi)
+    assert found == pytest.approx(np.sin(angles.theta) / top.Ix * torque, rel=4 * EPS)
+
+
+@pytest.mark.parametrize("top", TOPS)
 def test_the_change_of_angular_momentum_is_gravitys_torque_in_the_world(top):
     states = random_states(2000)
     L = top.body_angular_momentum(states)
     change = body_acceleration(top, states) * [top.Ix, top.Ix, top.Iz]
     in_world = states.to_world(change + np.cross(states.angular_velocity, L))
     terms = np.linalg.norm(states.angular_velocity, axis=1) * np.linalg.norm(L, axis=1)
-    error = np.abs(in_world - top.torque(states)).max(axis=1)
+    error = np.abs(in_world - top.gravity_torque(states)).max(axis=1)
     assert (error <= 32 * EPS * (terms + abs(top.Mgl))).all()  # three products and a rotation
 
 
@@ -78,20 +91,20 @@ def test_gravitys_torque_lies_along_the_line_of_nodes(top):
     phi, theta, _ = states.euler_angles
     nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
     expected = top.Mgl * np.sin(theta)[:, np.newaxis] * nodes
-    assert np.abs(top.torque(states) - expected).max() <= 16 * EPS * abs(top.Mgl)
+    assert np.abs(top.gravity_torque(states) - expected).max() <= 16 * EPS * abs(top.Mgl)
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_the_path_obeys_the_equations_of_motion(seed):
+def test_the_motion_obeys_the_equations_of_motion(seed):
     case = random_case(seed, "any")
-    path, top = motion(case.top, case.start), case.top
+    motion, top = Motion(case.top, case.start), case.top
     rate = max(np.abs(case.start.angular_velocity).max(), np.sqrt(abs(top.Mgl) / top.Ix)) * 2
     h = 0.02 / rate
     times = 0.37 / rate + h * np.arange(-4, 5)
-    states = path.at(times)
+    states = motion.at(times)
     # central differences of order 8: truncation (rate h)^8/630, rounding 8 eps/h
     weights = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280]) / h
-    now = path.at(times[4])
+    now = motion.at(times[4])
     scale = (0.02**8 / 630 + 32 * EPS / 0.02) * rate
     wx, wy, wz = now.angular_velocity
     w, x, y, z = now.orientation

@@ -2,11 +2,12 @@
 
 import math
 
+import numpy as np
 import pytest
+from physics.tops import ARTICLE
 
-from symtop_ros.physics import State, Top, motion, perry, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top, perrys_rule, regular_precession_rates
 
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 KINDS = {
     "cusps": {"theta": 0.5, "psi_dot": 200.0},
     "looping": {"theta": 0.5, "psi_dot": 200.0, "phi_dot": -8.0},
@@ -23,7 +24,7 @@ KINDS = {
 
 @pytest.mark.parametrize(("kind", "start"), KINDS.items())
 def test_a_kind_is_named(kind, start):
-    assert motion(ARTICLE, State.from_euler(**start)).kind == kind
+    assert Motion(ARTICLE, State.from_euler(**start)).kind == kind
 
 
 @pytest.mark.parametrize(("kind", "start"), KINDS.items())
@@ -31,35 +32,30 @@ def test_a_kind_is_the_same_upside_down(kind, start):
     Ix, Iz, Mgl = ARTICLE.moments
     w, x, y, z = State.from_euler(**start).orientation
     over = State((-x, w, -z, y), State.from_euler(**start).angular_velocity)
-    path = motion(Top(Ix, Iz, -Mgl), over)
-    assert path.kind == kind
-    low, high = motion(ARTICLE, State.from_euler(**start)).turning_angles
-    assert path.turning_angles == pytest.approx((math.pi - high, math.pi - low), abs=1e-15)
+    motion = Motion(Top(Ix, Iz, -Mgl), over)
+    assert motion.kind == kind
+    low, high = Motion(ARTICLE, State.from_euler(**start)).turning_angles
+    assert motion.turning_angles == pytest.approx((math.pi - high, math.pi - low), abs=1e-15)
 
 
 def test_a_motion_to_the_vertical_is_spiralling_with_and_without_spin():
-    # p_phi = p_psi and as much energy as at rest upright: W = 0 cannot be, so with theta' inwards
-    Ix, Iz, Mgl = 1.0, 0.5, 1.0
-    spin = 2.0  # p_psi = 1 < 2 sqrt(Ix Mgl) = 2: upright is unstable
-    theta = 1.2
-    p_psi = Iz * spin
-    phi_dot = p_psi / (Ix * (1 + math.cos(theta)))
-    square = 2 * Mgl / Ix * (1 - math.cos(theta)) - (phi_dot * math.sin(theta)) ** 2
-    psi_dot = spin - phi_dot * math.cos(theta)
-    start = State.from_euler(
-        theta=theta, phi_dot=phi_dot, psi_dot=psi_dot, theta_dot=-math.sqrt(square)
-    )
-    path = motion(Top(Ix, Iz, Mgl), start)
-    assert path.kind == "spiralling"
-    assert path.at(12.0).euler_angles.theta < 1e-3
+    # p_phi = p_psi and the energy of rest upright, without rounding
+    for top, start in (
+        (Top(1.0, 0.5, 1.0), State((0.0, 1.0, 0.0, 0.0), (-2.0, 0.0, 0.0))),
+        (Top(1.0, 0.5, 2.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 2.0, 4.0))),
+    ):
+        motion = Motion(top, start)
+        assert motion.kind == "spiralling"
+        assert motion.nutation_period == math.inf
+        assert motion.at(12.0).euler_angles.theta < 1e-3
 
 
 def test_an_exactly_vertical_axis_at_rest_stays_whatever_its_spin():
     for spin in (0.0, 50.0, 500.0):
-        path = motion(ARTICLE, State.from_euler(theta=0.0, psi_dot=spin))
-        assert path.kind == "sleeping"
-        assert path.engine == "elementary"
-        assert path.at(1e6).euler_angles.theta == 0.0
+        motion = Motion(ARTICLE, State.from_euler(theta=0.0, psi_dot=spin))
+        assert motion.kind == "sleeping"
+        assert motion.engine == "free"
+        assert motion.at(1e6).euler_angles.theta == 0.0
 
 
 def test_sleeping_is_stable_from_the_critical_spin_on():
@@ -67,7 +63,7 @@ def test_sleeping_is_stable_from_the_critical_spin_on():
     assert spin == pytest.approx(137.675, abs=1e-3)
     for factor, far in ((1.05, False), (0.95, True)):
         start = State((1.0, 0.0, 0.0, 0.0), (1e-3, 0.0, spin * factor))
-        assert (motion(ARTICLE, start).turning_angles[1] > 0.1) is far
+        assert (Motion(ARTICLE, start).turning_angles[1] > 0.1) is far
 
 
 @pytest.mark.parametrize(
@@ -87,16 +83,72 @@ def test_stability_of_sleeping_is_told_for_either_pole(Mgl, upright, factor, sta
     state = State(q, (0.0, 0.0, factor * ARTICLE.critical_spin))
     assert top.sleeping_is_stable(state) is stable
     expected = f"where it is {'stable' if stable else 'unstable'}"
-    assert expected in perry(top, state).reason
+    assert expected in perrys_rule(top, state).reason
 
 
 def test_without_gravity_the_axis_goes_round_the_angular_momentum():
     top = Top(0.000228, 0.0000572, 0.0)
     start = State.from_euler(theta=0.5, phi_dot=30.0, psi_dot=60.0)
-    path = motion(top, start)
-    assert path.engine == "elementary"
-    low, high = path.turning_angles
-    theta = [path.at(path.nutation_period * k / 200).euler_angles.theta for k in range(201)]
+    motion = Motion(top, start)
+    assert motion.engine == "free"
+    low, high = motion.turning_angles
+    theta = [motion.at(motion.nutation_period * k / 200).euler_angles.theta for k in range(201)]
     assert min(theta) == pytest.approx(low, abs=1e-4 * (high - low) + 1e-9)
     assert max(theta) == pytest.approx(high, abs=1e-3 * (high - low))
-    assert path.at(path.nutation_period * 1e6).euler_angles.theta == pytest.approx(0.5, abs=1e-8)
+    assert motion.at(motion.nutation_period * 1e6).euler_angles.theta == pytest.approx(
+        0.5, abs=1e-8
+    )
+
+
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"sleeping"}))
+def test_a_kind_is_the_same_from_any_state_of_the_motion(kind):
+    motion = Motion(ARTICLE, State.from_euler(**KINDS[kind], phi=0.3, psi=-1.1))
+    assert motion.kind == kind
+    states = motion.at(np.linspace(0.0, 7.3 * motion.nutation_period, 1000))
+    for q, omega in zip(*states, strict=True):
+        assert Motion(ARTICLE, State(q, omega)).kind == kind
+
+
+def test_a_kind_is_the_same_from_any_state_within_rounding_of_a_turning_point():
+    motion = Motion(ARTICLE, State.from_euler(**KINDS["cusps"], phi=0.3, psi=-1.1))
+    times = motion.nutation_period * (3 + np.geomspace(1e-16, 1e-3, 300))
+    for q, omega in zip(*motion.at(times), strict=True):
+        assert Motion(ARTICLE, State(q, omega)).kind == "cusps"
+
+
+@pytest.mark.parametrize("phi", np.linspace(-3.0, 3.0, 40).tolist())
+def test_a_plane_pendulum_goes_through_the_pole_in_any_direction(phi):
+    for theta, theta_dot in ((0.7, 0.0), (2.0, 3.0), (1.0, -40.0)):
+        start = State.from_euler(theta=theta, theta_dot=theta_dot, phi=phi, psi=2.2 * phi + 0.1)
+        motion = Motion(ARTICLE, start)
+        assert motion.kind == "through the pole"
+        assert math.isnan(motion.mean_precession_rate)
+        assert math.isnan(motion.mean_spin_rate)
+
+
+@pytest.mark.parametrize("phi_dot", [1e-16, -1e-16, 1e-17])
+def test_a_precession_of_rounding_size_is_a_cusp(phi_dot):
+    start = State.from_euler(**KINDS["cusps"], phi=0.3, phi_dot=phi_dot)
+    assert Motion(ARTICLE, start).kind == "cusps"
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.5, math.pi])
+def test_a_top_without_momentum_stays_at_its_tilt(theta):
+    start = State.from_euler(theta=theta)
+    angles = Motion(Top(1.0, 0.5, 0.0), start).turning_angles
+    assert angles == pytest.approx((theta, theta), abs=4e-16)  # a rounding of pi
+    assert Motion(Top(1.0, 0.5, 1.0), State((0, 1, 0, 0), (0, 0, 0))).turning_angles == (
+        math.pi,
+        math.pi,
+    )
+
+
+def test_the_critical_spin_itself_is_stable():
+    rng = np.random.default_rng(1)
+    for Ix, ratio, Mgl in zip(*rng.uniform(0.01, 2.0, (3, 300)), strict=True):
+        top = Top(Ix, Ix * ratio, Mgl)
+        sleeping = State((1, 0, 0, 0), (0, 0, top.critical_spin))
+        assert top.sleeping_is_stable(sleeping)
+        assert not top.sleeping_is_stable(State((1, 0, 0, 0), (0, 0, top.critical_spin * 0.999)))
+    huge = Top(1e200, 1e200, 1.0)
+    assert huge.sleeping_is_stable(State((1, 0, 0, 0), (0, 0, 1.0)))

@@ -1,11 +1,11 @@
 import math
 
 import pytest
-from physics.tops import EPS
+from mpmath import mp, mpf
+from physics.refusals import FINITE_NUMBER, refused
+from physics.tops import ARTICLE, EPS
 
-from symtop_ros.physics import State, Top, motion, regular_precession_rates
-
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 
 
 def test_the_articles_top_has_the_articles_roots():
@@ -36,23 +36,48 @@ def test_degenerate_cases_have_one_root_or_none():
     assert fast == pytest.approx(10.0 * 0.0005 / (0.0005 * math.cos(0.5)))
 
 
+@pytest.mark.parametrize("theta", [math.pi / 2, -math.pi / 2, math.pi / 2 + 2e-16])
+def test_an_axis_horizontal_to_rounding_has_the_slow_rate_alone(theta):
+    (slow,) = regular_precession_rates(ARTICLE, theta=theta, psi_dot=200.0)
+    assert slow == pytest.approx(0.068 / (5.72e-05 * 200.0), rel=2 * EPS)
+
+
 def test_nearly_horizontal_the_fast_root_goes_to_infinity_and_the_slow_one_stays():
-    slow, fast = regular_precession_rates(ARTICLE, theta=math.pi / 2, psi_dot=200.0)
-    assert slow == pytest.approx(0.068 / (5.72e-05 * 200.0), rel=8 * EPS)
+    slow, fast = regular_precession_rates(ARTICLE, theta=math.pi / 2 - 1e-14, psi_dot=200.0)
+    assert slow == pytest.approx(0.068 / (5.72e-05 * 200.0), rel=1e-11)
     assert abs(fast) > 1e15
+
+
+@pytest.mark.parametrize("steps", range(-4, 5))
+@pytest.mark.parametrize("theta", [0.0, 0.5, 1.4, 1.5707])
+def test_merging_roots_are_those_of_the_exact_quadratic(steps, theta):
+    with mp.workdps(60):
+        Ix, Iz, Mgl = map(mpf, ARTICLE.moments)
+        a = (Ix - Iz) * mp.cos(theta)
+        psi_dot = float(2 * mp.sqrt(a * Mgl) / Iz)  # within half an ulp of merging
+        for _ in range(abs(steps)):
+            psi_dot = math.nextafter(psi_dot, math.copysign(math.inf, steps))
+        half = Iz * mpf(psi_dot) / 2
+        discriminant = half**2 - a * Mgl
+        found = regular_precession_rates(ARTICLE, theta=theta, psi_dot=psi_dot)
+        assert len(found) == (2 if discriminant >= 0 else 0)
+        for sign, rate in zip((-1, 1), found, strict=False):
+            assert rate == float((half + sign * mp.sqrt(discriminant)) / a)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_what_is_not_finite_is_refused(bad):
-    with pytest.raises(ValueError, match=r"theta: got .*, allowed is a finite number"):
+    with refused("theta", FINITE_NUMBER, str(bad)):
         regular_precession_rates(ARTICLE, theta=bad, psi_dot=200.0)
+    with refused("psi_dot", FINITE_NUMBER, str(bad)):
+        regular_precession_rates(ARTICLE, theta=0.5, psi_dot=bad)
 
 
 @pytest.mark.parametrize("which", [0, 1])
 def test_a_start_on_a_root_keeps_its_tilt(which):
     rate = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[which]
-    path = motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=rate))
-    assert path.kind == "regular"
-    theta = path.at([0.01 * k for k in range(10_000)]).euler_angles.theta
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=rate))
+    assert motion.kind == "regular"
+    theta = motion.at([0.01 * k for k in range(10_000)]).euler_angles.theta
     assert abs(theta - 0.5).max() <= 16 * EPS
-    assert path.mean_precession_rate == pytest.approx(rate, rel=16 * 261 / rate * EPS)  # of omega
+    assert motion.mean_precession_rate == pytest.approx(rate, rel=16 * 261 / rate * EPS)  # of omega

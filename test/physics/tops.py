@@ -1,4 +1,4 @@
-"""Random tops and starts for the tests, and a small vocabulary for them."""
+"""The article's top, random tops and starts, and the distance of two attitudes."""
 
 from __future__ import annotations
 
@@ -7,11 +7,16 @@ import random
 from dataclasses import dataclass
 
 import numpy as np
-from exact_motion import Inputs
+import pytest
+from physics.exact_motion import Inputs
 
 from symtop_ros.physics import State, Top
 
 EPS = 2.0**-52
+ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
+# A disc that hangs from its pivot: Iz > Ix and Mgl < 0, where Perry's rule can fail at slow roots.
+DISC = Top(Ix=0.0002, Iz=0.00035, Mgl=-0.05)
 
 
 @dataclass(frozen=True)
@@ -73,3 +78,8 @@ def distance(a: State, b: State) -> float:
     p, q = a.orientation, b.orientation
     minus, plus = (np.linalg.norm(each, axis=-1) for each in (p - q, p + q))
     return float(np.max(np.minimum(minus, plus)))
+
+
+def seeds(often, count):
+    """Numbers for a test; those from `often` on are for the long trials."""
+    return [*range(often), *(pytest.param(n, marks=pytest.mark.long) for n in range(often, count))]

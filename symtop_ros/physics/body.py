@@ -1,0 +1,228 @@
+"""The body behind a top: a mass and an arm that fit its three constants, and the forces on it.
+
+The motion of a top depends on Ix, Iz and Mgl only. The force of the pivot depends on the mass and
+on the distance of its centre from the pivot (the arm) too, and these are not given. A body is
+chosen here that exists for every top for which any exists.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.state import State
+from symtop_ros.physics.top import Top
+from symtop_ros.physics.values import Real, refuse, validate_number, validate_vector
+
+STANDARD_GRAVITY = 9.81  # m/s^2
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A rigid body that moves as a top does.
+
+    A body of mass M whose centre is at a distance r from the pivot has Mgl = M g r, and about its
+    centre the moments Ix - M r^2 and Iz. Of the two transverse axes and the axial one none may have
+    more than the other two together, so that M r^2 <= Ix - Iz/2: no arm is longer than
+    (Ix - Iz/2) g / |Mgl|. The body chosen has half of that arm, in the middle between a point mass
+    that is much too heavy and a flat disc.
+
+    Attributes
+    ----------
+    mass : float
+        In kg; 1 kg if Mgl is zero, where any mass will do.
+    arm : float
+        Position of the centre of mass on the z axis of the body, in m: negative if Mgl is, zero if
+        Mgl is.
+    Ix, Iz : float
+        Transverse and axial moment of inertia about the centre of mass, in kg m^2.
+    gravity : float
+        Acceleration of gravity in m/s^2.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Body, Top
+    >>> body = Body.of(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068))
+    >>> round(body.mass, 4), round(body.arm, 4)
+    (0.4819, 0.0144)
+    """
+
+    mass: float
+    arm: float
+    Ix: float
+    Iz: float
+    gravity: float
+
+    @classmethod
+    def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> Body:
+        """Return the body that is chosen for a top.
+
+        Parameters
+        ----------
+        top : Top
+        gravity : float
+            Acceleration of gravity in m/s^2, > 0.
+
+        Raises
+        ------
+        ValueError
+            If gravity is refused, or if no body has these constants: a flat disc (Iz = 2 Ix) has
+            its centre in the pivot, and no weight that turns it.
+
+        Examples
+        --------
+        >>> Body.of(Top(Ix=1.0, Iz=2.0, Mgl=1.0))
+        Traceback (most recent call last):
+        ValueError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J to exist, got 2
+        """
+        gravity = validate_number("gravity", gravity, "m/s^2")
+        if gravity <= 0:
+            raise refuse("gravity", "> 0 m/s^2", gravity)
+        if top.Mgl == 0:
+            return cls(1.0, 0.0, top.Ix, top.Iz, gravity)
+        largest = top.Ix - top.Iz / 2  # of M r^2
+        arm = math.copysign(largest / 2 * (gravity / abs(top.Mgl)), top.Mgl)
+        if arm == 0:
+            condition = (
+                f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist"
+            )
+            raise refuse("Iz", condition, top.Iz)
+        mass = top.Mgl / arm / gravity
+        if not (math.isfinite(arm) and 0 < mass < math.inf):
+            raise refuse("Mgl", "of a size for which the mass of a body is a double", top.Mgl)
+        # Ix - largest / 2, without the subtraction
+        return cls(mass, arm, top.Ix / 2 + top.Iz / 4, top.Iz, gravity)
+
+    def centre_of_mass(self, state: State) -> Real:
+        """Return the position of the centre of mass in the world frame, (..., 3), in m."""
+        return state.to_world([0.0, 0.0, self.arm])
+
+    def pivot_force(self, motion: Motion, state: State) -> Real:
+        """Return the force of the pivot on the top in the world frame.
+
+        It is M (a + g z') with the acceleration a of the centre of mass (Newton's second law).
+
+        Parameters
+        ----------
+        motion : Motion
+            Its top is that of the body; its friction and applied torque count.
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In N.
+
+        Examples
+        --------
+        A top that sleeps upright is carried, and no more.
+
+        >>> from symtop_ros.physics import Body, Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State((1, 0, 0, 0), (0, 0, 200)))
+        >>> body = Body.of(top)
+        >>> force = body.pivot_force(motion, motion.start)
+        >>> force.tolist() == [0, 0, body.mass * body.gravity]
+        True
+        """
+        force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
+        return self.mass * state.to_world(force)
+
+
+def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Real:
+    """Return the acceleration of a point of the body, in the body frame.
+
+    It is alpha x p + omega x (omega x p), with the angular acceleration alpha from Euler's
+    equations (Goldstein, sections 4.10 and 5.5).
+
+    Parameters
+    ----------
+    motion : Motion
+        Gives the moments of inertia and the torque.
+    state : State
+        One state or many.
+    position : array_like (3,)
+        The point p in the body frame, in m.
+
+    Returns
+    -------
+    ndarray (..., 3)
+        In m/s^2.
+
+    Raises
+    ------
+    ValueError
+        If the position is not three finite numbers.
+
+    Examples
+    --------
+    A point at a distance of 0.5 m from an axis at rest is pulled inwards by omega^2 r.
+
+    >>> from symtop_ros.physics import Motion, State, Top
+    >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 4)))
+    >>> point_acceleration(motion, motion.start, (0.5, 0, 0)).tolist()
+    [-8.0, 0.0, 0.0]
+    """
+    a, b, c = validate_vector("position", position, "m, body frame")
+    Ix, Iz, _ = motion.top.moments
+    omega, torque = state.angular_velocity, _body_torque(motion, state)
+    x, y, z = omega[..., 0], omega[..., 1], omega[..., 2]
+    # The sums of alpha and of products of omega are put together before they are rounded: in
+    # alpha_y + x z, for one, a term (1 - 1) x z is left out.
+    across_x, across_y = torque[..., 0] / Ix, torque[..., 1] / Ix
+    axial = torque[..., 2] / Iz
+    slow, fast = Iz / Ix, (2 * Ix - Iz) / Ix
+    acceleration = np.empty(np.broadcast_shapes(omega.shape, torque.shape))
+    acceleration[..., 0] = c * (slow * x * z + across_y) + b * (x * y - axial) - a * (y * y + z * z)
+    acceleration[..., 1] = c * (slow * y * z - across_x) + a * (x * y + axial) - b * (x * x + z * z)
+    acceleration[..., 2] = (
+        a * (fast * x * z - across_y) + b * (fast * y * z + across_x) - c * (x * x + y * y)
+    )
+    return acceleration
+
+
+def specific_force(
+    motion: Motion, state: State, position: ArrayLike, gravity: float = STANDARD_GRAVITY
+) -> Real:
+    """Return what an ideal accelerometer at a point of the body measures, in the body frame.
+
+    It is the acceleration of the point minus that of free fall, a + g z': at rest g upwards.
+
+    Parameters
+    ----------
+    motion : Motion
+    state : State
+        One state or many.
+    position : array_like (3,)
+        Of the accelerometer, in the body frame, in m.
+    gravity : float
+        Acceleration of gravity in m/s^2.
+
+    Returns
+    -------
+    ndarray (..., 3)
+        In m/s^2.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Motion, State, Top
+    >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 0)))
+    >>> specific_force(motion, motion.start, (0, 0, 1)).tolist()
+    [0.0, 0.0, 9.81]
+    """
+    return point_acceleration(motion, state, position) + gravity * state.vertical
+
+
+def _body_torque(motion: Motion, state: State) -> Real:
+    """Return the total torque about the pivot in the body frame."""
+    vertical, Mgl = state.vertical, motion.top.Mgl
+    torque = np.zeros(vertical.shape)
+    torque[..., 0], torque[..., 1] = Mgl * vertical[..., 1], -Mgl * vertical[..., 0]
+    if motion.is_integrated:
+        torque += motion.friction.torque(state) + state.to_body(motion.applied_torque)
+    return torque

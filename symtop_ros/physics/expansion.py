@@ -1,0 +1,252 @@
+"""The top with friction and an applied torque: Taylor series in time, step after step.
+
+The derivatives are polynomials of degree 2 of the variables (`driven_equations`).
+So coefficient k + 1 of all variables follows from the products of coefficients 0 to k with those
+from k to 0. One product of two matrices has them all, and a second one combines them. The length of
+a step follows from the last two coefficients (A. Jorba and M. Zou, A software package for the
+numerical integration of ODEs, Experimental Mathematics 14 (2005) 99).
+
+An error of the angular velocity grows with time, therefore rounding must not accumulate in it. The
+state between two steps, the largest terms of the series and the constants have extended precision:
+64 bits or more where NumPy has them (Linux), 53 elsewhere.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.physics.driven_equations import (
+    FACTORS,
+    OMEGA_Z,
+    QUATERNION,
+    RATES,
+    SPIN,
+    DrivenEquations,
+    Extended,
+)
+from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, Real
+
+# Views of the arrays in which series are made: the coefficients so far, the same from the last one
+# to the first, the matrix of the terms, and the places for the next coefficient in both.
+Order = tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]
+
+TERMS = 30  # more of them make the steps longer, and the terms of a sum larger than the sum
+EXTENDED_TERMS = 6  # the largest ones, in extended precision
+# Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is
+# left out has the same sign in many steps, while rounding has not.
+LAST = 5e-19
+LONGEST = 16.0  # in units of about 1/rate; so the powers of a step stay in range
+# rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum, and
+# rounding with them.
+LARGEST_TURN = 3.5
+LENGTH_BITS = 10  # a length has so few bits that the sum of lengths, the time, is exact
+
+ORDERS = np.arange(1.0, TERMS + 1)[:, np.newaxis]
+# Powers of the time in `Piece.high` and `Piece.low`.
+HIGH_POWERS = np.arange(TERMS, EXTENDED_TERMS, -1.0)
+LOW_POWERS = np.arange(EXTENDED_TERMS, 0.0, -1.0, dtype=np.longdouble)
+
+
+class Point(NamedTuple):
+    """A state between two steps.
+
+    Attributes
+    ----------
+    t : float
+        Time in s.
+    values : ndarray (9,)
+        The variables, in rad and s.
+    """
+
+    t: float
+    values: Extended
+
+
+class Piece(NamedTuple):
+    """The Taylor series of the motion between two points of the grid.
+
+    Attributes
+    ----------
+    start : Point
+    end : float
+        Time in s up to which the series hold.
+    unit : float
+        Unit of time of the coefficients in s, a power of two.
+    low : ndarray (EXTENDED_TERMS, 9)
+        Coefficients of the lowest powers of the time, from the highest of them to the first.
+    high : ndarray (TERMS - EXTENDED_TERMS, 9)
+        Coefficients of the higher powers, from the highest on.
+    """
+
+    start: Point
+    end: float
+    unit: float
+    low: Extended
+    high: Real
+
+    def at(self, times: Real) -> Extended:
+        """Return the variables at times (n,) in s of the piece, (n, 9).
+
+        A state has the same bits alone as among others: terms are formed and added one by one, the
+        smallest first, while a product of matrices would depend on their shapes.
+        """
+        u = (times - self.start.t) / self.unit
+        powers = np.empty((TERMS, len(u)), np.longdouble)
+        powers[:] = u
+        np.multiply.accumulate(powers, axis=0, out=powers)
+        high, low = (
+            powers[: EXTENDED_TERMS - 1 : -1].astype(np.float64),
+            powers[EXTENDED_TERMS - 1 :: -1],
+        )
+        gain = np.add.reduce(low[:, :, np.newaxis] * self.low[:, np.newaxis, :], axis=0)
+        gain += np.add.reduce(high[:, :, np.newaxis] * self.high[:, np.newaxis, :], axis=0)
+        gain[:, RATES] /= self.unit
+        return np.asarray(gain + self.start.values)
+
+    def find_end(self) -> Point:
+        """Return the point at the end."""
+        u = (self.end - self.start.t) / self.unit
+        gain = np.dot(u**LOW_POWERS, self.low)
+        gain += np.dot(u**HIGH_POWERS, self.high)
+        gain[RATES] /= self.unit
+        gain += self.start.values
+        q = gain[QUATERNION]
+        # One Newton step towards norm 1: rounding leaves so little that its square is nothing.
+        q *= 1.5 - 0.5 * np.dot(q, q)
+        return Point(self.end, gain)
+
+
+class Expansion:
+    """The Taylor series of a driven top about any point.
+
+    Not thread-safe: the arrays in which series are made are used again for the next ones.
+
+    Parameters
+    ----------
+    equations : DrivenEquations
+    """
+
+    def __init__(self, equations: DrivenEquations) -> None:
+        self._equations = equations
+        self._unit = 0.0
+        self._prepare_arrays()
+
+    def _prepare_arrays(self) -> None:
+        """Prepare the arrays in which series are made, and the views of them by order."""
+        self._products = np.zeros((FACTORS, FACTORS))
+        self._series = np.zeros((TERMS + 1, FACTORS))
+        self._backward = np.zeros((TERMS + 1, FACTORS))
+        self._low_products = np.zeros((FACTORS, FACTORS), np.longdouble)
+        self._low = np.zeros((EXTENDED_TERMS + 1, FACTORS), np.longdouble)
+        self._low_backward = np.zeros((EXTENDED_TERMS + 1, FACTORS), np.longdouble)
+        self._matrices = np.zeros((TERMS, FACTORS, FACTORS * FACTORS))
+        self._low_matrices = np.zeros((EXTENDED_TERMS, *self._matrices.shape[1:]), np.longdouble)
+        row, i, j = np.nonzero(self._equations.parts.any(axis=0))
+        self._constants = self._equations.parts[:, row, i, j]
+        all_orders = slice(None)
+        self._places = all_orders, row, i * FACTORS + j
+        self._mirrored = all_orders, row, j * FACTORS + i
+        self._low_orders = [
+            (
+                self._low[: k + 1].T,
+                self._low_backward[EXTENDED_TERMS - k :],
+                self._low_matrices[k],
+                self._low[k + 1],
+                self._low_backward[EXTENDED_TERMS - k - 1],
+            )
+            for k in range(EXTENDED_TERMS)
+        ]
+        self._high_orders = [
+            (
+                self._series[: k + 1].T,
+                self._backward[TERMS - k :],
+                self._matrices[k],
+                self._series[k + 1],
+                self._backward[TERMS - k - 1],
+            )
+            for k in range(EXTENDED_TERMS, TERMS)
+        ]
+
+    def expand(self, point: Point, direction: int) -> Piece:
+        """Return the series about a point, for times after it (1) or before it (-1).
+
+        If the motion has become too fast for doubles, the piece ends at its start.
+        """
+        rate = self._equations.estimate_rate(point.values)
+        if not rate < LARGEST_ANGULAR_VELOCITY:
+            return _stop(point, point.t)
+        self._set_unit(math.ldexp(1.0, math.frexp(1 / rate)[1]) if rate else 1.0)
+        scaled = point.values[:FACTORS].copy()
+        scaled[RATES] *= self._unit
+        self._compute_low_orders(scaled)
+        if not self._low[1].any():
+            return _stop(point, direction * math.inf)  # it is at rest, for ever
+        self._compute_high_orders()
+        end = point.t + direction * self._find_length() * self._unit
+        return Piece(point, end, self._unit, *self._copy_series())
+
+    def _set_unit(self, unit: float) -> None:
+        if unit == self._unit:
+            return
+        self._unit = unit
+        constants = self._constants[0] + unit * (self._constants[1] + unit * self._constants[2])
+        by_order = constants / ORDERS
+        self._low_matrices[self._places] = by_order[:EXTENDED_TERMS]
+        nearest = by_order.astype(np.float64)
+        # The products (i, j) and (j, i) are the same. One takes the nearest double of a constant,
+        # the other one what is left: an error of the constants would be the same in each step.
+        self._matrices[self._mirrored] = by_order - nearest
+        self._matrices[self._places] = nearest
+
+    def _compute_low_orders(self, scaled: Extended) -> None:
+        self._low[0] = self._low_backward[EXTENDED_TERMS] = scaled
+        _compute(self._low_orders, self._low_products)
+
+    def _compute_high_orders(self) -> None:
+        self._series[: EXTENDED_TERMS + 1] = self._low
+        self._backward[TERMS - EXTENDED_TERMS :] = self._low_backward
+        _compute(self._high_orders, self._products)
+
+    def _copy_series(self) -> tuple[Extended, Real]:
+        """Return the coefficients of the powers of the time, `Piece.low` and `Piece.high`."""
+        low = np.empty((EXTENDED_TERMS, SPIN + 1), np.longdouble)
+        low[:, :FACTORS] = self._low[:0:-1]
+        low[:, SPIN] = self._low[-2::-1, OMEGA_Z] / LOW_POWERS
+        high = np.empty((len(HIGH_POWERS), SPIN + 1))
+        high[:, :FACTORS] = self._series[:EXTENDED_TERMS:-1]
+        high[:, SPIN] = self._series[-2 : EXTENDED_TERMS - 1 : -1, OMEGA_Z] / HIGH_POWERS
+        return low, high
+
+    def _find_length(self) -> float:
+        """Return the length of the step in the unit of time, by the root test."""
+        omega_x, omega_y, omega_z = self._series[0, RATES].tolist()
+        turn = math.hypot(omega_x, omega_y, self._equations.ratio * omega_z)
+        length = LARGEST_TURN / max(turn, LARGEST_TURN / LONGEST)
+        axial = max(1.0, abs(omega_z))  # the spin of a rod exceeds the rate
+        for order in (TERMS - 1, TERMS):
+            *others, omega_z, _ = self._series[order].tolist()
+            largest = max(*map(abs, others), abs(omega_z) / axial)
+            if largest:
+                length = min(length, (LAST / largest) ** (1 / order))
+        fraction, exponent = math.frexp(length)
+        return math.ldexp(math.floor(math.ldexp(fraction, LENGTH_BITS)), exponent - LENGTH_BITS)
+
+
+def _compute(orders: list[Order], products: NDArray[Any]) -> None:
+    """Compute one coefficient of all variables after the other."""
+    # Three calls for each order take most of the time of a motion, hence the prepared views.
+    dot, flat = np.dot, products.reshape(-1)
+    for forward, backward, matrix, row, reverse in orders:
+        dot(forward, backward, products)
+        dot(matrix, flat, row)
+        reverse[:] = row
+
+
+def _stop(point: Point, end: float) -> Piece:
+    """Return the piece of a constant state."""
+    low = np.zeros((EXTENDED_TERMS, SPIN + 1), np.longdouble)
+    return Piece(point, end, math.inf, low, np.zeros((len(HIGH_POWERS), SPIN + 1)))

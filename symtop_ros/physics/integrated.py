@@ -1,0 +1,144 @@
+"""The motion with friction or an applied torque: no closed form, integrated as far as needed."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections import deque
+from collections.abc import Iterator
+from threading import Lock
+
+import numpy as np
+
+from symtop_ros.physics.driven_equations import DrivenEquations, Extended
+from symtop_ros.physics.expansion import Expansion, Piece, Point
+from symtop_ros.physics.state import State
+from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.values import Real, Vector, refuse
+
+KEPT = 1024  # points kept over the whole integration; beyond this every other one is dropped
+BLOCK = 1024  # times whose variables are held at once
+RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
+
+
+class IntegratedMotion:
+    """States by `expansion`, in pieces in both directions of time from the start.
+
+    Threads may share it: a lock keeps each call whole, because a call moves along the pieces.
+
+    Parameters
+    ----------
+    top : Top
+    start : State
+        The state at t = 0.
+    friction : Friction
+    torque : (float, float, float)
+        Applied torque in the world frame, in N m.
+    """
+
+    def __init__(self, top: Top, start: State, friction: Friction, torque: Vector) -> None:
+        self._start = start
+        self._equations = DrivenEquations(top, friction, torque)
+        expansion, point = Expansion(self._equations), Point(0.0, self._equations.start(start))
+        self._lock = Lock()
+        self._forward, self._backward = (Trail(expansion, point, sign) for sign in (1, -1))
+
+    def fill(self, times: Real, orientation: Real, angular_velocity: Real) -> None:
+        """Write the states at times (n,) in s into arrays (n, 4) and (n, 3)."""
+        order = np.argsort(np.abs(times), kind="stable")
+        for trail, side in ((self._forward, times >= 0), (self._backward, times < 0)):
+            sorted_places = order[side[order]]
+            for first in range(0, len(sorted_places), BLOCK):
+                places = sorted_places[first : first + BLOCK]
+                with self._lock:
+                    values = np.concatenate(list(trail.evaluate(times[places])))
+                orientation[places], angular_velocity[places] = self._equations.read(values)
+        orientation[times == 0] = self._start.orientation  # bit for bit
+
+    def reach(self, t: float, steps: float) -> float:
+        """Integrate towards t in a limited number of steps; return the time reached."""
+        with self._lock:
+            return self._trail(t).reach(t, steps)
+
+    def _trail(self, t: float) -> Trail:
+        return self._forward if t >= 0 else self._backward
+
+
+class Trail:
+    """The pieces of an integration in one direction of time.
+
+    They depend on the motion alone, not on earlier requests: a state is the same to the last bit
+    whatever was asked before. Some points and pieces are kept, so that one can go back.
+
+    Parameters
+    ----------
+    expansion : Expansion
+    start : Point
+        The point at t = 0.
+    direction : {1, -1}
+        Direction of time.
+    """
+
+    def __init__(self, expansion: Expansion, start: Point, direction: int) -> None:
+        self._expansion, self._direction = expansion, direction
+        self._kept, self._spacing = [start], 1  # points, and the number of pieces between two
+        self._recent: deque[Piece] = deque(maxlen=RECENT)  # the last one is the present piece
+        self._count = 0  # pieces before the present one
+
+    def evaluate(self, times: Real) -> Iterator[Extended]:
+        """Yield the variables at times (n,) in s, sorted from the start on, piece by piece."""
+        distances, first = np.abs(times), 0
+        while first < len(times):
+            self.reach(float(times[first]), math.inf)
+            piece = self._recent[-1]
+            after = int(np.searchsorted(distances, abs(piece.end), side="right"))
+            yield piece.at(times[first:after])
+            first = after
+
+    def reach(self, t: float, steps: float) -> float:
+        """Integrate towards a time in a limited number of steps.
+
+        Returns
+        -------
+        float
+            The time up to which `evaluate` needs no further step.
+
+        Raises
+        ------
+        ValueError
+            If the motion becomes too fast for doubles on the way.
+        """
+        self._go_back(t)
+        while steps > 0 and abs(self._recent[-1].end) < abs(t):
+            self._step(t)
+            steps -= 1
+        return min(t, self._recent[-1].end, key=abs)
+
+    def _step(self, t: float) -> None:
+        piece = self._recent[-1]
+        if piece.end == piece.start.t:
+            condition = (
+                f"within {abs(piece.end):g} s of the start (the motion then becomes too fast)"
+            )
+            raise refuse("t", condition, t)
+        self._count += 1
+        point = piece.find_end()
+        if self._count == len(self._kept) * self._spacing:
+            self._kept.append(point)
+        if len(self._kept) > KEPT:
+            self._kept, self._spacing = self._kept[::2], 2 * self._spacing
+        self._append_piece(point)
+
+    def _go_back(self, t: float) -> None:
+        """Go back to a piece that begins nearer to the start than a time in s."""
+        while self._recent and abs(self._recent[-1].start.t) >= abs(t) and self._count:
+            self._recent.pop()
+            self._count -= 1
+        if not self._recent:
+            place = bisect_left(self._kept, abs(t), key=lambda point: abs(point.t)) - 1
+            place = max(place, 0)  # the start belongs to the first piece
+            self._count = place * self._spacing
+            self._append_piece(self._kept[place])
+
+    def _append_piece(self, point: Point) -> None:
+        self._recent.append(self._expansion.expand(point, self._direction))

@@ -1,0 +1,81 @@
+"""Reversal of the spin: whether psi' has both signs in a nutation, decided without sampling.
+
+With Goldstein's a and b (see `nutation`) and the constant omega_z
+
+    sin^2(theta) psi' = h(u) = omega_z (1 - u^2) - u (b - a u),        u = cos(theta),
+
+which is quadratic in u. Its largest and smallest values between the turning points lie at the
+turning points, or at its vertex if that is between them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from decimal import Decimal, localcontext
+from typing import Any
+
+from symtop_ros.physics.kind import ROUNDING, largest_precession, largest_sine_squared
+from symtop_ros.physics.nutation import Nutation, Roots
+from symtop_ros.physics.precise import PRECISE
+from symtop_ros.physics.quotients import Zero
+from symtop_ros.physics.values import START_ROUNDING
+
+
+def spin_reverses(
+    nutation: Nutation, roots: Roots, zeros: tuple[Zero, ...], omega_z: float
+) -> bool:
+    """Return True if psi' takes both signs in a motion whose axis moves under gravity.
+
+    A psi' that differs from zero by rounding of the start alone has no sign: a top that is started
+    with psi' = 0 at a turning point does not reverse there.
+    """
+    with localcontext(PRECISE):
+        spin, (below, above, _) = Decimal(omega_z), zeros
+        ends = [
+            spin * below.from_u1 * above.from_u1
+            - (nutation.u + roots.s1) * nutation.b_minus_au_at(roots.s1),
+            spin * below.from_u2 * above.from_u2
+            - (nutation.u + roots.s2) * nutation.b_minus_au_at(roots.s2),
+        ]
+        b = nutation.b_minus_au + nutation.a * nutation.u
+        vertex = _find_vertex(spin, nutation.a, b, nutation.u + roots.s1, nutation.u + roots.s2)
+        size = abs(spin) * largest_sine_squared(zeros) + largest_precession(nutation, zeros)
+        return _has_both_signs([*ends, *vertex], ROUNDING * size)
+
+
+def spin_reverses_free(tilt_of_momentum: float, cone: float, rate: float, omega_z: float) -> bool:
+    """Return True if psi' takes both signs in a motion without torque.
+
+    Parameters
+    ----------
+    tilt_of_momentum, cone : float
+        Angles of L to the vertical and to the axis in rad.
+    rate : float
+        |L|/Ix in rad/s, at which the axis goes round L.
+    omega_z : float
+        In rad/s.
+    """
+    low, far = tilt_of_momentum - cone, tilt_of_momentum + cone
+    # b - a u at the ends, with b = rate cos(tilt) and a = rate cos(cone), by the addition theorem:
+    # the difference would cancel for a narrow cone.
+    across = rate * math.sin(cone)
+    ends = [
+        omega_z * math.sin(far) ** 2 - math.cos(far) * across * math.sin(far),
+        omega_z * math.sin(low) ** 2 + math.cos(low) * across * math.sin(low),
+    ]
+    a, b = rate * math.cos(cone), rate * math.cos(tilt_of_momentum)
+    vertex = _find_vertex(omega_z, a, b, math.cos(far), math.cos(low))
+    return _has_both_signs([*ends, *vertex], START_ROUNDING * (abs(omega_z) + rate))
+
+
+def _find_vertex(spin: Any, a: Any, b: Any, low: Any, high: Any) -> list[Any]:
+    """Return the extreme value of spin - b u + (a - spin) u^2 if it lies between two heights."""
+    bend = 2 * (a - spin)
+    if bend and low < b / bend < high:
+        return [spin - b * b / (2 * bend)]
+    return []
+
+
+def _has_both_signs(values: Sequence[Any], rounding: Any) -> bool:
+    return bool(min(values) < -rounding and max(values) > rounding)

@@ -1,0 +1,133 @@
+"""Exact times of a motion: integer nanoseconds of a clock, a factor, and an exact elapsed time.
+
+A published sample belongs to an integer number of nanoseconds, so its exact time is known to the
+last bit. As a double of seconds it would be rounded: after a day by 7 ps, in which a top of 200
+rad/s turns by 7 million EPS. The integers are therefore kept until phases are reduced to one turn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.physics.values import refuse, validate_number
+
+SECOND = 10**9  # ns
+LARGEST_STAMP = 2**63 - 1  # ns
+
+
+@dataclass(frozen=True, eq=False)
+class ExactTimes:
+    """Times of a motion that are exact: elapsed + factor * nanoseconds.
+
+    Parameters
+    ----------
+    nanoseconds : int or ndarray (n,) of int64
+        Nanoseconds of a clock since the elapsed time was read, of either sign.
+    factor : float
+        Time of the motion per time of the clock; > 0. The exact value of the double counts.
+    elapsed : Fraction
+        Time of the motion in ns at which `nanoseconds` is 0. Its denominator is a power of two, as
+        that of every sum of products of integers and doubles.
+
+    Raises
+    ------
+    ValueError
+        If an argument is refused.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from symtop_ros.physics import ExactTimes, Motion, State, Top
+    >>> times = ExactTimes(2_000_000_000, factor=0.5, elapsed=Fraction(1, 2))
+    >>> times.seconds
+    1.0000000005
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> year = 365 * 86_400 * 10**9
+    >>> motion.at(ExactTimes(year + 1)) == motion.at(ExactTimes(year))
+    False
+    """
+
+    nanoseconds: int | NDArray[np.int64]
+    factor: float = 1.0
+    elapsed: Fraction = Fraction(0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nanoseconds", _validate_nanoseconds(self.nanoseconds))
+        object.__setattr__(self, "factor", validate_number("factor", self.factor))
+        if self.factor <= 0:
+            raise refuse("factor", "> 0", self.factor)
+        object.__setattr__(self, "elapsed", _validate_elapsed(self.elapsed))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """() for one time, (n,) for an array."""
+        return np.shape(self.nanoseconds)
+
+    @cached_property
+    def seconds(self) -> Any:
+        """The nearest doubles in s, a float or (n,)."""
+        ticks, parts = self.factor.as_integer_ratio()
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        # Python's quotient of integers of any size is the nearest double.
+        step, start, divisor = ticks * pieces, elapsed * parts, parts * pieces * SECOND
+        if isinstance(self.nanoseconds, int):
+            return (start + step * self.nanoseconds) / divisor
+        return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
+
+    def advance(self, nanoseconds: int) -> Fraction:
+        """Return the time of the motion in ns at another reading of the clock, exactly.
+
+        Parameters
+        ----------
+        nanoseconds : int
+            Nanoseconds of the clock since the elapsed time was read.
+
+        Examples
+        --------
+        >>> ExactTimes(0, factor=0.25, elapsed=Fraction(3)).advance(5)
+        Fraction(17, 4)
+        """
+        return self.elapsed + Fraction(self.factor) * nanoseconds
+
+    @property
+    def rough_seconds(self) -> Any:
+        """Seconds, a float or (n,), up to a few roundings; much faster than `seconds`."""
+        return float(self.elapsed / SECOND) + self.factor * (self.nanoseconds * 1e-9)
+
+    def select(self, part: slice | NDArray[np.bool_]) -> ExactTimes:
+        """Return a part of an array of times.
+
+        Parameters
+        ----------
+        part : slice or ndarray (n,) of bool
+            The times to return.
+        """
+        return ExactTimes(np.asarray(self.nanoseconds)[part], self.factor, self.elapsed)
+
+
+def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
+    array = None if isinstance(value, bool | np.timedelta64) else np.asarray(value)
+    if array is not None and array.dtype.kind in "iu" and array.ndim <= 1:
+        if array.ndim == 0:
+            value = int(array)
+        elif array.dtype.kind == "i" or array.max(initial=0) <= LARGEST_STAMP:
+            return array.astype(np.int64, copy=False)
+    if isinstance(value, int) and not isinstance(value, bool) and abs(value) <= LARGEST_STAMP:
+        return value
+    condition = "an int or an array (n,) of ints, of at most 63 bits (ns)"
+    raise refuse("nanoseconds", condition, repr(value))
+
+
+def _validate_elapsed(value: Any) -> Fraction:
+    is_exact = isinstance(value, Fraction | int) and not isinstance(value, bool)
+    if is_exact and value.denominator & (value.denominator - 1) == 0:
+        return Fraction(value)
+    condition = "a Fraction with a power of two as denominator (ns)"
+    raise refuse("elapsed", condition, repr(value))

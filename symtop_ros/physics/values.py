@@ -1,0 +1,159 @@
+"""Numbers and arrays: type names, limits, and the validation of arguments.
+
+Every refused argument raises a ValueError of one form: "NAME must be CONDITION, got VALUE".
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]  # (w, x, y, z)
+
+EPS = 2.0**-52  # distance from 1 to the next double
+# A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A
+# sum below this share of its terms is treated as zero.
+START_ROUNDING = 64 * EPS
+LARGEST_ANGULAR_VELOCITY = 1e150  # rad/s; its square is finite
+LONGEST_TEXT = 60  # characters of a refused value that a message repeats
+
+
+def refuse(name: str, condition: str, value: Any) -> ValueError:
+    """Return the error for an argument that does not meet its condition.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument.
+    condition : str
+        The condition, with its unit.
+    value : Any
+        The value given. A string is repeated without quotes: it describes the value.
+
+    Examples
+    --------
+    >>> raise refuse("Ix", "> 0 kg m^2", -1.0)
+    Traceback (most recent call last):
+    ValueError: Ix must be > 0 kg m^2, got -1
+    """
+    return ValueError(f"{name} must be {condition}, got {_to_text(value)}")
+
+
+def validate_number(name: str, value: Any, unit: str = "") -> float:
+    """Return a finite real number as a float.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : Any
+        An int, a float, a NumPy number or a NumPy array without dimensions.
+    unit : str
+        Unit, for the message.
+
+    Raises
+    ------
+    ValueError
+        If the value is not a number (a bool, a string and a complex number are not), not finite,
+        or too large for a double.
+    """
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    if not _is_real(value):
+        raise refuse(name, _with_unit("a number", unit), repr(value))
+    try:
+        number = float(value)
+    except OverflowError:  # an int too large for a double
+        number = math.inf if value > 0 else -math.inf
+    if not math.isfinite(number):
+        raise refuse(name, _with_unit("a finite number", unit), number)
+    return number
+
+
+def validate_array(name: str, value: Any, size: int | None = None, unit: str = "") -> Real:
+    """Return finite real numbers as a new array of doubles.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : array_like (..., size) or, without a size, of any shape
+        The numbers.
+    size : int, optional
+        Required length of the last axis.
+    unit : str
+        Unit, for the message.
+
+    Raises
+    ------
+    ValueError
+        If a value is not a number or not finite, or if the shape does not fit.
+    """
+    try:
+        if np.ma.isMaskedArray(value):
+            raise TypeError
+        array = np.asarray(value)
+        if array.dtype.kind == "O" and not all(map(_is_real, array.flat)):
+            raise TypeError
+        if array.dtype.kind not in "iufO" and array.size:
+            raise TypeError
+        array = array.astype(np.float64)  # OverflowError: an int too large for a double
+    except (TypeError, ValueError, OverflowError):
+        raise refuse(name, _with_unit("an array of finite numbers", unit), repr(value)) from None
+    if size is not None and (array.ndim == 0 or array.shape[-1] != size):
+        raise refuse(name, f"of shape (..., {size})", f"shape {array.shape}")
+    # One number is the common case, and NumPy needs 2 us for the question.
+    if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
+        raise refuse(name, _with_unit("an array of finite numbers", unit), repr(value))
+    return array
+
+
+def validate_vector(name: str, value: Any, unit: str) -> Vector:
+    """Return three finite numbers as floats.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : array_like (3,)
+        The components.
+    unit : str
+        Unit and frame, for the message.
+
+    Raises
+    ------
+    ValueError
+        If there are not exactly three finite numbers.
+    """
+    try:
+        x, y, z = validate_array(name, value, 3).tolist()
+        return float(x), float(y), float(z)
+    except (TypeError, ValueError):
+        raise refuse(name, f"3 finite numbers ({unit})", repr(value)) from None
+
+
+def _is_real(value: Any) -> bool:
+    # numbers.Real includes NumPy's floats and integers, but its durations and Python's bool too.
+    # The first test is only for speed: the lookup in an abstract class takes longer.
+    return type(value) is float or (
+        isinstance(value, numbers.Real) and not isinstance(value, bool | np.timedelta64)
+    )
+
+
+def _with_unit(condition: str, unit: str) -> str:
+    return f"{condition} ({unit})" if unit else condition
+
+
+def _to_text(value: Any) -> str:
+    """Return a value on one line, at full precision, shortened if it is long."""
+    if isinstance(value, float | np.floating):
+        return repr(float(value)).removesuffix(".0")
+    text = " ".join(str(value).split())
+    return text if len(text) <= LONGEST_TEXT else f"{text[: LONGEST_TEXT - 4]} ..."

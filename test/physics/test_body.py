@@ -1,0 +1,167 @@
+"""The body behind a top, accelerations of its points and the force of the pivot."""
+
+import math
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from physics.driven_motion import DrivenTop
+from physics.exact_motion import Inputs, exact_motion
+
+from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
+
+EPS = 2.0**-52
+ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+# Weights of the second derivative by central differences, order 8 (Fornberg 1988, table 1).
+WEIGHTS = ((-205, 72), (8, 5), (-1, 5), (8, 315), (-1, 560))
+STEP = 1e-4  # rad of the fastest rate: the error of the differences is below 1e-30 of the rates
+
+
+def turn(q, v):
+    w, x, y, z = q
+    t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])]
+    return [
+        v[0] + w * t[0] + (y * t[2] - z * t[1]),
+        v[1] + w * t[1] + (z * t[0] - x * t[2]),
+        v[2] + w * t[2] + (x * t[1] - y * t[0]),
+    ]
+
+
+def differentiate(orientation_at, position, h):
+    """Second derivative of the world position of a point; h is a power of two, so k h is exact."""
+    with mp.workdps(50):
+        total = [mpf(0)] * 3
+        for k, (above, below) in enumerate(WEIGHTS):
+            weight = mpf(above) / below
+            for sign in (1, -1) if k else (1,):
+                place = turn(orientation_at(sign * k * h), [mpf(p) for p in position])
+                total = [a + weight * b for a, b in zip(total, place, strict=True)]
+        return [float(each / mpf(h) ** 2) for each in total]
+
+
+def compare(motion, orientation_at, position):
+    """Error of the acceleration in eps of the size of its terms."""
+    state = motion.start
+    rate = float(np.abs(state.angular_velocity).max()) + math.sqrt(
+        (abs(motion.top.Mgl) + sum(map(abs, motion.applied_torque))) / motion.top.Iz
+    )
+    h = 2.0 ** round(math.log2(STEP / rate))
+    exact = differentiate(orientation_at, position, h)
+    ours = state.to_world(point_acceleration(motion, state, position))
+    return float(np.abs(ours - exact).max() / (rate**2 * np.linalg.norm(position)) / EPS)
+
+
+def random_cases():
+    random = np.random.default_rng(16)
+    for _ in range(6):
+        Ix = 10 ** random.uniform(-4, 1)
+        top = Top(
+            Ix, Ix * random.uniform(0.05, 2), Ix * random.normal() * 10 ** random.uniform(0, 3)
+        )
+        q = random.normal(size=4)
+        state = State(q / np.linalg.norm(q), random.normal(size=3) * 10 ** random.uniform(-1, 2))
+        yield top, state, random.normal(size=3), random
+
+
+# In eps of the squared rates. Measured: 1.5 without and 0.4 with friction and torque; about ten
+# products and sums are rounded on the way.
+ACCELERATION = 3
+
+
+def test_the_acceleration_of_a_point_is_the_second_derivative_of_its_place():
+    errors = []
+    for top, state, position, _ in random_cases():
+        q, omega = state.given_orientation.tolist(), state.angular_velocity.tolist()
+        inputs = Inputs.of(*top.moments, q, omega)
+        errors.append(
+            compare(Motion(top, state), lambda t, i=inputs: exact_motion(i, t)[0], position)
+        )
+    assert max(errors) < ACCELERATION
+
+
+def test_friction_and_an_applied_torque_count_in_the_acceleration():
+    errors = []
+    for top, state, position, random in list(random_cases())[:4]:
+        friction = Friction(*(random.uniform(0, 3, size=2) * top.Iz))
+        torque = random.normal(size=3) * top.Ix * 10
+        motion = Motion(top, state, friction, torque)
+        driven = DrivenTop(
+            top.moments, (friction.axial, friction.transverse), motion.applied_torque
+        )
+        q, omega = state.given_orientation.tolist(), state.angular_velocity.tolist()
+        errors.append(
+            compare(motion, lambda t, d=driven, q=q, o=omega: d.state_at(q, o, t)[0], position)
+        )
+    assert max(errors) < ACCELERATION
+
+
+def test_the_force_of_the_pivot_is_newtons_second_law():
+    # Along the way of the article's top, with the momentum of the centre of mass from its place.
+    body, start = Body.of(ARTICLE), State.from_euler(theta=0.5, psi_dot=200.0)
+    motion = Motion(ARTICLE, start)
+    inputs = Inputs.of(
+        *ARTICLE.moments, start.given_orientation.tolist(), start.angular_velocity.tolist()
+    )
+    for t in (0.0, 0.03, 0.08, 7.0):
+        exact = differentiate(
+            lambda h, t=t: exact_motion(inputs, mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21
+        )
+        force = body.pivot_force(motion, motion.at(t))
+        expected = body.mass * (np.array(exact) + np.array((0, 0, body.gravity)))
+        # Measured: 0.9 eps, the rounding of the state included.
+        assert np.abs(force - expected).max() < 2 * EPS * np.linalg.norm(expected)
+
+
+def test_the_torque_of_the_pivots_force_about_the_centre_turns_the_body():
+    # Euler's equations about the centre of mass, which know nothing of the pivot's formulas.
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, phi_dot=9.0, psi_dot=200.0))
+    body, state = Body.of(ARTICLE), motion.at(0.04)
+    torque = np.cross(-body.centre_of_mass(state), body.pivot_force(motion, state))
+    wx, wy, wz = state.angular_velocity
+    gyroscopic = np.array(((body.Ix - body.Iz) * wy * wz, (body.Iz - body.Ix) * wz * wx, 0))
+    alpha = (state.to_body(torque) + gyroscopic) / [body.Ix, body.Ix, body.Iz]
+    # The point one metre along x moves with alpha x p + omega x (omega x p).
+    omega = state.angular_velocity
+    expected = np.cross(alpha, [1, 0, 0]) + np.cross(omega, np.cross(omega, [1, 0, 0]))
+    ours = point_acceleration(motion, state, (1, 0, 0))
+    assert ours == pytest.approx(expected, abs=16 * EPS * float(omega @ omega))
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_body_has_the_tops_constants_and_could_be_built(sign):
+    random = np.random.default_rng(3)
+    for _ in range(100):
+        Ix = 10 ** random.uniform(-6, 3)
+        top = Top(Ix, Ix * random.uniform(1e-6, 1.999), sign * 10 ** random.uniform(-6, 6))
+        body = Body.of(top, gravity=random.uniform(1, 25))
+        assert body.mass * body.gravity * body.arm == pytest.approx(top.Mgl, rel=4 * EPS)
+        assert body.Ix + body.mass * body.arm**2 == pytest.approx(top.Ix, rel=4 * EPS)
+        assert 0 < body.Iz <= 2 * body.Ix
+        assert math.copysign(1, body.arm) == sign
+
+
+def test_the_articles_top_has_half_of_the_longest_arm():
+    assert 2 * Body.of(ARTICLE).arm == pytest.approx(0.0288, abs=5e-5)  # three digits are given
+
+
+def test_a_top_without_weight_has_its_centre_in_the_pivot():
+    body = Body.of(Top(Ix=1.0, Iz=2.0, Mgl=0.0))
+    assert (body.mass, body.arm, body.Ix, body.Iz) == (1.0, 0.0, 1.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("top", "gravity", "reason"),
+    [
+        (
+            Top(1.0, 2.0, -0.5),
+            9.81,
+            "Iz must be < 2 Ix = 2 kg m\\^2 for a body with Mgl = -0.5 J to",
+        ),
+        (ARTICLE, 0.0, "gravity must be > 0 m/s\\^2, got 0"),
+        (ARTICLE, math.nan, "gravity must be a finite number"),
+        (Top(1.0, 1.0, 1e-310), 9.81, "Mgl must be of a size for which the mass"),
+    ],
+)
+def test_a_body_that_cannot_exist_is_refused(top, gravity, reason):
+    with pytest.raises(ValueError, match=reason):
+        Body.of(top, gravity)

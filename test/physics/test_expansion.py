@@ -1,0 +1,253 @@
+"""The engine for friction and applied torques: against 30 digits, the closed form, and itself."""
+
+import math
+
+import numpy as np
+import pytest
+from physics.driven_families import FAMILIES, DrivenCase
+from physics.driven_motion import DrivenTop
+from physics.refusals import NOT_TOO_FAST, VECTOR, refused
+from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, random_states
+
+from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics.driven_equations import ONE, RATES, DrivenEquations
+from symtop_ros.physics.expansion import Expansion, Point
+from symtop_ros.physics.integrated import IntegratedMotion
+
+pytestmark = pytest.mark.untraced
+NONE = (0.0, 0.0, 0.0)
+SHIFT = 1e-9  # of the angular velocity at the start: small, and far above rounding
+DRIVES = {
+    "friction": (Friction(2e-6, 1e-5), NONE),
+    "vertical torque": (Friction(), (0.0, 0.0, 1e-4)),
+    "both": (Friction(1e-6, 2e-5), (1e-3, -2e-3, 5e-4)),
+}
+
+
+def exact(top, start, friction, torque, t):
+    """The state at t as doubles, from 30 digits."""
+    driven = DrivenTop(top.moments, (friction.axial, friction.transverse), torque)
+    q, omega = driven.state_at(start.given_orientation, start.angular_velocity, t)
+    return State([float(c) for c in q], [float(c) for c in omega])
+
+
+def integrate(top, start, friction=Friction(), torque=NONE):  # noqa: B008
+    return IntegratedMotion(top, start, friction, torque)
+
+
+def states(engine, times):
+    orientation, angular_velocity = np.empty((len(times), 4)), np.empty((len(times), 3))
+    engine.fill(np.asarray(times), orientation, angular_velocity)
+    return State.wrap(orientation, angular_velocity)
+
+
+def steps_to(engine, t):
+    """Return the number of steps on the way to t."""
+    steps = 0
+    while engine.reach(t, 1) != t:
+        steps += 1
+    return steps + 1
+
+
+def allowed(case_motion, t, swing=0.0):
+    """Return the error of the attitude that is promised: 2 eps and a part of what rounding changes.
+
+    The growth is the change of the attitude over a relative change of the angular velocity at the
+    start. An ulp of it changes the attitude by up to eps times the growth. Measured: 0.02 times,
+    and 0.07 times after 1000 s.
+    """
+    top, start = case_motion.top, case_motion.start
+    shifted = State(start.orientation, start.angular_velocity * (1 + SHIFT) + SHIFT * swing)
+    other = Motion(top, shifted, case_motion.friction, case_motion.applied_torque)
+    return EPS * (2 + distance(case_motion.at(t), other.at(t)) / SHIFT / 10)
+
+
+def test_ten_seconds_of_the_friction_scene_agree_with_thirty_digits():
+    friction, torque = DRIVES["friction"]
+    motion = Motion(ARTICLE, CUSPS, friction)
+    assert motion.engine == "splitting"
+    expected = exact(ARTICLE, CUSPS, friction, torque, 10.0)
+    # rounding of the angular velocity at the start would make 1000 eps; 0.6 measured
+    assert distance(motion.at(10.0), expected) < 2 * EPS
+    largest = np.abs(motion.at(10.0).angular_velocity - expected.angular_velocity).max()
+    assert largest < 4 * EPS * np.abs(expected.angular_velocity).max()
+
+
+BACKWARDS = [
+    pytest.param(name, -0.3, marks=() if name == "both" else pytest.mark.long) for name in DRIVES
+]
+
+
+@pytest.mark.parametrize(("name", "t"), [*((name, 0.5) for name in DRIVES), *BACKWARDS])
+def test_driven_motions_agree_with_thirty_digits(name, t):
+    friction, torque = DRIVES[name]
+    motion = Motion(ARTICLE, CUSPS, friction, torque)
+    assert distance(motion.at(t), exact(ARTICLE, CUSPS, friction, torque, t)) < EPS
+
+
+@pytest.mark.parametrize("family", ["any", "pendulum", "from below", "critical"])
+@pytest.mark.parametrize("seed", [0, 2, pytest.param(9, marks=pytest.mark.long)])
+def test_random_tops_agree_with_thirty_digits(family, seed):
+    case = random_case(seed, family)
+    Ix, Iz, Mgl = case.top.moments
+    swing = math.sqrt(abs(Mgl) / Ix)
+    spin = float(np.abs(case.start.angular_velocity).max())
+    friction = Friction(0.02 * Iz * swing, 0.05 * Ix * swing)
+    torque = (0.05 * Mgl, -0.02 * Mgl, 0.03 * Mgl)
+    t = min(4 / swing, 100 / max(spin, swing))
+    motion = Motion(case.top, case.start, friction, torque)
+    expected = exact(case.top, case.start, friction, torque, t)
+    assert distance(motion.at(t), expected) < allowed(motion, t, swing)
+
+
+@pytest.mark.parametrize("family", ["strong friction", "fast spin", "mixed", "tumbling"])
+def test_a_new_case_of_a_family_agrees_with_thirty_digits(family):
+    assert_exact(DrivenCase(family, 1000))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("family", FAMILIES)
+def test_many_new_cases_of_each_family_agree_with_thirty_digits(family):
+    for seed in range(2000, 2020):
+        assert_exact(DrivenCase(family, seed))
+
+
+def assert_exact(case):
+    motion = case.motion
+    for t, (q, omega) in zip(case.times, case.solve(), strict=True):
+        expected = State([float(c) for c in q], [float(c) for c in omega])
+        found, bound = motion.at(t), allowed(motion, t, case.swing)
+        assert distance(found, expected) < bound
+        largest = np.abs(motion.at(np.linspace(0, t, 50)).angular_velocity).max()
+        off = np.abs(found.angular_velocity - expected.angular_velocity).max()
+        assert off < 2 * bound * largest
+
+
+@pytest.mark.parametrize("phi_dot", [0.0, 6.5, 20.0])
+def test_without_friction_it_gives_what_the_closed_form_gives(phi_dot):
+    start = State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot)
+    times = np.linspace(0.0, 1.0, 40)
+    found = states(integrate(ARTICLE, start), times)
+    assert distance(found, Motion(ARTICLE, start).at(times)) < 2 * EPS  # each has up to one
+
+
+@pytest.mark.parametrize(
+    ("tiny", "t"),
+    [(1e-30, 1.0), (1e-300, 100.0)]
+    + [pytest.param(*rare, marks=pytest.mark.long) for rare in ((1e-30, 100.0), (1e-300, 1.0))],
+)
+def test_friction_too_weak_to_be_felt_gives_what_the_closed_form_gives(t, tiny):
+    motion = Motion(ARTICLE, CUSPS, Friction(tiny, tiny), (0.0, 0.0, tiny))
+    assert motion.engine == "splitting"
+    assert distance(motion.at(t), Motion(ARTICLE, CUSPS).at(t)) < allowed(motion, t)
+
+
+def test_no_friction_and_no_torque_is_the_closed_form():
+    motion = Motion(ARTICLE, CUSPS, Friction(0.0, 0.0), [0, 0, 0])
+    assert motion.engine == "closed form"
+    assert motion.at(3.0) == Motion(ARTICLE, CUSPS).at(3.0)
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_forth_and_back_ends_where_it_began(name):
+    friction, torque = DRIVES[name]
+    there = Motion(ARTICLE, CUSPS, friction, torque).at(5.0)
+    back = Motion(ARTICLE, there, friction, torque).at(-5.0)
+    # the state in between is rounded to doubles, and the body turns by 1000 rad on the way back
+    assert distance(back, CUSPS) < 1000 * EPS
+    assert np.abs(back.angular_velocity - CUSPS.angular_velocity).max() < 1000 * EPS * 200
+
+
+def test_the_first_coefficients_are_eulers_equations():
+    top = Top(Ix=0.7, Iz=1.1, Mgl=-3.0)
+    friction, torque = Friction(0.3, 0.5), (0.4, -1.5, 2.5)
+    motion, equations = Motion(top, CUSPS, friction, torque), DrivenEquations(top, friction, torque)
+    for k in range(5):
+        state = State(*(part[k] for part in random_states(5)))
+        piece = Expansion(equations).expand(Point(0.0, equations.start(state)), 1)
+        rates = piece.low[-1][RATES] / piece.unit**2
+        x, y, z = state.angular_velocity
+        L = top.body_angular_momentum(state)
+        expected = state.to_body(motion.total_torque(state)) - np.cross((x, y, z), L)
+        expected /= [top.Ix, top.Ix, top.Iz]
+        # In the body, omega_xy turns against the frame: the frame turns about the axis more slowly.
+        turn = z * 2 * equations._half_rest
+        expected += [-turn * y, turn * x, 0]
+        assert rates.astype(float) == pytest.approx(expected, rel=1e-13)  # a dozen roundings
+        assert piece.low[-1][ONE] == 0
+
+
+def test_the_terms_left_out_of_a_step_do_not_count():
+    equations = DrivenEquations(ARTICLE, *DRIVES["both"])
+    expansion = Expansion(equations)
+    piece = expansion.expand(Point(0.0, equations.start(CUSPS)), 1)
+    # the same time in two steps: half the step leaves out 2^30 times less
+    shorter = piece._replace(end=piece.end / 2).find_end()
+    middle = expansion.expand(shorter, 1)
+    assert middle.end > piece.end
+    gap = np.abs(middle.at(np.array([piece.end]))[0] - piece.find_end().values)
+    assert gap[:4].max() < EPS / 10  # rounding of the higher terms
+
+
+def test_the_spin_of_a_rod_needs_no_steps():
+    rod = Top(Ix=1.0, Iz=1e-8, Mgl=50.0)
+    slow, fast = (State.from_euler(theta=1.0, phi_dot=1.0, psi_dot=spin) for spin in (1.0, 1e5))
+    friction = Friction(1e-9, 0.1)
+    assert (
+        steps_to(integrate(rod, fast, friction), 2.0)
+        <= steps_to(integrate(rod, slow, friction), 2.0) + 1
+    )
+
+
+def test_axial_momentum_is_kept_to_the_bit_and_vertical_momentum_to_rounding():
+    times = np.linspace(0.0, 20.0, 200)
+    found = states(integrate(ARTICLE, CUSPS), times)
+    assert set(found.angular_velocity[:, 2]) == {200.0}
+    vertical = ARTICLE.vertical_momentum(found)
+    # products of rounded states
+    assert np.abs(vertical / vertical[0] - 1).max() < 4 * EPS
+
+
+def test_a_vertical_torque_changes_the_vertical_momentum_alone_by_torque_times_time():
+    motion = Motion(ARTICLE, CUSPS, torque=(0.0, 0.0, 1e-4))
+    gained = ARTICLE.vertical_momentum(motion.at(2.0)) - ARTICLE.vertical_momentum(motion.start)
+    # the difference of numbers of 1e-2, products of rounded states
+    assert gained == pytest.approx(2e-4, rel=1e-2 / 2e-4 * 4 * EPS)
+
+
+def test_a_sleeping_top_spins_down_exponentially_and_stays_upright():
+    friction = Friction(axial=1e-5, transverse=2e-5)
+    state = Motion(ARTICLE, State.from_euler(theta=0.0, psi_dot=200.0), friction).at(3.0)
+    assert state.angular_velocity.tolist()[:2] == [0.0, 0.0]
+    assert state.euler_angles.theta == 0.0
+    expected = 200 * math.exp(-1e-5 / 5.72e-5 * 3.0)
+    assert state.angular_velocity[2] == pytest.approx(expected, rel=2 * EPS)
+
+
+def test_a_free_sphere_under_friction_comes_to_rest_as_its_formula_says():
+    sphere, k, t = Top(Ix=1e-3, Iz=1e-3, Mgl=0.0), 1e-3, 4.0
+    omega = np.array([3.0, -4.0, 12.0])
+    state = Motion(sphere, State((1, 0, 0, 0), omega), Friction(k, k)).at(t)
+    assert state.angular_velocity == pytest.approx(omega * math.exp(-t), rel=4 * EPS)
+    angle = 13.0 * (1 - math.exp(-t)) / 2
+    expected = [math.cos(angle), *(math.sin(angle) * omega / 13)]
+    assert distance(state, State(expected, state.angular_velocity)) < 2 * EPS
+
+
+def test_a_top_at_rest_stays_there_at_any_time_in_one_step():
+    motion = Motion(ARTICLE, State.from_euler(theta=0.0), Friction(1e-6, 1e-5))
+    assert motion.reach(1e300, 0) == 1e300
+    assert motion.at([1e300, -1e9]).orientation.tolist() == [[1, 0, 0, 0]] * 2
+
+
+def test_torques_are_checked_and_told():
+    for wrong in ([1, 2], "abc", [0, 0, math.inf], [[0, 0, 1]]):
+        with refused("torque", VECTOR):
+            Motion(ARTICLE, CUSPS, torque=wrong)
+
+
+@pytest.mark.parametrize("torque", [1e300, 1e308])
+def test_a_motion_that_becomes_too_fast_is_refused_in_a_sentence(torque):
+    motion = Motion(ARTICLE, CUSPS, torque=(0.0, 0.0, torque))
+    with refused("t", NOT_TOO_FAST, "1"):
+        motion.at(1.0)

@@ -1,0 +1,84 @@
+"""The grid of an integration: the same whatever was asked before, and of bounded size."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from physics.tops import ARTICLE, CUSPS
+
+from symtop_ros.physics import Friction, Motion
+from symtop_ros.physics.driven_equations import DrivenEquations
+from symtop_ros.physics.expansion import Expansion, Point
+from symtop_ros.physics.integrated import KEPT, Trail
+
+FRICTION = Friction(2e-6, 1e-5)
+
+
+def trail(direction=1):
+    equations = DrivenEquations(ARTICLE, FRICTION, (0.0, 0.0, 0.0))
+    return Trail(Expansion(equations), Point(0.0, equations.start(CUSPS)), direction)
+
+
+def values_at(way, t):
+    ((values,),) = way.evaluate(np.array([t]))
+    return values.tolist()
+
+
+def test_a_state_is_the_same_bit_for_bit_whatever_was_asked_before():
+    times = np.random.default_rng(1).uniform(-8.0, 12.0, 60)  # beyond what is kept at first
+    motion = Motion(ARTICLE, CUSPS, FRICTION)
+    together = motion.at(times)
+    for k in (0, 7, 33, 59):
+        for alone in (motion.at(times[k]), Motion(ARTICLE, CUSPS, FRICTION).at(times[k])):
+            assert alone.orientation.tolist() == together.orientation[k].tolist()
+            assert alone.angular_velocity.tolist() == together.angular_velocity[k].tolist()
+
+
+@pytest.mark.parametrize("count", [2, 3, 8, 63, 1000, 3000])
+def test_a_state_is_the_same_bit_for_bit_among_any_number_of_others(count):
+    motion = Motion(ARTICLE, CUSPS, FRICTION)
+    times = np.linspace(0.001, 0.04, count)  # of one step
+    together = motion.at(times)
+    for k in {0, 1, count // 2, count - 1}:
+        alone = motion.at(times[k])
+        assert alone.orientation.tolist() == together.orientation[k].tolist()
+        assert alone.angular_velocity.tolist() == together.angular_velocity[k].tolist()
+
+
+def test_the_start_is_the_start():
+    assert Motion(ARTICLE, CUSPS, FRICTION).at(0.0) == CUSPS
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (2, 3)])
+def test_shapes_follow_those_of_the_times(shape):
+    state = Motion(ARTICLE, CUSPS, FRICTION).at(np.ones(shape))
+    assert state.orientation.shape == (*shape, 4)
+    assert state.angular_velocity.shape == (*shape, 3)
+
+
+# Backwards the spin grows, and the steps become shorter: every other point is dropped twice in
+# 45 s, and four times in 75 s.
+@pytest.mark.parametrize("end", [75.0, -45.0, pytest.param(-75.0, marks=pytest.mark.long)])
+def test_what_is_kept_is_bounded_and_one_can_come_back(end):
+    direction = round(math.copysign(1, end))
+    way, early = trail(direction), direction * 0.321
+    first = values_at(way, early)
+    values_at(way, end)
+    assert KEPT / 2 <= len(way._kept) <= KEPT
+    assert values_at(way, early) == first
+    assert values_at(way, end) == values_at(trail(direction), end)
+
+
+@pytest.mark.parametrize("t", [3.0, -3.0])
+def test_reach_goes_as_far_as_its_steps_and_then_the_rest(t):
+    motion = Motion(ARTICLE, CUSPS, FRICTION)
+    reached = [motion.reach(t, 5) for _ in range(20)]
+    assert all(0 < a / t < b / t <= 1 or a == b == t for a, b in pairwise(reached))
+    assert reached[0] != t
+    assert reached[-1] == t
+    assert motion.at(t) == Motion(ARTICLE, CUSPS, FRICTION).at(t)
+
+
+def test_the_closed_form_is_everywhere_at_once():
+    assert Motion(ARTICLE, CUSPS).reach(1e9, 0) == 1e9

@@ -1,0 +1,87 @@
+"""The effective potential and the cubic meet the motion at its turning angles."""
+
+import math
+
+import numpy as np
+import pytest
+from physics.tops import ARTICLE, EPS
+
+from symtop_ros.physics import EffectivePotential, Motion, State, Top
+
+STARTS = {
+    "cusps": State.from_euler(theta=0.5, psi_dot=200.0),
+    "looping": State.from_euler(theta=0.5, phi_dot=-3.0, psi_dot=200.0),
+    "unidirectional": State.from_euler(theta=0.5, phi_dot=9.0, psi_dot=200.0),
+    "through the pole": State.from_euler(theta=0.5, theta_dot=30.0),
+    "small tilt": State.from_euler(theta=1e-4, theta_dot=1e-2, psi_dot=100.0),
+}
+TOPS = {"above": ARTICLE, "below": Top(ARTICLE.Ix, ARTICLE.Iz, -ARTICLE.Mgl)}
+
+
+@pytest.fixture(params=TOPS, name="top")
+def _top(request):
+    return TOPS[request.param]
+
+
+@pytest.fixture(params=STARTS, name="start")
+def _start(request):
+    return STARTS[request.param]
+
+
+def terms(top, potential):
+    """Size in J of the terms whose rounding is in U_eff and in E'."""
+    kinetic = potential.energy + abs(top.Mgl)
+    return abs(top.Mgl) + abs(kinetic) + potential.axial_momentum**2 / top.Ix
+
+
+def test_the_energy_line_meets_the_potential_at_the_turning_angles(top, start):
+    potential = EffectivePotential.of(top, start)
+    for angle in Motion(top, start).turning_angles:
+        if min(angle, math.pi - angle) > 1e-6:
+            # near a pole the rounding of p_phi - p_psi is divided by sin^2
+            margin = 16 * EPS * terms(top, potential) / math.sin(angle) ** 2
+            assert potential.at(angle) == pytest.approx(potential.energy, abs=margin)
+
+
+def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
+    motion, potential = Motion(top, start), EffectivePotential.of(top, start)
+    states = motion.at(np.linspace(0.0, 1.0, 50))
+    rate = np.sin(states.euler_angles.theta) * states.euler_rates.theta
+    u = states.vertical[:, 2]
+    scale = terms(top, potential) / top.Ix
+    np.testing.assert_allclose(potential.cubic(u), rate**2, rtol=0, atol=32 * EPS * scale)
+
+
+def test_the_cubic_vanishes_at_its_three_roots(top, start):
+    motion, potential = Motion(top, start), EffectivePotential.of(top, start)
+    low, high = motion.turning_angles
+    third = potential.find_third_root(low, high)
+    assert abs(third) >= 1 - 16 * EPS
+    scale = terms(top, potential) / top.Ix
+    for root in (math.cos(low), math.cos(high), third):
+        # (1 - u^2)(alpha - beta u) grows with the cube of the third root
+        assert abs(potential.cubic(root)) <= 64 * EPS * scale * max(1.0, abs(root)) ** 3
+
+
+def test_outside_the_turning_angles_the_potential_is_above_the_energy():
+    start = STARTS["cusps"]
+    potential = EffectivePotential.of(ARTICLE, start)
+    low, high = Motion(ARTICLE, start).turning_angles
+    outside = np.concatenate([np.linspace(0.01, low - 0.001, 50), np.linspace(high + 0.001, 3, 50)])
+    assert (potential.at(outside) > potential.energy).all()
+    inside = np.linspace(low + 0.001, high - 0.001, 50)
+    assert (potential.at(inside) < potential.energy).all()
+
+
+def test_a_top_without_weight_has_no_third_root():
+    start = STARTS["looping"]
+    top = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
+    assert EffectivePotential.of(top, start).find_third_root(0.5, 1.0) == math.inf
+
+
+@pytest.mark.parametrize("method", ["at", "cubic"])
+@pytest.mark.parametrize("value", ["a", None, [1.0, math.nan], True])
+def test_what_is_no_number_is_refused(method, value):
+    potential = EffectivePotential.of(ARTICLE, STARTS["cusps"])
+    with pytest.raises(ValueError, match=r"^(theta|u) must be an array of finite numbers"):
+        getattr(potential, method)(value)

@@ -1,0 +1,122 @@
+"""The separatrix from both sides: gaps of all sizes and none, compared with a Taylor series."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from physics import exact_motion
+from physics.exact_motion import Inputs
+from physics.taylor_motion import TaylorMotion
+from physics.tops import ARTICLE, EPS
+
+from symtop_ros.physics import ExactTimes, Motion, State, Top
+
+pytestmark = pytest.mark.untraced
+PENDULUM = Top(1.0, 0.5, 1.0)
+THROWN_UP = {
+    # The doubles nearest to the separatrix are not on it: theta' = -sqrt(2) is rounded.
+    "a rounded root": (PENDULUM, State.from_euler(theta=math.pi / 2, theta_dot=-math.sqrt(2))),
+    "the article's top": (
+        ARTICLE,
+        State.from_euler(
+            theta=2, phi=1, psi=2, theta_dot=-2 * math.sqrt(0.068 / 0.000228) * math.sin(1)
+        ),
+    ),
+}
+PUSHED = {
+    f"pushed, {gap:g}": (PENDULUM, State((1, 0, 0, 0), (0.6 * gap**0.5, -0.8 * gap**0.5, 0)))
+    for gap in (1e-2, 1e-6, 1e-14, 1e-22, 1e-30)
+}
+LET_GO = {
+    f"let go, {gap:g}": (
+        PENDULUM,
+        State((math.sqrt(1 - gap), 0.6 * gap**0.5, 0.8 * gap**0.5, 0), (0, 0, 0)),
+    )
+    for gap in (1e-2, 1e-6, 1e-14, 1e-22, 1e-30)
+}
+SPINNING = {
+    f"spinning, {gap:g}": (PENDULUM, State((1, 0, 0, 0), (0.6 * gap**0.5, -0.8 * gap**0.5, 1.5)))
+    for gap in (1e-2, 1e-14, 1e-30)
+}
+STARTS = THROWN_UP | PUSHED | LET_GO | SPINNING
+
+
+# The gaps between the largest and the smallest are tried by `make test-long`.
+BETWEEN = ("1e-06", "1e-14", "1e-22")
+OFTEN = pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.long) if any(map(name.__contains__, BETWEEN)) else name
+        for name in STARTS
+    ],
+)
+
+
+def series(top, start, digits):
+    return TaylorMotion(top.moments, *(part.tolist() for part in start), digits)
+
+
+@functools.cache
+def series_of(name):
+    """The series of a start, with 62 digits, of which gaps of 1e-30 and 1e12 periods leave 29."""
+    return series(*STARTS[name], 62)
+
+
+@OFTEN
+def test_a_period_is_finite_and_right_if_the_exact_one_is_finite(name):
+    top, start = STARTS[name]
+    motion = Motion(top, start)
+    assert motion.nutation_period == pytest.approx(series_of(name).period_in_seconds, rel=2 * EPS)
+    assert motion.kind != "spiralling"
+
+
+@OFTEN
+def test_states_are_right_at_a_hundredth_and_at_a_million_million_periods(name):
+    top, start = STARTS[name]
+    motion, exact = Motion(top, start), series_of(name)
+    for periods in (0.01, 0.3, 0.5, 0.77, 1.2, -1000.3, 1e6 + 0.499, 1e12 + 0.8):
+        t = periods * motion.nutation_period
+        (q, omega), state = exact.state_at(t), motion.at(t)
+        # measured: 2 eps and 3 eps; the rest is for other libraries of sines
+        assert distance(q, state.orientation) <= 5 * EPS
+        assert distance(omega, state.angular_velocity) <= 5 * EPS * exact.largest_rate
+
+
+def distance(exact, doubles):
+    """Distance of two vectors, up to sign."""
+    with mp.workdps(40):
+        pairs = [(a, mpf(b)) for a, b in zip(exact, doubles.tolist(), strict=True)]
+        return float(min(mp.norm([a - sign * b for a, b in pairs]) for sign in (1, -1)))
+
+
+@pytest.mark.parametrize("push", [1e-8, 1e-30, 1e-95])
+def test_a_pendulum_hardly_pushed_from_the_top_is_right_at_the_bottom(push, monkeypatch):
+    # K/K' is 13, 45 and 140: so much would the rounding of the phase be magnified
+    # two roots agree to 190 digits at 1e-95
+    monkeypatch.setattr(exact_motion, "DIGITS", 120 - 4 * round(math.log10(push)))
+    start = State((1, 0, 0, 0), (0.6 * push, -0.8 * push, 0))
+    motion = Motion(PENDULUM, start)
+    t = 0.4999 * motion.nutation_period
+    inputs = Inputs.of(1.0, 0.5, 1.0, *(part.tolist() for part in start))
+    (q, omega), state = exact_motion.exact_motion(inputs, t), motion.at(t)
+    assert distance(q, state.orientation) <= 5 * EPS
+    assert distance(omega, state.angular_velocity) <= 5 * EPS * 2.0
+
+
+def test_a_motion_without_a_period_is_spiralling_at_exact_times_too():
+    top, start = Top(1.0, 0.5, 2.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 2.0, 4.0))
+    motion = Motion(top, start)
+    assert motion.kind == "spiralling"
+    assert motion.nutation_period == math.inf
+    stamps = np.array([0, 500_000_000, 30_000_000_000])
+    states = motion.at(ExactTimes(stamps))
+    # away from the vertical the error of a double grows as exp(2 t): digits for 30 s
+    exact = series(top, start, digits=80)
+    exact.reach(30.0)
+    for k, t in enumerate((0.0, 0.5, 30.0)):
+        assert State(states.orientation[k], states.angular_velocity[k]) == motion.at(t)
+        (q, omega), state = exact.state_at(t), motion.at(t)
+        assert distance(q, state.orientation) <= 5 * EPS
+        assert distance(omega, state.angular_velocity) <= 5 * EPS * 3.0

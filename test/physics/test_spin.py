@@ -1,0 +1,136 @@
+"""Reversal of the spin, precession in a nutation, and the approximations of the fast top."""
+
+import math
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from physics.exact_motion import exact_motion
+from physics.tops import ARTICLE, EPS, random_case
+
+from symtop_ros.physics import Motion, State, Top
+
+CASES = [random_case(seed, "any") for seed in range(400)]
+PRECESSING = [
+    case
+    for case in CASES[:16]
+    if math.isfinite(Motion(case.top, case.start).precession_per_nutation)
+]
+SAMPLES = 2001
+
+
+def sampled_spin(motion):
+    """psi' sin^2(theta) of a nutation: no quotient, so that poles do no harm."""
+    period = motion.nutation_period
+    states = motion.at(np.linspace(0.0, period if math.isfinite(period) else 0.0, SAMPLES))
+    (gx, gy, gz), (wx, wy, wz) = states.vertical.T, states.angular_velocity.T
+    spins = wz * (gx**2 + gy**2) - gz * (wx * gx + wy * gy)
+    # A pendulum has no spin but that of rounding.
+    spins[np.abs(spins) < 64 * EPS * np.hypot(wx, wy).max() * np.hypot(gx, gy).max()] = 0.0
+    return spins
+
+
+def test_the_spin_reverses_where_samples_of_a_nutation_have_both_signs():
+    reversing = 0
+    for case in CASES:
+        motion = Motion(case.top, case.start)
+        spins = sampled_spin(motion)
+        size = np.abs(spins).max()
+        low, high = spins.min() / (size or 1.0), spins.max() / (size or 1.0)
+        # within a millionth of zero 2001 samples may miss the extreme value
+        if min(abs(low), abs(high)) > 1e-6:
+            assert motion.spin_reverses == (low < 0 < high), case
+            reversing += motion.spin_reverses
+    assert 40 < reversing < 300
+
+
+@pytest.mark.parametrize("Mgl", [0.068, -0.068, 0.0])
+@pytest.mark.parametrize("phi_dot", [5.0, -5.0, 90.0])
+def test_a_spin_that_starts_at_zero_at_a_turning_point_does_not_reverse(Mgl, phi_dot):
+    top = Top(ARTICLE.Ix, ARTICLE.Iz, Mgl)
+    motion = Motion(top, State.from_euler(theta=0.5, phi_dot=phi_dot))
+    spins = sampled_spin(motion)
+    has_both = spins.min() < -1e-9 * abs(spins).max() and spins.max() > 1e-9 * abs(spins).max()
+    assert motion.spin_reverses == has_both
+
+
+@pytest.mark.parametrize("step", [10.0**-k for k in range(1, 13)])
+def test_the_spin_reverses_as_soon_as_it_starts_on_the_other_side_of_zero(step):
+    """The start is at a turning point. Steps below 64 EPS of the rates would count as rounding."""
+    grows = Motion(ARTICLE, State.from_euler(theta=2.0, phi_dot=-9.0, psi_dot=step))
+    falls = Motion(ARTICLE, State.from_euler(theta=2.0, phi_dot=-9.0, psi_dot=-step))
+    assert {grows.spin_reverses, falls.spin_reverses} == {True, False}
+
+
+def test_a_top_at_rest_and_a_sleeping_top_do_not_reverse():
+    for top in (ARTICLE, Top(1.0, 0.5, 0.0)):
+        for spin in (0.0, 200.0, -3.0):
+            assert not Motion(top, State.from_euler(theta=0.0, psi_dot=spin)).spin_reverses
+    resting = Motion(Top(1.0, 0.5, 0.0), State.from_euler(theta=1.0))
+    assert not resting.spin_reverses
+    assert math.isnan(resting.precession_per_nutation)
+
+
+@pytest.mark.parametrize("case", PRECESSING, ids=range(len(PRECESSING)))
+def test_the_precession_of_a_nutation_is_that_of_the_exact_motion(case):
+    motion = Motion(case.top, case.start)
+    turns, period = motion.precession_per_nutation, motion.nutation_period
+    # In the frame of the line of nodes the motion returns, so that phi advances by the same angle
+    # from any time on. The period is a double: its rounding counts with the fastest rate.
+    begin = mpf(period) / 7
+    with mp.workdps(50):
+        phi = [_phi(exact_motion(case.inputs, t)[0]) for t in (begin, begin + mpf(period))]
+        off = (phi[1] - phi[0]) / (2 * mp.pi) - mpf(turns)
+        off = abs(off - mp.nint(off))
+    fastest = np.abs(motion.at(np.linspace(0, period, 500)).euler_rates.phi).max()
+    assert off <= 2 * EPS * (abs(turns) + fastest * period)
+
+
+def _phi(q):
+    w, x, y, z = q
+    return mp.atan2(z, w) + mp.atan2(y, x)
+
+
+def test_six_closed_cusps_are_a_sixth_of_a_turn_each():
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.81982810560265))
+    assert motion.precession_per_nutation == pytest.approx(1 / 6, rel=4 * EPS)
+
+
+def test_hanging_upside_down_changes_the_sign_of_the_precession_only():
+    start = State.from_euler(theta=0.5, psi_dot=200.0)
+    w, x, y, z = start.orientation
+    over = Motion(Top(*ARTICLE.moments[:2], -ARTICLE.Mgl), State((-x, w, -z, y), [0, 0, 200.0]))
+    upright = Motion(ARTICLE, start)
+    assert over.precession_per_nutation == -upright.precession_per_nutation
+    assert over.spin_reverses == upright.spin_reverses
+
+
+def test_a_free_top_turns_once_backwards_or_not_at_all_in_a_nutation():
+    top = Top(1.0, 0.5, 0.0)
+    turns = {
+        round(Motion(top, State.from_euler(**angles)).precession_per_nutation)
+        for angles in (
+            {"theta": 0.3, "phi_dot": 2.0, "theta_dot": 0.1},  # round the upper pole
+            {"theta": 1.5, "theta_dot": 0.5, "psi_dot": 9.0},  # round neither
+            {"theta": 2.8, "phi_dot": 2.0, "theta_dot": 0.1},  # round the lower pole
+            {"theta": 0.3, "phi_dot": -2.0, "theta_dot": 0.1},
+        )
+    }
+    assert turns <= {-1, 0, 1}
+    assert len(turns) > 1
+
+
+@pytest.mark.parametrize("psi_dot", [1e3, 1e4, 1e5, -1e5])
+def test_the_approximations_become_exact_for_a_fast_top(psi_dot):
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=psi_dot))
+    # the next terms of the expansions in 4 Ix Mgl/p_psi^2, with factors up to 1
+    error = 4 * ARTICLE.Ix * ARTICLE.Mgl / (ARTICLE.Iz * psi_dot) ** 2
+    rate = motion.mean_precession_rate
+    assert motion.fast_top_precession_rate == pytest.approx(rate, rel=error)
+    assert motion.fast_top_nutation_rate == pytest.approx(motion.nutation_rate, rel=error)
+
+
+def test_without_spin_there_is_no_approximation():
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5))
+    assert math.isnan(motion.fast_top_precession_rate)
+    assert motion.fast_top_nutation_rate == 0.0

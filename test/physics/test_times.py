@@ -1,0 +1,122 @@
+"""Exact times: what they hold and refuse, and phases and states that are exact at the stamp."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from physics.exact_motion import exact_motion
+from physics.refusals import FINITE_NUMBER, refused
+from physics.tops import ARTICLE, CUSPS, EPS, Case
+
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+
+YEAR = 365 * 86_400 * 10**9  # ns
+FACTORS = [1.0, 1e-3, 0.1, 1 / 3, 7.0, 100.0]
+ELAPSED = Fraction(987_654_321_987_654_321, 2**40)
+STARTS = {
+    "closed form": CUSPS,
+    "free": State.from_euler(theta=0.0, psi_dot=200.0),
+}
+
+
+@pytest.mark.parametrize("factor", FACTORS)
+@pytest.mark.parametrize("elapsed", [Fraction(0), ELAPSED])
+def test_seconds_are_the_nearest_doubles(factor, elapsed):
+    stamps = np.array([0, 1, -5, YEAR + 1, 2**63 - 1])
+    times = ExactTimes(stamps, factor, elapsed)
+    for stamp, seconds in zip(stamps.tolist(), times.seconds.tolist(), strict=True):
+        exact = (elapsed + Fraction(factor) * stamp) / 10**9
+        assert seconds == float(exact)
+        assert ExactTimes(stamp, factor, elapsed).seconds == seconds
+        assert times.advance(stamp) == exact * 10**9
+
+
+@pytest.mark.parametrize("factor", FACTORS)
+def test_states_are_exact_at_stamps_a_year_apart(factor):
+    motion = Motion(ARTICLE, CUSPS)
+    stamps = np.array([0, 5_000_000, 10**10 + 1, YEAR, YEAR + 1, -(10 * YEAR), 2**63 - 1])
+    states = motion.at(ExactTimes(stamps, factor, ELAPSED))
+    for k, stamp in enumerate(stamps.tolist()):
+        exact = ExactTimes(0, factor, ELAPSED).advance(stamp)
+        with mp.workdps(60):
+            t = mpf(exact.numerator) / exact.denominator / 10**9
+        q, omega = exact_motion(Case(ARTICLE, CUSPS, 0.0).inputs, t)
+        found = states.orientation[k], states.angular_velocity[k]
+        # a few roundings of numbers that are at most 1, and 10 rad/s across the axis
+        assert distance(q, found[0]) <= 5 * EPS
+        assert distance(omega, found[1]) <= 5 * EPS * 10
+
+
+def distance(exact, doubles):
+    """Distance of two vectors."""
+    return min(
+        float(mp.norm([a - sign * mpf(float(b)) for a, b in zip(exact, doubles, strict=True)]))
+        for sign in (1, -1)
+    )
+
+
+@pytest.mark.parametrize("name", STARTS)
+@pytest.mark.parametrize("factor", FACTORS)
+def test_one_time_and_many_give_the_same_bits(name, factor):
+    motion = Motion(ARTICLE, STARTS[name])
+    stamps = np.random.default_rng(1).integers(-(2**63) + 1, 2**63 - 1, 5000)
+    states = motion.at(ExactTimes(stamps, factor, ELAPSED))
+    for k in (0, 1, 4095, 4096, 4999):
+        alone = motion.at(ExactTimes(int(stamps[k]), factor, ELAPSED))
+        assert alone.orientation.tolist() == states.orientation[k].tolist()
+        assert alone.angular_velocity.tolist() == states.angular_velocity[k].tolist()
+
+
+@pytest.mark.parametrize("step", [1, 3])
+def test_an_elapsed_time_and_a_stamp_are_one_time(step):
+    motion = Motion(ARTICLE, CUSPS)
+    whole = motion.at(ExactTimes(YEAR + step))
+    parts = motion.at(ExactTimes(step, elapsed=Fraction(YEAR)))
+    # the same exact phases, truncated to 2^-62 of a turn in two ways
+    assert np.abs(whole.orientation - parts.orientation).max() <= 2 * EPS
+
+
+def test_a_time_that_is_a_double_gives_nearly_the_same_state_as_its_double():
+    motion = Motion(ARTICLE, CUSPS)
+    exact = motion.at(ExactTimes(np.array([0, 10**9, 10**18])))
+    doubles = motion.at([0.0, 1.0, 1e9])
+    assert np.abs(exact.orientation - doubles.orientation).max() <= 2 * EPS
+
+
+def test_an_integrated_motion_takes_the_nearest_doubles():
+    motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
+    times = ExactTimes(np.array([0, 300_000_000]), 1 / 3, Fraction(1, 4))
+    assert motion.at(times) == motion.at(times.seconds)
+    assert motion.at(ExactTimes(7)) == motion.at(7e-9)
+
+
+def test_shapes_follow_those_of_the_nanoseconds():
+    motion = Motion(Top(1.0, 0.5, 0.0), CUSPS)
+    assert motion.at(ExactTimes(1)).orientation.shape == (4,)
+    assert motion.at(ExactTimes(np.array([], dtype=np.int64))).orientation.shape == (0, 4)
+    assert motion.at(ExactTimes(np.array([1, 2], dtype=np.uint32))).orientation.shape == (2, 4)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [1.0, "1", True, None, 2**63, -(2**63), [0.5], [[1]], np.timedelta64(1, "ns"), [2**63]],
+)
+def test_nanoseconds_that_are_not_integers_of_63_bits_are_refused(bad):
+    with refused("nanoseconds", "an int or an array (n,) of ints, of at most 63 bits (ns)"):
+        ExactTimes(bad)
+
+
+@pytest.mark.parametrize("bad", [0.5, "1", True, Fraction(1, 3), None])
+def test_an_elapsed_time_that_no_sum_of_doubles_gives_is_refused(bad):
+    with refused("elapsed", "a Fraction with a power of two as denominator (ns)"):
+        ExactTimes(0, 1.0, bad)
+
+
+@pytest.mark.parametrize(
+    ("bad", "condition"),
+    [(0.0, "> 0"), (-1.0, "> 0"), (float("nan"), FINITE_NUMBER), ("1", "a number")],
+)
+def test_a_factor_that_is_not_positive_is_refused(bad, condition):
+    with refused("factor", condition):
+        ExactTimes(0, bad)

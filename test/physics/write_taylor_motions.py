@@ -1,0 +1,44 @@
+"""Write taylor_motions.json: 200 motions of 16 families by Taylor series, to 25 digits.
+
+Run it as `PYTHONPATH=.:test python test/physics/write_taylor_motions.py`; it takes some minutes.
+Inputs and times are doubles, taken as exact. `q` is the orientation (w, x, y, z) up to sign and
+`omega` the body angular velocity in rad/s; `largest` is the largest |omega_xy| of the motion.
+"""
+
+import json
+import math
+from pathlib import Path
+
+from mpmath import mp
+from physics.taylor_families import FAMILIES, make_case
+
+PATH = Path(__file__).with_name("taylor_motions.json")
+COUNT = 200
+DIGITS = 25
+
+
+def solve(family, seed):
+    case = make_case(family, seed)
+    series = case.series
+    times = case.times(series)
+    states = [series.state_at(t) for t in times]
+    return {
+        "family": family,
+        "moments": case.moments,
+        "q0": case.orientation,
+        "omega0": case.omega,
+        "period": series.period_in_seconds if case.has_period else None,
+        "largest": series.largest_rate if case.has_period else math.hypot(*case.omega[:2]),
+        "t": times,
+        "q": [[mp.nstr(c, DIGITS) for c in q] for q, _ in states],
+        "omega": [[mp.nstr(c, DIGITS) for c in omega] for _, omega in states],
+    }
+
+
+def main():
+    motions = [solve(FAMILIES[n % len(FAMILIES)], n // len(FAMILIES)) for n in range(COUNT)]
+    PATH.write_text("[\n" + ",\n".join(json.dumps(motion) for motion in motions) + "\n]\n")
+
+
+if __name__ == "__main__":
+    main()
