@@ -1,4 +1,5 @@
-"""The bytes of our messages, as ROS 2 sends and logs them: the one place that knows them. No ROS.
+"""Bytes of the messages that symtop_ros sends and logs (CDR). Needs no ROS.
 
-The node writes them, playback reads them where there is no ROS. Byte for byte what rclpy writes.
+The node encodes with it, and logs are read with it on machines without ROS. The bytes are the same
+as those of rclpy's serializer.
 """

@@ -1,7 +1,7 @@
-"""Plain CDR, little-endian: the encoding of ROS 2 messages, as far as ours need it.
+"""Plain CDR, little-endian: the encoding of ROS 2 messages, limited to the types used here.
 
-Numbers are aligned to their size, counted from the end of a header of four bytes (OMG CDR 1.0,
-DDS-RTPS 10.2).
+Numbers are aligned to their size, counted from the end of the 4-byte header (OMG CDR 1.0;
+DDS-RTPS 2.5, section 10.2).
 """
 
 from __future__ import annotations
@@ -12,65 +12,101 @@ HEADER = b"\x00\x01\x00\x00"
 
 
 class DecodeError(ValueError):
-    """Bytes that are not the message they are said to be."""
+    """The bytes are not a message of the expected type."""
 
 
 class Writer:
-    """Puts values into a message, one after the other."""
+    """Encode values into a message, one after the other.
+
+    Examples
+    --------
+    >>> writer = Writer()
+    >>> writer.integer(7)
+    >>> writer.string("top")
+    >>> writer.data.hex(" ", 4)
+    '00010000 07000000 04000000 746f7000'
+    """
 
     def __init__(self) -> None:
         self._data = bytearray(HEADER)
 
     @property
     def data(self) -> bytes:
-        """The message."""
+        """Encoded message."""
         return bytes(self._data)
 
     def integer(self, value: int, code: str = "I") -> None:
-        """Add an integer; `code` as in struct."""
+        """Append an integer; `code` is its format character of the struct module."""
         self._data += bytes(-(len(self._data) - len(HEADER)) % struct.calcsize(f"<{code}"))
         self._data += struct.pack(f"<{code}", value)
 
+    def number(self, value: float) -> None:
+        """Append a double."""
+        self._data += bytes(-(len(self._data) - len(HEADER)) % 8) + struct.pack("<d", value)
+
     def string(self, text: str) -> None:
-        """Add a string."""
+        """Append a string with its length and its terminating zero."""
         encoded = text.encode() + b"\0"
         self.integer(len(encoded))
         self._data += encoded
 
 
 class Reader:
-    """Takes values out of a message, one after the other."""
+    """Decode values from a message, one after the other.
+
+    Parameters
+    ----------
+    data : bytes
+        Encoded message.
+
+    Raises
+    ------
+    DecodeError
+        If the message is not little-endian CDR. The methods raise it if the message is too short.
+
+    Examples
+    --------
+    >>> reader = Reader(bytes.fromhex("00010000 07000000 04000000 746f7000"))
+    >>> reader.integer(), reader.string()
+    (7, 'top')
+    """
 
     def __init__(self, data: bytes) -> None:
         if data[:2] != HEADER[:2]:
-            msg = (
-                f"encoding {bytes(data[:2]).hex() or 'of no bytes'}, readable is CDR little-endian"
-            )
+            msg = f"encoding must be 0001 (CDR, little-endian), got {bytes(data[:2]).hex() or '-'}"
             raise DecodeError(msg)
         self._data = data
         self.offset = len(HEADER)
 
     def skip(self, size: int, count: int = 1) -> None:
-        """Pass over numbers of a size in bytes."""
+        """Skip `count` numbers of `size` bytes each."""
         self._align(size)
         self._take(size * count)
 
     def integer(self, code: str = "I") -> int:
-        """Return an integer; `code` as in struct."""
+        """Return an integer; `code` is its format character of the struct module."""
         size = struct.calcsize(f"<{code}")
         self._align(size)
         (value,) = struct.unpack(f"<{code}", self._take(size))
         return int(value)
 
+    def number(self) -> float:
+        """Return a double."""
+        self._align(8)
+        (value,) = struct.unpack("<d", self._take(8))
+        return float(value)
+
     def string(self) -> str:
-        """Return a string."""
+        """Return a string; invalid UTF-8 is replaced."""
         return self._take(self.integer())[:-1].decode("utf-8", "replace")
 
     def count(self) -> int:
-        """Return the length of a sequence; no element is smaller than a byte."""
+        """Return the length of a sequence, at most the number of remaining bytes."""
         count = self.integer()
+        # Every element takes at least a byte. Without this limit a damaged length of four billion
+        # would be used to loop.
         if count > len(self._data) - self.offset:
-            msg = f"a sequence of {count} in {len(self._data)} bytes"
+            msg = f"a sequence of {count} elements does not fit in {len(self._data)} bytes"
             raise DecodeError(msg)
         return count
 
@@ -84,7 +120,20 @@ class Reader:
     def _take(self, size: int) -> bytes:
         part = self._data[self.offset : self.offset + size]
         if len(part) < size:
-            msg = f"{len(self._data)} bytes, too few for what they announce"
+            msg = f"the message is cut: {len(self._data)} bytes are too few for its content"
             raise DecodeError(msg)
         self.offset += size
         return part
+
+
+def encode_string(text: str) -> bytes:
+    """Encode a std_msgs/String.
+
+    Examples
+    --------
+    >>> encode_string("top").hex(" ", 4)
+    '00010000 04000000 746f7000'
+    """
+    writer = Writer()
+    writer.string(text)
+    return writer.data

@@ -1,4 +1,4 @@
-"""Writing and reading diagnostic_msgs/DiagnosticArray."""
+"""Encoding and decoding of diagnostic_msgs/DiagnosticArray."""
 
 from __future__ import annotations
 
@@ -8,12 +8,22 @@ from typing import NamedTuple
 from symtop_ros.wire.cdr import Reader, Writer
 from symtop_ros.wire.layout import NANOSECONDS
 
-DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR = range(3)
 
 
 class Status(NamedTuple):
-    """One status of an array; its stamp is that of the array, in ns."""
+    """One status of an array.
+
+    Attributes
+    ----------
+    stamp : int
+        Stamp of the array in ns.
+    level : int
+        OK, WARN or ERROR.
+    name, message : str
+    values : mapping of str to str
+    """
 
     stamp: int
     level: int
@@ -22,40 +32,55 @@ class Status(NamedTuple):
     values: Mapping[str, str]
 
 
-def packed(stamp: int, frame: str, found: Sequence[Status]) -> bytes:
-    """Return the message of some statuses; its stamp, in ns, is the one that counts."""
+def encode_statuses(stamp: int, frame: str, statuses: Sequence[Status]) -> bytes:
+    """Encode an array of statuses.
+
+    Parameters
+    ----------
+    stamp : int
+        Stamp of the array in ns; the stamps of the statuses are not encoded.
+    frame : str
+        frame_id of the header.
+    statuses : sequence of Status
+
+    Examples
+    --------
+    >>> status = Status(7, OK, "top: kick", "The top rises.", {"hold": "spin_rate"})
+    >>> decode_statuses(encode_statuses(7, "world", [status])) == [status]
+    True
+    """
     writer = Writer()
     seconds, nanoseconds = divmod(stamp, NANOSECONDS)
     writer.integer(seconds, "i")
     writer.integer(nanoseconds)
     writer.string(frame)
-    writer.integer(len(found))
-    for each in found:
-        writer.integer(each.level, "B")
-        for text in (each.name, each.message, ""):
+    writer.integer(len(statuses))
+    for status in statuses:
+        writer.integer(status.level, "B")
+        for text in (status.name, status.message, ""):  # the last one is hardware_id
             writer.string(text)
-        writer.integer(len(each.values))
-        for pair in each.values.items():
+        writer.integer(len(status.values))
+        for pair in status.values.items():
             for text in pair:
                 writer.string(text)
     return writer.data
 
 
-def statuses(data: bytes) -> list[Status]:
-    """Return the statuses of a message.
+def decode_statuses(data: bytes) -> list[Status]:
+    """Decode an array of statuses.
 
     Raises
     ------
     DecodeError
-        Where the bytes are not such a message.
+        If the bytes are not a DiagnosticArray.
     """
     reader = Reader(data)
     stamp = reader.integer("i") * NANOSECONDS + reader.integer("I")
     reader.string()
-    return [_status(reader, stamp) for _ in range(reader.count())]
+    return [_decode_status(reader, stamp) for _ in range(reader.count())]
 
 
-def _status(reader: Reader, stamp: int) -> Status:
+def _decode_status(reader: Reader, stamp: int) -> Status:
     level, name, message = reader.integer("B"), reader.string(), reader.string()
     reader.string()  # hardware_id
     pairs = [(reader.string(), reader.string()) for _ in range(reader.count())]

@@ -1,7 +1,8 @@
-"""Messages of which only the stamp and some doubles change from one sample to the next.
+"""Messages in which only the stamp and some doubles differ from one sample to the next.
 
-With frame and joint names given everything else is constant, so that a message is packed in one
-call, and many of them are read as one structured array.
+Once the names of frames and joints are known, all other bytes are constant. A message is then a
+copy of a template with a few numbers written into it, and many messages are decoded at once as a
+two-dimensional array of bytes.
 """
 
 from __future__ import annotations
@@ -22,26 +23,26 @@ NANOSECONDS = 1_000_000_000
 
 @dataclass(frozen=True, slots=True)
 class Stamp:
-    """Seconds and nanoseconds; once in a layout."""
+    """Seconds and nanoseconds; a layout has one stamp."""
 
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A string that is the same in every message."""
+    """A constant string."""
 
     value: str
 
 
 @dataclass(frozen=True, slots=True)
 class Count:
-    """The length of the sequence that follows."""
+    """The length of the sequence that follows (constant)."""
 
     value: int
 
 
 @dataclass(frozen=True, slots=True)
 class Doubles:
-    """Numbers of which each message has its own."""
+    """Numbers that differ between messages."""
 
     count: int
 
@@ -50,29 +51,37 @@ Part = Stamp | Text | Count | Doubles
 
 
 class Layout:
-    """Where stamp and doubles stand in a message, and the bytes around them.
+    """Offsets of the stamp and of the doubles in a message, and its constant bytes.
 
     Parameters
     ----------
     *parts : Stamp, Text, Count or Doubles
-        The message, front to back.
+        Fields of the message in their order.
+
+    Examples
+    --------
+    >>> layout = Layout(Stamp(), Text("world"), Doubles(4))
+    >>> message = layout.encode(1_500_000_000, [0.0, 0.0, 0.0, 1.0])
+    >>> rows = np.frombuffer(message, np.uint8).reshape(1, -1)
+    >>> bool(layout.match(rows)[0]), layout.decode(rows)[0].tolist()
+    (True, [1500000000])
     """
 
     def __init__(self, *parts: Part) -> None:
-        self._template, self._known = bytearray(), bytearray()
-        self._stamp = 0  # offset
-        self._blocks: list[tuple[int, int]] = []  # offset and number of doubles
+        self._template, self._constant = bytearray(), bytearray()
+        self._stamp = 0  # offset of the stamp
+        self._blocks: list[tuple[int, int]] = []  # offset and number of consecutive doubles
         self._append(HEADER)
         for part in parts:
             self._add(part)
 
     @property
     def size(self) -> int:
-        """Bytes of a message."""
+        """Size of a message in bytes."""
         return len(self._template)
 
-    def pack(self, stamp: int, numbers: Sequence[float]) -> bytes:
-        """Return the message of a stamp (ns) with its doubles, in order."""
+    def encode(self, stamp: int, numbers: Sequence[float]) -> bytes:
+        """Encode a message from its stamp (ns) and its doubles, in the order of the message."""
         message = self._template.copy()
         struct.pack_into("<iI", message, self._stamp, *divmod(stamp, NANOSECONDS))
         first = 0
@@ -81,17 +90,17 @@ class Layout:
             first += count
         return bytes(message)
 
-    def fits(self, rows: Bytes) -> NDArray[np.bool_]:
-        """Which messages, rows of (n, size), differ in stamp, doubles and padding only.
+    def match(self, rows: Bytes) -> NDArray[np.bool_]:
+        """Return which messages (n, size) have the constant bytes of this layout, (n,).
 
-        ROS leaves in the padding what happens to be in memory.
+        Padding is not compared: ROS leaves arbitrary bytes of memory there.
         """
-        known = np.frombuffer(self._known, dtype=bool)
+        known = np.frombuffer(self._constant, dtype=bool)
         expected = np.frombuffer(self._template, dtype=np.uint8)
         return np.asarray((rows[:, known] == expected[known]).all(axis=1))
 
-    def unpack(self, rows: Bytes) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Return stamps (n,) in ns and doubles (n, width) of messages that fit."""
+    def decode(self, rows: Bytes) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Decode matching messages (n, size) into stamps (n,) in ns and doubles (n, width)."""
         seconds = _column(rows, self._stamp, 4, "<i4").astype(np.int64)
         stamps = seconds * NANOSECONDS + _column(rows, self._stamp + 4, 4, "<u4")
         blocks = [_column(rows, offset, 8 * count, "<f8") for offset, count in self._blocks]
@@ -115,11 +124,11 @@ class Layout:
 
     def _append(self, data: bytes) -> None:
         self._template += data
-        self._known += b"\1" * len(data)
+        self._constant += b"\1" * len(data)
 
     def _skip(self, size: int) -> None:
         self._template += bytes(size)
-        self._known += bytes(size)
+        self._constant += bytes(size)
 
 
 def _column(rows: Bytes, offset: int, size: int, kind: str) -> NDArray[Any]:

@@ -1,6 +1,6 @@
-"""Which message each topic of a sample is, and its layout.
+"""Formats of the message types that carry samples, and decoding of many messages at once.
 
-Doubles stand in the order of the message: quaternions x, y, z, w; linear (or force) before angular
+Doubles are in the order of the message: quaternions x, y, z, w; linear (or force) before angular
 (or torque); positions before velocities.
 """
 
@@ -12,30 +12,62 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.wire.cdr import DecodeError, Reader
-from symtop_ros.wire.layout import Count, Doubles, Layout, Stamp, Text
+from symtop_ros.wire.cdr import DecodeError, Reader, Writer
+from symtop_ros.wire.layout import NANOSECONDS, Count, Doubles, Layout, Stamp, Text
 
-JOINTS = ("precession", "tilt", "spin")  # of the URDF: z-x-z
-MOST_LAYOUTS = 256  # of one topic at a time: frames of /tf
-
-
-def quaternion(frame: str) -> Layout:
-    """geometry_msgs/QuaternionStamped."""
-    return Layout(Stamp(), Text(frame), Doubles(4))
+JOINTS = ("precession", "tilt", "spin")  # joint names of the URDF; axes z-x-z
+MAX_LAYOUTS = 256  # different frames on one topic that are decoded (/tf is shared by many)
+MAX_PADDING = 7  # bytes that rclpy's serialize_message may append to a message
 
 
-def vector(frame: str) -> Layout:
-    """geometry_msgs/Vector3Stamped."""
-    return Layout(Stamp(), Text(frame), Doubles(3))
+@dataclass(frozen=True, slots=True)
+class Format:
+    """Encoding of one ROS message type.
+
+    Attributes
+    ----------
+    type : str
+        Name of the type, such as "geometry_msgs/msg/QuaternionStamped".
+    layout : callable
+        Returns the layout for given names: the frame, then the child frame or the joints.
+    read_names : callable
+        Returns these names from an encoded message; raises DecodeError.
+    """
+
+    type: str
+    layout: Callable[..., Layout]
+    read_names: Callable[[bytes], tuple[str, ...]]
 
 
-def twist(frame: str) -> Layout:
-    """geometry_msgs/TwistStamped and WrenchStamped."""
-    return Layout(Stamp(), Text(frame), Doubles(6))
+def _read_frame(data: bytes) -> tuple[str, ...]:
+    reader = Reader(data)
+    reader.skip(4, 2)  # stamp
+    return (reader.string(),)
 
 
-def joints(frame: str, names: Sequence[str] = JOINTS) -> Layout:
-    """sensor_msgs/JointState with positions and velocities."""
+def _read_joints(data: bytes) -> tuple[str, ...]:
+    reader = Reader(data)
+    reader.skip(4, 2)
+    frame, names = reader.string(), reader.strings()
+    if len(names) != len(JOINTS):
+        msg = f"JointState must have {len(JOINTS)} joints, got {len(names)}"
+        raise DecodeError(msg)
+    return (frame, *names)
+
+
+def _read_transform_frames(data: bytes) -> tuple[str, ...]:
+    reader = Reader(data)
+    reader.skip(4, 3)  # number of transforms, stamp
+    return reader.string(), reader.string()
+
+
+def _read_frame_and_child(data: bytes) -> tuple[str, ...]:
+    reader = Reader(data)
+    reader.skip(4, 2)
+    return reader.string(), reader.string()
+
+
+def _joint_state(frame: str, *names: str) -> Layout:
     count = len(names)
     return Layout(
         Stamp(),
@@ -43,134 +75,173 @@ def joints(frame: str, names: Sequence[str] = JOINTS) -> Layout:
         Count(count),
         *map(Text, names),
         Count(count),
-        Doubles(count),
+        Doubles(count),  # positions
         Count(count),
-        Doubles(count),
-        Count(0),
+        Doubles(count),  # velocities
+        Count(0),  # no efforts
     )
 
 
-def transform(frame: str, child: str) -> Layout:
-    """tf2_msgs/TFMessage with one transform: translation, rotation."""
-    return Layout(Count(1), Stamp(), Text(frame), Text(child), Doubles(7))
+def stamped(package_type: str, doubles: int) -> Format:
+    """Return the format of a type that consists of a header and some doubles.
+
+    Examples
+    --------
+    >>> stamped("geometry_msgs/msg/PoseStamped", 7).type
+    'geometry_msgs/msg/PoseStamped'
+    """
+
+    def layout(frame: str) -> Layout:
+        return Layout(Stamp(), Text(frame), Doubles(doubles))
+
+    return Format(package_type, layout, _read_frame)
+
+
+QUATERNION = stamped("geometry_msgs/msg/QuaternionStamped", 4)
+VECTOR = stamped("geometry_msgs/msg/Vector3Stamped", 3)
+TWIST = stamped("geometry_msgs/msg/TwistStamped", 6)
+IMU_WIDTH, ODOMETRY_WIDTH = 37, 85
+# Orientation, angular velocity and acceleration, each followed by its covariance (9)
+IMU = stamped("sensor_msgs/msg/Imu", IMU_WIDTH)
+WRENCH = stamped("geometry_msgs/msg/WrenchStamped", 6)
+JOINT_STATE = Format("sensor_msgs/msg/JointState", _joint_state, _read_joints)
+TRANSFORM = Format(  # tf2_msgs/TFMessage with one transform: translation, then rotation
+    "tf2_msgs/msg/TFMessage",
+    lambda frame, child: Layout(Count(1), Stamp(), Text(frame), Text(child), Doubles(7)),
+    _read_transform_frames,
+)
+ODOMETRY = Format(  # pose and its covariance, twist and its covariance
+    "nav_msgs/msg/Odometry",
+    lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(ODOMETRY_WIDTH)),
+    _read_frame_and_child,
+)
+CLOCK = Layout(Stamp())  # rosgraph_msgs/Clock
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """A frame in its parent frame.
+
+    Attributes
+    ----------
+    parent, child : str
+        Names of both frames.
+    translation : (float, float, float)
+        In m.
+    rotation : (float, float, float, float)
+        Quaternion x, y, z, w.
+    """
+
+    parent: str
+    child: str
+    translation: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+
+
+def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
+    """Encode a TFMessage with any number of transforms at one stamp (ns).
+
+    Examples
+    --------
+    >>> one = Transform("world", "top", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    >>> message = TRANSFORM.layout("world", "top").encode(7, [0.0] * 6 + [1.0])
+    >>> encode_transforms(7, [one]) == message
+    True
+    """
+    writer = Writer()
+    writer.integer(len(transforms))
+    for each in transforms:
+        seconds, nanoseconds = divmod(stamp, NANOSECONDS)
+        writer.integer(seconds, "i")
+        writer.integer(nanoseconds)
+        writer.string(each.parent)
+        writer.string(each.child)
+        for number in (*each.translation, *each.rotation):
+            writer.number(number)
+    return writer.data
 
 
 @dataclass(frozen=True, eq=False)
-class Unpacked:
+class Decoded:
     """Messages of one layout.
 
     Attributes
     ----------
     names : tuple of str
         Frames (the child last), or the frame and the joints.
-    which : ndarray (n,)
-        Where they stood among the messages.
-    stamps : ndarray (n,)
+    indices : ndarray (n,) of int
+        Their places among the messages that were decoded together.
+    stamps : ndarray (n,) of int
         In ns.
     numbers : ndarray (n, width)
+        Their doubles.
     """
 
     names: tuple[str, ...]
-    which: NDArray[np.int64]
+    indices: NDArray[np.int64]
     stamps: NDArray[np.int64]
     numbers: NDArray[np.float64]
 
 
-Named = tuple[Layout, tuple[str, ...]]
-
-
-def _framed(make: Callable[[str], Layout]) -> Callable[[bytes], Named]:
-    def layout_of(data: bytes) -> Named:
-        reader = Reader(data)
-        reader.skip(4, 2)
-        frame = reader.string()
-        return make(frame), (frame,)
-
-    return layout_of
-
-
-def _joints_of(data: bytes) -> Named:
-    reader = Reader(data)
-    reader.skip(4, 2)
-    frame, names = reader.string(), reader.strings()
-    if len(names) != len(JOINTS):
-        msg = f"{len(names)} joints, readable are {len(JOINTS)}"
-        raise DecodeError(msg)
-    return joints(frame, names), (frame, *names)
-
-
-def _transform_of(data: bytes) -> Named:
-    reader = Reader(data)
-    reader.skip(4, 3)
-    names = reader.string(), reader.string()
-    return transform(*names), names
-
-
-KINDS = {
-    "orientation": "geometry_msgs/msg/QuaternionStamped",
-    "angular_velocity": "geometry_msgs/msg/TwistStamped",
-    "angular_momentum": "geometry_msgs/msg/Vector3Stamped",
-    "torque": "geometry_msgs/msg/WrenchStamped",
-    "euler_angles": "sensor_msgs/msg/JointState",
-    "tf": "tf2_msgs/msg/TFMessage",
-}
-LAYOUT_OF: dict[str, Callable[[bytes], Named]] = {
-    KINDS["orientation"]: _framed(quaternion),
-    KINDS["angular_momentum"]: _framed(vector),
-    KINDS["angular_velocity"]: _framed(twist),
-    KINDS["torque"]: _framed(twist),
-    KINDS["euler_angles"]: _joints_of,
-    KINDS["tf"]: _transform_of,
-}
-
-
-def unpacked(kind: str, messages: Sequence[bytes]) -> tuple[list[Unpacked], list[str]]:
-    """Read messages of one kind, whoever wrote them.
+def decode_messages(form: Format, messages: Sequence[bytes]) -> tuple[list[Decoded], list[str]]:
+    """Decode messages of one type, written by any program.
 
     Parameters
     ----------
-    kind : str
-        As in `LAYOUT_OF`.
+    form : Format
     messages : sequence of bytes
 
     Returns
     -------
-    found : list of Unpacked
-        One for each layout.
+    decoded : list of Decoded
+        One for each layout (each combination of names).
     refused : list of str
-        What is wrong with each message that is of another kind, or varies in more than doubles.
+        The reason for each message that is not of this type or not of one sample.
+
+    Examples
+    --------
+    >>> message = VECTOR.layout("world").encode(7, [1.0, 2.0, 3.0])
+    >>> decoded, refused = decode_messages(VECTOR, [message, b"noise"])
+    >>> decoded[0].numbers.tolist(), refused
+    ([[1.0, 2.0, 3.0]], ['encoding must be 0001 (CDR, little-endian), got 6e6f'])
     """
     sizes = np.fromiter(map(len, messages), np.int64, len(messages))
-    left, unread = np.arange(len(messages)), np.ones(len(messages), dtype=bool)
-    found: list[Unpacked] = []
+    remaining, unread = np.arange(len(messages)), np.ones(len(messages), dtype=bool)
+    decoded: list[Decoded] = []
     refused: list[str] = []
-    while left.size and len(found) < MOST_LAYOUTS:
-        alike = left[sizes[left] == sizes[left[0]]]
+    # Messages of one layout have one size. Each pass takes the layout of the first remaining
+    # message and decodes all that match it, so that a log costs one array operation per frame name.
+    while remaining.size and len(decoded) < MAX_LAYOUTS:
+        same_size = remaining[sizes[remaining] == sizes[remaining[0]]]
         try:
-            found.append(_of_first_layout(kind, messages, alike))
-            done = found[-1].which
+            decoded.append(_decode_first_layout(form, messages, same_size))
+            done = decoded[-1].indices
         except DecodeError as error:
             refused.append(str(error))
-            done = left[:1]
+            done = remaining[:1]
         unread[done] = False
-        left = left[unread[left]]
-    refused += [f"more than {MOST_LAYOUTS} frames on one topic"] * left.size
-    return found, refused
+        remaining = remaining[unread[remaining]]
+    refused += [f"a topic must have at most {MAX_LAYOUTS} frames"] * remaining.size
+    return decoded, refused
 
 
-def _of_first_layout(kind: str, messages: Sequence[bytes], which: NDArray[np.int64]) -> Unpacked:
-    """Read those of some messages of one size that have the layout of the first of them."""
-    first = messages[which[0]]
-    layout, names = LAYOUT_OF[kind](first)
-    # rclpy's serialize_message hands out up to seven bytes more than are sent
-    if not 0 <= len(first) - layout.size < 8 or not layout.fits(_rows([first], layout))[0]:
-        msg = f"{len(first)} bytes that are not a {kind} of one sample"
+def _decode_first_layout(
+    form: Format, messages: Sequence[bytes], indices: NDArray[np.int64]
+) -> Decoded:
+    """Decode, of some messages of one size, those with the layout of the first one."""
+    first = messages[indices[0]]
+    names = form.read_names(first)
+    layout = form.layout(*names)
+    if not (
+        0 <= len(first) - layout.size <= MAX_PADDING and layout.match(_stack([first], layout))[0]
+    ):
+        msg = f"{len(first)} bytes are not a {form.type} of one sample"
         raise DecodeError(msg)
-    rows = _rows([messages[k] for k in which], layout)
-    fits = layout.fits(rows)
-    return Unpacked(names, which[fits], *layout.unpack(rows[fits]))
+    rows = _stack([messages[k] for k in indices], layout)
+    matching = layout.match(rows)
+    return Decoded(names, indices[matching], *layout.decode(rows[matching]))
 
 
-def _rows(messages: Sequence[bytes], layout: Layout) -> NDArray[np.uint8]:
-    """Messages of one size as an array, without what is behind the layout."""
+def _stack(messages: Sequence[bytes], layout: Layout) -> NDArray[np.uint8]:
+    """Stack messages of one size into rows, cut to the size of the layout."""
     return np.frombuffer(b"".join(messages), np.uint8).reshape(len(messages), -1)[:, : layout.size]

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from symtop_ros.wire.cdr import DecodeError
-from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, packed, statuses
+from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, decode_statuses, encode_statuses
 
 TEXT = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=20)
 
@@ -22,7 +22,7 @@ def test_what_rclpy_writes_is_read(given_statuses):
         )
         message.status.append(status)
     data = serialize_message(message)
-    found = statuses(data)
+    found = decode_statuses(data)
     assert [(each.name, each.message, dict(each.values)) for each in found] == given_statuses
     assert all(each.stamp == 3_000_000_004 and each.level == 1 for each in found)
 
@@ -40,8 +40,8 @@ STATUSES = st.builds(
 
 @given(TEXT, st.lists(STATUSES, max_size=3))
 def test_what_is_written_is_what_rclpy_reads(frame, given_statuses):
-    data = packed(3_000_000_004, frame, given_statuses)
-    assert statuses(data) == given_statuses
+    data = encode_statuses(3_000_000_004, frame, given_statuses)
+    assert decode_statuses(data) == given_statuses
     message = deserialize_message(data, DiagnosticArray)
     assert message.header.frame_id == frame
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == (3, 4)
@@ -60,7 +60,9 @@ def test_what_is_written_is_byte_for_byte_what_rclpy_writes():
     status = DiagnosticStatus(level=DiagnosticStatus.ERROR, name="abc", message="abcdefg")
     status.hardware_id, status.values = "", [pair]
     message.status.append(status)
-    ours = packed(7_000_000_000, "abc", [Status(0, ERROR, "abc", "abcdefg", {"key": "1.5"})])
+    ours = encode_statuses(
+        7_000_000_000, "abc", [Status(0, ERROR, "abc", "abcdefg", {"key": "1.5"})]
+    )
     theirs = serialize_message(message)
     padding = {25, 26, 27, 53, 54, 55}  # after the level, and after the empty hardware_id
     assert len(theirs) - len(ours) < 8  # rclpy hands out more than it sends
@@ -71,4 +73,4 @@ def test_what_is_written_is_byte_for_byte_what_rclpy_writes():
 @given(st.binary(max_size=200))
 def test_any_other_bytes_are_refused_or_read_and_never_end_badly(data):
     with contextlib.suppress(DecodeError):
-        assert isinstance(statuses(b"\0\1\0\0" + data), list)
+        assert isinstance(decode_statuses(b"\0\1\0\0" + data), list)

@@ -1,0 +1,204 @@
+"""Runs in several files: rosbag2 folders, split recordings, and bags of rosbag2's sqlite3 storage.
+
+A bag of any kind is read like one `McapFile`, as a `Source`.
+"""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Protocol
+
+from mcap.records import Channel, Message, Schema
+
+from symtop_ros.log.reader import MAX_MESSAGES, LogError, McapFile
+
+MCAP, SQLITE = ".mcap", ".db3"
+MAX_FILES = 10_000  # of one run
+MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp, id"
+TOPICS = "SELECT id, name, type, serialization_format FROM topics"
+
+
+class Source(Protocol):
+    """Messages of a log, in the order of their times, with the descriptions of their channels.
+
+    The attributes are those of `McapFile`.
+    """
+
+    path: Path
+    schemas: dict[int, Schema]
+    channels: dict[int, Channel]
+    size: int
+
+    @property
+    def problems(self) -> list[str]:
+        """Everything that is missing or damaged."""
+
+    @property
+    def offset(self) -> int:
+        """Bytes that were read."""
+
+    def chunks(self) -> Iterator[list[Message]]:
+        """Yield lists of messages."""
+
+
+def open_run(paths: Sequence[Path]) -> Source:
+    """Open files and rosbag2 folders as one run; their order does not matter.
+
+    Raises
+    ------
+    LogError
+        If one of them cannot be opened, or is not a log.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     open_run([Path(folder)])  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    symtop_ros.log.reader.LogError: cannot open ...: no .mcap or .db3 file in it
+    """
+    files = [file for path in paths for file in _files_of(path)]
+    if len(files) > MAX_FILES:
+        msg = f"a run must have at most {MAX_FILES} files, got {len(files)}"
+        raise LogError(msg)
+    sources = [_open(file) for file in dict.fromkeys(files)]
+    return sources[0] if len(sources) == 1 else SeveralFiles(paths[0], sources)
+
+
+def _files_of(path: Path) -> list[Path]:
+    if not os.path.isdir(path):  # Path.is_dir raises for names that are too long
+        return [path]
+    files = sorted(file for suffix in (MCAP, SQLITE) for file in path.glob(f"*{suffix}"))
+    if not files:
+        compressed = any(path.glob("*.zstd"))
+        reason = "its files are compressed as a whole (`ros2 bag convert` writes others)"
+        msg = f"cannot open {path}: {reason if compressed else 'no .mcap or .db3 file in it'}"
+        raise LogError(msg)
+    return files
+
+
+def _open(path: Path) -> Source:
+    return SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
+
+
+class SeveralFiles:
+    """Several logs, read one after the other in the order of their first messages.
+
+    Parameters
+    ----------
+    path : Path
+        Stands for all of them in messages and names.
+    sources : sequence of Source
+    """
+
+    def __init__(self, path: Path, sources: Sequence[Source]) -> None:
+        self.path = path
+        self._sources = sorted(sources, key=_begin)
+        self.schemas: dict[int, Schema] = {}
+        self.channels: dict[int, Channel] = {}
+        self._numbers: dict[tuple[int, int], int] = {}
+        self.size = sum(source.size for source in sources)
+        for place, source in enumerate(self._sources):
+            self._describe(place, source)
+
+    @property
+    def offset(self) -> int:
+        """Bytes that were read."""
+        return sum(source.offset for source in self._sources)
+
+    @property
+    def problems(self) -> list[str]:
+        """Everything that is missing or damaged, with the name of its file."""
+        return [f"{each.path.name}: {text}" for each in self._sources for text in each.problems]
+
+    def chunks(self) -> Iterator[list[Message]]:
+        """Yield messages, those of a chunk together; numbers of channels are those of this run."""
+        for place, source in enumerate(self._sources):
+            for messages in source.chunks():
+                self._describe(place, source)
+                yield [
+                    replace(each, channel_id=self._number(place, each.channel_id))
+                    for each in messages
+                ]
+
+    def _describe(self, place: int, source: Source) -> None:
+        """Take over the channels of a file that are new."""
+        for number, channel in list(source.channels.items()):
+            mine = self._number(place, number)
+            if mine not in self.channels and channel.schema_id in source.schemas:
+                self.channels[mine] = replace(channel, id=mine, schema_id=mine)
+                self.schemas[mine] = replace(source.schemas[channel.schema_id], id=mine)
+
+    def _number(self, place: int, number: int) -> int:
+        """Return the number in this run of a channel in a file."""
+        return self._numbers.setdefault((place, number), len(self._numbers) + 1)
+
+
+def _begin(source: Source) -> tuple[int, str]:
+    """Return the time of the first message, and the name for files that begin together."""
+    first = next(source.chunks(), [])
+    return (first[0].log_time if first else 0), source.path.name
+
+
+class SqliteBag:
+    """A bag of rosbag2's sqlite3 storage, read with the attributes of an `McapFile`.
+
+    Parameters
+    ----------
+    path : Path
+        A .db3 file.
+
+    Raises
+    ------
+    LogError
+        If it cannot be opened, or is not such a bag.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.offset = path, 0
+        self.schemas: dict[int, Schema] = {}
+        self.channels: dict[int, Channel] = {}
+        self.problems: list[str] = []
+        try:
+            self.size = path.stat().st_size
+            for number, name, kind, encoding in self._rows(TOPICS):
+                self._add_topic(int(number), str(name), str(kind), str(encoding))
+        except OSError as error:
+            msg = f"cannot open {path}: {error.strerror}"
+            raise LogError(msg) from None
+        except (sqlite3.Error, ValueError) as error:
+            msg = f"cannot open {path}: not a bag of rosbag2 ({error})"
+            raise LogError(msg) from None
+
+    def _add_topic(self, number: int, name: str, kind: str, encoding: str) -> None:
+        self.schemas[number] = Schema(number, b"", "ros2msg", kind)
+        self.channels[number] = Channel(number, name, encoding, {}, number)
+
+    def chunks(self) -> Iterator[list[Message]]:
+        """Yield messages in the order of their times."""
+        self.problems.clear()
+        messages: list[Message] = []
+        try:
+            for number, time, data in self._rows(MESSAGES):
+                messages.append(Message(number, time, bytes(data), time, 0))
+                if len(messages) == MAX_MESSAGES:
+                    yield messages
+                    messages = []
+        except (sqlite3.Error, ValueError, TypeError) as error:
+            self.problems.append(f"the bag is damaged after the messages that were read: {error}")
+        self.offset = self.size
+        yield messages
+
+    def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
+        # Immutable: without locks and files next to the bag, whose disk may be read-only. But a
+        # recorder that was killed may have left messages in a file next to it (write-ahead log),
+        # which SQLite would then ignore.
+        pending = self.path.with_name(f"{self.path.name}-wal").exists()
+        name = f"{self.path.absolute().as_uri()}?mode=ro{'' if pending else '&immutable=1'}"
+        with closing(sqlite3.connect(name, uri=True)) as database:
+            yield from database.execute(query)

@@ -1,0 +1,150 @@
+"""Messages of a top, from a log or a running node, decoded into arrays and events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.simulation.events import Event, decode_events
+from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS
+from symtop_ros.simulation.validation import one_line
+from symtop_ros.wire.messages import Decoded, decode_messages
+
+TF = "tf"
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """Samples of one topic.
+
+    Attributes
+    ----------
+    stamps : ndarray (n,)
+        In ns.
+    numbers : ndarray (n, width)
+        The doubles of the messages, as in `simulation.topics`.
+    places : ndarray (n,)
+        Their places among the messages of the batch.
+    """
+
+    stamps: NDArray[np.int64]
+    numbers: NDArray[np.float64]
+    places: NDArray[np.int64]
+
+    def select(self, chosen: NDArray[np.bool_]) -> Columns:
+        """Return the samples for which `chosen` (n,) is True."""
+        return Columns(self.stamps[chosen], self.numbers[chosen], self.places[chosen])
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Consecutive messages.
+
+    Attributes
+    ----------
+    columns : dict of str to Columns
+        By the names of the topics.
+    events : list of (int, Event)
+        With their places among the messages of the batch.
+    """
+
+    columns: dict[str, Columns] = field(default_factory=dict)
+    events: list[tuple[int, Event]] = field(default_factory=list)
+
+    def stretches(self) -> Iterator[tuple[Event | None, dict[str, Columns]]]:
+        """Yield each event with the samples that follow it; first None with those before all."""
+        events = [None, *(event for _, event in self.events)]
+        owners = {name: self._owners(columns) for name, columns in self.columns.items()}
+        for number, event in enumerate(events):
+            yield (
+                event,
+                {
+                    name: columns.select(owners[name] == number)
+                    for name, columns in self.columns.items()
+                    if (owners[name] == number).any()
+                },
+            )
+
+    def _owners(self, columns: Columns) -> NDArray[np.intp]:
+        """Return the number of the event that each sample belongs to; 0: before all of them.
+
+        The node logs an event before its samples. Other recorders write in the order of arrival;
+        there the stamps decide, except after a jump of the clock, where stamps are not ordered.
+        """
+        places = [place for place, _ in self.events]
+        owners = np.searchsorted(places, columns.places, side="right")
+        for number, (_, event) in enumerate(self.events, start=1):
+            if event.name != "clock":
+                later = columns.stamps >= event.stamp
+                owners[(owners == number - 1) & later] = number
+                owners[(owners == number) & ~later] = number - 1
+        return owners
+
+
+class BatchReader:
+    """Decodes messages into batches.
+
+    Attributes
+    ----------
+    unreadable : dict of str to str
+        Reason why messages of a topic could not be decoded, by the name of the topic.
+    """
+
+    def __init__(self) -> None:
+        self.unreadable: dict[str, str] = {}
+        self._frame: str | None = None  # child frame of the top on /tf
+
+    def read(self, messages: Sequence[tuple[str, bytes]]) -> Batch:
+        """Decode messages, given with the names of their topics."""
+        places: dict[str, list[int]] = {}
+        for place, (name, _) in enumerate(messages):
+            places.setdefault(name, []).append(place)
+        batch = Batch()
+        # Events come first: they say which frame on /tf belongs to the top.
+        for name in sorted(places, key=lambda name: name != EVENTS.name):
+            where = places[name]
+            data = [messages[place][1] for place in where]
+            if name == EVENTS.name:
+                batch.events.extend(self._events(data, where))
+            else:
+                self._samples(batch, name, data, where)
+        return batch
+
+    def _samples(self, batch: Batch, name: str, data: list[bytes], where: list[int]) -> None:
+        parts, refused = decode_messages(SAMPLE_TOPICS[name].format, data)
+        if refused:
+            self.unreadable[name] = f"{len(refused)} messages: {refused[0]}"
+        if name == TF:
+            parts = self._select_frame(parts)
+        if parts:
+            batch.columns[name] = _join(parts, np.array(where))
+
+    def _events(self, data: list[bytes], where: list[int]) -> list[tuple[int, Event]]:
+        found = []
+        for place, each in zip(where, data, strict=True):
+            try:
+                found += [(place, event) for event in decode_events(each)]
+                self._frame = found[-1][1].values.get("top_frame", self._frame)
+            except ValueError as error:
+                self.unreadable[EVENTS.name] = one_line(error)
+        return found
+
+    def _select_frame(self, parts: list[Decoded]) -> list[Decoded]:
+        """Return the transforms of the top: of the frame in its events, else "top" or the first."""
+        children = [part.names[-1] for part in parts]
+        if self._frame is None and children:
+            self._frame = "top" if "top" in children else children[0]
+        return [part for part in parts if part.names[-1] == self._frame]
+
+
+def _join(parts: list[Decoded], where: NDArray[np.int64]) -> Columns:
+    indices = np.concatenate([part.indices for part in parts])
+    order = np.argsort(indices)
+    return Columns(
+        np.concatenate([part.stamps for part in parts])[order],
+        np.concatenate([part.numbers for part in parts])[order],
+        where[indices[order]],
+    )

@@ -1,0 +1,53 @@
+"""Definitions of the logged message types: text with dependencies, and RIHS01 hash.
+
+They are shipped in definitions.json, so that a log can be written without ROS. A test compares them
+with those of the installed ROS 2.
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+
+class Definition(NamedTuple):
+    """Definition of a message type.
+
+    Attributes
+    ----------
+    type : str
+        Name, such as "std_msgs/msg/String".
+    text : str
+        The .msg text, followed by those of all dependencies in the form of rosbag2.
+    type_hash : str
+        Hash of the type description (REP-2016), "RIHS01_...".
+    """
+
+    type: str
+    text: str
+    type_hash: str
+
+
+def load_definition(name: str) -> Definition:
+    """Return the definition of a logged type.
+
+    Raises
+    ------
+    KeyError
+        If no topic has that type.
+
+    Examples
+    --------
+    >>> load_definition("std_msgs/msg/String").type_hash[:10]
+    'RIHS01_df6'
+    """
+    entry = _load()[name]
+    return Definition(name, entry["text"], entry["hash"])
+
+
+@cache
+def _load() -> dict[str, dict[str, str]]:
+    text = files("symtop_ros.log").joinpath("definitions.json").read_text(encoding="utf-8")
+    return dict(json.loads(text))

@@ -1,0 +1,397 @@
+"""Reading of whole and damaged MCAP files, chunk by chunk, with a list of what is missing.
+
+A file that was cut, a damaged chunk or a nonsensical length loses only what it covers, and memory
+stays bounded by the largest chunk. The readers of the mcap package stop at the first of these.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import islice
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
+
+import lz4.frame
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.opcode import Opcode
+from mcap.records import (
+    Channel,
+    Chunk,
+    ChunkIndex,
+    Footer,
+    Header,
+    Message,
+    Metadata,
+    Schema,
+)
+
+from symtop_ros.log.writer import ENDING, METADATA
+from symtop_ros.simulation.validation import one_line
+
+MAGIC = b"\x89MCAP0\r\n"
+MAX_RECORD = 256 * 2**20  # bytes of a chunk, compressed or not; the recorder writes up to 4 MiB
+RECORD_START = struct.Struct("<BQ")  # opcode and length of a record
+FOOTER_SIZE = RECORD_START.size + 20 + len(MAGIC)  # at the end of a complete file
+MESSAGE_START = struct.Struct("<HIQQ")  # channel, sequence, log and publish time of a message
+MAX_MESSAGES = 65_536  # in memory: a chunk of a few bytes may decompress to millions
+Description = Schema | Channel | Metadata
+Parse = Callable[[ReadDataStream], Description]
+Place = tuple[int, int, int]
+PARSED_IN_CHUNK: dict[int, Parse] = {Opcode.SCHEMA: Schema.read, Opcode.CHANNEL: Channel.read}
+PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
+SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX)
+MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
+MAX_PROBLEMS = 20  # problems that are listed
+
+
+class LogError(ValueError):
+    """A log that cannot be read or written; the text says why."""
+
+
+class Record(NamedTuple):
+    """A record of the file and the offset of its end."""
+
+    opcode: int
+    data: bytes
+    end: int
+
+
+class Contents(NamedTuple):
+    """The descriptions (schemas, channels, metadata) and the messages in a record."""
+
+    descriptions: list[Description]
+    messages: Iterator[Message]
+
+
+def list_problems(problems: Sequence[str]) -> list[str]:
+    """Return the first problems, each in one line, and the number of the others.
+
+    Examples
+    --------
+    >>> list_problems(["a chunk is damaged"] * 22)[-2:]
+    ['a chunk is damaged', '2 more problems']
+    """
+    more = len(problems) - MAX_PROBLEMS
+    rest = [f"{more} more problems"] if more > 0 else []
+    return [one_line(each) for each in problems[:MAX_PROBLEMS]] + rest
+
+
+class McapFile:
+    """A log on disk.
+
+    Parameters
+    ----------
+    path : Path
+
+    Attributes
+    ----------
+    profile : str
+        "ros2" for logs of ROS 2.
+    schemas, channels : dict
+        By their ids. These and the following are complete when all chunks are read.
+    metadata : dict
+        Metadata records by name.
+    problems : list of str
+        Everything that is missing or damaged.
+    size, offset : int
+        Bytes of the file, and bytes that were read.
+
+    Raises
+    ------
+    LogError
+        If the file cannot be opened or is not an MCAP file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.profile = ""
+        self.schemas: dict[int, Schema] = {}
+        self.channels: dict[int, Channel] = {}
+        self.metadata: dict[str, dict[str, str]] = {}
+        self.problems: list[str] = []
+        self.offset = 0
+        self._span: tuple[int, int] | None = None  # log times of the first and latest message
+        self._chunk_offsets: list[int] = []
+        self._described = 0  # bytes of all descriptions, about
+        try:
+            with path.open("rb") as file:
+                self.size = file.seek(0, 2)
+                file.seek(0)
+                if file.read(len(MAGIC)) != MAGIC:
+                    msg = f"cannot open {path}: not an MCAP file"
+                    raise LogError(msg)
+                self._read_summary(file)
+        except OSError as error:
+            msg = f"cannot open {path}: {error.strerror}"
+            raise LogError(msg) from None
+
+    def chunks(self) -> Iterator[list[Message]]:
+        """Yield messages in the order of the file, those of a chunk together.
+
+        Raises
+        ------
+        LogError
+            If reading fails, or if the file has more descriptions than any log.
+        """
+        try:
+            yield from self._read_chunks()
+        except OSError as error:
+            msg = f"cannot read {self.path}: {error.strerror}"
+            raise LogError(msg) from None
+
+    def _read_chunks(self) -> Iterator[list[Message]]:
+        self.problems.clear()
+        with self.path.open("rb") as file:
+            file.seek(len(MAGIC))
+            damaged: list[Chunk] = []
+            lost, chunked = 0, False
+            for record in self._records(file):
+                self.offset = record.end
+                if damaged and record.opcode == Opcode.MESSAGE_INDEX:
+                    lost += _indexed(record.data)
+                    continue
+                self._report_damage(damaged, lost)
+                lost = 0
+                if record.opcode == Opcode.MESSAGE and chunked:
+                    # Recorders that write chunks put every message into one, under its checksum. A
+                    # flipped bit can turn an index into a message that no checksum would catch.
+                    self.problems.append("a record between chunks is damaged")
+                    continue
+                chunked = chunked or record.opcode == Opcode.CHUNK
+                try:
+                    contents = _contents(record)
+                except Exception:
+                    chunk = _chunk_of(record)
+                    damaged += chunk
+                    if not chunk:  # its times are not readable either
+                        self.problems.append(f"the record before byte {record.end} is damaged")
+                    continue
+                self._describe(contents.descriptions)
+                yield from self._runs(contents.messages)
+            self._report_damage(damaged, lost)
+        self._report_ending()
+
+    def since_start(self, log_time: int) -> float:
+        """Return the seconds between the first message and a log time in ns."""
+        return (log_time - self._span[0]) * 1e-9 if self._span else 0.0
+
+    def _read_summary(self, file: BinaryIO) -> None:
+        """Read the header, and the index at the end if there is one."""
+        with suppress(Exception):
+            header = next(self._records_at(file, len(MAGIC), Opcode.HEADER))
+            self.profile = Header.read(_stream(header.data)).profile
+        with suppress(Exception):
+            footer = next(self._records_at(file, self.size - FOOTER_SIZE, Opcode.FOOTER))
+            start = Footer.read(_stream(footer.data)).summary_start
+            for record in self._records_at(file, start, *SUMMARY) if start else ():
+                if record.opcode == Opcode.CHUNK_INDEX:
+                    index = ChunkIndex.read(_stream(record.data))
+                    self._chunk_offsets.append(index.chunk_start_offset)
+                else:
+                    self._describe(_contents(record).descriptions)
+        self._chunk_offsets.sort()
+
+    def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[Record]:
+        """Yield the readable records with some opcodes from an offset on."""
+        file.seek(offset)
+        while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
+            opcode, length = RECORD_START.unpack(head)
+            end = file.tell() + length
+            if end > self.size or length > MAX_RECORD:
+                return
+            if opcode in wanted:
+                yield Record(opcode, file.read(length), end)
+            file.seek(end)
+
+    def _records(self, file: BinaryIO) -> Iterator[Record]:
+        """Yield all records of the data; damaged bytes are skipped with the help of the index."""
+        while True:
+            start = file.tell()
+            head = file.read(RECORD_START.size)
+            opcode, length = RECORD_START.unpack(head) if len(head) == RECORD_START.size else (0, 0)
+            if opcode in (Opcode.DATA_END, Opcode.FOOTER):
+                return
+            if not opcode or length > min(MAX_RECORD, self.size - file.tell()):
+                place = bisect_right(self._chunk_offsets, start)
+                following = self._chunk_offsets[place : place + 1]
+                self._report_gap(start, *following)
+                if not following:
+                    return
+                file.seek(following[0])
+            else:
+                yield Record(opcode, file.read(length), file.tell())
+
+    def _describe(self, descriptions: Iterable[Description]) -> None:
+        """Keep descriptions, within a limit: a small chunk may decompress to a lot of them."""
+        for each in descriptions:
+            if self._replace(each) != each:
+                self._described += _size(each)
+        if self._described > MAX_DESCRIPTIONS:
+            msg = (
+                f"{self.path} must have at most {MAX_DESCRIPTIONS} bytes of schemas, channels and "
+                "metadata, got more: it is not a log"
+            )
+            raise LogError(msg)
+
+    def _replace(self, each: Description) -> Description | None:
+        """Keep a description and return the one it replaces; most are repeated in each chunk."""
+        before: Description | None
+        if isinstance(each, Schema):
+            before, self.schemas[each.id] = self.schemas.get(each.id), each
+        elif isinstance(each, Channel):
+            before, self.channels[each.id] = self.channels.get(each.id), each
+        else:
+            before, self.metadata[each.name] = None, each.metadata
+        return before
+
+    def _runs(self, messages: Iterator[Message]) -> Iterator[list[Message]]:
+        while run := list(islice(messages, MAX_MESSAGES)):
+            first = self._span[0] if self._span else run[0].log_time
+            self._span = first, run[-1].log_time
+            yield run
+
+    def _report_damage(self, damaged: list[Chunk], lost: int) -> None:
+        """Report the time range of chunks that cannot be decompressed, and forget them."""
+        for chunk in damaged:
+            if self._span is None:
+                self._span = chunk.message_start_time, chunk.message_start_time
+            first, last = map(self.since_start, (chunk.message_start_time, chunk.message_end_time))
+            count = f"{lost} messages" if lost else "all messages"
+            self.problems.append(
+                f"a chunk is damaged: {count} of {first:.3f} .. {last:.3f} s are lost"
+            )
+        damaged.clear()
+
+    def _report_gap(self, start: int, onward: int | None = None) -> None:
+        latest = self.since_start(self._span[1]) if self._span else 0.0
+        if onward is not None:
+            self.problems.append(
+                f"bytes {start} to {onward} are damaged: messages after {latest:.3f} s are lost"
+            )
+        else:
+            self.problems.append(
+                f"the file ends or is unreadable at byte {start} of {self.size}: "
+                f"messages after {latest:.3f} s are lost"
+            )
+
+    def _report_ending(self) -> None:
+        """Report what the recorder noted itself, if symtop_ros wrote the log."""
+        ending = self.metadata.get(ENDING, {})
+        dropped = ending.get("dropped", "0")
+        if dropped != "0":
+            self.problems.append(f"{dropped} messages were dropped: the disk was too slow")
+        if METADATA in self.metadata and not ending and not self.problems:
+            latest = self.since_start(self._span[1]) if self._span else 0.0
+            self.problems.append(
+                f"the recording was not finished: messages after {latest:.3f} s are missing"
+            )
+
+
+def _stream(data: bytes) -> ReadDataStream:
+    return ReadDataStream(BytesIO(data))
+
+
+def _size(description: Description) -> int:
+    """Return about how many bytes of memory a description takes."""
+    if isinstance(description, Schema):
+        return 500 + len(description.data)
+    return 500 + sum(len(key) + len(value) for key, value in description.metadata.items())
+
+
+def _indexed(data: bytes) -> int:
+    """Return the number of messages in an index: 16 bytes each after channel and size."""
+    return max(0, len(data) - 6) // 16
+
+
+def _chunk_of(record: Record) -> list[Chunk]:
+    """Return the chunk in a list, for its times, or an empty list for another record."""
+    with suppress(Exception):
+        if record.opcode == Opcode.CHUNK:
+            return [Chunk.read(_stream(record.data))]
+    return []
+
+
+def _contents(record: Record) -> Contents:
+    """Return the contents of a record that is sound as a whole.
+
+    Raises
+    ------
+    Exception
+        Of many types, if it is damaged.
+    """
+    if record.opcode != Opcode.CHUNK:
+        return _parse(record.data, [(record.opcode, 0, len(record.data))], PARSED)
+    chunk = Chunk.read(_stream(record.data))
+    data = _decompress(chunk)
+    if len(data) != chunk.uncompressed_size:
+        msg = "the size differs from the announced one"
+        raise ValueError(msg)
+    if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
+        msg = "CRC"
+        raise ValueError(msg)
+    return _parse(data, Places(data), PARSED_IN_CHUNK)
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """The records of a chunk as opcode, begin and end, found anew in each iteration.
+
+    Raises
+    ------
+    ValueError, struct.error
+        During the iteration, if a record is cut or invalid.
+    """
+
+    data: bytes
+
+    def __iter__(self) -> Iterator[Place]:
+        """Iterate from the first record on."""
+        end = 0
+        while end < len(self.data):
+            opcode, length = RECORD_START.unpack_from(self.data, end)
+            begin, end = end + RECORD_START.size, end + RECORD_START.size + length
+            if not opcode or end > len(self.data):
+                msg = "not a record"
+                raise ValueError(msg)
+            yield opcode, begin, end
+
+
+def _parse(data: bytes, places: Iterable[Place], parsed: Mapping[int, Parse]) -> Contents:
+    """Parse the descriptions and check the messages; messages are then read lazily."""
+    descriptions = []
+    for opcode, begin, end in places:
+        if opcode in parsed:
+            descriptions.append(parsed[opcode](_stream(data[begin:end])))
+        if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
+            msg = "not a message"
+            raise ValueError(msg)
+    return Contents(descriptions, _messages(data, places))
+
+
+def _messages(data: bytes, places: Iterable[Place]) -> Iterator[Message]:
+    for opcode, begin, end in places:
+        if opcode == Opcode.MESSAGE:
+            channel, sequence, log_time, publish_time = MESSAGE_START.unpack_from(data, begin)
+            content = data[begin + MESSAGE_START.size : end]
+            yield Message(channel, log_time, content, publish_time, sequence)
+
+
+def _decompress(chunk: Chunk) -> bytes:
+    """Decompress at most the announced size: hostile data may contain far more."""
+    size = chunk.uncompressed_size
+    if size > MAX_RECORD:
+        msg = f"{size} bytes are more than {MAX_RECORD}"
+        raise ValueError(msg)
+    if chunk.compression == "zstd":
+        with zstandard.ZstdDecompressor().stream_reader(BytesIO(chunk.data)) as reader:
+            return bytes(reader.read(size))
+    if chunk.compression == "lz4":
+        return bytes(lz4.frame.LZ4FrameDecompressor().decompress(chunk.data, max_length=size))
+    return bytes(chunk.data)

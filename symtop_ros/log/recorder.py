@@ -1,0 +1,201 @@
+"""The recorder: messages go into a bounded queue, and a thread writes them to files.
+
+The caller never waits: messages that do not fit into the queue are dropped and counted. Every file
+begins with the current latched messages, so that it can be read alone.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from symtop_ros.log.writer import Channel, LogFile
+from symtop_ros.simulation.topics import Topic
+
+QUEUE_LENGTH = 60_000  # messages: about ten seconds at 1 kHz
+# s between two writes. Short, so that each takes little time: ticks wait for the interpreter.
+WRITE_PERIOD = 0.02
+FLUSH_PERIOD = 0.4  # s; at most half a second is promised
+Queued = tuple[int, int, bytes]  # channel, stamp in ns, message
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Limits of one file; the recording then continues in a new one. 0: no limit.
+
+    Attributes
+    ----------
+    size : float
+        In bytes.
+    duration : float
+        In s, between the stamps of its messages.
+
+    Examples
+    --------
+    >>> Limits(duration=600.0)
+    Limits(size=0.0, duration=600.0)
+    """
+
+    size: float = 0.0
+    duration: float = 0.0
+
+    def are_reached(self, file: LogFile) -> bool:
+        """Return True if a file has reached a limit."""
+        return 0 < self.size <= file.size or 0 < self.duration <= file.duration
+
+
+def describe_error(error: Exception) -> str:
+    """Return the text of an error without its number and path.
+
+    Examples
+    --------
+    >>> describe_error(OSError(28, "No space left on device", "/logs/top.mcap"))
+    'No space left on device'
+    """
+    return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
+
+
+class Recorder:
+    """Writes messages to files in a thread.
+
+    Parameters
+    ----------
+    directory : Path
+        Folder of the files.
+    limits : Limits
+
+    Attributes
+    ----------
+    limits : Limits
+        May be changed at any time.
+    dropped : int
+        Messages that did not fit into the queue since the recording began.
+    failure : str
+        Reason why the last recording ended by itself; empty if it did not.
+    """
+
+    def __init__(self, directory: Path, limits: Limits) -> None:
+        self._directory, self.limits = directory, limits
+        self._channels: list[Channel] = []
+        self._latched: dict[int, bytes] = {}
+        self._queue: deque[Queued] = deque()
+        self._held: list[Queued] | None = None
+        self._thread: threading.Thread | None = None
+        self._ending = threading.Event()
+        self.dropped = 0
+        self.failure = ""
+
+    def add_channel(self, name: str, topic: Topic) -> int:
+        """Add a topic before the first recording; return the index of its channel."""
+        self._channels.append(Channel(name, topic))
+        return len(self._channels) - 1
+
+    @property
+    def running(self) -> bool:
+        """True while a recording runs."""
+        return self._thread is not None and not self.failure
+
+    @property
+    def path(self) -> Path | None:
+        """Path of the current file, None if not recording."""
+        return self._file.path if self.running else None
+
+    def start(self, metadata: Mapping[str, str]) -> Path:
+        """Begin a recording and return the path of its first file.
+
+        Parameters
+        ----------
+        metadata : mapping of str to str
+            Written to each file.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be created.
+        """
+        self.stop()
+        latched = dict(self._latched)
+        self._file = LogFile(self._directory, self._channels, metadata, latched)
+        self.dropped, self.failure = 0, ""
+        self._queue.clear()
+        self._ending.clear()
+        self._thread = threading.Thread(target=self._work, args=(metadata, latched), daemon=True)
+        self._thread.start()
+        return self._file.path
+
+    def add(self, channel: int, stamp: int, data: bytes) -> None:
+        """Queue a message with its stamp (ns); the last latched ones are kept for later files."""
+        if self._channels[channel].topic.latched:
+            self._latched[channel] = data
+        if not self.running:
+            return
+        if self._held is None or channel == self._ahead:
+            self._put((channel, stamp, data))
+        else:
+            self._held.append((channel, stamp, data))
+
+    def _put(self, message: Queued) -> None:
+        if len(self._queue) < QUEUE_LENGTH:
+            self._queue.append(message)
+        else:
+            self.dropped += 1
+
+    @contextmanager
+    def put_first(self, channel: int) -> Iterator[None]:
+        """Write messages of one channel before all others that are added in this context."""
+        self._ahead, self._held = channel, []
+        try:
+            yield
+        finally:
+            held, self._held = self._held, None
+            for message in held:
+                self._put(message)
+
+    def stop(self) -> None:
+        """Write the queue, finish the file and return when both are done."""
+        if self._thread:
+            self._ending.set()
+            self._thread.join()
+            self._thread = None
+
+    # The following methods run in the thread.
+
+    def _work(self, metadata: Mapping[str, str], latched: dict[int, bytes]) -> None:
+        try:
+            while not self._fill(latched):
+                self._file.finish(self._counts())
+                self._file = LogFile(self._directory, self._channels, metadata, latched)
+            self._file.finish(self._counts())
+        except Exception as error:
+            self._file.abandon()
+            self._queue.clear()
+            # Set last: who reads it may open the file, which must be complete by then.
+            self.failure = f"{self._file.path}: {describe_error(error)}"
+
+    def _counts(self) -> dict[str, str]:
+        return {"dropped": str(self.dropped)}
+
+    def _fill(self, latched: dict[int, bytes]) -> bool:
+        """Write one file; return True if the recording ends, False if a new file is due."""
+        flushed = time.monotonic()
+        while not self.limits.are_reached(self._file):
+            ending = self._ending.wait(WRITE_PERIOD)
+            self._drain(latched)
+            if ending:
+                return True
+            if time.monotonic() - flushed > FLUSH_PERIOD - WRITE_PERIOD:
+                flushed = time.monotonic()
+                self._file.flush()
+        return False
+
+    def _drain(self, latched: dict[int, bytes]) -> None:
+        for _ in range(len(self._queue)):
+            channel, stamp, data = self._queue.popleft()
+            self._file.write(channel, stamp, data)
+            if self._channels[channel].topic.latched:
+                latched[channel] = data

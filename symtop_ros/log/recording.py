@@ -1,0 +1,107 @@
+"""Recordings of a simulation: begun, ended and failed, each with a sentence and an event."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from datetime import datetime, timezone
+from pathlib import Path
+
+from symtop_ros import __version__
+from symtop_ros.log.recorder import Limits, Recorder, describe_error
+from symtop_ros.simulation.settings import RecordSettings
+from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.validation import RefusedError
+
+
+def limits_of(settings: RecordSettings) -> Limits:
+    """Return the limits of a file that the parameters ask for."""
+    return Limits(settings.max_size, settings.max_duration)
+
+
+class Recording:
+    """Begins and ends recordings of a simulation.
+
+    Parameters
+    ----------
+    recorder : Recorder
+    simulation : Simulation
+    environment : mapping of str to str
+        Metadata of each file besides version, parameters and clocks: scene, middleware, ...
+    report : callable
+        Called with a sentence and True for an error, False for information.
+    """
+
+    def __init__(
+        self,
+        recorder: Recorder,
+        simulation: Simulation,
+        environment: Mapping[str, str],
+        report: Callable[[str, bool], None],
+    ) -> None:
+        self._recorder, self._simulation = recorder, simulation
+        self._environment, self._report = environment, report
+        self._failure_reported = False
+
+    def begin(self) -> Path:
+        """Begin a recording and return the path of its file.
+
+        Raises
+        ------
+        RefusedError
+            If the file cannot be created.
+        """
+        try:
+            path = self._recorder.start(self._metadata())
+        except OSError as error:
+            directory = self._simulation.settings.record.directory
+            msg = f"record.directory must be a writable folder, got {directory!r}: "
+            raise RefusedError(msg + describe_error(error)) from None
+        self._failure_reported = False
+        self._report(f"recording to {path}", False)
+        return path
+
+    def switch(self, on: bool) -> str:
+        """Begin or end a recording; return the answer.
+
+        Raises
+        ------
+        RefusedError
+            If the file cannot be created, or not be finished.
+        """
+        self.report_failure()
+        path = self._recorder.path
+        if on == bool(path):
+            return f"already recording to {path}" if path else "not recording"
+        if path:
+            self._announce(f"recording to {path} ended")
+            self._recorder.stop()
+            if self._recorder.failure:
+                self.report_failure()
+                msg = f"recording failed: {self._recorder.failure}"
+                raise RefusedError(msg)
+            return f"recorded to {path}"
+        return self._announce(f"recording to {self.begin()}")
+
+    @property
+    def unreported_failure(self) -> str:
+        """Reason why a recording ended by itself, until `report_failure` has reported it."""
+        return "" if self._failure_reported else self._recorder.failure
+
+    def report_failure(self) -> None:
+        """Report once that a recording ended by itself; the motion keeps running."""
+        if self.unreported_failure:
+            self._failure_reported = True
+            self._report(self._announce(f"recording stopped: {self._recorder.failure}"), True)
+
+    def _announce(self, sentence: str) -> str:
+        return self._simulation.change("record", self._simulation.segment, {}, sentence)
+
+    def _metadata(self) -> dict[str, str]:
+        values = self._simulation.settings.values
+        return {
+            "version": __version__,
+            **{f"parameter.{name}": str(value) for name, value in values.items()},
+            "clock.host": datetime.now(timezone.utc).isoformat(),
+            "clock.node": str(self._simulation.now),
+            **self._environment,
+        }

@@ -1,0 +1,80 @@
+"""Repair of a damaged log: everything readable is written to a new, complete file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from mcap.writer import CompressionType, Writer
+
+from symtop_ros.log.reader import LogError, McapFile
+
+
+def repair(file: McapFile, target: Path) -> int:
+    """Write the readable messages with new indexes and checksums; return their number.
+
+    Parameters
+    ----------
+    file : McapFile
+    target : Path
+        Must not exist.
+
+    Raises
+    ------
+    LogError
+        If the target exists or cannot be written.
+    """
+    try:
+        with target.open("xb") as stream, _remove_on_failure(target):
+            writer = Writer(stream, compression=CompressionType.ZSTD)
+            writer.start(file.profile, "symtop_ros top_replay --repair")
+            count = _copy(file, writer)
+            writer.finish()  # type: ignore[no-untyped-call]
+    except FileExistsError:
+        msg = f"{target} must not exist (nothing is overwritten)"
+        raise LogError(msg) from None
+    except OSError as error:
+        msg = f"cannot write {target}: {error.strerror}"
+        raise LogError(msg) from None
+    return count
+
+
+@contextmanager
+def _remove_on_failure(target: Path) -> Iterator[None]:
+    try:
+        yield
+    except BaseException:
+        target.unlink()
+        raise
+
+
+def _copy(file: McapFile, writer: Writer) -> int:
+    channels: dict[int, int] = {}
+    count = 0
+    for messages in file.chunks():
+        for message in messages:
+            number = channels.get(message.channel_id)
+            if number is None:
+                number = channels[message.channel_id] = _copy_channel(
+                    file, writer, message.channel_id
+                )
+            if number:
+                writer.add_message(
+                    number, message.log_time, message.data, message.publish_time, message.sequence
+                )
+                count += 1
+    for name, metadata in file.metadata.items():
+        writer.add_metadata(name, metadata)
+    return count
+
+
+def _copy_channel(file: McapFile, writer: Writer, number: int) -> int:
+    """Register a channel and return its new id; 0 if the file does not describe it."""
+    channel = file.channels.get(number)
+    if channel is None:
+        file.problems.append(f"channel {number} is not described: its messages are lost")
+        return 0
+    schema = file.schemas.get(channel.schema_id)
+    new = writer.register_schema(schema.name, schema.encoding, schema.data) if schema else 0
+    return writer.register_channel(channel.topic, channel.message_encoding, new, channel.metadata)

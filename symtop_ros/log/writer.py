@@ -1,0 +1,210 @@
+"""One MCAP file from its first byte to its index; what was flushed survives any failure."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from pathlib import Path
+
+from mcap.data_stream import RecordBuilder
+from mcap.records import DataEnd, Footer
+from mcap.well_known import MessageEncoding, Profile, SchemaEncoding
+from mcap.writer import CompressionType, Writer
+
+from symtop_ros import __version__
+from symtop_ros.log.definitions import load_definition
+from symtop_ros.simulation.topics import Topic
+
+MAGIC = b"\x89MCAP0\r\n"
+CHUNK_SIZE = 4 * 2**20  # bytes; at 1 kHz the flush every half second closes chunks earlier
+METADATA = "symtop_ros"  # name of the metadata record written at the start
+ROSBAG2 = "rosbag2"  # name of the metadata record that rosbag2 reads
+ENDING = "symtop_ros.end"  # name of the metadata record written at the end
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A topic of the log.
+
+    Attributes
+    ----------
+    name : str
+        Full name of the topic.
+    topic : Topic
+        Its type and quality of service.
+    """
+
+    name: str
+    topic: Topic
+
+
+class LogFile:
+    """An open log.
+
+    Parameters
+    ----------
+    directory : Path
+        Created if it is missing.
+    channels : iterable of Channel
+    metadata : mapping of str to str
+        Written at the start of the file.
+    head : mapping of int to bytes
+        The current latched messages by the indices of their channels; they precede all others.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be created.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from symtop_ros.simulation.topics import DESCRIPTION
+    >>> from symtop_ros.wire.cdr import encode_string
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     channels = [Channel("/robot_description", DESCRIPTION)]
+    ...     log = LogFile(Path(folder), channels, metadata={}, head={})
+    ...     log.write(0, 1_000_000_000, encode_string("<robot/>"))
+    ...     log.finish({"dropped": "0"})
+    ...     log.path.suffix
+    '.mcap'
+    """
+
+    def __init__(
+        self,
+        directory: Path,
+        channels: Iterable[Channel],
+        metadata: Mapping[str, str],
+        head: Mapping[int, bytes],
+    ) -> None:
+        directory.mkdir(parents=True, exist_ok=True)
+        self.path = _unused_path(directory.absolute())
+        self._file = self.path.open("xb")
+        self._flushed = 0  # bytes that a killed process does not lose
+        self._head = dict(sorted(head.items()))
+        self._first: int | None = None
+        self._last = 0
+        self._writer = Writer(self._file, CHUNK_SIZE, CompressionType.ZSTD)
+        try:
+            self._writer.start(Profile.ROS2, f"symtop_ros {__version__}")
+            self._writer.add_metadata(METADATA, dict(metadata))
+            if name := metadata.get("ros_distro"):
+                # for `ros2 bag info`; it takes an empty text as no further metadata
+                self._writer.add_metadata(ROSBAG2, {"serialized_metadata": "", "ROS_DISTRO": name})
+            self._ids = [self._register(channel) for channel in channels]
+            self.flush()
+        except Exception:
+            self.abandon()
+            raise
+
+    def write(self, channel: int, stamp: int, data: bytes) -> None:
+        """Append a message with its stamp (ns of the clock of the simulation)."""
+        if self._first is None:
+            self._first = stamp
+            for index, message in self._head.items():
+                self._writer.add_message(self._ids[index], stamp, message, stamp)
+        self._last = stamp
+        self._writer.add_message(self._ids[channel], stamp, data, stamp)
+
+    def flush(self) -> None:
+        """Close the chunk and hand everything to the operating system.
+
+        A process that is killed afterwards loses nothing of it.
+
+        Raises
+        ------
+        OSError
+            If the disk is full or the file was removed.
+        """
+        self._writer.flush()  # type: ignore[no-untyped-call]
+        if not self._exists():
+            msg = "the file was removed"
+            raise FileNotFoundError(msg)
+        self._flushed = self._file.tell()
+
+    @property
+    def size(self) -> int:
+        """Size in bytes of the chunks that are complete."""
+        return self._flushed
+
+    @property
+    def duration(self) -> float:
+        """Seconds between the first and the last stamp."""
+        return 0.0 if self._first is None else (self._last - self._first) * 1e-9
+
+    def finish(self, ending: Mapping[str, str]) -> None:
+        """Write the index and close the file."""
+        self.flush()
+        self._writer.add_metadata(ENDING, dict(ending))
+        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._file.close()
+
+    def abandon(self) -> None:
+        """Close after an error: cut an incomplete chunk and end the file without an index.
+
+        A file without any chunk is removed.
+        """
+        if self._file.closed:
+            return
+        with suppress(OSError):
+            self._file.close()
+        with suppress(OSError):
+            if not self._flushed:
+                self.path.unlink()
+            os.truncate(self.path, self._flushed)
+            with self.path.open("ab") as file:
+                file.write(_end())
+
+    def _exists(self) -> bool:
+        """Return True if the path still leads to the file.
+
+        A file that was unlinked accepts writes without an error, and they are lost.
+        """
+        with suppress(OSError):
+            return os.path.samestat(self.path.stat(), os.fstat(self._file.fileno()))
+        return False
+
+    def _register(self, channel: Channel) -> int:
+        known = load_definition(channel.topic.type)
+        schema = self._writer.register_schema(known.type, SchemaEncoding.ROS2, known.text.encode())
+        metadata = {
+            "offered_qos_profiles": _qos_profile(channel.topic),
+            "topic_type_hash": known.type_hash,
+        }
+        return self._writer.register_channel(channel.name, MessageEncoding.CDR, schema, metadata)
+
+
+def _qos_profile(topic: Topic) -> str:
+    """Return the quality of service in the YAML that every version of rosbag2 reads.
+
+    Policies are numbers of rmw: history 1 keep last, reliability 1 reliable, durability 1 transient
+    local or 2 volatile, liveliness 1 automatic; 9223372036.854775807 s is infinite. rosbag2 offers
+    the topic with this profile when it plays the log, so late subscribers get latched messages.
+    """
+    infinite = "{sec: 9223372036, nsec: 854775807}"
+    return (
+        f"- {{history: 1, depth: {topic.depth}, reliability: 1, durability: "
+        f"{1 if topic.latched else 2}, deadline: {infinite}, lifespan: {infinite}, liveliness: 1, "
+        f"liveliness_lease_duration: {infinite}, avoid_ros_namespace_conventions: false}}"
+    )
+
+
+def _unused_path(directory: Path) -> Path:
+    """Return the path of a file that does not exist."""
+    name = f"top_{datetime.now(timezone.utc):%Y-%m-%dT%H-%M-%SZ}"
+    path, number = directory / f"{name}.mcap", 1
+    while path.exists():
+        number += 1
+        path = directory / f"{name}_{number}.mcap"
+    return path
+
+
+def _end() -> bytes:
+    """Return the end of a valid file without an index."""
+    builder = RecordBuilder()
+    DataEnd(0).write(builder)
+    Footer(summary_start=0, summary_offset_start=0, summary_crc=0).write(builder)
+    return bytes(builder.end()) + MAGIC  # type: ignore[no-untyped-call]

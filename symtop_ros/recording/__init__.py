@@ -1,1 +1,0 @@
-"""Runs into MCAP files: the bytes that are published, written by a thread of its own."""

@@ -1,0 +1,87 @@
+"""Orderly shutdown of a ROS program by SIGINT and SIGTERM."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.signals import (
+    SignalHandlerOptions,
+    install_signal_handlers,
+    uninstall_signal_handlers,
+)
+
+from symtop_ros.simulation.validation import one_line
+
+SIGNALS = signal.SIGINT, signal.SIGTERM
+
+
+def describe_failure(error: Exception) -> str:
+    r"""Return the text of an error that ends a program, in one line.
+
+    With SROS2 most errors at the start come from the middleware, whose text does not say what is
+    wrong with the keys.
+
+    Examples
+    --------
+    >>> describe_failure(RuntimeError("rcl node's context is invalid,\n at node.c:91"))
+    "rcl node's context is invalid, at node.c:91"
+    """
+    text = one_line(error) or type(error).__name__
+    if os.environ.get("ROS_SECURITY_ENABLE") != "true":
+        return text
+    domain = os.environ.get("ROS_DOMAIN_ID", "0")
+    return (
+        f"{text} (ROS_SECURITY_ENABLE is true: keys and permissions must be those of this program "
+        f"in domain {domain}, see SECURITY.md)"
+    )
+
+
+@contextmanager
+def ros_context(arguments: list[str]) -> Iterator[Callable[[], None]]:
+    """Initialise ROS on entry, and shut it down on exit.
+
+    Yields a function `listen`. Signals are only noted until it is called, because a node that is
+    being created when ROS shuts down fails in many ways.
+
+    Parameters
+    ----------
+    arguments : list of str
+        The command line with its ROS arguments.
+
+    Raises
+    ------
+    ExternalShutdownException
+        In place of any exception that is raised after ROS was shut down.
+    """
+    noted: list[int] = []
+
+    def note(number: int, _: FrameType | None) -> None:
+        noted.append(number)
+
+    def listen() -> None:
+        install_signal_handlers(SignalHandlerOptions.ALL)
+        for number in noted[:1]:
+            signal.raise_signal(number)
+
+    before = {number: signal.signal(number, note) for number in SIGNALS}
+    try:
+        # Not as a context manager: rclpy 7 (Jazzy) returns None here.
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+        try:
+            yield listen
+        except Exception:
+            if rclpy.ok():
+                raise
+            raise ExternalShutdownException from None
+        finally:
+            rclpy.try_shutdown()
+    finally:
+        uninstall_signal_handlers()
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,111 @@
+"""The kick that a request asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from symtop_ros.physics import (
+    HOLDS,
+    Hold,
+    Motion,
+    State,
+    apply_impulse,
+    hurry,
+    precession_rate,
+    set_precession_rate,
+)
+from symtop_ros.simulation.validation import (
+    MAX_RATE,
+    RefusedError,
+    choice,
+    exactly_one,
+    number,
+    refuse,
+    validate_names,
+    vector,
+)
+
+KINDS = (
+    "precession_rate",
+    "precession_rate_change",
+    "precession_rate_factor",
+    "angular_impulse",
+)
+FIELDS = (*KINDS, "hold")
+MAX_IMPULSE = 1e30  # N m s; keeps the angular velocity after it finite for every top
+
+
+class Kick(NamedTuple):
+    """A kick that was validated.
+
+    Attributes
+    ----------
+    motion : Motion
+        The motion after the kick.
+    hold : {"spin_rate", "spin_momentum"} or None
+        The quantity that the kick leaves unchanged; None for an angular impulse.
+    """
+
+    motion: Motion
+    hold: Hold | None
+
+
+def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
+    """Return the motion that follows if a state of a motion is kicked.
+
+    Parameters
+    ----------
+    motion : Motion
+    state : State
+        The state at the instant of the kick.
+    request : mapping
+        One of `precession_rate` (rad/s), `precession_rate_change` (rad/s) and
+        `precession_rate_factor`, with `hold` ("spin_rate" or "spin_momentum"); or
+        `angular_impulse` (3 numbers, N m s, world frame).
+
+    Raises
+    ------
+    RefusedError
+        If the request is not valid, if the axis is vertical (phi' is undefined there), or if the
+        top would be faster than 1e9 rad/s.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Top
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> start = State.from_euler(theta=0.5, psi_dot=200.0)
+    >>> kick = plan_kick(Motion(top, start), start, {"precession_rate": 9.0})
+    >>> round(kick.motion.start.euler_rates.phi, 12)
+    9.0
+    """
+    validate_names(request, FIELDS)
+    top, kind = motion.top, exactly_one(request, KINDS)
+    hold: Hold | None = None
+    if kind == "angular_impulse":
+        if "hold" in request:
+            msg = "hold must be given without angular_impulse, got both"
+            raise RefusedError(msg)
+        impulse = vector(kind, request[kind], 3, MAX_IMPULSE, "N m s, world frame")
+        after = apply_impulse(top, state, impulse)
+    else:
+        hold = HOLDS[HOLDS.index(choice("hold", request.get("hold", HOLDS[0]), HOLDS))]
+        after = _change_precession(state, kind, request[kind], hold)
+    if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
+        condition = f"such that the top stays below {MAX_RATE:g} rad/s"
+        raise refuse(kind, condition, request[kind])
+    return Kick(Motion(top, after, motion.friction, motion.applied_torque), hold)
+
+
+def _change_precession(state: State, kind: str, value: Any, hold: Hold) -> State:
+    rate = number(kind, value, "" if kind.endswith("factor") else "rad/s")
+    try:
+        if kind == "precession_rate":
+            return set_precession_rate(state, rate, hold)
+        if kind == "precession_rate_change":
+            return set_precession_rate(state, precession_rate(state) + rate, hold)
+        return hurry(state, rate, hold)
+    except ValueError as error:  # a vertical axis, or a result that is not finite
+        raise RefusedError(str(error)) from None

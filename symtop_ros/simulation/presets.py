@@ -1,0 +1,117 @@
+"""Scene presets: ROS parameter files in share/symtop_ros/config, chosen by name. Needs no ROS."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from symtop_ros.simulation.validation import RefusedError, one_line, refuse, show
+
+CONFIG = Path("share", "symtop_ros", "config")
+# Limits of a file that is read. YAML with aliases can grow without bound ("billion laughs"), and
+# ROS's own reader does not accept aliases either.
+MAX_BYTES = 65_536  # the scenes of this package have less than a thousand
+MAX_DEPTH = 8  # levels; those scenes have four
+
+
+def config_folder() -> Path:
+    """Return the folder of the scenes in a workspace, a source tree or a Python environment."""
+    prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    folders = [
+        *(Path(prefix, CONFIG) for prefix in prefixes if prefix),
+        Path(__file__).resolve().parents[2] / "config",
+        Path(sys.prefix, CONFIG),
+    ]
+    return next((folder for folder in folders if folder.is_dir()), folders[-1])
+
+
+def scene_names() -> tuple[str, ...]:
+    """Return the names of all scenes.
+
+    Examples
+    --------
+    >>> "cusps" in scene_names()
+    True
+    """
+    return tuple(sorted(path.stem for path in config_folder().glob("*.yaml")))
+
+
+def load_scene(name: object) -> dict[str, Any]:
+    """Return the parameters that a scene sets, by their full names.
+
+    Raises
+    ------
+    RefusedError
+        If there is no such scene, or its file is not a ROS parameter file.
+
+    Examples
+    --------
+    >>> load_scene("cusps")["initial.theta"]
+    0.5
+    """
+    names = scene_names()
+    if name not in names:
+        raise refuse("scene", f"one of {', '.join(names)}", name)
+    path = config_folder() / f"{name}.yaml"
+    try:
+        _refuse_bombs(path)
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+        parameters = dict(_flatten(content["/**"]["ros__parameters"]))
+    except Exception as error:
+        msg = f"scene file {path.name} must be a ROS parameter file for /**, got {_cause(error)}"
+        raise RefusedError(msg) from None
+    return {key: _value(key, value) for key, value in parameters.items()}
+
+
+def _cause(error: Exception) -> str:
+    if isinstance(error, KeyError | TypeError | AttributeError):
+        return "no parameters"
+    return one_line(error)
+
+
+def _flatten(parameters: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield nested parameters with dots in their names."""
+    for key, value in parameters.items():
+        if not isinstance(key, str):
+            msg = "a name that is not text"
+            raise ValueError(msg)
+        if isinstance(value, dict):
+            yield from _flatten(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value
+
+
+def _refuse_bombs(path: Path) -> None:
+    """Refuse files that could grow without bound when they are loaded."""
+    if not path.is_file():
+        msg = "no file"
+        raise ValueError(msg)
+    if path.stat().st_size > MAX_BYTES:
+        msg = f"{path.stat().st_size} bytes (limit {MAX_BYTES})"
+        raise ValueError(msg)
+    depth = 0
+    with path.open(encoding="utf-8") as file:
+        for event in yaml.parse(file):
+            depth += isinstance(event, yaml.CollectionStartEvent)
+            depth -= isinstance(event, yaml.CollectionEndEvent)
+            if depth > MAX_DEPTH or isinstance(event, yaml.AliasEvent):
+                msg = f"aliases or more than {MAX_DEPTH} levels"
+                raise ValueError(msg)
+
+
+def _value(name: str, value: Any) -> Any:
+    """Return a value if ROS has a type for it: YAML also knows dates, sets and big integers."""
+    if not all(map(_has_ros_type, value if isinstance(value, list) else [value])):
+        raise refuse(show(name), "a number, a text, true, false, or a list of them", value)
+    return value
+
+
+def _has_ros_type(value: object) -> bool:
+    if isinstance(value, int):
+        return abs(value) < 2**63
+    return isinstance(value, float | str)

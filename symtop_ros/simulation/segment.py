@@ -1,0 +1,171 @@
+"""A stretch of a run between two changes: a motion, and which of its times belongs to a stamp.
+
+Stamps are integer nanoseconds of the simulation's clock, and times of the motion are exact: sums of
+products of integers and doubles. So the state at a stamp is defined to the last bit, after any
+number of pauses, steps and changes of the real-time factor. An event contains everything that its
+segment holds, so that any state of a run can be computed again from the events, bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.simulation.sensor import Rig
+from symtop_ros.wire.layout import NANOSECONDS
+
+BEGIN = Fraction(0)
+NO_RIG = Rig()
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One stretch of a run. Methods return the segment that follows.
+
+    Attributes
+    ----------
+    motion : Motion
+        The motion from its own start.
+    stamp : int
+        Begin of the segment in ns.
+    elapsed : Fraction
+        Time of the motion at that stamp in ns, exact.
+    factor : float
+        Real-time factor: seconds of the motion per second of the clock.
+    running : bool
+        False while paused.
+    rig : Rig
+        Gravity and the sensor on the top.
+
+    Examples
+    --------
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> segment = Segment.begin(motion, stamp=0, factor=0.5)
+    >>> paused = segment.pause(stamp=2_000_000_000)
+    >>> paused.time_at(5_000_000_000)
+    1.0
+    """
+
+    motion: Motion
+    stamp: int
+    elapsed: Fraction
+    factor: float
+    running: bool
+    rig: Rig = NO_RIG
+
+    @classmethod
+    def begin(cls, motion: Motion, stamp: int, factor: float, rig: Rig = NO_RIG) -> Segment:
+        """Return the first segment of a motion that starts at a stamp."""
+        return cls(motion, stamp, BEGIN, factor, running=True, rig=rig)
+
+    def times_at(self, stamp: Any) -> Any:
+        """Return the exact times of the motion at a stamp (ns) or an array of stamps.
+
+        While paused there is one time for all stamps.
+        """
+        offset = stamp - self.stamp if self.running else 0
+        return ExactTimes(offset, self.factor, self.elapsed)
+
+    def elapsed_at(self, stamp: int) -> Fraction:
+        """Return the exact time of the motion in ns at a stamp (ns)."""
+        offset = stamp - self.stamp if self.running else 0
+        return self.elapsed + Fraction(self.factor) * offset
+
+    def time_at(self, stamp: Any) -> Any:
+        """Return the time of the motion (s) at a stamp (ns) or an array of stamps, rounded."""
+        return self.times_at(stamp).seconds
+
+    def state_at(self, stamp: Any) -> State:
+        """Return the state at a stamp (ns) or an array of them; one state if paused."""
+        return self.motion.at(self.times_at(stamp))
+
+    def restart(self, start: State, stamp: int) -> Segment:
+        """Continue from another state."""
+        motion = self.motion
+        following = Motion(motion.top, start, motion.friction, motion.applied_torque)
+        return self.replace_motion(following, stamp)
+
+    def change(
+        self,
+        stamp: int,
+        top: Top | None = None,
+        friction: Friction | None = None,
+        torque: Sequence[float] | None = None,
+    ) -> Segment:
+        """Continue from the state at a stamp with another top, friction or applied torque."""
+        motion = self.motion
+        following = Motion(
+            motion.top if top is None else top,
+            self.state_at(stamp),
+            motion.friction if friction is None else friction,
+            motion.applied_torque if torque is None else torque,
+        )
+        return self.replace_motion(following, stamp)
+
+    def replace_motion(self, motion: Motion, stamp: int) -> Segment:
+        """Continue with another motion from its start."""
+        return replace(self, motion=motion, stamp=stamp, elapsed=BEGIN)
+
+    def pause(self, stamp: int) -> Segment:
+        """Stop the motion at its state at a stamp."""
+        return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp), running=False)
+
+    def resume(self, stamp: int) -> Segment:
+        """Continue a paused motion from where it stopped."""
+        return replace(self, stamp=stamp, running=True)
+
+    def step(self, duration: float, stamp: int) -> Segment:
+        """Advance a paused motion by `duration` (s of the motion)."""
+        return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp) + to_nanoseconds(duration))
+
+    def move(self, stamp: int, to: int) -> Segment:
+        """Continue the state of one stamp at the stamp `to`: the clock jumped."""
+        return replace(self, stamp=to, elapsed=self.elapsed_at(stamp))
+
+    def set_factor(self, factor: float, stamp: int) -> Segment:
+        """Continue at another real-time factor."""
+        return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp), factor=factor)
+
+    def equip(self, rig: Rig) -> Segment:
+        """Continue with another gravity or sensor."""
+        return replace(self, rig=rig)
+
+    def slow_down(self, reached: float, factor: float, stamp: int) -> Segment:
+        """Continue at another factor, from the time (s) that the integration has reached."""
+        elapsed = min(to_nanoseconds(reached), self.elapsed_at(stamp))
+        return replace(self, stamp=stamp, elapsed=elapsed, factor=factor)
+
+
+class RoundedSegment(Segment):
+    """A segment of a log that symtop_ros 0.1 wrote: its times were rounded to doubles.
+
+    Its states are those which the node published then, to the last bit.
+    """
+
+    __slots__ = ()
+
+    def times_at(self, stamp: Any) -> Any:
+        """Return the times (s) in the formula of that version."""
+        elapsed = float(self.elapsed / NANOSECONDS)
+        if not self.running:
+            return elapsed
+        return elapsed + self.factor * ((stamp - self.stamp) * 1e-9)
+
+    def time_at(self, stamp: Any) -> Any:
+        """Return the time of the motion (s) at a stamp (ns) or an array of stamps."""
+        return self.times_at(stamp)
+
+
+def to_nanoseconds(seconds: float) -> Fraction:
+    """Return the exact value of a double in s as a number of ns.
+
+    Examples
+    --------
+    >>> to_nanoseconds(0.5)
+    Fraction(500000000, 1)
+    """
+    return Fraction(seconds) * NANOSECONDS

@@ -1,0 +1,320 @@
+"""The inertial sensor on the top: exact, or with noise that is the same in every computation.
+
+Noise is a function of the seed and of the stamp, not of what was computed before. So a log can be
+computed again from any of its files, whatever samples were missed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtri
+
+from symtop_ros.physics import Body, Motion, State, Top, specific_force
+from symtop_ros.wire.layout import NANOSECONDS
+
+Real = NDArray[np.float64]
+Vector = tuple[float, float, float]
+EXACT = 1e-18  # (1e-9)^2, a covariance of what is exact: zero would mean "unknown" (sensor_msgs)
+CENTRE: Vector = (0.0, 0.0, 0.0)
+ALONG = (0.0, 0.0, 0.0, 1.0)
+# A random walk is known exactly at multiples of BLOCK ns, and by bridges between them down to
+# BLOCK / 2^LEVELS = 65 us; between these points it is straight.
+BLOCK_BITS, LEVELS = 40, 24
+BLOCK = 1 << BLOCK_BITS  # ns; 18 minutes
+LONGEST_WALK = 1 << 57  # ns; four years and a half
+AXES = 3
+# Streams of numbers: three of the gyroscope, then three of the accelerometer.
+WHITE, WALKS = range(2 * AXES), range(2 * AXES, 4 * AXES)
+
+
+@dataclass(frozen=True)
+class Imu:
+    """An inertial measurement unit.
+
+    Attributes
+    ----------
+    position : (float, float, float)
+        Its place in the body frame in m.
+    orientation : (float, float, float, float)
+        Quaternion x, y, z, w, sensor to body.
+    gyroscope_noise_density, gyroscope_random_walk : float
+        In rad/s/sqrt(Hz) and rad/s^2/sqrt(Hz), as in Kalibr's YAML.
+    accelerometer_noise_density, accelerometer_random_walk : float
+        In m/s^2/sqrt(Hz) and m/s^3/sqrt(Hz).
+    seed : int
+        Of the noise.
+    rate : float
+        Samples per second: the noise of a sample is its density times the root of the rate.
+    begin : int
+        Stamp in ns at which the biases are zero.
+
+    Examples
+    --------
+    >>> imu = Imu(gyroscope_noise_density=1e-3, rate=400.0)
+    >>> round(imu.covariances[1], 12), Imu().covariances[1]
+    (0.0004, 1e-18)
+    """
+
+    position: Vector = CENTRE
+    orientation: tuple[float, float, float, float] = ALONG
+    gyroscope_noise_density: float = 0.0
+    gyroscope_random_walk: float = 0.0
+    accelerometer_noise_density: float = 0.0
+    accelerometer_random_walk: float = 0.0
+    seed: int = 0
+    rate: float = 200.0
+    begin: int = 0
+
+    @property
+    def has_noise(self) -> bool:
+        """True if the sensor is not exact."""
+        return any((*self._densities, *self._walks))
+
+    @property
+    def covariances(self) -> Vector:
+        """Variances of orientation (rad^2), angular velocity and acceleration, of each axis."""
+        gyroscope, accelerometer = (
+            density * density * self.rate if density else EXACT for density in self._densities
+        )
+        return EXACT, gyroscope, accelerometer
+
+    @property
+    def _densities(self) -> tuple[float, float]:
+        return self.gyroscope_noise_density, self.accelerometer_noise_density
+
+    @property
+    def _walks(self) -> tuple[float, float]:
+        return self.gyroscope_random_walk, self.accelerometer_random_walk
+
+    @cached_property
+    def mount(self) -> State:
+        """The orientation as a state: `mount.to_body` turns components into the sensor frame."""
+        x, y, z, w = self.orientation
+        return State((w, x, y, z), CENTRE)
+
+    def measure(self, motion: Motion, state: State, gravity: float) -> tuple[Real, Real, Real]:
+        """Return what an exact sensor measures.
+
+        Parameters
+        ----------
+        motion : Motion
+        state : State
+            One state or many.
+        gravity : float
+            In m/s^2.
+
+        Returns
+        -------
+        orientation : ndarray (..., 4)
+            Quaternion x, y, z, w, sensor to world.
+        angular_velocity, specific_force : ndarray (..., 3)
+            In the sensor frame, in rad/s and m/s^2; at rest the latter is g upwards.
+        """
+        force = specific_force(motion, state, self.position, gravity)
+        orientation = multiply(state.orientation, self.mount.orientation)
+        turned = self.mount.to_body(state.angular_velocity), self.mount.to_body(force)
+        return orientation[..., [1, 2, 3, 0]], *turned
+
+    def noise(self, stamps: Any) -> Real:
+        """Return the errors of angular velocity and acceleration at stamps.
+
+        Parameters
+        ----------
+        stamps : ndarray (...) of int
+            In ns.
+
+        Returns
+        -------
+        ndarray (..., 6)
+            White noise and bias, in rad/s and m/s^2.
+
+        Examples
+        --------
+        >>> imu = Imu(gyroscope_noise_density=1e-3, seed=7)
+        >>> bool((imu.noise(np.array([5, 9]))[1] == imu.noise(np.array([9]))[0]).all())
+        True
+        """
+        times = np.asarray(stamps, dtype=np.int64)
+        errors = np.zeros((*times.shape, 2 * AXES))
+        sizes = np.repeat([each * math.sqrt(self.rate) for each in self._densities], AXES)
+        if any(self._densities):
+            white = _normals(self.seed, WHITE, times)
+            errors += np.moveaxis(sizes.reshape(-1, *[1] * times.ndim) * white, 0, -1)
+        if any(self._walks):
+            walks = random_walks(self.seed, WALKS, times - self.begin)
+            errors += np.moveaxis(walks, 0, -1) * np.repeat(self._walks, AXES)
+        return errors
+
+
+@dataclass(frozen=True)
+class Rig:
+    """Gravity and the sensor: all that samples depend on besides the motion.
+
+    Attributes
+    ----------
+    gravity : float or None
+        In m/s^2; None in logs whose ~/torque has no force.
+    imu : Imu or None
+        The sensor on the top, or None.
+    """
+
+    gravity: float | None = None
+    imu: Imu | None = None
+
+    def to_values(self) -> dict[str, str]:
+        """Return the values for an event, in decimals that read back to the same doubles.
+
+        Examples
+        --------
+        >>> rig = Rig(9.81, Imu(seed=3))
+        >>> Rig.from_values(rig.to_values()) == rig
+        True
+        """
+        values = {} if self.gravity is None else {"gravity": repr(self.gravity)}
+        if self.imu:
+            imu = self.imu
+            parts = (*imu.position, *imu.orientation)
+            noise = (
+                *(imu.gyroscope_noise_density, imu.gyroscope_random_walk),
+                *(imu.accelerometer_noise_density, imu.accelerometer_random_walk, imu.rate),
+            )
+            values["imu.mount"] = " ".join(map(repr, parts))
+            values["imu.noise"] = " ".join(map(repr, noise))
+            values["imu.seed"], values["imu.begin"] = str(imu.seed), str(imu.begin)
+        return values
+
+    @classmethod
+    def from_values(cls, values: Mapping[str, str]) -> Rig:
+        """Return the rig of an event.
+
+        Raises
+        ------
+        ValueError
+            If a value is not valid.
+        KeyError
+            If a value is missing.
+        """
+        gravity = float(values["gravity"]) if "gravity" in values else None
+        if gravity is not None and not 0 < gravity < math.inf:
+            msg = f"gravity must be > 0 m/s^2, got {gravity:g}"
+            raise ValueError(msg)
+        if "imu.mount" not in values:
+            return cls(gravity)
+        a, b, c, x, y, z, w = map(float, values["imu.mount"].split())
+        gyro, gyro_walk, accel, accel_walk, rate = map(float, values["imu.noise"].split())
+        seed, begin = int(values["imu.seed"]), int(values["imu.begin"])
+        numbers = (a, b, c, gyro, gyro_walk, accel, accel_walk, rate)
+        if not all(map(math.isfinite, numbers)) or rate <= 0 or not 0 <= seed < 2**63:
+            msg = "the numbers of the imu must be finite, with a rate above 0 and a seed >= 0"
+            raise ValueError(msg)
+        imu = Imu((a, b, c), (x, y, z, w), gyro, gyro_walk, accel, accel_walk, seed, rate, begin)
+        _ = imu.mount  # refused here if it is no unit quaternion
+        return cls(gravity, imu)
+
+
+@lru_cache(maxsize=8)
+def find_body(top: Top, gravity: float) -> Body | None:
+    """Return the body that is chosen for a top; None if there is none.
+
+    Examples
+    --------
+    >>> find_body(Top(Ix=1.0, Iz=2.0, Mgl=1.0), 9.81) is None
+    True
+    """
+    try:
+        return Body.of(top, gravity)
+    except ValueError:
+        return None
+
+
+def random_walks(seed: int, streams: Sequence[int], times: Any) -> Real:
+    """Return random walks that grow by the root of the time in s, and are zero at 0.
+
+    They are built by bridges between known points (Lévy's construction), so that any time is
+    computed alone.
+
+    Parameters
+    ----------
+    seed : int
+    streams : sequence of int (k,)
+        Numbers of the walks, which are independent.
+    times : ndarray (...) of int
+        In ns; up to 0 a walk is 0.
+
+    Returns
+    -------
+    ndarray (k, ...)
+        In sqrt(s).
+
+    Examples
+    --------
+    >>> (walk,) = random_walks(1, [0], np.arange(4000) * 10**9)
+    >>> bool(0.95 < np.diff(walk).std() < 1.05)
+    True
+    """
+    times = np.clip(np.asarray(times, dtype=np.int64), 0, LONGEST_WALK)
+    block, rest = times >> BLOCK_BITS, times & (BLOCK - 1)
+    known = np.arange(int(block.max(initial=0)) + 1)
+    steps = math.sqrt(BLOCK / NANOSECONDS) * _normals(seed, streams, known << (LEVELS + 2))
+    ends = np.concatenate((np.zeros((len(streams), 1)), np.cumsum(steps, axis=1)), axis=1)
+    low, high = ends[:, block], ends[:, block + 1]
+    walks = low + (high - low) * (rest / BLOCK)
+    # The bridges of each level: its number at these times, and how far from its ends they are.
+    level = np.arange(1, LEVELS + 1).reshape(-1, *[1] * times.ndim)
+    bits = BLOCK_BITS - level + 1
+    inside = (rest & ((1 << bits) - 1)) / (1 << bits)
+    sizes = (1 - np.abs(2 * inside - 1)) * np.sqrt((1 << bits) / NANOSECONDS / 4)
+    places = (block << (LEVELS + 2)) + (1 << level) + (rest >> bits)
+    bridges = sizes * _normals(seed, streams, places)
+    for k in range(LEVELS):  # in this order for any number of times: the same bits
+        walks = walks + bridges[:, k]
+    return np.asarray(walks)
+
+
+def _normals(seed: int, streams: Sequence[int], counters: Any) -> Real:
+    """Return standard normal numbers, (k, ...), one for each stream and counter (...).
+
+    They are a hash, not a sequence: that of SplitMix64 (Steele, Lea and Flood 2014), twice. The
+    inverse of the normal distribution makes normal numbers of it.
+    """
+    counters = np.asarray(counters).astype(np.uint64)
+    numbers = np.array(streams, dtype=np.uint64).reshape(-1, *[1] * counters.ndim)
+    keys = _hash(_hash(np.array([seed], dtype=np.uint64))[0] + numbers)
+    bits = _hash(_hash(counters) ^ keys)
+    return np.asarray(ndtri(((bits >> np.uint64(11)) + 0.5) * 2.0**-53))
+
+
+def _hash(value: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    with np.errstate(over="ignore"):  # products modulo 2^64
+        z = value + np.uint64(0x9E3779B97F4A7C15)
+        z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+        z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+        return np.asarray(z ^ (z >> np.uint64(31)))
+
+
+def multiply(p: Real, q: Real) -> Real:
+    """Return the products p q of quaternions, (..., 4).
+
+    Examples
+    --------
+    >>> multiply(np.array([0.0, 1, 0, 0]), np.array([0.0, 0, 1, 0])).tolist()
+    [0.0, 0.0, 0.0, 1.0]
+    """
+    w, x, y, z = np.moveaxis(p, -1, 0)
+    a, b, c, d = np.moveaxis(q, -1, 0)
+    return np.stack(
+        (
+            w * a - x * b - y * c - z * d,
+            w * b + x * a + y * d - z * c,
+            w * c - x * d + y * a + z * b,
+            w * d + x * c - y * b + z * a,
+        ),
+        axis=-1,
+    )

@@ -1,0 +1,350 @@
+"""The parameters of a simulation: default, meaning, unit and range of each, and their values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sized
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+from symtop_ros.physics import STANDARD_GRAVITY, Friction, Top
+from symtop_ros.simulation.presets import load_scene
+from symtop_ros.simulation.sensor import ALONG, CENTRE, Imu, Rig
+from symtop_ros.simulation.validation import (
+    MAX_RATE,
+    RefusedError,
+    choice,
+    describe_range,
+    flag,
+    number,
+    refuse,
+    vector,
+)
+
+Vector = tuple[float, float, float]
+NO_TORQUE: Vector = (0.0, 0.0, 0.0)
+PRECESSIONS = ("slow", "fast")
+MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
+MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
+MAX_ARM = 1e6  # m
+MAX_NOISE = 1e6
+MAX_SEED = 2**53  # a larger number may not be a double
+MAX_FRAME = 200  # characters of a frame name, which stands in every message
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter of the node.
+
+    Attributes
+    ----------
+    default : object
+    description : str
+        Meaning and unit.
+    condition : str
+        The allowed values.
+    validate : callable
+        Returns the value, converted, from the name and a raw value; raises RefusedError.
+    read_only : bool
+        True if it can only be set at the start.
+    """
+
+    default: Any
+    description: str
+    condition: str
+    validate: Callable[[str, Any], Any]
+    read_only: bool = False
+
+
+def _number(default: float, description: str, unit: str, low: float, high: float) -> Parameter:
+    return Parameter(
+        default,
+        f"{description} ({unit or 'no unit'})",
+        describe_range(low, high, unit),
+        partial(number, unit=unit, low=low, high=high),
+    )
+
+
+def _angle(name: str, low: float = -MAX_ANGLE, high: float = MAX_ANGLE) -> Parameter:
+    return _number(0.0, f"initial {name}", "rad", low, high)
+
+
+def _rate(description: str) -> Parameter:
+    return _number(0.0, description, "rad/s", -MAX_RATE, MAX_RATE)
+
+
+def _moment(default: float, description: str, unit: str, low: float) -> Parameter:
+    return _number(default, description, unit, low, MAX_MOMENT)
+
+
+def _vector(description: str, size: int, limit: float, unit: str) -> Parameter:
+    def validate(name: str, value: Any) -> tuple[float, ...]:
+        empty = not isinstance(value, str) and isinstance(value, Sized) and len(value) == 0
+        return () if empty else vector(name, value, size, limit, unit)
+
+    condition = f"{size} numbers ({unit}), or empty: not set"
+    return Parameter([0.0] * 0, f"{description} ({unit})", condition, validate)
+
+
+def _printable(condition: str, max_length: int, name: str, value: Any) -> str:
+    """Return text that can stand in a message or a path."""
+    if not (isinstance(value, str) and value.strip() and value.isprintable()) or (
+        len(value) > max_length
+    ):
+        raise refuse(name, condition, value)
+    return value
+
+
+def _text(default: str, description: str, condition: str, max_length: int) -> Parameter:
+    validate = partial(_printable, condition, max_length)
+    return Parameter(default, description, condition, validate, read_only=True)
+
+
+def _frame(default: str, description: str) -> Parameter:
+    condition = f"the name of a frame (1 to {MAX_FRAME} printable characters)"
+    return _text(default, description, condition, MAX_FRAME)
+
+
+def _flag(default: bool, description: str, read_only: bool = False) -> Parameter:
+    return Parameter(default, description, "true or false", flag, read_only)
+
+
+def _precession(name: str, value: Any) -> str:
+    return choice(name, value, ("", *PRECESSIONS))
+
+
+def _fixed(parameter: Parameter) -> Parameter:
+    """Return a parameter that can only be set at the start."""
+    return replace(parameter, read_only=True)
+
+
+def _noise(description: str, unit: str) -> Parameter:
+    return _fixed(_number(0.0, description, unit, 0.0, MAX_NOISE))
+
+
+def _seed(name: str, value: Any) -> int:
+    seed = number(name, value, "", 0, MAX_SEED)
+    if seed != int(seed):
+        raise refuse(name, f"a whole number, 0 to {MAX_SEED}", value)
+    return int(seed)
+
+
+PARAMETERS: dict[str, Parameter] = {
+    "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", 1 / MAX_MOMENT),
+    "top.Iz": _moment(
+        5.72e-5, "moment of inertia about the axis, at most 2 Ix", "kg m^2", 1 / MAX_MOMENT
+    ),
+    "top.Mgl": _moment(0.068, "weight times distance of the centre of mass", "J", -MAX_MOMENT),
+    "initial.theta": _angle("tilt", 0.0, math.pi),
+    "initial.phi": _angle("precession angle"),
+    "initial.psi": _angle("spin angle"),
+    "initial.theta_dot": _rate("initial rate of the tilt"),
+    "initial.phi_dot": _rate("initial precession rate"),
+    "initial.psi_dot": _rate("initial spin rate"),
+    "initial.precession": Parameter(
+        "", "start on a root of regular precession", "slow, fast, or empty: not set", _precession
+    ),
+    "initial.orientation": _vector("initial quaternion, body -> world", 4, 2.0, "x, y, z, w"),
+    "initial.angular_velocity": _vector(
+        "initial angular velocity", 3, MAX_RATE, "rad/s, body frame"
+    ),
+    "friction.axial": _moment(0.0, "friction torque per omega_z, on the axis", "N m s", 0.0),
+    "friction.transverse": _moment(0.0, "friction torque per omega across the axis", "N m s", 0.0),
+    "steady_torque": _vector("constant applied torque", 3, MAX_MOMENT, "N m, world frame"),
+    "applied_torque_timeout": _number(
+        0.1, "time for which a sample of ~/applied_torque acts", "s", 0.001, 1e6
+    ),
+    "hurry_factor": _number(1.4, "factor of phi' in ~/hurry_precession", "", -1e6, 1e6),
+    "publish_rate": _number(200.0, "samples per second", "Hz", 1.0, 2000.0),
+    "real_time_factor": _number(
+        1.0, "seconds of the motion per second of the clock", "", 1e-3, 100.0
+    ),
+    "publish_tf": _flag(True, "publish world -> top on /tf"),
+    "publish_clock": _flag(False, "publish /clock", read_only=True),
+    "publish_markers": _flag(False, "publish ~/markers for rviz", read_only=True),
+    "record.enabled": _flag(False, "record from the start", read_only=True),
+    "record.directory": _text(
+        "./logs", "folder of the logs", "the name of a folder (printable characters)", 4096
+    ),
+    "record.max_size": _number(0.0, "size at which a new log begins; 0: none", "B", 0.0, 1e15),
+    "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
+    "gravity": _fixed(_number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3)),
+    "imu.enabled": _flag(False, "publish ~/imu", read_only=True),
+    "imu.position": _fixed(_vector("place of the sensor, body frame", 3, MAX_ARM, "m")),
+    "imu.orientation": _fixed(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),
+    "imu.noise.gyroscope_noise_density": _noise("white noise", "rad/s/sqrt(Hz)"),
+    "imu.noise.gyroscope_random_walk": _noise("random walk of the bias", "rad/s^2/sqrt(Hz)"),
+    "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
+    "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
+    "imu.noise.seed": Parameter(0, "seed of the noise", "a whole number", _seed, read_only=True),
+    "odometry.enabled": _flag(False, "publish ~/odometry", read_only=True),
+    "world_frame": _frame("world", "fixed frame, z up"),
+    "top_frame": _frame("top", "frame of the body"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class InitialConditions:
+    """The `initial.*` parameters.
+
+    Attributes
+    ----------
+    theta, phi, psi : float
+        Euler angles z-x-z in rad.
+    theta_dot, phi_dot, psi_dot : float
+        Their rates in rad/s.
+    precession : str
+        "slow" or "fast" for a root of regular precession; empty: not set.
+    orientation : tuple of float
+        Quaternion x, y, z, w, or empty.
+    angular_velocity : tuple of float
+        Body frame, rad/s; empty: zero if there is an orientation.
+    """
+
+    theta: float = 0.0
+    phi: float = 0.0
+    psi: float = 0.0
+    theta_dot: float = 0.0
+    phi_dot: float = 0.0
+    psi_dot: float = 0.0
+    precession: str = ""
+    orientation: tuple[float, ...] = ()
+    angular_velocity: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RecordSettings:
+    """The `record.*` parameters.
+
+    Attributes
+    ----------
+    enabled : bool
+    directory : str
+    max_size : float
+        In bytes; 0: no limit.
+    max_duration : float
+        In s; 0: no limit.
+    """
+
+    enabled: bool
+    directory: str
+    max_size: float
+    max_duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Validated values of all parameters; see `PARAMETERS` for their meaning.
+
+    Attributes
+    ----------
+    values : mapping
+        The values by their full names, for logs and comparisons.
+    """
+
+    values: Mapping[str, Any]
+    top: Top
+    friction: Friction
+    initial: InitialConditions
+    record: RecordSettings
+    steady_torque: Vector
+    applied_torque_timeout: float
+    hurry_factor: float
+    publish_rate: float
+    real_time_factor: float
+    publish_tf: bool
+    publish_clock: bool
+    publish_markers: bool
+    gravity: float
+    imu: Imu | None
+    odometry: bool
+    world_frame: str
+    top_frame: str
+
+    @classmethod
+    def from_values(cls, values: Mapping[str, Any]) -> Settings:
+        """Validate raw values; parameters that are missing get their defaults.
+
+        Raises
+        ------
+        RefusedError
+            For the first value that is not allowed.
+
+        Examples
+        --------
+        >>> Settings.from_values({"publish_rate": 500}).publish_rate
+        500.0
+        >>> Settings.from_values({"publish_rate": 5000})
+        Traceback (most recent call last):
+        symtop_ros.simulation.validation.RefusedError: publish_rate must be 1 to 2000 Hz, got 5000
+        """
+        clean = {
+            name: parameter.validate(name, values.get(name, parameter.default))
+            for name, parameter in PARAMETERS.items()
+        }
+        if clean["initial.angular_velocity"] and not clean["initial.orientation"]:
+            msg = "initial.angular_velocity must be set together with initial.orientation, got none"
+            raise RefusedError(msg)
+        try:
+            top = Top(**_group(clean, "top."))
+        except ValueError as error:
+            msg = f"top.{error}"
+            raise RefusedError(msg) from None
+        x, y, z = clean["steady_torque"] or NO_TORQUE
+        plain = {name: value for name, value in clean.items() if "." not in name}
+        odometry = clean["odometry.enabled"]
+        return cls(
+            values=clean,
+            top=top,
+            friction=Friction(**_group(clean, "friction.")),
+            initial=InitialConditions(**_group(clean, "initial.")),
+            record=RecordSettings(**_group(clean, "record.")),
+            imu=_build_imu(clean),
+            odometry=odometry,
+            **{**plain, "steady_torque": (x, y, z)},
+        )
+
+    def rig(self, begin: int) -> Rig:
+        """Return gravity and the sensor; its biases are zero at the stamp `begin` (ns)."""
+        imu = self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
+        return Rig(self.gravity, imu)
+
+    def enables(self, switch: str) -> bool:
+        """Return True if a parameter that switches a topic on is set; True for no parameter."""
+        return not switch or bool(self.values[switch])
+
+    @classmethod
+    def from_scene(cls, name: object, **changes: Any) -> Settings:
+        """Return the settings of a scene, with changes (`__` for the dots in their names).
+
+        Examples
+        --------
+        >>> Settings.from_scene("cusps", top__Mgl=0.05).top.Mgl
+        0.05
+        """
+        named = {key.replace("__", "."): value for key, value in changes.items()}
+        return cls.from_values({**load_scene(name), **named})
+
+
+def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
+    """Return the sensor, or None if it is off."""
+    imu = Imu(
+        clean["imu.position"] or CENTRE,
+        clean["imu.orientation"] or ALONG,
+        **_group(clean, "imu.noise."),
+    )
+    try:
+        _ = imu.mount
+    except ValueError as error:
+        msg = f"imu.{error}"
+        raise RefusedError(msg) from None
+    return imu if clean["imu.enabled"] else None
+
+
+def _group(values: Mapping[str, Any], prefix: str) -> dict[str, Any]:
+    return {
+        name.removeprefix(prefix): value
+        for name, value in values.items()
+        if name.startswith(prefix)
+    }

@@ -1,0 +1,98 @@
+"""The grid of stamps: tick k is at start + k/rate, whenever it is published."""
+
+from __future__ import annotations
+
+from symtop_ros.wire.layout import NANOSECONDS
+
+CATCH_UP = 0.1  # s; ticks that are later are dropped, so that a stopped process sends no burst
+
+
+class Ticker:
+    """Stamps of a steady grid, and counts of the late and the dropped ones.
+
+    A stamp is the nearest integer number of nanoseconds, computed in integers: the rate is taken as
+    the exact value of its double, so the grid does not drift however long it runs.
+
+    Parameters
+    ----------
+    rate : float
+        Ticks per second.
+    now : int
+        Stamp of the first tick in ns.
+
+    Attributes
+    ----------
+    rate : float
+        Ticks per second.
+    late : int
+        Ticks that were published more than a period after their stamp.
+    missed : int
+        Ticks that were dropped.
+
+    Examples
+    --------
+    >>> ticker = Ticker(rate=3.0, now=0)
+    >>> ticker.due(now=700_000_000, catch_up=1.0, until=10**18)
+    [0, 333333333, 666666667]
+    >>> ticker.next_stamp
+    1000000000
+    """
+
+    def __init__(self, rate: float, now: int) -> None:
+        self.late = 0
+        self.missed = 0
+        self.restart(rate, now)
+
+    def restart(self, rate: float, start: int) -> None:
+        """Begin a new grid with its first tick at `start` (ns)."""
+        self.rate = rate
+        ticks, seconds = rate.as_integer_ratio()
+        self._ticks, self._nanoseconds = ticks, seconds * NANOSECONDS  # rate = ticks/nanoseconds
+        self._start = start
+        self._next = 0
+
+    @property
+    def next_stamp(self) -> int:
+        """Stamp in ns of the next tick."""
+        return self._stamp(self._next)
+
+    def due(self, now: int, catch_up: float, until: int, count_late: bool = True) -> list[int]:
+        """Return the stamps that are due, in order, and count late and dropped ones.
+
+        Parameters
+        ----------
+        now : int
+            Current time in ns.
+        catch_up : float
+            Ticks that are later than this (s) are dropped.
+        until : int
+            Last stamp (ns) to return.
+        count_late : bool
+            False for a simulated clock, whose steps may be longer than a period.
+        """
+        last = (now - self._start) * self._ticks // self._nanoseconds
+        oldest = last - int(catch_up * self.rate)
+        if oldest > self._next:
+            self.missed += oldest - self._next
+            self._next = oldest
+        # A stamp is rounded, so the one of tick `last` may be half a nanosecond after `now`.
+        stamps = [
+            self._stamp(k) for k in range(self._next, last + 1) if self._stamp(k) <= min(now, until)
+        ]
+        self._next += len(stamps)
+        if count_late:
+            self.late += sum((now - stamp) * self._ticks > self._nanoseconds for stamp in stamps)
+        return stamps
+
+    def grid(self, stamp: int, count: int) -> list[int]:
+        """Return `count` consecutive stamps of the grid from `stamp` (one of them) on."""
+        first = _divide((stamp - self._start) * self._ticks, self._nanoseconds)
+        return [self._stamp(k) for k in range(first, first + count)]
+
+    def _stamp(self, k: int) -> int:
+        return self._start + _divide(k * self._nanoseconds, self._ticks)
+
+
+def _divide(numerator: int, denominator: int) -> int:
+    """Return the nearest integer to a quotient; halves are rounded up."""
+    return (2 * numerator + denominator) // (2 * denominator)

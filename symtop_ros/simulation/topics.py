@@ -1,0 +1,284 @@
+"""All topics of the top: one record for each, with its name, ROS type, bytes and content.
+
+The node publishes what this table says, the recorder logs it, and logs are read and checked with
+it. World frame, SI units, radians.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.physics import Motion, State
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor import EXACT, Rig, find_body
+from symtop_ros.wire import messages
+from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY
+from symtop_ros.wire.layout import Layout
+from symtop_ros.wire.messages import Format
+
+Real = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """A topic.
+
+    Attributes
+    ----------
+    ros_name : str
+        Name in the form that ROS resolves; `~` stands for the name of the node, and a name without
+        `~` or `/` at its begin is in the namespace of the node.
+    type : str
+        Message type, such as "std_msgs/msg/String".
+    depth : int
+        Messages that are kept for a slow (or, if latched, a late) subscriber.
+    latched : bool
+        True if late subscribers get the last messages (durability "transient local").
+    """
+
+    ros_name: str
+    type: str
+    depth: int = 100
+    latched: bool = False
+
+    @property
+    def name(self) -> str:
+        """Last part of the name: the key of the topic in logs and tables."""
+        return self.ros_name.rpartition("/")[2]
+
+    def resolve(self, node: str) -> str:
+        """Return the full name of the topic for a node such as "/top".
+
+        Examples
+        --------
+        >>> EVENTS.resolve("/lab/top"), TOPICS["tf"].resolve("/lab/top")
+        ('/lab/top/events', '/tf')
+        >>> DESCRIPTION.resolve("/lab/top"), DESCRIPTION.resolve("/top")
+        ('/lab/robot_description', '/robot_description')
+        """
+        if self.ros_name.startswith("~"):
+            return f"{node}{self.ros_name[1:]}"
+        if self.ros_name.startswith("/"):
+            return self.ros_name
+        return f"{node.rpartition('/')[0]}/{self.ros_name}"
+
+    def load_message_class(self) -> Any:
+        """Return the Python class of the message type; the only method that needs ROS.
+
+        None if its package is not installed (tf2_msgs is not on PyPI, where the rest of ROS 2 is).
+        """
+        package, _, name = self.type.split("/")
+        try:
+            return getattr(importlib.import_module(f"{package}.msg"), name)
+        except ModuleNotFoundError:
+            return None
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """States of a run at one stamp or at many: what the content of a message is computed from.
+
+    Attributes
+    ----------
+    segment : Segment
+    stamps : int or ndarray (n,)
+        In ns.
+    state : State
+        At these stamps; one state for all of them while paused.
+    """
+
+    segment: Segment
+    stamps: Any
+    state: State
+
+    @classmethod
+    def at(cls, segment: Segment, stamps: Any) -> Samples:
+        """Return the samples of a segment at a stamp (ns) or an array of stamps."""
+        return cls(segment, stamps, segment.state_at(stamps))
+
+    @property
+    def motion(self) -> Motion:
+        """The motion of the segment."""
+        return self.segment.motion
+
+    @property
+    def rig(self) -> Rig:
+        """Gravity and the sensor on the top."""
+        return self.segment.rig
+
+
+@dataclass(frozen=True, slots=True)
+class StateTopic(Topic):
+    """A topic with one message in every sample.
+
+    Attributes
+    ----------
+    format : Format
+        Encoding of the message; its type is the type of the topic.
+    compute : callable
+        Returns the doubles of the message, (..., width), from the samples.
+    names : callable
+        Returns the constant names of the message from the world frame and the frame of the top.
+    switch : str
+        Parameter without which the topic does not exist; empty: it always does.
+    """
+
+    format: Format = messages.VECTOR
+    compute: Callable[[Samples], Real] = lambda samples: samples.state.vertical
+    names: Callable[[str, str], tuple[str, ...]] = lambda world, _: (world,)
+    switch: str = ""
+
+    def layout(self, world: str, top: str) -> Layout:
+        """Return the layout of the message with the given frame names."""
+        return self.format.layout(*self.names(world, top))
+
+
+def _state_topic(
+    ros_name: str,
+    form: Format,
+    compute: Callable[[Samples], Real],
+    names: Callable[[str, str], tuple[str, ...]] = lambda world, _: (world,),
+    switch: str = "",
+) -> StateTopic:
+    return StateTopic(ros_name, form.type, format=form, compute=compute, names=names, switch=switch)
+
+
+def _quaternion(samples: Samples) -> Real:
+    """Quaternion x, y, z, w, body -> world."""
+    return samples.state.orientation[..., [1, 2, 3, 0]]
+
+
+def _twist(samples: Samples) -> Real:
+    """Linear velocity (zero: the pivot is fixed), angular velocity."""
+    return _after_zeros(samples.state.to_world(samples.state.angular_velocity))
+
+
+def _wrench(samples: Samples) -> Real:
+    """Force of the pivot on the top, total torque about the pivot.
+
+    The force depends on a mass, and is nan for a top that no body can be. In logs of earlier
+    versions, which did not model it, it is zero.
+    """
+    motion, state, gravity = samples.motion, samples.state, samples.rig.gravity
+    wrench = _after_zeros(motion.total_torque(state))
+    if gravity is not None:
+        body = find_body(motion.top, gravity)
+        wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
+    return wrench
+
+
+def _joints(samples: Samples) -> Real:
+    """Euler angles phi, theta, psi, then their rates."""
+    state = samples.state
+    return np.stack([*state.euler_angles, *state.euler_rates], axis=-1)
+
+
+def _imu(samples: Samples) -> Real:
+    """Orientation, angular velocity and specific force of the sensor, each with its covariance."""
+    imu, gravity = samples.rig.imu, samples.rig.gravity
+    numbers = np.full((*np.shape(samples.stamps), messages.IMU_WIDTH), np.nan)
+    if not imu or gravity is None:
+        return numbers
+    orientation, rates, force = imu.measure(samples.motion, samples.state, gravity)
+    numbers[..., 0:4], numbers[..., 13:16], numbers[..., 25:28] = orientation, rates, force
+    if imu.has_noise:
+        errors = imu.noise(samples.stamps)
+        numbers[..., 13:16] += errors[..., :3]
+        numbers[..., 25:28] += errors[..., 3:]
+    for first, variance in zip((4, 16, 28), imu.covariances, strict=True):
+        numbers[..., first : first + 9] = variance * np.eye(3).reshape(-1)
+    return numbers
+
+
+def _odometry(samples: Samples) -> Real:
+    """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
+    state, gravity = samples.state, samples.rig.gravity
+    body = None if gravity is None else find_body(samples.motion.top, gravity)
+    numbers = np.zeros((*state.orientation.shape[:-1], messages.ODOMETRY_WIDTH))
+    omega, arm = state.angular_velocity, body.arm if body else np.nan
+    numbers[..., 0:3] = state.to_world([0.0, 0.0, 1.0]) * arm
+    numbers[..., 3:7] = _quaternion(samples)
+    numbers[..., 43], numbers[..., 44] = omega[..., 1] * arm, -omega[..., 0] * arm
+    numbers[..., 46:49] = omega
+    for first in (7, 49):
+        numbers[..., first : first + 36] = EXACT * np.eye(6).reshape(-1)
+    return numbers
+
+
+def imu_frame(top: str) -> str:
+    """Return the name of the frame of the sensor.
+
+    Examples
+    --------
+    >>> imu_frame("a/top"), centre_frame("top")
+    ('a/top_imu', 'top_centre_of_mass')
+    """
+    return f"{top}_imu"
+
+
+def centre_frame(top: str) -> str:
+    """Return the name of the frame in the centre of mass."""
+    return f"{top}_centre_of_mass"
+
+
+def _after_zeros(vector: Real) -> Real:
+    return np.concatenate([np.zeros_like(vector[..., :3]), vector], axis=-1)
+
+
+STATE_TOPICS: dict[str, StateTopic] = {
+    topic.name: topic
+    for topic in (
+        _state_topic("~/orientation", messages.QUATERNION, _quaternion),
+        _state_topic("~/angular_velocity", messages.TWIST, _twist),
+        _state_topic(
+            "~/angular_momentum",
+            messages.VECTOR,
+            lambda samples: samples.motion.top.angular_momentum(samples.state),
+        ),
+        _state_topic("~/torque", messages.WRENCH, _wrench),
+        _state_topic(
+            "~/euler_angles",
+            messages.JOINT_STATE,
+            _joints,
+            lambda world, _: (world, *messages.JOINTS),
+        ),
+        _state_topic(
+            "/tf",
+            messages.TRANSFORM,
+            # the origins of both frames are the pivot: the translation is zero
+            lambda samples: _after_zeros(_quaternion(samples)),
+            lambda world, top: (world, top),
+        ),
+    )
+}
+# Topics that exist only if a parameter asks for them.
+SENSOR_TOPICS: dict[str, StateTopic] = {
+    topic.name: topic
+    for topic in (
+        _state_topic("~/imu", messages.IMU, _imu, lambda _, top: (imu_frame(top),), "imu.enabled"),
+        _state_topic(
+            "~/odometry",
+            messages.ODOMETRY,
+            _odometry,
+            lambda world, top: (world, centre_frame(top)),
+            "odometry.enabled",
+        ),
+    )
+}
+SAMPLE_TOPICS = {**STATE_TOPICS, **SENSOR_TOPICS}
+TF_STATIC = Topic("/tf_static", "tf2_msgs/msg/TFMessage", depth=1, latched=True)
+EVENTS = Topic("~/events", DIAGNOSTIC_ARRAY, latched=True)
+DESCRIPTION = Topic("robot_description", "std_msgs/msg/String", depth=1, latched=True)
+DIAGNOSTICS = Topic("/diagnostics", DIAGNOSTIC_ARRAY, depth=10)
+CLOCK = Topic("/clock", "rosgraph_msgs/msg/Clock")
+# Events come first, so that they precede the samples of the same stamp in every log.
+TOPICS: dict[str, Topic] = {
+    topic.name: topic
+    for topic in (EVENTS, DESCRIPTION, TF_STATIC, *SAMPLE_TOPICS.values(), DIAGNOSTICS, CLOCK)
+}

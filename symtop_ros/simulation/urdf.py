@@ -1,0 +1,130 @@
+"""The URDF of the top: three joints with axes z-x-z, and a body with its moments of inertia.
+
+The joints have the names of ~/euler_angles, so that robot_state_publisher can move them. A frame
+may have one parent only. If the node publishes /tf, the body is therefore the frame that /tf moves,
+joined to the world by a floating joint, which robot_state_publisher leaves alone; the chain of the
+joints ends in an empty link. If the node does not publish /tf, the chain ends in the body.
+"""
+
+from __future__ import annotations
+
+import math
+from xml.sax.saxutils import escape
+
+from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
+
+LENGTH = 0.1  # m, from the pivot to the upper end of the drawing
+QUOTES = {'"': "&quot;"}
+
+
+def robot_description(
+    top: Top,
+    world_frame: str,
+    top_frame: str,
+    *,
+    tf_moves_it: bool = True,
+    gravity: float = STANDARD_GRAVITY,
+) -> str:
+    """Return the URDF of a top.
+
+    Parameters
+    ----------
+    top : Top
+    world_frame, top_frame : str
+        Names of the fixed link and of the link of the body.
+    tf_moves_it : bool
+        True if the transform from `world_frame` to `top_frame` is published on /tf.
+    gravity : float
+        Acceleration of gravity in m/s^2, from which the mass and its arm follow.
+
+    Examples
+    --------
+    >>> text = robot_description(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068), "world", "top")
+    >>> '<joint name="precession" type="continuous">' in text
+    True
+    """
+    world_frame, top_frame = (escape(name, QUOTES) for name in (world_frame, top_frame))
+    end = f"{top_frame}_spin" if tf_moves_it else top_frame
+    floating = f"""
+  <link name="{end}"/>
+  <joint name="tf" type="floating">
+    <parent link="{world_frame}"/><child link="{top_frame}"/>
+  </joint>"""
+    # The drawing keeps its size whatever the body is, so that every top can be seen.
+    distance = 0.6 * LENGTH * (1 if top.Mgl >= 0 else -1)
+    radius = LENGTH * min(0.8, 0.5 * math.sqrt(top.Iz / top.Ix) + 0.2)
+    return f"""<?xml version="1.0"?>
+<robot name="symtop">
+  <material name="steel"><color rgba="0.55 0.6 0.66 1"/></material>
+  <material name="brass"><color rgba="0.85 0.65 0.25 1"/></material>
+  <material name="mark"><color rgba="0.75 0.15 0.1 1"/></material>
+  <link name="{world_frame}"/>
+  <link name="{top_frame}_precession"/>
+  <link name="{top_frame}_tilt"/>
+  <joint name="precession" type="continuous">
+    <parent link="{world_frame}"/><child link="{top_frame}_precession"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="tilt" type="continuous">
+    <parent link="{top_frame}_precession"/><child link="{top_frame}_tilt"/><axis xyz="1 0 0"/>
+  </joint>
+  <joint name="spin" type="continuous">
+    <parent link="{top_frame}_tilt"/><child link="{end}"/><axis xyz="0 0 1"/>
+  </joint>{floating if tf_moves_it else ""}
+  <link name="{top_frame}">
+    {_inertial(top, gravity)}
+    {_cylinder("steel", 0.04 * LENGTH, LENGTH, LENGTH / 2)}
+    {_cylinder("brass", radius, 0.12 * LENGTH, distance)}
+    {_box("mark", radius, 0.122 * LENGTH, distance)}
+  </link>
+</robot>
+"""
+
+
+def _inertial(top: Top, gravity: float) -> str:
+    """Return the inertia of the body, and the sentence that says what was chosen."""
+    try:
+        body = Body.of(top, gravity)
+    except ValueError as error:
+        return f"<!-- No body moves like this top: {escape(str(error))}. -->"
+    return f"""<!-- {describe_body(top, body)} -->
+    <inertial>
+      <origin xyz="0 0 {body.arm!r}"/>
+      <mass value="{body.mass!r}"/>
+      <inertia ixx="{body.Ix!r}" iyy="{body.Ix!r}" izz="{body.Iz!r}" ixy="0" ixz="0" iyz="0"/>
+    </inertial>"""
+
+
+def describe_body(top: Top, body: Body) -> str:
+    """Return the sentence that says which body was chosen for a top.
+
+    Examples
+    --------
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> print(describe_body(top, Body.of(top))[:64])
+    Ix = 0.000228 kg m^2 and Iz = 5.72e-05 kg m^2 about the pivot, M
+    """
+    choice = "half of the longest arm that a rigid body can have"
+    if not top.Mgl:
+        choice = "any mass would do, as the centre of mass is the pivot"
+    return (
+        f"Ix = {top.Ix!r} kg m^2 and Iz = {top.Iz!r} kg m^2 about the pivot, Mgl = {top.Mgl!r} J "
+        f"with g = {body.gravity!r} m/s^2. These fix the product of mass and arm only. Chosen: "
+        f"{body.mass:.6g} kg, {body.arm:.6g} m along z ({choice})."
+    )
+
+
+def _cylinder(material: str, radius: float, length: float, height: float) -> str:
+    return (
+        f'<visual><origin xyz="0 0 {height:.6g}"/><geometry>'
+        f'<cylinder radius="{radius:.6g}" length="{length:.6g}"/></geometry>'
+        f'<material name="{material}"/></visual>'
+    )
+
+
+def _box(material: str, radius: float, thickness: float, height: float) -> str:
+    """Return a mark on the disc that makes the spin visible."""
+    return (
+        f'<visual><origin xyz="{radius / 2:.6g} 0 {height:.6g}"/><geometry>'
+        f'<box size="{radius:.6g} {radius / 6:.6g} {thickness:.6g}"/></geometry>'
+        f'<material name="{material}"/></visual>'
+    )

@@ -1,0 +1,147 @@
+"""Validation of named values from requests, parameter files and the command line.
+
+Every refusal reads "NAME must be CONDITION, got VALUE", in one printable line.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Mapping
+from typing import Any
+
+MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
+MAX_SHOWN = 60  # characters of a value in a message
+# YAML 1.1 takes 2e-06, without a point, as text, in scene files and in `ros2 service call`. It is
+# accepted as a number.
+NUMBER = re.compile(r"[-+]?\d+[eE][-+]?\d+")
+MAX_SENTENCE = 400  # characters of a text from another program or a file
+
+
+class RefusedError(ValueError):
+    """A request that is refused; its text is the answer."""
+
+
+def refuse(name: str, condition: str, got: object) -> RefusedError:
+    """Return the refusal of a value.
+
+    Examples
+    --------
+    >>> print(refuse("publish_rate", "1 to 2000 Hz", 5000))
+    publish_rate must be 1 to 2000 Hz, got 5000
+    """
+    return RefusedError(f"{name} must be {condition}, got {show(got)}")
+
+
+def show(value: object) -> str:
+    """Return a value as text of at most `MAX_SHOWN` characters."""
+    start = value[:MAX_SHOWN] if isinstance(value, list | tuple | str) else value
+    text = repr(start)
+    return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 3]}..."
+
+
+def validate_names(values: Mapping[str, Any], names: Collection[str]) -> None:
+    """Refuse a mapping with a name that is not one of `names`."""
+    for name in values:
+        if name not in names:
+            raise refuse("field name", f"one of {', '.join(names)}", name)
+
+
+def number(
+    name: str, value: object, unit: str, low: float = -math.inf, high: float = math.inf
+) -> float:
+    """Return a finite number within [low, high]; integers and text such as 2e-06 are converted.
+
+    Examples
+    --------
+    >>> number("friction.axial", "2e-06", "N m s")
+    2e-06
+    """
+    bounded = math.isfinite(low) or math.isfinite(high)
+    condition = describe_range(low, high, unit) if bounded else f"a finite number ({unit})"
+    if isinstance(value, str) and NUMBER.fullmatch(value):
+        value = float(value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise refuse(name, condition, value)
+    if not low <= value <= high or not math.isfinite(value):
+        raise refuse(name, condition, value)
+    return float(value)
+
+
+def describe_range(low: float, high: float, unit: str) -> str:
+    """Return a range as text.
+
+    Examples
+    --------
+    >>> describe_range(1, 2000, "Hz"), describe_range(-1e6, 1e6, "")
+    ('1 to 2000 Hz', '-1e+06 to 1e+06')
+    """
+    return f"{low:.6g} to {high:.6g} {unit}".rstrip()
+
+
+def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[float, ...]:
+    """Return a sequence of `size` numbers, each within [-limit, limit].
+
+    `unit` may name the frame as well: "N m, world frame".
+    """
+    try:
+        parts = () if isinstance(value, str | bytes) else tuple(value)
+    except TypeError:
+        parts = ()
+    if len(parts) != size:
+        got = len(parts) if parts else show(value)
+        msg = f"{name} must have {size} elements ({unit}), got {got}"
+        raise RefusedError(msg)
+    try:
+        return tuple(number(name, part, unit, -limit, limit) for part in parts)
+    except RefusedError:
+        condition = f"{size} numbers from {-limit:g} to {limit:g} ({unit})"
+        raise refuse(name, condition, list(parts)) from None
+
+
+def choice(name: str, value: object, options: tuple[str, ...]) -> str:
+    """Return one of some words."""
+    if not isinstance(value, str) or value not in options:
+        raise refuse(name, " or ".join(f'"{option}"' for option in options), value)
+    return value
+
+
+def flag(name: str, value: object) -> bool:
+    """Return True or False; numbers and text are refused."""
+    if not isinstance(value, bool):
+        raise refuse(name, "true or false", value)
+    return value
+
+
+def exactly_one(values: Mapping[str, Any], names: tuple[str, ...]) -> str:
+    """Return which of several names is given; refuse none and more than one."""
+    given = [name for name in names if name in values]
+    if len(given) != 1:
+        msg = f"a request must have one of {', '.join(names)}, got {' and '.join(given) or 'none'}"
+        raise RefusedError(msg)
+    return given[0]
+
+
+def one_line(text: object, max_length: int = MAX_SENTENCE) -> str:
+    r"""Return printable text in one line.
+
+    Control characters are escaped. Text longer than `max_length` characters is shortened in its
+    middle, because an error message has its cause at the end.
+
+    Examples
+    --------
+    >>> one_line("first\n  second\x1b[31m")
+    'first second\\x1b[31m'
+    >>> one_line("0123456789" * 4, max_length=20)
+    '0123456...0123456789'
+    """
+    whole = str(text)
+    half = max_length // 2
+    if len(whole) > 4 * max_length:  # spare the work on characters that are cut out anyway
+        whole = f"{whole[: 2 * max_length]}{whole[-2 * max_length :]}"
+    line = "".join(_escape(each) for each in " ".join(whole.split()))
+    return line if len(line) <= max_length else f"{line[: half - 3]}...{line[-half:]}"
+
+
+def _escape(character: str) -> str:
+    return character if character.isprintable() else ascii(character)[1:-1]

@@ -1,0 +1,167 @@
+"""Runs in several files and in the folders and databases of rosbag2."""
+
+import itertools
+import shutil
+import sqlite3
+
+import numpy as np
+import pytest
+from log_files import Run, topic
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from symtop_ros.log.bag import open_run
+from symtop_ros.log.check import check_log
+from symtop_ros.log.reader import LogError
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
+
+RUN = Run(seconds=1.5)
+TYPES = {each.name: each.type for each in (EVENTS, *STATE_TOPICS.values())}
+STORAGES = [StoragePlugin.MCAP, StoragePlugin.SQLITE3]
+STORE = get_typestore(Stores.ROS2_JAZZY)
+
+
+def write(folder, messages, storage=StoragePlugin.MCAP, node="/top"):
+    """A folder as `ros2 bag record` leaves it, by an independent writer."""
+    with Writer(folder, version=9, storage_plugin=storage) as writer:
+        channels = {
+            name: writer.add_connection(topic(name, node), kind, typestore=STORE)
+            for name, kind in TYPES.items()
+        }
+        for name, stamp, data in messages:
+            writer.write(channels[name], stamp + 1234, data)
+    return folder
+
+
+def parts(folder, count, storage=StoragePlugin.MCAP):
+    """The files of a run that was split; the last file of rosbag2 has the last messages."""
+    cuts = np.linspace(0, len(RUN.messages), count + 1).astype(int)
+    folders = [
+        write(folder / f"part_{k}", RUN.messages[begin:end], storage)
+        for k, (begin, end) in enumerate(itertools.pairwise(cuts))
+    ]
+    return [file for each in folders for file in each.glob("part_*")]
+
+
+def assert_complete(paths):
+    """All samples of the run are there and agree exactly with its events."""
+    log = TopLog(open_run(paths))
+    deviations = check_log(log)
+    assert log.problems == []
+    assert set(deviations) == set(STATE_TOPICS)
+    for deviation in deviations.values():
+        assert (deviation.samples, deviation.largest, deviation.unchecked) == (300, 0.0, 0)
+
+
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_rosbag2_folder_is_read_and_checked(storage, tmp_path):
+    assert_complete([write(tmp_path / "bag", RUN.messages, storage)])
+
+
+@pytest.mark.parametrize("storage", STORAGES)
+def test_files_in_any_order_are_one_run(storage, tmp_path):
+    files = parts(tmp_path, 3, storage)
+    assert len(files) == 3
+    for order in itertools.permutations(files):
+        assert_complete(order)
+
+
+def test_a_split_bag_is_one_run(tmp_path):
+    folder = tmp_path / "bag"
+    folder.mkdir()
+    for file in parts(tmp_path, 4):
+        file.rename(folder / file.name)
+    assert_complete([folder])
+
+
+def test_files_of_the_recorder_that_begin_with_the_last_event_are_one_run(tmp_path):
+    half = RUN.messages[: len(RUN.messages) // 3]
+    event = next(each for each in half if each[0] == "events")
+    following = [("events", half[-1][1], event[2]), *RUN.messages[len(half) :]]
+    first = write(tmp_path / "a", half)
+    second = write(tmp_path / "b", following)
+    assert_complete([second, first])
+
+
+def test_the_default_node_does_not_depend_on_the_order_of_files(tmp_path):
+    files = [write(tmp_path / name, RUN.messages, node=f"/{name}") for name in ("b", "a")]
+    for order in itertools.permutations(files):
+        log = TopLog(open_run(order))
+        assert all(each.largest == 0.0 for each in check_log(log).values())
+        assert log.node == "/a"
+        assert log.problems == ["the node is /a; others can be chosen by --node: /b"]
+
+
+def test_the_node_top_is_the_default_wherever_it_stands(tmp_path):
+    files = [write(tmp_path / name, RUN.messages, node=f"/{name}") for name in ("lab", "top")]
+    log = TopLog(open_run(files))
+    list(log.batches())
+    assert log.node == "/top"
+
+
+def test_damage_is_reported_with_the_name_of_its_file(tmp_path):
+    first, second = parts(tmp_path, 2)
+    second.write_bytes(second.read_bytes()[: second.stat().st_size // 2])
+    log = TopLog(open_run([first, second]))
+    assert all(each.largest == 0.0 for each in check_log(log).values())
+    assert any(text.startswith(f"{second.name}: the file ends") for text in log.problems)
+
+
+def test_a_damaged_database_is_read_up_to_the_damage(tmp_path):
+    (file,) = parts(tmp_path, 1, StoragePlugin.SQLITE3)
+    data = bytearray(file.read_bytes())
+    data[len(data) // 2 : len(data) // 2 + 40_000] = bytes(40_000)
+    file.write_bytes(data)
+    log = TopLog(open_run([file]))
+    list(log.batches())
+    assert any("the bag is damaged after the messages that were read" in e for e in log.problems)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "sentence"),
+    [
+        ("empty.db3", b"", "not a bag of rosbag2 \\(no such table: topics\\)"),
+        ("text.db3", b"some text" * 100, "not a bag of rosbag2 \\(file is not a database\\)"),
+        ("text.mcap", b"some text" * 100, "not an MCAP file"),
+    ],
+)
+def test_a_file_of_another_kind_is_refused(name, content, sentence, tmp_path):
+    (tmp_path / name).write_bytes(content)
+    for path in (tmp_path, tmp_path / name):
+        with pytest.raises(LogError, match=f"cannot open \\S+{name}: {sentence}"):
+            open_run([path])
+
+
+def test_a_database_with_other_columns_is_refused(tmp_path):
+    with sqlite3.connect(tmp_path / "a.db3") as database:
+        database.execute("CREATE TABLE topics (id TEXT, name, type, serialization_format)")
+        database.execute("INSERT INTO topics VALUES ('one', NULL, 3, x'00')")
+    with pytest.raises(LogError, match="not a bag of rosbag2"):
+        open_run([tmp_path / "a.db3"])
+
+
+def test_a_folder_without_files_is_refused(tmp_path):
+    with pytest.raises(LogError, match=r"cannot open \S+: no .mcap or .db3 file in it"):
+        open_run([tmp_path])
+    (tmp_path / "bag_0.mcap.zstd").touch()
+    with pytest.raises(LogError, match="its files are compressed as a whole"):
+        open_run([tmp_path])
+
+
+def test_messages_that_a_killed_recorder_left_in_the_write_ahead_log_are_read(tmp_path):
+    (file,) = parts(tmp_path / "written", 1, StoragePlugin.SQLITE3)
+    killed = tmp_path / "killed.db3"
+    database = sqlite3.connect(file)
+    database.execute("PRAGMA journal_mode=WAL")
+    database.execute("UPDATE messages SET timestamp = timestamp + 1")
+    database.commit()
+    for suffix in ("", "-wal"):
+        shutil.copy(f"{file}{suffix}", f"{killed}{suffix}")
+    database.close()
+    times = [
+        [each.log_time for chunk in open_run([path]).chunks() for each in chunk]
+        for path in (killed, file)
+    ]
+    assert len(times[0]) == len(RUN.messages)
+    assert times[0] == times[1]

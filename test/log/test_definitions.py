@@ -1,0 +1,57 @@
+"""The shipped message definitions, compared with ROS's generator and an independent parser."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+from log.write_definitions import TARGET, TF_HASH, TF_MESSAGE, definitions
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosidl_generator_type_description import calculate_type_hash
+
+from symtop_ros.log.definitions import load_definition
+from symtop_ros.simulation.topics import TOPICS
+
+TYPES = sorted({topic.type for topic in TOPICS.values()})
+
+
+def test_the_shipped_file_is_the_one_that_the_installed_ros_gives():
+    assert json.loads(TARGET.read_text()) == definitions()
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_the_text_defines_the_type_and_all_its_dependencies(name):
+    parsed = get_types_from_msg(load_definition(name).text, name)
+    known = get_typestore(Stores.ROS2_JAZZY).fielddefs
+    assert name in parsed
+    for each, (_, fields) in parsed.items():
+        assert fields == known[each][1], each
+
+
+def description(name):
+    package, _, short = name.split("/")
+    path = Path(sys.prefix, "share", package, "msg", f"{short}.json")
+    return json.loads(path.read_text())["type_description_msg"]
+
+
+def test_the_hash_of_tf_is_the_one_ros_computes():
+    inner = description("geometry_msgs/msg/TransformStamped")
+    sequence = {"type_id": 145, "capacity": 0, "string_capacity": 0}  # of a nested type
+    sequence["nested_type_name"] = inner["type_description"]["type_name"]
+    field = {"name": "transforms", "type": sequence, "default_value": ""}
+    others = [inner["type_description"], *inner["referenced_type_descriptions"]]
+    whole = {
+        "type_description": {"type_name": TF_MESSAGE, "fields": [field]},
+        "referenced_type_descriptions": sorted(others, key=lambda each: each["type_name"]),
+    }
+    assert calculate_type_hash(whole) == TF_HASH == load_definition(TF_MESSAGE).type_hash
+
+
+@pytest.mark.parametrize("name", [name for name in TYPES if name != TF_MESSAGE])
+def test_the_other_hashes_are_those_of_the_installed_types(name):
+    assert load_definition(name).type_hash == calculate_type_hash(description(name))
+
+
+def test_a_type_of_no_topic_is_refused():
+    with pytest.raises(KeyError, match="some_msgs/msg/Unknown"):
+        load_definition("some_msgs/msg/Unknown")

@@ -1,0 +1,230 @@
+"""The recorder: all messages are in the file in order, whatever happens to the disk."""
+
+import os
+import shutil
+import subprocess
+import threading
+import time
+
+import pytest
+from mcap.reader import make_reader
+
+from symtop_ros.log import recorder as module
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.recorder import Limits, Recorder
+from symtop_ros.simulation.topics import Topic
+
+TIMEOUT = 10.0
+LATCHED = Topic("/latched", "std_msgs/msg/String", latched=True)
+PLAIN = Topic("/plain", "std_msgs/msg/String")
+
+
+def create(folder, limits=None):
+    recorder = Recorder(folder, limits or Limits())
+    recorder.add_channel("/latched", LATCHED)
+    recorder.add_channel("/plain", PLAIN)
+    return recorder
+
+
+def contents(path):
+    """Topic, log time and bytes of all messages, by mcap's own reader, with CRCs."""
+    with path.open("rb") as file:
+        reader = make_reader(file, validate_crcs=True)
+        return [
+            (channel.topic, message.log_time, message.data)
+            for _, channel, message in reader.iter_messages(log_time_order=False)
+        ]
+
+
+def wait_until(done):
+    deadline = time.monotonic() + TIMEOUT
+    while not done():
+        assert time.monotonic() < deadline, "the condition did not come true in time"
+        time.sleep(0.005)
+
+
+def test_all_messages_are_in_the_file_in_order(tmp_path):
+    recorder = create(tmp_path)
+    path = recorder.start({"scene": "x"})
+    given = [(k, bytes([k % 251]) * (k % 50)) for k in range(5000)]
+    for stamp, data in given:
+        recorder.add(1, stamp, data)
+    recorder.stop()
+    assert [(stamp, data) for _, stamp, data in contents(path)] == given
+    assert recorder.dropped == 0
+    file = McapFile(path)
+    list(file.chunks())
+    assert file.metadata == {"symtop_ros": {"scene": "x"}, "symtop_ros.end": {"dropped": "0"}}
+    assert file.problems == []
+
+
+def test_nothing_is_recorded_before_the_start_or_after_the_end(tmp_path):
+    recorder = create(tmp_path)
+    recorder.add(1, 1, b"before")
+    path = recorder.start({})
+    recorder.add(1, 2, b"within")
+    recorder.stop()
+    recorder.add(1, 3, b"after")
+    assert not recorder.running
+    assert contents(path) == [("/plain", 2, b"within")]
+
+
+def test_a_file_begins_with_the_current_latched_messages(tmp_path):
+    recorder = create(tmp_path)
+    recorder.add(0, 1, b"old")
+    recorder.add(0, 2, b"holds")
+    path = recorder.start({})
+    recorder.add(1, 7, b"first")
+    recorder.stop()
+    assert contents(path) == [("/latched", 7, b"holds"), ("/plain", 7, b"first")]
+
+
+def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp_path):
+    recorder = create(tmp_path, Limits(duration=1.0))
+    recorder.start({"scene": "x"})
+    recorder.add(0, 0, b"latched")
+    for stamp in (0, 1_100_000_000):
+        recorder.add(1, stamp, b"one")
+    wait_until(lambda: len(list(tmp_path.iterdir())) == 2)
+    recorder.add(1, 1_200_000_000, b"two")
+    recorder.stop()
+    first, second = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
+    assert [data for _, _, data in contents(first)] == [b"latched", b"one", b"one"]
+    assert contents(second) == [
+        ("/latched", 1_200_000_000, b"latched"),
+        ("/plain", 1_200_000_000, b"two"),
+    ]
+
+
+def test_a_file_that_is_large_enough_is_followed_by_another(tmp_path):
+    recorder = create(tmp_path, Limits(size=20_000))
+    recorder.start({})
+    count = 0
+    while len(list(tmp_path.iterdir())) < 3:
+        recorder.add(1, count, os.urandom(100))
+        count += 1
+        time.sleep(0.0005)
+        assert count < 20_000
+    recorder.stop()
+    found = [stamp for path in tmp_path.iterdir() for _, stamp, _ in contents(path)]
+    assert sorted(found) == list(range(count))
+
+
+def test_names_in_one_second_differ_and_nothing_is_overwritten(tmp_path):
+    recorder = create(tmp_path)
+    paths = set()
+    for stamp in range(3):
+        paths.add(recorder.start({}))
+        recorder.add(1, stamp, b"%d" % stamp)
+        recorder.stop()
+    assert len(paths) == 3
+    assert sorted(data for path in paths for _, _, data in contents(path)) == [b"0", b"1", b"2"]
+
+
+def test_messages_that_do_not_fit_into_the_queue_are_counted_in_the_file(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "QUEUE_LENGTH", 10)
+    hold = threading.Event()
+    monkeypatch.setattr(Recorder, "_drain", _waiting(Recorder._drain, hold))
+    recorder = create(tmp_path)
+    path = recorder.start({})
+    for stamp in range(25):
+        recorder.add(1, stamp, b"x")
+    assert recorder.dropped == 15
+    hold.set()
+    recorder.stop()
+    assert len(contents(path)) == 10
+    file = McapFile(path)
+    list(file.chunks())
+    assert file.problems == ["15 messages were dropped: the disk was too slow"]
+
+
+def _waiting(method, event):
+    def wrapped(*arguments):
+        event.wait(TIMEOUT)
+        method(*arguments)
+
+    return wrapped
+
+
+def test_what_was_flushed_is_readable_while_the_recording_goes_on(tmp_path):
+    recorder = create(tmp_path)
+    path = recorder.start({})
+    recorder.add(1, 5, b"x")
+
+    def read():
+        return [message.log_time for chunk in McapFile(path).chunks() for message in chunk]
+
+    wait_until(lambda: read() == [5])
+    recorder.stop()
+
+
+def test_a_removed_directory_stops_the_recording_with_one_sentence(tmp_path):
+    folder = tmp_path / "logs"
+    recorder = create(folder)
+    path = recorder.start({})
+    shutil.rmtree(folder)
+    wait_until(lambda: recorder.failure)
+    assert recorder.failure == f"{path}: the file was removed"
+    assert not recorder.running
+    recorder.add(1, 1, b"ignored")
+    again = recorder.start({})
+    assert recorder.failure == ""
+    recorder.add(1, 2, b"x")
+    recorder.stop()
+    assert contents(again) == [("/plain", 2, b"x")]
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    folder = tmp_path / "small"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=300k", "tmpfs", str(folder)]
+    if shutil.which("mount") is None or subprocess.run(mount, check=False).returncode:
+        pytest.skip("a small file system cannot be mounted: not root")
+    yield folder
+    subprocess.run(["umount", str(folder)], check=True)
+
+
+def test_a_full_disk_stops_the_recording_and_what_was_written_opens(small_disk):
+    recorder = create(small_disk)
+    path = recorder.start({})
+    stamp = 0
+    deadline = time.monotonic() + TIMEOUT
+    while not recorder.failure:
+        recorder.add(1, stamp, os.urandom(400))
+        stamp += 1
+        time.sleep(0.0005)
+        assert time.monotonic() < deadline
+    assert recorder.failure == f"{path}: No space left on device"
+    file = McapFile(path)
+    found = [message.log_time for chunk in file.chunks() for message in chunk]
+    assert len(found) > 100
+    assert found == list(range(len(found)))
+    assert len(file.problems) == 1
+    assert "the recording was not finished: messages after" in file.problems[0]
+    assert [log_time for _, log_time, _ in contents(path)] == found  # a whole file for others
+
+
+def test_a_folder_that_cannot_be_created_is_an_error(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match=r"\S"):
+        create(tmp_path / "file" / "logs").start({})
+
+
+def test_messages_of_the_first_channel_are_written_before_the_others(tmp_path):
+    recorder = create(tmp_path)
+    path = recorder.start({})
+    recorder.add(1, 1, b"first")
+    with recorder.put_first(0):
+        recorder.add(1, 2, b"sample")
+        recorder.add(0, 2, b"event")
+        recorder.add(1, 3, b"another")
+    recorder.add(1, 4, b"last")
+    recorder.stop()
+    assert [data for _, _, data in contents(path)] == [
+        b"first",
+        b"event",
+        b"sample",
+        b"another",
+        b"last",
+    ]

@@ -1,0 +1,136 @@
+"""Tops in logs of all kinds: other writers, namespaces, missing topics, other topics mixed in."""
+
+import numpy as np
+import pytest
+from log_files import Run, topic
+from mcap.writer import Writer
+
+from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
+
+RUN = Run(seconds=1.0)
+TYPES = {each.name: each.type for each in (EVENTS, *STATE_TOPICS.values())}
+
+
+def write(path, runs, encoding="cdr", others=()):
+    """A log by another program: tops by the names of their nodes, and other messages between."""
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start("ros2")
+
+        def channel(name, kind):
+            schema = writer.register_schema(kind, "ros2msg", b"")
+            return writer.register_channel(name, encoding, schema)
+
+        ids = {
+            (node, name): channel(topic(name, node), kind)
+            for node in runs
+            for name, kind in TYPES.items()
+        }
+        strangers = [channel(name, kind) for name, kind, _ in others]
+        merged = sorted(
+            (
+                (stamp, ids[node, name], data)
+                for node, run in runs.items()
+                for name, stamp, data in run.messages
+            ),
+            key=lambda each: each[0],
+        )
+        for stamp, number, data in merged:
+            writer.add_message(number, stamp + 1234, data, stamp + 1234)
+            for stranger, (_, _, noise) in zip(strangers, others, strict=True):
+                writer.add_message(stranger, stamp + 2000, noise, stamp)
+        writer.finish()
+    return path
+
+
+def columns_of(log):
+    batches = list(log.batches())
+    return {
+        name: np.concatenate([b.columns[name].numbers for b in batches if name in b.columns])
+        for name in {name for batch in batches for name in batch.columns}
+    }
+
+
+def test_topics_are_found_in_any_namespace_and_between_others(tmp_path):
+    others = [
+        ("/camera/image", "sensor_msgs/msg/Image", b"noise"),
+        ("/other/orientation", "geometry_msgs/msg/PoseStamped", b"another type"),
+    ]
+    path = write(tmp_path / "a.mcap", {"/lab/one/top": RUN}, others=others)
+    log = TopLog(McapFile(path))
+    columns = columns_of(log)
+    assert log.node == "/lab/one/top"
+    assert len(columns["orientation"]) == 200
+    assert log.problems == []
+
+
+def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
+    slow = Run(seconds=1.0, rate=50.0)
+    path = write(tmp_path / "a.mcap", {"/a": RUN, "/b": slow})
+    log = TopLog(McapFile(path))
+    assert len(columns_of(log)["torque"]) == 200
+    assert log.problems == ["the node is /a; others can be chosen by --node: /b"]
+    assert len(columns_of(TopLog(McapFile(path), "/b"))["torque"]) == 50
+
+
+def test_missing_topics_are_listed(tmp_path):
+    part = Run(seconds=1.0)
+    part.messages = [each for each in part.messages if each[0] in ("orientation", "events")]
+    path = write(tmp_path / "a.mcap", {"/top": part})
+    log = TopLog(McapFile(path))
+    assert set(columns_of(log)) == {"orientation"}
+    missing = "no angular_velocity, no angular_momentum, no torque, no euler_angles, no tf"
+    assert log.problems == [f"the log has {missing}"]
+
+
+def test_a_log_without_a_top_is_refused_with_a_list_of_its_topics(tmp_path):
+    others = [("/camera/image", "sensor_msgs/msg/Image", b"noise")]
+    empty = Run(seconds=1.0)
+    empty.messages = []
+    path = write(tmp_path / "a.mcap", {"/top": empty}, others=others)
+    with pytest.raises(LogError, match=r"no run of a top in \S+a\.mcap: topics "):
+        list(TopLog(McapFile(path)).batches())
+    full = write(tmp_path / "b.mcap", {"/top": RUN})
+    with pytest.raises(LogError, match=r"no run of a top /missing in \S+: topics /tf, /top/"):
+        list(TopLog(McapFile(full), "/missing").batches())
+
+
+def test_messages_of_another_encoding_are_not_decoded(tmp_path):
+    path = write(tmp_path / "a.mcap", {"/top": RUN}, encoding="json")
+    with pytest.raises(LogError, match="no run of a top"):
+        list(TopLog(McapFile(path)).batches())
+
+
+def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(tmp_path):
+    run = Run(seconds=1.0)
+    run.messages = [
+        (name, stamp, data[:-3] if name == "torque" and k % 2 else data)
+        for k, (name, stamp, data) in enumerate(run.messages)
+    ]
+    path = write(tmp_path / "a.mcap", {"/top": run})
+    log = TopLog(McapFile(path))
+    taken = columns_of(log)["torque"]
+    assert 0 < len(taken) < 200
+    assert len(log.problems) == 1
+    assert "torque" in log.problems[0]
+    assert "are not a geometry_msgs/msg/WrenchStamped" in log.problems[0]
+
+
+def test_samples_of_one_stamp_are_never_parted(tmp_path):
+    run = Run(seconds=30.0, rate=1000.0)
+    log = TopLog(McapFile(run.write(tmp_path)))
+    for batch in log.batches():
+        stamps = [columns.stamps.tolist() for columns in batch.columns.values()]
+        assert all(each == stamps[0] for each in stamps)
+        assert len(stamps[0]) < 5000
+
+
+def test_two_tops_that_share_tf_are_told_apart_by_the_frames_in_their_events(tmp_path):
+    one, other = Run(seconds=1.0), Run(seconds=1.0, rate=50.0, frame="gyro")
+    path = write(tmp_path / "a.mcap", {"/a": one, "/b": other})
+    for node, count in (("/a", 200), ("/b", 50)):
+        columns = columns_of(TopLog(McapFile(path), node))
+        assert len(columns["tf"]) == count
+        assert columns["tf"][:, 3:].tolist() == columns["orientation"].tolist()

@@ -1,0 +1,49 @@
+"""One MCAP file: the quality of service of its channels, and names that are never reused."""
+
+import pytest
+from log_files import LAYOUTS, Run
+from mcap.reader import make_reader
+from rosbags.highlevel import AnyReader
+from rosbags.interfaces import QosDurability, QosReliability
+
+from symtop_ros.log.writer import LogFile
+from symtop_ros.simulation.topics import TOPICS
+
+
+def test_channels_store_the_quality_of_service_that_the_node_offers(tmp_path):
+    path = Run(seconds=0.1).write(tmp_path)
+    with AnyReader([path]) as reader:
+        profiles = {each.topic: each.ext.offered_qos_profiles for each in reader.connections}
+    assert len(profiles) == len(LAYOUTS) + 2
+    for name, (profile,) in profiles.items():
+        topic = TOPICS[name.rpartition("/")[2]]
+        assert profile.depth == topic.depth
+        assert profile.reliability == QosReliability.RELIABLE
+        latched, volatile = QosDurability.TRANSIENT_LOCAL, QosDurability.VOLATILE
+        assert profile.durability == (latched if topic.latched else volatile)
+
+
+def test_files_of_one_second_get_different_names(tmp_path):
+    files = [LogFile(tmp_path, [], {}, {}) for _ in range(3)]
+    assert len({file.path for file in files}) == 3
+    for file in files:
+        file.finish({})
+
+
+def test_a_file_without_a_chunk_is_removed_when_it_is_abandoned(tmp_path, monkeypatch):
+    def fail(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(LogFile, "flush", fail)
+    with pytest.raises(OSError, match="No space left"):
+        LogFile(tmp_path, [], {}, {})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_distribution_is_written_where_ros2_bag_info_reads_it(tmp_path):
+    """rosbag2_storage_mcap: record "rosbag2", an empty text for no further metadata."""
+    log = LogFile(tmp_path, [], {"ros_distro": "jazzy"}, {})
+    log.finish({})
+    with log.path.open("rb") as stream:
+        found = {each.name: each.metadata for each in make_reader(stream).iter_metadata()}
+    assert found["rosbag2"] == {"serialized_metadata": "", "ROS_DISTRO": "jazzy"}

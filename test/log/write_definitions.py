@@ -1,0 +1,74 @@
+"""Writes symtop_ros/log/definitions.json from the message packages of the installed ROS 2 (Jazzy).
+
+Run it when a topic with a new message type is added: .venv/bin/python test/log/write_definitions.py
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+from symtop_ros.simulation.topics import TOPICS
+
+TARGET = Path(__file__).parents[2] / "symtop_ros" / "log" / "definitions.json"
+SEPARATOR = "=" * 80 + "\nMSG: {name}\n{text}"
+# tf2_msgs is not on PyPI, where the rest of ROS 2 is.
+TF_MESSAGE = "tf2_msgs/msg/TFMessage"
+TF_TEXT = "geometry_msgs/TransformStamped[] transforms\n"
+TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
+FIELD = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)(?:<=\d+)?(?:\[[^\]]*\])?\s+\w+", re.MULTILINE)
+PRIMITIVES = {
+    *("bool", "byte", "char", "float32", "float64", "string", "wstring"),
+    *(f"{sign}int{size}" for sign in ("", "u") for size in (8, 16, 32, 64)),
+}
+
+
+def definitions() -> dict[str, dict[str, str]]:
+    """Text with all dependencies, and RIHS01 hash, of each type that is logged."""
+    types = sorted({topic.type for topic in TOPICS.values()})
+    return {name: {"text": full_text(name), "hash": type_hash(name)} for name in types}
+
+
+def full_text(name: str) -> str:
+    """The text as rosbag2 writes it: dependencies follow after a line of 80 "=" each."""
+    others = dict.fromkeys(dependencies(name))
+    parts = [SEPARATOR.format(name=each.replace("/msg/", "/"), text=text(each)) for each in others]
+    return "\n".join([text(name), *parts])
+
+
+def dependencies(name: str) -> list[str]:
+    """Types of the fields, and of theirs, depth first."""
+    package = name.partition("/")[0]
+    found: list[str] = []
+    for field in FIELD.findall(text(name)):
+        if field.split("<")[0] not in PRIMITIVES:
+            owner, _, short = field.rpartition("/")
+            nested = f"{owner.removesuffix('/msg') or package}/msg/{short}"
+            found += [nested, *dependencies(nested)]
+    return found
+
+
+def text(name: str) -> str:
+    return TF_TEXT if name == TF_MESSAGE else file(name, "msg").read_text(encoding="utf-8")
+
+
+def type_hash(name: str) -> str:
+    if name == TF_MESSAGE:
+        return TF_HASH
+    hashes = json.loads(file(name, "json").read_text(encoding="utf-8"))["type_hashes"]
+    return next(str(each["hash_string"]) for each in hashes if each["type_name"] == name)
+
+
+def file(name: str, suffix: str) -> Path:
+    package, _, short = name.split("/")
+    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
+    paths = [Path(each, "share", package, "msg", f"{short}.{suffix}") for each in prefixes if each]
+    return next(path for path in paths if path.is_file())
+
+
+if __name__ == "__main__":
+    TARGET.write_text(json.dumps(definitions(), indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    print(f"wrote {TARGET}")

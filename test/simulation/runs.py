@@ -1,0 +1,88 @@
+"""A simulation with a clock and a sink of the test: no ROS."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.requests import Requests
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.wire.messages import Transform
+
+SECOND = 1_000_000_000
+
+
+class HandClock:
+    """A clock that is set by hand."""
+
+    def __init__(self) -> None:
+        self.now, self.is_simulated = 0, True
+
+
+class ListSink:
+    """Keeps everything that it is sent."""
+
+    def __init__(self) -> None:
+        self.is_open, self.publishes_tf = True, True
+        self.samples: list[tuple[int, list[float]]] = []  # stamp and orientation x, y, z, w
+        self.events: list[Event] = []
+        self.order: list[str] = []  # of events and samples, as a log would have it
+        self.urdfs: list[str] = []
+        self.frames: list[Transform] = []
+        self.warnings: list[str] = []
+        self.errors: list[str] = []
+
+    def send_sample(self, stamp: int, block: Block) -> None:
+        self.samples.append((stamp, block.numbers("orientation", stamp)))
+        self.order.append("sample")
+
+    def send_event(self, event: Event) -> None:
+        self.events.append(event)
+        self.order.append(event.name)
+
+    def send_description(self, stamp: int, urdf: str) -> None:
+        self.urdfs.append(urdf)
+
+    def send_fixed_frames(self, stamp: int, transforms: Sequence[Transform]) -> None:
+        self.frames = list(transforms)
+
+    @contextlib.contextmanager
+    def put_events_first(self) -> Iterator[None]:
+        begin = len(self.order)
+        yield
+        self.order[begin:] = sorted(self.order[begin:], key=lambda name: name == "sample")
+
+    def warn(self, text: str) -> None:
+        self.warnings.append(text)
+
+    def report_error(self, text: str) -> None:
+        self.errors.append(text)
+
+
+class Run:
+    """A simulation of a scene with its requests."""
+
+    def __init__(self, scene: str = "cusps", **changes: Any) -> None:
+        self.clock, self.sink = HandClock(), ListSink()
+        self.simulation = Simulation(Settings.from_scene(scene, **changes), self.clock, self.sink)
+        self.simulation.announce("start", self.simulation.verdict, {}, self.simulation.start)
+        self.requests = Requests(self.simulation)
+
+    def advance(self, seconds: float, step: float = 0.005) -> None:
+        """Advance the clock in steps and tick after each."""
+        for _ in range(round(seconds / step)):
+            self.clock.now += round(step * SECOND)
+            self.tick()
+
+    def tick(self) -> None:
+        """Publish everything that is due, as the pacing of the node does."""
+        while (wait := self.simulation.tick()) is not None and wait <= 0.0:
+            pass
+
+    def ask(self, name: str, *values: Any) -> tuple[bool, str]:
+        """Carry out a request by its name; return success and the answer."""
+        return self.simulation.answer(name, lambda: getattr(self.requests, name)(*values))

@@ -1,0 +1,55 @@
+"""Samples computed in blocks."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from log_files import ARTICLE, BEGIN, CUSPS
+
+from symtop_ros.physics import Friction, Motion
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
+
+STAMPS = [BEGIN + 1_000_003 * k for k in range(16)]
+SEGMENTS = {
+    "closed form": Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 0.7),
+    "splitting": Segment.begin(Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-5)), BEGIN, 0.7),
+    "paused": Segment.begin(Motion(ARTICLE, CUSPS), BEGIN - 10**9, 0.7).pause(BEGIN),
+}
+
+
+@pytest.mark.parametrize("segment", SEGMENTS.values(), ids=SEGMENTS)
+@pytest.mark.parametrize("name", STATE_TOPICS)
+def test_samples_are_those_of_each_stamp_alone_bit_for_bit(segment, name):
+    block = Block(segment, STAMPS)
+    for stamp in STAMPS:
+        expected = STATE_TOPICS[name].compute(Samples.at(segment, stamp)).tolist()
+        assert block.numbers(name, stamp) == expected
+
+
+def test_it_covers_its_segment_and_stamps_only():
+    segment, other = SEGMENTS["closed form"], SEGMENTS["splitting"]
+    block = Block(segment, STAMPS)
+    assert block.covers(segment, STAMPS[0])
+    assert not block.covers(segment, STAMPS[0] + 1)
+    assert not block.covers(other, STAMPS[0])
+    assert not Block(segment, []).covers(segment, STAMPS[0])
+
+
+def test_a_topic_that_is_not_requested_is_not_computed(monkeypatch):
+    computed = []
+    for name, topic in STATE_TOPICS.items():
+        compute = topic.compute
+        spy = replace(topic, compute=lambda *a, n=name, f=compute: computed.append(n) or f(*a))
+        monkeypatch.setitem(SAMPLE_TOPICS, name, spy)
+    block = Block(SEGMENTS["closed form"], STAMPS)
+    for stamp in STAMPS:
+        assert np.isfinite(block.numbers("torque", stamp)).all()
+    assert computed == ["torque"]
+    after = block.continue_with(SEGMENTS["splitting"], STAMPS)
+    assert computed == ["torque", "torque"]
+    after.numbers("torque", STAMPS[0])
+    assert computed == ["torque", "torque"]
+    after.continue_with(SEGMENTS["splitting"], STAMPS)
+    assert len(computed) == 3

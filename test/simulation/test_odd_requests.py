@@ -1,0 +1,132 @@
+"""Arbitrary values in requests and parameters: granted and sound, or refused in one sentence."""
+
+import json
+import math
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from odd_values import SIZES, VALUES, assert_one_sentence, deterministic
+
+from symtop_ros.physics import Motion, kick_verdict, perrys_rule
+from symtop_ros.simulation import initial, kick
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.kick import plan_kick
+from symtop_ros.simulation.segment import Segment, to_nanoseconds
+from symtop_ros.simulation.settings import PARAMETERS, Settings
+from symtop_ros.simulation.summary import summarize_state
+from symtop_ros.simulation.topics import STATE_TOPICS, Samples
+from symtop_ros.simulation.validation import RefusedError
+
+HOLDS = st.sampled_from(["spin_rate", "spin_momentum"])
+TILTS = st.floats(0, math.pi) | st.sampled_from([0.0, math.pi, math.pi / 2, 5e-324, 1e-160, 1e-12])
+RATES = SIZES | st.sampled_from([0.0, 5e-324, 1e-200]) | st.floats(-1e3, 1e3)
+EULER = {
+    "theta": TILTS,
+    **dict.fromkeys(("phi", "psi"), st.floats(-1e3, 1e3)),
+    **dict.fromkeys(("theta_dot", "phi_dot", "psi_dot"), RATES),
+}
+TOPS = st.builds(
+    lambda Ix, ratio, Mgl: {"top.Ix": Ix, "top.Iz": Ix * ratio, "top.Mgl": Mgl},
+    st.floats(-30, 30).map(lambda digits: 10.0**digits),
+    st.floats(-30, 0.3).map(lambda digits: 10.0**digits) | st.sampled_from([1.0, 2.0, 1 - 2**-53]),
+    SIZES | st.just(0.0),
+)
+STARTS = (
+    st.fixed_dictionaries({}, optional=EULER)
+    | st.fixed_dictionaries(
+        {"precession": st.sampled_from(["slow", "fast"])},
+        optional={name: EULER[name] for name in ("theta", "psi", "psi_dot")},
+    )
+    | st.dictionaries(st.sampled_from(initial.FIELDS), VALUES)
+)
+KICKS = (
+    st.fixed_dictionaries({"precession_rate": SIZES}, optional={"hold": HOLDS})
+    | st.fixed_dictionaries({"precession_rate_factor": SIZES}, optional={"hold": HOLDS})
+    | st.fixed_dictionaries({"angular_impulse": st.lists(SIZES, min_size=3, max_size=3)})
+    | st.dictionaries(st.sampled_from(kick.FIELDS), VALUES)
+)
+TORQUES = st.fixed_dictionaries(
+    {},
+    optional={
+        "friction.axial": SIZES.map(abs),
+        "friction.transverse": SIZES.map(abs),
+        "steady_torque": st.lists(SIZES, min_size=3, max_size=3),
+    },
+)
+
+
+@pytest.fixture(autouse=True)
+def _warnings_are_errors():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
+
+
+def refusal(call, *arguments):
+    """Return the sentence of a refusal, None if the call was granted."""
+    try:
+        call(*arguments)
+    except RefusedError as refused:
+        assert_one_sentence(str(refused))
+        return str(refused)
+    return None
+
+
+@deterministic(1000)
+@given(st.dictionaries(st.sampled_from(list(PARAMETERS)), VALUES, max_size=4))
+def test_parameters_of_any_value_are_taken_or_refused_in_one_sentence(changes):
+    refusal(Settings.from_values, changes)
+
+
+@deterministic(400)
+@given(TOPS, TORQUES, STARTS, KICKS, st.sampled_from([0.0, 1e-3, 1.0, 1e9]))
+def test_a_granted_request_gives_a_sound_motion_with_a_verdict(top, torques, asked, kicked, t):
+    try:
+        settings = Settings.from_values({**top, **torques})
+        start = initial_state(settings.top, settings.initial, asked)
+    except RefusedError as refused:
+        assert_one_sentence(str(refused))
+        return
+    motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
+    assert_one_sentence(str(perrys_rule(motion.top, start)))
+    segment = Segment(motion, 0, to_nanoseconds(motion.reach(t, 100)), 1.0, running=False)
+    state = segment.state_at(0)
+    for topic in STATE_TOPICS.values():
+        assert np.isfinite(topic.compute(Samples(segment, 0, state))).all()
+    json.loads(json.dumps(summarize_state(segment, 0), allow_nan=False))
+    again = Event.of(0, "start", "", asked, start, segment).segment()
+    assert (again.motion.start, again.elapsed) == (motion.start, segment.elapsed)
+    try:
+        after, hold = plan_kick(motion, state, kicked)
+    except RefusedError as refused:
+        assert_one_sentence(str(refused))
+    else:
+        assert_one_sentence(kick_verdict(after, state, hold))
+
+
+@pytest.mark.parametrize("value", [5, 0, True, 1.5, None, "", "abc", b"abc"])
+def test_a_value_that_is_not_a_list_is_refused(value):
+    reason = refusal(Settings.from_values, {"initial.orientation": value})
+    assert reason == f"initial.orientation must have 4 elements (x, y, z, w), got {value!r}"
+
+
+@pytest.mark.parametrize("name", ["world_frame", "top_frame", "record.directory"])
+@pytest.mark.parametrize("value", ["a\nb", "\x1b[31m", "\udcff", ""])
+def test_names_that_cannot_be_printed_are_refused(name, value):
+    assert refusal(Settings.from_values, {name: value}).startswith(f"{name} must be the name of ")
+
+
+def test_a_frame_of_a_million_characters_is_refused():
+    reason = refusal(Settings.from_values, {"world_frame": "w" * 1_000_000})
+    assert "must be the name of a frame (1 to 200 printable characters)" in reason
+
+
+def test_a_root_faster_than_any_top_is_refused():
+    settings = Settings.from_values({"top.Ix": 1.0, "top.Iz": 1.0, "top.Mgl": 1.0})
+    asked = {"precession": "slow", "theta": 0.7, "psi_dot": 1e-20}
+    reason = refusal(initial_state, settings.top, settings.initial, asked)
+    assert "regular precession has no real root up to 1e+09 rad/s" in reason

@@ -1,0 +1,113 @@
+"""Requests from plain mappings: answers, refusals and their effect."""
+
+import json
+
+import pytest
+from simulation.runs import Run
+
+from symtop_ros.simulation.settings import Settings
+
+REFUSALS = {
+    "unknown start field": (
+        "set_initial_conditions",
+        {"thetta": 0.5},
+        "field name must be one of theta, phi, psi, theta_dot, phi_dot, psi_dot, orientation, "
+        "angular_velocity, precession, got 'thetta'",
+    ),
+    "text for a number": ("kick", {"precession_rate": "a"}, "must be a finite number (rad/s)"),
+    "no kick": ("kick", {}, "a request must have one of precession_rate, "),
+    "a kick that is too strong": (
+        "kick",
+        {"precession_rate": 1e12},
+        "precession_rate must be such that the top stays below 1e+09 rad/s, got 1000000000000.0",
+    ),
+    "a step while running": ("step", {"duration": 1.0}, "step must be requested while paused"),
+    "a step without a duration": ("step", {}, "duration must be 0 to 1e+09 s, got none"),
+    "no such root": (
+        "set_initial_conditions",
+        {"precession": "fast", "psi_dot": 1.0},
+        "at theta 0.5 rad and psi_dot 1 rad/s regular precession has no real root",
+    ),
+}
+
+
+@pytest.mark.parametrize(("name", "values", "sentence"), REFUSALS.values(), ids=REFUSALS)
+def test_a_refused_request_changes_nothing(name, values, sentence):
+    run = Run()
+    run.advance(0.1)
+    before = run.simulation.segment
+    granted, reason = run.ask(name, values)
+    assert not granted
+    assert sentence in reason
+    assert run.simulation.segment is before
+    assert [event.name for event in run.sink.events] == ["start"]
+
+
+def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
+    run = Run()
+    granted, answer = run.ask("set_initial_conditions", {"precession": "slow", "theta": 0.7})
+    assert granted
+    assert answer.startswith("regular: ")
+    start = run.simulation.start
+    run.advance(0.1)
+    assert run.ask("kick", {"precession_rate_factor": 2.0})[0]
+    assert run.ask("reset")[0]
+    assert run.simulation.segment.motion.start == start
+
+
+def test_a_pause_stops_the_motion_and_a_step_advances_it():
+    run = Run()
+    run.advance(0.5)
+    assert run.ask("pause", True) == (True, "paused at 0.505000 s of the motion")
+    assert run.ask("pause", True) == (True, "already paused")
+    run.advance(1.0)
+    assert run.ask("step", {"duration": 0.25}) == (True, "stepped to 0.755000 s of the motion")
+    assert run.ask("pause", False) == (True, "resumed at 0.755000 s of the motion")
+    assert run.ask("pause", False) == (True, "already running")
+    run.advance(0.1)
+    resting = [tuple(numbers) for stamp, numbers in run.sink.samples if stamp >= 505_000_000]
+    assert len(set(resting[:200])) == 1  # 1 s of the pause
+    assert len(set(resting[201:])) == len(resting[201:]) > 15
+
+
+def test_a_step_under_friction_that_takes_too_long_is_refused():
+    run = Run("friction")
+    run.ask("pause", True)
+    granted, reason = run.ask("step", {"duration": 1e9})
+    assert not granted
+    assert "s in one step under friction or an applied torque, got 1000000000.0" in reason
+
+
+def test_the_state_is_json():
+    run = Run("sleeping")
+    granted, text = run.ask("get_state")
+    state = json.loads(text)
+    assert granted
+    assert (state["kind"], state["mean_precession_rate"]) == ("sleeping", None)
+
+
+def test_the_state_says_since_when_its_time_counts():
+    run = Run("cusps", publish_rate=100.0)
+
+    def since():
+        return json.loads(run.ask("get_state")[1])["time_since"]
+
+    run.advance(0.1)
+    assert since() == "start at stamp 0.000000000 s"
+    run.ask("pause", True)
+    run.ask("pause", False)
+    assert since() == "start at stamp 0.000000000 s"
+    run.ask("hurry_precession")
+    assert since() == "kick at stamp 0.110000000 s"
+    run.advance(0.1)
+    run.ask("reset")
+    assert since() == "reset at stamp 0.210000000 s"
+
+
+def test_reset_starts_from_initial_parameters_that_were_set_after_the_last_start():
+    run = Run("cusps")
+    run.ask("set_initial_conditions", {"theta": 1.0})
+    values = {**run.simulation.settings.values, "initial.theta": 0.75}
+    run.simulation.apply_settings(Settings.from_values(values))
+    assert run.ask("reset")[0]
+    assert run.simulation.state.euler_angles.theta == 0.75

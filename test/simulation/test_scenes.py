@@ -1,0 +1,98 @@
+"""Each scene shows what its file says one should look at."""
+
+import math
+
+import numpy as np
+import pytest
+from physics.tops import EPS
+
+from symtop_ros.physics import Motion
+from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.settings import Settings
+
+
+def motion_of(scene):
+    settings = Settings.from_scene(scene)
+    start = initial_state(settings.top, settings.initial, {})
+    return Motion(settings.top, start, settings.friction)
+
+
+def test_a_sleeping_top_wakes_at_the_critical_spin():
+    motion = motion_of("sleeping_wakes")
+    states = motion.at(np.linspace(0.0, 12.0, 6001))
+    tilts, spins = states.euler_angles.theta, states.angular_velocity[:, 2]
+    critical = motion.top.critical_spin
+    begin = int(np.argmax(spins < critical))
+    # Towards the critical spin the restoring torque vanishes, and a nutation of constant action
+    # grows with its fourth root: from 1.4e-3 to 2.7e-3 here.
+    assert tilts[:begin].max() < 3e-3
+    woken = spins[np.argmax(tilts > 0.01)]
+    assert woken / critical == pytest.approx(0.97, abs=0.01)  # the growth itself takes 0.5 s
+    assert tilts.max() > 0.5
+
+
+def test_the_spin_rate_changes_its_sign_while_the_axial_momentum_is_constant():
+    motion = motion_of("spin_reversal")
+    states = motion.at(np.linspace(0.0, motion.nutation_period, 400))
+    spins = states.euler_rates.psi
+    assert spins.min() < -80.0 < 50.0 < spins.max()
+    assert np.ptp(motion.top.axial_momentum(states)) == 0.0
+
+
+def test_the_precession_starts_backwards_and_advances_on_average():
+    motion = motion_of("backward_start")
+    assert motion.start.euler_rates.phi == pytest.approx(-3.0, rel=8 * EPS)
+    assert motion.mean_precession_rate > 6.0
+
+
+def test_the_trace_with_six_cusps_closes():
+    motion = motion_of("closed_cusps")
+    turn = motion.mean_precession_rate * motion.nutation_period
+    assert turn == pytest.approx(2 * math.pi / 6, rel=8 * EPS)
+    axis = motion.at(6 * motion.nutation_period).to_world([0.0, 0.0, 1.0])
+    begin = motion.start.to_world([0.0, 0.0, 1.0])
+    # the spin rate is a double: its rounding moves the end by some eps of a turn
+    assert np.abs(axis - begin).max() <= 64 * EPS
+
+
+def test_the_conical_pendulum_keeps_its_angle_and_does_not_spin():
+    motion = motion_of("conical_pendulum")
+    low, high = motion.turning_angles
+    assert high - low <= 1e-7  # the square root of the rounding of the start
+    assert motion.kind == "regular"
+    assert motion.start.euler_rates.phi**2 == pytest.approx(9.81 / math.cos(0.5), rel=16 * EPS)
+    assert abs(motion.start.angular_velocity[2]) <= 2 * EPS
+
+
+def test_the_ellipse_of_the_spherical_pendulum_turns():
+    motion = motion_of("spherical_pendulum")
+    assert 0.1 < motion.turning_angles[0] < motion.turning_angles[1] == pytest.approx(0.5)
+    turned = motion.mean_precession_rate * motion.nutation_period / math.pi - 1.0
+    assert 0.0 < turned < 0.1  # of half a turn in each half ellipse
+
+
+def test_the_start_of_the_separatrix_is_exact():
+    motion = motion_of("separatrix")
+    assert (motion.kind, motion.nutation_period) == ("spiralling", math.inf)
+    assert motion.top.energy(motion.start) == motion.top.Mgl
+    assert motion.start.vertical.tolist() == [0.0, 1.0, 0.0]
+    tilts = motion.at([0.0, 10.0, 20.0]).euler_angles.theta
+    assert (np.diff(tilts) < 0).all()
+    # the textbook's tan(theta/4) = tan(pi/8) exp(-t sqrt(Mgl/Ix))
+    for t, tilt in zip((10.0, 20.0), tilts[1:], strict=True):
+        exact = 4 * math.atan(math.tan(math.pi / 8) * math.exp(-t * math.sqrt(0.5)))
+        assert tilt == pytest.approx(exact, rel=16 * EPS)
+
+
+def test_the_spin_rate_falls_and_rises_in_one_fall():
+    motion = motion_of("gray_fall")
+    states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
+    tilts, spins = states.euler_angles.theta, states.euler_rates.psi
+    assert (np.diff(tilts) > 0).all()
+    begin = spins[0]
+    lowest = int(spins.argmin())
+    horizontal = int(np.argmax(tilts > math.pi / 2))
+    assert 0 < lowest < horizontal
+    assert spins[lowest] < 0.95 * begin
+    assert spins[horizontal] == pytest.approx(begin, rel=2e-3)  # a sample of 1000
+    assert spins[-1] > 1.4 * begin

@@ -1,0 +1,199 @@
+"""The sensor on the top and the odometry: exact numbers, and noise with the figures asked for."""
+
+import math
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from simulation.runs import SECOND, Run
+
+from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor import EXACT, Imu, Rig, random_walks
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
+from symtop_ros.simulation.validation import RefusedError
+
+EPS = 2.0**-52
+ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+MOTION = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0))
+MOUNT = Rotation.from_euler("xyz", (0.3, -1.1, 2.0))
+PLACE = (0.01, -0.02, 0.05)
+NOISY = Imu(
+    PLACE, tuple(MOUNT.as_quat().tolist()), 2e-3, 3e-4, 0.02, 0.005, seed=11, rate=400.0, begin=0
+)
+STAMPS = np.arange(40) * 2_500_000 + 7 * SECOND
+
+
+def segment_of(imu=None, motion=MOTION, **changes):
+    return replace(Segment.begin(motion, 0, 1.0, Rig(9.81, imu)), **changes)
+
+
+def measured(topic, segment, stamps=STAMPS):
+    return SENSOR_TOPICS[topic].compute(Samples.at(segment, stamps))
+
+
+def test_an_exact_sensor_has_the_attitude_the_rates_and_the_force_of_its_place():
+    imu = Imu(PLACE, tuple(MOUNT.as_quat().tolist()))
+    segment = segment_of(imu)
+    numbers, state = measured("imu", segment), segment.state_at(STAMPS)
+    body = Rotation.from_quat(state.orientation[:, [1, 2, 3, 0]])
+    found = Rotation.from_quat(numbers[:, :4])
+    assert (found * (body * MOUNT).inv()).magnitude().max() < 8 * EPS
+    rates = MOUNT.inv().apply(state.angular_velocity.copy())
+    assert np.abs(numbers[:, 13:16] - rates).max() < 8 * EPS * 200
+    acceleration = body.apply(point_acceleration(MOTION, state, PLACE)) + np.array((0, 0, 9.81))
+    force = (body * MOUNT).inv().apply(acceleration)
+    # 200 rad/s at 0.02 m are 900 m/s^2
+    assert np.abs(numbers[:, 25:28] - force).max() < 8 * EPS * np.abs(force).max()
+    for first in (4, 16, 28):
+        assert (numbers[:, first : first + 9] == EXACT * np.eye(3).reshape(-1)).all()
+
+
+def test_a_sensor_at_rest_feels_gravity_upwards():
+    hanging = Motion(ARTICLE, State((0, 1, 0, 0), (0, 0, 0)))
+    numbers = measured("imu", segment_of(Imu(), hanging), STAMPS[:1])
+    assert numbers[0, 25:28].tolist() == [0.0, 0.0, -9.81]  # the body's z axis points down
+
+
+def test_odometry_is_the_motion_of_the_centre_of_mass():
+    segment, step = segment_of(), 1000  # ns
+    numbers = measured("odometry", segment)
+    body, state = Body.of(ARTICLE), segment.state_at(STAMPS)
+    assert np.abs(numbers[:, :3] - body.centre_of_mass(state)).max() < 2 * EPS * body.arm
+    later, before = (measured("odometry", segment, STAMPS + sign * step)[:, :3] for sign in (1, -1))
+    velocity = (later - before) / (2 * step * 1e-9)
+    ours = state.to_world(numbers[:, 43:46])
+    # 1e-6 s of 200 rad/s give a third derivative of 2e-4^2/6; rounding of places, 1e-18/1e-6
+    assert np.abs(ours - velocity).max() < 1e-7 * np.abs(ours).max()
+    assert (numbers[:, 46:49] == state.angular_velocity).all()
+    assert (numbers[:, 3:7] == state.orientation[:, [1, 2, 3, 0]]).all()
+
+
+@pytest.mark.parametrize("motion", [MOTION, Motion(ARTICLE, MOTION.start, Friction(2e-6, 1e-5))])
+def test_the_force_in_the_wrench_is_that_of_the_pivot(motion):
+    segment = segment_of(motion=motion)
+    numbers = STATE_TOPICS["torque"].compute(Samples.at(segment, STAMPS))
+    expected = Body.of(ARTICLE).pivot_force(motion, segment.state_at(STAMPS))
+    assert (numbers[:, :3] == expected).all()
+    assert (numbers[:, 3:] == motion.total_torque(segment.state_at(STAMPS))).all()
+
+
+def test_a_force_that_needs_a_body_is_nan_without_one_and_zero_in_logs_that_had_none():
+    flat = Motion(Top(1.0, 2.0, 1.0), State.from_euler(theta=0.5, psi_dot=2.0))
+    wrench = STATE_TOPICS["torque"].compute
+    assert np.isnan(wrench(Samples.at(segment_of(motion=flat), 5))[:3]).all()
+    assert wrench(Samples.at(segment_of(rig=Rig()), 5))[:3].tolist() == [0.0, 0.0, 0.0]
+    assert np.isnan(measured("odometry", segment_of(motion=flat))[:, :3]).all()
+
+
+@pytest.mark.parametrize("topic", SENSOR_TOPICS)
+@pytest.mark.parametrize("paused", [False, True])
+def test_samples_are_the_same_bits_alone_and_in_blocks(topic, paused):
+    segment = segment_of(NOISY)
+    segment = segment.pause(6 * SECOND) if paused else segment
+    many, block = measured(topic, segment), Block(segment, STAMPS.tolist())
+    for k, stamp in enumerate(STAMPS.tolist()):
+        one = measured(topic, segment, stamp).tolist()
+        assert block.numbers(topic, stamp) == one
+        assert np.broadcast_to(many, (len(STAMPS), len(one)))[k].tolist() == one
+
+
+def test_white_noise_has_the_density_asked_for():
+    white = replace(NOISY, gyroscope_random_walk=0.0, accelerometer_random_walk=0.0)
+    errors = white.noise(np.arange(20_000) * 2_500_000)
+    for first, density in ((0, 2e-3), (3, 0.02)):
+        spread = errors[:, first : first + 3].std(axis=0)
+        # 20 000 numbers: half a per cent, four sigma
+        assert spread == pytest.approx(np.full(3, density * math.sqrt(400.0)), rel=0.02)
+    assert np.abs(np.corrcoef(errors.T) - np.eye(6)).max() < 4 / math.sqrt(20_000)
+    # neighbours in time do not know each other
+    assert abs(np.corrcoef(errors[1:, 0], errors[:-1, 0])[0, 1]) < 4 / math.sqrt(20_000)
+    assert np.abs(errors[:, 0] / spread[0]).max() < 6
+
+
+@pytest.mark.parametrize("spacing", [2_500_000, SECOND, 100 * SECOND, 3600 * SECOND])
+def test_a_random_walk_grows_by_the_root_of_time(spacing):
+    (walk,) = random_walks(5, [2], np.arange(4000) * spacing)
+    steps = np.diff(walk)
+    size = math.sqrt(spacing * 1e-9)
+    assert steps.std() == pytest.approx(size, rel=0.05)  # 4000 numbers: 1.1 %, four sigma
+    assert abs(np.corrcoef(steps[1:], steps[:-1])[0, 1]) < 4 / math.sqrt(4000)
+    assert walk[0] == 0.0
+    assert random_walks(5, [2], np.array([-5, 0])).tolist() == [[0.0, 0.0]]
+
+
+def test_noise_depends_on_the_seed_and_the_stamp_only():
+    errors = NOISY.noise(STAMPS)
+    assert (errors == NOISY.noise(STAMPS[::-1])[::-1]).all()
+    assert (errors != replace(NOISY, seed=12).noise(STAMPS)).all()
+    code = (
+        "import numpy as np; from symtop_ros.simulation.sensor import Imu; "
+        f"print(Imu({PLACE}, {tuple(MOUNT.as_quat().tolist())}, 2e-3, 3e-4, 0.02, 0.005, seed=11, "
+        "rate=400.0).noise(np.array([7_000_000_000])).tolist())"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == str(errors[:1].tolist())
+
+
+def test_noise_shows_in_the_covariances():
+    numbers = measured("imu", segment_of(NOISY))
+    assert numbers[0, 16] == pytest.approx((2e-3) ** 2 * 400, rel=4 * EPS)
+    assert numbers[0, 28] == pytest.approx(0.02**2 * 400, rel=4 * EPS)
+    assert numbers[0, 4] == EXACT  # the attitude is still exact
+
+
+def test_an_event_brings_back_the_sensor_bit_for_bit():
+    segment = segment_of(NOISY)
+    again = Event.of(0, "start", "", {}, MOTION.start, segment).segment()
+    assert again.rig == segment.rig
+    assert (measured("imu", again) == measured("imu", segment)).all()
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"gravity": "-1"},
+        {"gravity": "nan"},
+        {"gravity": "9.81", "imu.mount": "0 0 0 0 0 0 1", "imu.noise": "0 0 0 0 0"},
+        {"gravity": "9.81", "imu.mount": "0 0 0", "imu.noise": "0 0 0 0 1"},
+        {"imu.mount": "0 0 0 0 0 0 9", "imu.noise": "0 0 0 0 1", "imu.seed": "0", "imu.begin": "0"},
+    ],
+)
+def test_a_damaged_event_is_refused(values):
+    event = Event.of(0, "start", "", {}, MOTION.start, segment_of())
+    with pytest.raises(ValueError, match=r"must|unpack|values"):
+        replace(event, values={**event.values, **values}).segment()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "reason"),
+    [
+        ("gravity", 0.0, "gravity must be 0.001 to 1000 m/s^2, got 0.0"),
+        ("imu.position", [1.0, 2.0], "imu.position must have 3 elements (m), got 2"),
+        ("imu.orientation", [0.0, 0.0, 0.0, 0.5], "imu.orientation must be a quaternion of norm 1"),
+        ("imu.noise.gyroscope_noise_density", -1.0, "imu.noise.gyroscope_noise_density must be 0 "),
+        ("imu.noise.seed", 0.5, "imu.noise.seed must be a whole number"),
+    ],
+)
+def test_a_bad_parameter_is_refused(name, value, reason):
+    with pytest.raises(RefusedError) as refused:
+        Settings.from_values({name: value})
+    assert str(refused.value).startswith(reason)
+
+
+def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
+    run = Run(**{"imu.enabled": True, "imu.position": list(PLACE), "odometry.enabled": True})
+    assert [each.child for each in run.sink.frames] == ["top_imu", "top_centre_of_mass"]
+    assert run.sink.frames[0].translation == PLACE
+    assert run.simulation.segment.rig.imu.position == PLACE
+    changed = {**run.simulation.settings.values, "publish_rate": 50.0, "top.Mgl": 0.05}
+    run.simulation.apply_settings(Settings.from_values(changed))
+    assert run.simulation.segment.rig.imu.rate == 50.0
+    assert run.simulation.segment.motion.top.Mgl == 0.05
+    assert Run().sink.frames == []

@@ -1,0 +1,164 @@
+"""The simulation without ROS: samples, events, jumps of the clock, torques and failures."""
+
+import threading
+from itertools import pairwise
+
+import pytest
+from simulation.runs import SECOND, Run
+
+from symtop_ros.simulation.validation import RefusedError
+
+MS = SECOND // 1000
+
+
+def assert_recomputed(run):
+    """Each sample is the one of the last event before it, bit for bit."""
+    assert run.sink.samples
+    for stamp, numbers in run.sink.samples:
+        event = [event for event in run.sink.events if event.segment().stamp <= stamp][-1]
+        w, x, y, z = event.segment().state_at(stamp).orientation.tolist()
+        assert numbers == [x, y, z, w]
+
+
+def test_samples_lie_on_the_grid_and_follow_the_closed_form():
+    run = Run()
+    run.advance(1.0)
+    assert [stamp for stamp, _ in run.sink.samples] == [5 * MS * k for k in range(201)]
+    assert_recomputed(run)
+
+
+def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
+    run = Run()
+    run.tick()
+    assert run.simulation.tick() is None
+    run.clock.is_simulated = False
+    assert run.simulation.tick() == pytest.approx(0.005)  # the period, exact in ns
+
+
+def test_a_kick_separates_the_samples_at_its_stamp_and_precedes_them_in_the_log():
+    run = Run("hurry_slow")
+    run.advance(0.1)
+    granted, answer = run.ask("hurry_precession")
+    assert granted
+    assert answer.startswith("Precession 6.50 -> 9.10 rad/s. The top rises")
+    run.advance(0.1)
+    kick = run.sink.events[-1]
+    assert (kick.name, kick.stamp) == ("kick", 105 * MS)
+    assert run.sink.order.index("kick") == 1 + sum(
+        each < kick.stamp for each, _ in run.sink.samples
+    )
+    assert_recomputed(run)
+
+
+def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
+    run = Run()
+    run.advance(0.5)
+    before = run.simulation.state
+    run.clock.now = 90 * SECOND
+    run.simulation.note_jump()
+    run.tick()
+    assert run.sink.events[-1].name == "clock"
+    stamp, numbers = run.sink.samples[-1]
+    w, x, y, z = before.orientation.tolist()
+    assert (stamp, numbers) == (90 * SECOND, [x, y, z, w])
+    run.clock.now = 10 * SECOND  # backwards, without a notification
+    run.tick()
+    assert [event.name for event in run.sink.events].count("clock") == 2
+    assert run.sink.samples[-1][0] == 10 * SECOND
+
+
+def test_late_ticks_are_dropped_and_reported_once_a_second():
+    run = Run(publish_rate=1000.0)
+    run.clock.is_simulated = False
+    run.tick()
+    for _ in range(3):
+        run.clock.now += 300 * MS
+        run.tick()
+    assert run.simulation.ticker.missed == 3 * 199  # 0.1 s of each 0.3 s is caught up
+    assert len(run.sink.warnings) == 1
+    assert run.sink.warnings[0].startswith("no samples for 0.199 s (199 missed)")
+
+
+def test_a_torque_acts_until_its_time_out_to_the_nanosecond():
+    run = Run()
+    run.advance(0.1)
+    with run.simulation.turn("torque"):
+        run.simulation.hold_torque((0.0, 0.0, 2e-4))
+    run.advance(0.3)
+    begin, end = [event for event in run.sink.events if event.name == "torque"]
+    assert (begin.values["applied_torque"], end.values["applied_torque"]) == (
+        "0.0 0.0 0.0002",
+        "0.0 0.0 0.0",
+    )
+    assert end.stamp - begin.stamp == 100 * MS
+    assert_recomputed(run)
+
+
+def test_a_torque_in_another_frame_is_refused():
+    run = Run()
+    with pytest.raises(RefusedError, match='applied_torque frame_id must be "world" or empty'):
+        run.simulation.hold_torque((0.0, 0.0, 1.0), "top")
+
+
+def test_other_settings_continue_from_the_current_state():
+    run = Run()
+    run.advance(0.2)
+    before = run.simulation.state
+    settings = type(run.simulation.settings).from_values(
+        {**run.simulation.settings.values, "top.Mgl": -0.05, "real_time_factor": 0.5}
+    )
+    with run.simulation.turn("parameters"):
+        run.simulation.apply_settings(settings)
+    event = run.sink.events[-1]
+    assert event.values["request"] == "top.Mgl=-0.05; real_time_factor=0.5"
+    assert run.simulation.segment.motion.start == before
+    assert run.simulation.segment.factor == 0.5
+    assert len(run.sink.urdfs) == 2
+    run.advance(0.2)
+    assert_recomputed(run)
+
+
+def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running():
+    run = Run()
+    for _ in range(2):
+        with run.simulation.turn("a test") as turn:
+            raise ZeroDivisionError("by\na bug")
+        assert turn.failure == "a test failed: ZeroDivisionError: by a bug"
+    assert run.sink.errors == ["a test failed: ZeroDivisionError: by a bug"]
+    assert [event.name for event in run.sink.events] == ["start", "failure"]
+    with run.simulation.turn("a test"):
+        pass
+    with run.simulation.turn("a test"):
+        raise ZeroDivisionError("by\na bug")
+    assert len(run.sink.errors) == 2  # it had succeeded in between
+    run.advance(0.1)
+    assert_recomputed(run)
+
+
+def test_an_exception_during_shutdown_is_raised():
+    run = Run()
+    run.sink.is_open = False
+    with pytest.raises(ZeroDivisionError), run.simulation.turn("a test"):
+        raise ZeroDivisionError
+
+
+def test_requests_of_many_threads_are_carried_out_one_at_a_time():
+    run = Run()
+    run.advance(0.1)
+
+    def kick():
+        for _ in range(50):
+            assert run.ask("kick", {"precession_rate_change": 0.01})[0]
+
+    threads = [threading.Thread(target=kick) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    kicks = [event for event in run.sink.events if event.name == "kick"]
+    assert len(kicks) == 200
+    assert all(
+        after.values["before.orientation"] == before.values["after.orientation"]
+        for before, after in pairwise(kicks)
+    )
+    assert_recomputed(run)
