@@ -1,1 +1,1 @@
-"""The ROS 2 node: topics, services, parameters and scenes around a motion."""
+"""The node `top`: parameters, services, publishers and pacing around a simulation."""

@@ -11,10 +11,10 @@ import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
-from symtop_ros.ending import ros
-from symtop_ros.node.scene import scene_names
+from symtop_ros.distribution import use_profile
 from symtop_ros.node.top_node import TopNode
-from symtop_ros.wire.text import one_line
+from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.simulation.presets import scene_names
 
 HELP = """\
 examples:
@@ -24,7 +24,9 @@ examples:
 
 scenes: {scenes}
 """
-SWITCH = 1e-4  # s; a tick waits no longer than this for the thread that writes the log
+# Fast DDS announces this node every 0.1 s instead of 3 s: the file says why.
+PROFILE = "fastdds_discovery.xml"
+SWITCH_INTERVAL = 1e-4  # s that a tick may wait for the thread that writes the log
 
 
 def main(args: list[str] | None = None) -> int:
@@ -32,27 +34,28 @@ def main(args: list[str] | None = None) -> int:
     arguments = sys.argv if args is None else ["top_node", *args]
     parser = argparse.ArgumentParser(
         prog="top_node",
-        description="A heavy symmetric top in real time. Parameters are given the ROS way.",
+        description="Simulate a heavy symmetric top in real time. Parameters are ROS parameters.",
         epilog=HELP.format(scenes=", ".join(scene_names())),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     try:
         parser.parse_args(remove_ros_args(arguments)[1:])
-        sys.setswitchinterval(SWITCH)
-        with ros(arguments) as listen:
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        use_profile(PROFILE)
+        with ros_context(arguments) as listen:
             return _run(listen)
     except ExternalShutdownException:
         return 0
     except Exception as error:
-        print(f"top_node: {one_line(error) or type(error).__name__}", file=sys.stderr)
+        print(f"top_node: {describe_failure(error)}", file=sys.stderr)
         return 1
 
 
 def _run(listen: Callable[[], None]) -> int:
-    """Spin until shutdown; return 1 where a tick failed, which was told, or the end of the log."""
+    """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
     executor = SingleThreadedExecutor()
     top = TopNode()
-    gc.freeze()  # what is there now stays: to look through it for garbage would delay ticks
+    gc.freeze()  # collecting garbage among the objects of the start would delay ticks
     try:
         listen()
         rclpy.spin(top, executor)
@@ -61,6 +64,6 @@ def _run(listen: Callable[[], None]) -> int:
             raise
     finally:
         top.close()
-    if top.log.untold:
-        print(f"top_node: recording stopped: {top.log.untold}", file=sys.stderr)
-    return 1 if top.failure or top.log.untold else 0
+    if top.recording.unreported_failure:
+        print(f"top_node: recording stopped: {top.recording.unreported_failure}", file=sys.stderr)
+    return 1 if top.failure or top.recording.unreported_failure else 0

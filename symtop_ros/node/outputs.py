@@ -1,177 +1,186 @@
-"""Where messages go: to those who listen, and into the log. The same bytes, made once.
+"""Publishers, and the channels of the log: both get the same bytes, which are encoded once.
 
-What nobody listens to and is not logged is not computed.
+A topic without a subscriber is not computed unless it is logged.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
-from rclpy.serialization import serialize_message
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
-from std_msgs.msg import String
 
-from symtop_ros.recording.recorder import Recorder
-from symtop_ros.run.block import Block
+from symtop_ros.log.recorder import Recorder
+from symtop_ros.node.markers import Markers
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import (
+    CLOCK,
+    DESCRIPTION,
+    DIAGNOSTICS,
+    EVENTS,
+    SAMPLE_TOPICS,
+    TF_STATIC,
+    Topic,
+)
 from symtop_ros.wire import messages
-from symtop_ros.wire.layout import Layout, Stamp
-
-try:  # not on PyPI, where the rest of ROS 2 is
-    from tf2_msgs.msg import TFMessage
-except ImportError:
-    TFMessage = None
-
-DEPTH = 100  # samples a reliable subscriber may lag behind: 0.1 s at 1 kHz
-LATCHED = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-EVENTS = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-STATE_TOPICS: dict[str, tuple[Any, Callable[[str], Layout]]] = {
-    "~/orientation": (QuaternionStamped, messages.quaternion),
-    "~/angular_velocity": (TwistStamped, messages.twist),
-    "~/angular_momentum": (Vector3Stamped, messages.vector),
-    "~/torque": (WrenchStamped, messages.twist),
-    "~/euler_angles": (JointState, messages.joints),
-}
-CLOCK = Layout(Stamp())
+from symtop_ros.wire.cdr import encode_string
+from symtop_ros.wire.diagnostics import Status, encode_statuses
+from symtop_ros.wire.messages import Transform
 
 
 class Output:
-    """One topic, and its channel in the log.
+    """One topic: its publisher and its channel in the log.
 
     Parameters
     ----------
     node : Node
     recorder : Recorder
-    topic : str
-    kind : type or str
-        Type of its messages; a name alone where the type is not installed: then it is only logged.
-    qos : QoSProfile or int
+    topic : Topic
 
     Attributes
     ----------
     channel : int
-        Its number in the log.
-    published : bool
-        Whether it is published at all.
+        Index of its channel in the log.
+    is_installed : bool
+        False if its message type is not installed: then it is only logged.
+    enabled : bool
+        Set to False to log the topic without publishing it.
     """
 
-    def __init__(
-        self,
-        node: Node,
-        recorder: Recorder,
-        topic: str,
-        kind: Any,
-        qos: QoSProfile | int = DEPTH,
-    ) -> None:
-        self._publisher = None if isinstance(kind, str) else _publisher(node, topic, kind, qos)
+    def __init__(self, node: Node, recorder: Recorder, topic: Topic) -> None:
+        message_class = topic.load_message_class()
+        self.is_installed = message_class is not None
+        self._publisher = _create_publisher(node, topic, message_class) if message_class else None
         self._context = node.context
-        self._latched = isinstance(qos, QoSProfile)
+        self._latched = topic.latched
         self._recorder = recorder
-        self.channel = recorder.channel(
-            node.resolve_topic_name(topic), _name_of(kind), self._latched
-        )
-        self.published = True
+        self.channel = recorder.add_channel(node.resolve_topic_name(topic.ros_name), topic)
+        self.enabled = True
 
     @property
-    def wanted(self) -> bool:
-        """Whether anybody listens, or a log is written."""
-        return self._recorder.running or self._heard
+    def is_needed(self) -> bool:
+        """True if there is a subscriber or a recording."""
+        return self._recorder.running or self._has_subscriber
 
     def send(self, stamp: int, data: bytes) -> None:
-        """Publish and log a message that is serialised already; its stamp is in ns.
+        """Publish and log an encoded message with its stamp (ns).
 
-        Where ROS ends in the middle of a sample the log has it complete.
+        If ROS shuts down in the middle of a sample, the log still gets the whole sample.
         """
         try:
-            if self._publisher and (self._latched or self._heard):
+            if self._publisher and (self._latched or self._has_subscriber):
                 self._publisher.publish(data)
         except RuntimeError:
             if self._context.ok():
                 raise
         self._recorder.add(self.channel, stamp, data)
 
-    def send_message(self, stamp: int, message: Any) -> None:
-        """Publish and log a message."""
-        self.send(stamp, serialize_message(message))
-
     @property
-    def _heard(self) -> bool:
-        return bool(self.published and self._publisher and self._publisher.get_subscription_count())
-
-
-class Sample(NamedTuple):
-    """A topic that every sample has a message on."""
-
-    output: Output
-    layout: Layout
+    def _has_subscriber(self) -> bool:
+        return bool(self.enabled and self._publisher and self._publisher.get_subscription_count())
 
 
 class Outputs:
-    """All topics of the node.
+    """All topics of the node; the sink of its simulation.
 
     Parameters
     ----------
     node : Node
     recorder : Recorder
-    world, top : str
-        Frames.
-    clock : bool
-        Whether there is a /clock.
+    settings : Settings
     """
 
-    def __init__(self, node: Node, recorder: Recorder, world: str, top: str, clock: bool) -> None:
-        self._recorder = recorder
-        make = partial(Output, node, recorder)
-        self.events = make("~/events", DiagnosticArray, EVENTS)  # first, hence first in every log
-        self.description = make("/robot_description", String, LATCHED)
-        layouts = {
-            **{name: (kind, layout(world)) for name, (kind, layout) in STATE_TOPICS.items()},
-            "/tf": (TFMessage or "tf2_msgs/msg/TFMessage", messages.transform(world, top)),
-        }
+    def __init__(self, node: Node, recorder: Recorder, settings: Settings) -> None:
+        self._node, self._recorder = node, recorder
+        self._frame = settings.world_frame
+        frames = settings.world_frame, settings.top_frame
+        self._events = Output(node, recorder, EVENTS)
+        self._description = Output(node, recorder, DESCRIPTION)
         self._samples = {
-            name.lstrip("~/"): Sample(make(name, kind), layout)
-            for name, (kind, layout) in layouts.items()
+            name: (Output(node, recorder, topic), topic.layout(*frames))
+            for name, topic in SAMPLE_TOPICS.items()
+            if settings.enables(topic.switch)
         }
-        self.diagnostics = make("/diagnostics", DiagnosticArray, 10)
-        self._clock = make("/clock", Clock) if clock else None
-        if not TFMessage:
+        has_frames = bool(settings.imu or settings.odometry)
+        self._fixed_frames = Output(node, recorder, TF_STATIC) if has_frames else None
+        self._diagnostics = Output(node, recorder, DIAGNOSTICS)
+        self._clock = Output(node, recorder, CLOCK) if settings.publish_clock else None
+        self._markers = Markers(node, self._frame) if settings.publish_markers else None
+        self.enable_tf(settings.publish_tf)
+        if not self._samples["tf"][0].is_installed:
             node.get_logger().info("tf2_msgs is not installed: /tf is logged, not published")
 
-    def behind_events(self) -> AbstractContextManager[None]:
-        """Let what is sent meanwhile come after the events in the log."""
-        return self._recorder.behind(self.events.channel)
+    @property
+    def is_open(self) -> bool:
+        """False when ROS is shutting down."""
+        return self._node.context.ok()
 
-    def publish_tf(self, wanted: bool) -> None:
-        """Publish /tf or not; it is logged in any case."""
-        self._samples["tf"].output.published = wanted
+    @property
+    def publishes_tf(self) -> bool:
+        """True if /tf is published."""
+        tf = self._samples["tf"][0]
+        return tf.enabled and tf.is_installed
+
+    def enable_tf(self, enabled: bool) -> None:
+        """Publish /tf or not; it is always logged."""
+        self._samples["tf"][0].enabled = enabled
 
     def send_sample(self, stamp: int, block: Block) -> None:
-        """Publish and log the sample of a stamp (ns), where anybody wants it."""
+        """Publish and log the sample of a stamp (ns) on the topics that are needed."""
         for name, (output, layout) in self._samples.items():
-            if output.wanted:
-                output.send(stamp, layout.pack(stamp, block.numbers(name, stamp)))
+            if output.is_needed:
+                output.send(stamp, layout.encode(stamp, block.numbers(name, stamp)))
         if self._clock:
-            self._clock.send(stamp, CLOCK.pack(stamp, ()))
+            self._clock.send(stamp, messages.CLOCK.encode(stamp, ()))
+        if self._markers:
+            self._markers.send(stamp, block)
+
+    def send_event(self, event: Event) -> None:
+        """Publish and log an event."""
+        self._events.send(event.stamp, event.encode(self._frame))
+
+    def send_description(self, stamp: int, urdf: str) -> None:
+        """Publish and log the URDF of the top."""
+        self._description.send(stamp, encode_string(urdf))
+
+    def send_fixed_frames(self, stamp: int, transforms: Sequence[Transform]) -> None:
+        """Publish and log the frames on the body."""
+        if self._fixed_frames:
+            self._fixed_frames.send(stamp, messages.encode_transforms(stamp, transforms))
+
+    @property
+    def need_diagnostics(self) -> bool:
+        """True if diagnostics have a subscriber or are logged."""
+        return self._diagnostics.is_needed
+
+    def send_diagnostics(self, stamp: int, statuses: list[Status]) -> None:
+        """Publish and log diagnostics."""
+        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, statuses))
+
+    def put_events_first(self) -> AbstractContextManager[None]:
+        """In the log, put the events sent in this context before its samples."""
+        return self._recorder.put_first(self._events.channel)
+
+    def warn(self, text: str) -> None:
+        """Log a warning."""
+        self._node.get_logger().warning(text)
+
+    def report_error(self, text: str) -> None:
+        """Log an error."""
+        self._node.get_logger().error(text)
 
 
-def _publisher(node: Node, topic: str, kind: Any, qos: QoSProfile | int) -> Publisher[Any]:
-    """Return a publisher whose QoS can be overridden by the ROS parameters for that."""
+def _create_publisher(node: Node, topic: Topic, message_class: Any) -> Publisher:
+    """Return a publisher with the QoS of the topic, which ROS parameters may override."""
+    latched, volatile = QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE
+    qos = QoSProfile(depth=topic.depth, durability=latched if topic.latched else volatile)
+    overriding = QoSOverridingOptions.with_default_policies()
     return node.create_publisher(
-        kind,
-        topic,
-        qos,
-        qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        message_class, topic.ros_name, qos, qos_overriding_options=overriding
     )
-
-
-def _name_of(kind: Any) -> str:
-    return kind if isinstance(kind, str) else f"{kind.__module__.split('.')[0]}/msg/{kind.__name__}"

@@ -1,4 +1,4 @@
-"""Somebody who listens to a node in another process."""
+"""A node of the test that listens to a top in another process."""
 
 from __future__ import annotations
 

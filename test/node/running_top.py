@@ -1,37 +1,60 @@
-"""A top and its user in one process: real rclpy and Fast DDS, own context and domain."""
+"""A top and its user in one process: real rclpy and Fast DDS, own context and domain.
+
+Time is simulated unless a test is about real time: it advances while the test spins.
+"""
 
 from __future__ import annotations
 
-import itertools
 import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
 import rclpy
+from domains import claim_domain, release_domain
+from rclpy.clock_type import ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
+from rclpy.time import Time
 
 from symtop_ros.client.connection import Connection
 from symtop_ros.node.top_node import TopNode
-from symtop_ros.run.events import Event
-from symtop_ros.run.segment import Segment
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
 
-DOMAINS = itertools.cycle(range(10, 60))  # the programs take 60 to 89, fixed ones are beyond
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-TIMEOUT = 10.0  # s; ends a test that hangs, and is never waited for
+TIMEOUT = 20.0  # s of real time; ends a test that hangs, and is never waited for
+TURN = 0.002  # s of real time between two advances of the simulated clock, at least
+STEP = 5_000_000  # ns; an advance of the simulated clock
 
 
 class RunningTop:
-    """A TopNode and a client node, spun together until a condition holds."""
+    """A TopNode and a client node, spun together until a condition holds.
 
-    def __init__(self, **parameters: Any) -> None:
+    With `realtime` the node follows the clock of the system, else a simulated clock that begins
+    at 0 and advances by 5 ms at most every 2 ms while the test spins.
+    """
+
+    def __init__(
+        self, realtime: bool = False, arguments: list[str] | None = None, **parameters: Any
+    ) -> None:
         self.context = rclpy.Context()
-        rclpy.init(context=self.context, domain_id=next(DOMAINS))
+        self.domain = claim_domain()
+        rclpy.init(context=self.context, domain_id=self.domain)
+        self.now, self._advanced, self._frozen = 0, 0.0, realtime
+        if not realtime:
+            parameters = {"use_sim_time": True, **parameters}
         overrides = [
             Parameter(name.replace("__", "."), value=value) for name, value in parameters.items()
         ]
-        self.top = TopNode(context=self.context, parameter_overrides=overrides)
+        try:
+            self.top = TopNode(
+                context=self.context, cli_args=arguments, parameter_overrides=overrides
+            )
+        except Exception:
+            rclpy.try_shutdown(context=self.context)
+            release_domain(self.domain)
+            raise
         self.user = rclpy.create_node("user", context=self.context)
         self.connection = _SharedConnection(self)
         self.executor = SingleThreadedExecutor(context=self.context)
@@ -44,12 +67,27 @@ class RunningTop:
         self.top.close()
         self.top.destroy_node()
         rclpy.try_shutdown(context=self.context)
+        release_domain(self.domain)
+
+    def freeze(self) -> None:
+        """Stop the simulated clock; `set_clock` still sets it."""
+        self._frozen = True
+
+    def set_clock(self, stamp: int) -> None:
+        """Set the simulated clock to a stamp in ns."""
+        self.now = stamp
+        self.top.get_clock().set_ros_time_override(
+            Time(nanoseconds=stamp, clock_type=ClockType.ROS_TIME)
+        )
 
     def spin_until(self, done: Callable[[], Any], timeout: float = TIMEOUT) -> None:
         deadline = time.monotonic() + timeout
         while not done():
             assert time.monotonic() < deadline, "the condition did not come true in time"
-            self.executor.spin_once(timeout_sec=0.05)
+            if not self._frozen and time.monotonic() - self._advanced >= TURN:
+                self._advanced = time.monotonic()
+                self.set_clock(self.now + STEP)
+            self.executor.spin_once(timeout_sec=0.05 if self._frozen else TURN)
 
     def collect(self, kind: Any, topic: str, qos: Any = 1000, raw: bool = False) -> list[Any]:
         """Subscribe, and return the list that messages (or their bytes) come into."""
@@ -68,7 +106,7 @@ class RunningTop:
 
 
 class _SharedConnection(Connection):
-    """The client's own code, spun together with the node."""
+    """The client of the package, spun together with the node."""
 
     def __init__(self, running: RunningTop) -> None:
         self.node, self.name, self._timeout, self._running = running.user, "/top", TIMEOUT, running
@@ -89,6 +127,26 @@ def segment_of(message: Any) -> Segment:
     return Event(stamp_of(message), message.status[0].name, "", facts(message)).segment()
 
 
-def facts(message: Any) -> Mapping[str, str]:
-    """Keys and values of the first status."""
-    return {pair.key: pair.value for pair in message.status[0].values}
+def facts(message: Any, status: str | None = None) -> Mapping[str, str]:
+    """Keys and values of the status with a name, of the first one without."""
+    return {pair.key: pair.value for pair in status_of(message, status).values}
+
+
+def status_of(message: Any, name: str | None = None) -> Any:
+    """The status with a name; the first one without."""
+    return next(each for each in message.status if name in (None, each.name))
+
+
+def events_named(events: list[Any], name: str) -> list[Any]:
+    return [each for each in events if each.status[0].name == f"top: {name}"]
+
+
+def assert_recomputed(events: list[Any], orientations: list[Any]) -> None:
+    """Every sample is what its event says, bit for bit."""
+    segments = [(stamp_of(event), segment_of(event)) for event in events]
+    assert orientations
+    for message in orientations:
+        stamp, q = stamp_of(message), message.quaternion
+        segment = [each for begin, each in segments if begin <= stamp][-1]
+        expected = segment.state_at(stamp).orientation.tolist()
+        assert [q.w, q.x, q.y, q.z] == expected

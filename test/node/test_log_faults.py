@@ -1,4 +1,4 @@
-"""A folder of logs that fails: one error, a motion that goes on, and a next log that is whole."""
+"""A folder that fails: one error, the motion keeps running, and the next log is complete."""
 
 import contextlib
 import shutil
@@ -9,25 +9,28 @@ from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from domains import claim_domain
+from endings import bound
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import LATCHED
 from programs import environment
 from sensor_msgs.msg import JointState
 
-DOMAIN = 97
+DOMAIN = claim_domain()
 MS = 1_000_000
+UNWRITABLE = "record.directory must be a writable folder, got"
 LATE = """
 import sys
 from symtop_ros.programs import top_node
-from symtop_ros.recording import recorder
-recorder.FLUSH = 3600.0
+from symtop_ros.log import recorder
+recorder.FLUSH_PERIOD = 3600.0
 sys.exit(top_node())
 """
 
 
 class Recording:
-    """A top that records into a folder, and what it says of that."""
+    """A top that records into a folder, and its reports."""
 
     def __init__(self, start_top, folder):
         self.run = start_top(publish_rate=500.0, record__directory=str(folder))
@@ -48,17 +51,17 @@ class Recording:
         granted, answer = self.run.switch("record", False)
         return Path(answer.removeprefix("recorded to ")) if granted else answer
 
-    def go_on(self, samples=100):
+    def wait(self, samples=100):
         seen = len(self._angles)
         self.run.spin_until(lambda: len(self._angles) > seen + samples)
 
     def assert_works(self):
-        """The motion goes on, and the next recording is as it should be."""
-        self.go_on()
+        """The motion keeps running, and the next recording is complete."""
+        self.wait()
         path = self.begin()
-        self.go_on()
+        self.wait()
         assert self.run.trigger("hurry_precession")[0]
-        self.go_on()
+        self.wait()
         assert self.end() == path
         assert assert_exact(path) > 20
         assert not any((b - a) % (2 * MS) for a, b in pairwise(stamps_of(path)))
@@ -82,8 +85,8 @@ def remount(folder, options):
 def test_a_folder_that_is_read_only_is_refused_until_it_is_not(start_top, tmp_path):
     with mounted(tmp_path, "ro,size=10m"):
         recording = Recording(start_top, tmp_path)
-        told = f"record: no log in {str(tmp_path)!r}: Read-only file system"
-        assert [recording.begin() for _ in range(2)] == [told] * 2
+        refusal = f"{UNWRITABLE} {str(tmp_path)!r}: Read-only file system"
+        assert [recording.begin() for _ in range(2)] == [refusal] * 2
         remount(tmp_path, "rw")
         recording.assert_works()
         assert recording.errors == []
@@ -94,27 +97,27 @@ def test_a_folder_that_a_file_takes_the_place_of_is_one_error(start_top, tmp_pat
     folder = tmp_path / "logs"
     recording = Recording(start_top, folder)
     path = recording.begin()
-    recording.go_on()
+    recording.wait()
     shutil.rmtree(folder)
     folder.write_text("")
     recording.run.spin_until(lambda: recording.errors)
-    assert recording.begin() == f"record: no log in {str(folder)!r}: File exists"
+    assert recording.begin() == f"{UNWRITABLE} {str(folder)!r}: File exists"
     folder.unlink()
     recording.assert_works()
-    assert recording.errors == [f"recording stopped: {path}: it has vanished"]
+    assert recording.errors == [f"recording stopped: {path}: the file was removed"]
 
 
 def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_path):
     recording = Recording(start_top, tmp_path)
     path = recording.begin()
-    recording.go_on()
+    recording.wait()
     path.unlink()
     recording.run.spin_until(lambda: recording.errors)
     recording.assert_works()
-    assert recording.errors == [f"recording stopped: {path}: it has vanished"]
+    assert recording.errors == [f"recording stopped: {path}: the file was removed"]
 
 
-def test_each_of_two_failures_in_a_second_is_told_once(start_top, tmp_path, monkeypatch):
+def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path, monkeypatch):
     recording = Recording(start_top, tmp_path)
     monkeypatch.setattr(type(recording.run.top), "_diagnose", lambda _: None)
     paths = []
@@ -125,19 +128,21 @@ def test_each_of_two_failures_in_a_second_is_told_once(start_top, tmp_path, monk
     assert not recording.run.top._recorder.running
     assert recording.run.switch("record", False) == (True, "not recording")
     recording.run.spin_until(lambda: len(recording.errors) == 2)
-    assert recording.errors == [f"recording stopped: {path}: it has vanished" for path in paths]
+    assert recording.errors == [
+        (f"recording stopped: {path}: the file was removed") for path in paths
+    ]
     recording.assert_works()
 
 
 def test_a_recording_whose_end_fails_is_refused_and_one_error(start_top, tmp_path, monkeypatch):
-    monkeypatch.setattr("symtop_ros.recording.recorder.FLUSH", 3600.0)
+    monkeypatch.setattr("symtop_ros.log.recorder.FLUSH_PERIOD", 3600.0)
     recording = Recording(start_top, tmp_path)
     path = recording.begin()
-    recording.go_on()
+    recording.wait()
     path.unlink()
-    assert recording.end() == f"record: {path}: it has vanished"
+    assert recording.end() == f"recording failed: {path}: the file was removed"
     recording.assert_works()
-    assert recording.errors == [f"recording stopped: {path}: it has vanished"]
+    assert recording.errors == [f"recording stopped: {path}: the file was removed"]
 
 
 def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_path):
@@ -147,7 +152,7 @@ def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_pat
         recording = Recording(start_top, folder)
         ballast = folder / "ballast"
         path = recording.begin()
-        recording.go_on(400)  # a flush and more
+        recording.wait(400)  # a flush and more
         with contextlib.suppress(OSError), ballast.open("wb", buffering=0) as file:
             while True:
                 file.write(bytes(4096))
@@ -165,7 +170,7 @@ def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
     options = [f"-p record.directory:={tmp_path}", "-p record.enabled:=true", "--log-level warn"]
     words = [word for each in options for word in each.split()]
     node = subprocess.Popen(
-        [sys.executable, "-c", LATE, "--ros-args", *words],
+        bound([sys.executable, "-c", LATE, "--ros-args", *words]),
         env=environment(DOMAIN),
         stderr=subprocess.PIPE,
         text=True,
@@ -176,6 +181,8 @@ def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
     (path,) = tmp_path.iterdir()
     path.unlink()
     node.terminate()
-    _, told = node.communicate(timeout=20)
-    assert told == f"top_node: recording stopped: {path}: it has vanished\n"
+    _, errors = node.communicate(timeout=20)
+    # A machine that is overloaded adds its own warning, which is not the matter here.
+    lines = [line for line in errors.splitlines() if "no samples for" not in line]
+    assert lines == [f"top_node: recording stopped: {path}: the file was removed"]
     assert node.returncode == 1

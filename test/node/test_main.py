@@ -4,9 +4,10 @@ import signal
 import subprocess
 
 import pytest
+from domains import claim_domain
 from programs import command, environment, run
 
-DOMAIN = 97
+DOMAIN = claim_domain()
 
 
 def test_help_names_the_scenes():
@@ -20,9 +21,9 @@ def test_help_names_the_scenes():
     ("arguments", "status", "sentence"),
     [
         (["--fast"], 2, "unrecognized arguments: --fast"),
-        (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate: got 0, allowed is a number"),
-        (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz: got 1, allowed is 0 < Iz <= 2 Ix"),
-        (["--ros-args", "-p", "scene:=x"], 1, "scene: got 'x', allowed is one of cusps"),
+        (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate must be 1 to 2000 Hz, got 0"),
+        (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz must be > 0 and <= 2 Ix"),
+        (["--ros-args", "-p", "scene:=x"], 1, "scene must be one of backward_start"),
         (["--ros-args", "--params-file", "/nowhere.yaml"], 1, "Couldn't parse params file"),
         (["--ros-args", "-p", "use_sim_time:=7"], 1, "use_sim_time"),
         (
@@ -38,8 +39,8 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
     assert sentence in result.stderr
     assert "Traceback" not in result.stderr
     if status == 1:
-        told = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
-        assert len(told) == 1
+        lines = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
+        assert len(lines) == 1
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])

@@ -5,16 +5,18 @@ import time
 import numpy as np
 import pytest
 import rclpy
+from domains import claim_domain
 from node.running_top import stamp_of
 from programs import running_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 
-from symtop_ros.report.load import TOPICS
+from symtop_ros.simulation.topics import STATE_TOPICS
 
-pytestmark = pytest.mark.untraced
-DOMAIN = 96
-SAMPLES = 10_000
+pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
+DOMAIN = claim_domain()
+SAMPLES = 6000
+TOPICS = {name: topic.load_message_class() for name, topic in STATE_TOPICS.items() if name != "tf"}
 
 
 def test_at_1000_hz_samples_arrive_and_stamps_are_one_millisecond_apart():

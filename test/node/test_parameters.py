@@ -11,10 +11,10 @@ from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
-from symtop_ros.node import outputs
-from symtop_ros.node.fields import RefusedError
-from symtop_ros.node.parameters import DECLARATIONS
-from symtop_ros.node.scene import scene_names
+from symtop_ros.simulation.presets import scene_names
+from symtop_ros.simulation.settings import PARAMETERS
+from symtop_ros.simulation.topics import Topic
+from symtop_ros.simulation.validation import RefusedError
 
 KINDS = {
     "regular_precession": "regular",
@@ -31,6 +31,13 @@ KINDS = {
     "hanging": "unidirectional",
     "disc": "unidirectional",
     "free": "unidirectional",
+    "spin_reversal": "unidirectional",
+    "backward_start": "looping",
+    "closed_cusps": "cusps",
+    "conical_pendulum": "regular",
+    "spherical_pendulum": "unidirectional",
+    "separatrix": "spiralling",
+    "gray_fall": "cusps",
 }
 EPS = np.finfo(float).eps
 SET = "set_parameters_atomically"
@@ -40,15 +47,15 @@ def numbers(text):
     return np.array([float(part) for part in text.split()])
 
 
-DRIVEN = {"friction", "vertical_torque"}
+INTEGRATED = {"friction", "sleeping_wakes", "vertical_torque"}
 
 
 def test_every_scene_has_a_test():
-    assert set(scene_names()) == set(KINDS) | DRIVEN
+    assert set(scene_names()) == set(KINDS) | INTEGRATED
 
 
-@pytest.mark.parametrize("scene", sorted(DRIVEN))
-def test_a_driven_scene_is_integrated(start_top, scene):
+@pytest.mark.parametrize("scene", sorted(INTEGRATED))
+def test_a_scene_with_friction_or_torque_is_integrated(start_top, scene):
     state = json.loads(start_top(scene=scene).trigger("get_state")[1])
     assert state["engine"] == "splitting"
     assert state["friction"]["axial"] > 0 or state["applied_torque"][2] > 0
@@ -64,21 +71,31 @@ def test_a_scene_starts_the_motion_that_its_name_promises(start_top, scene, kind
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"scene": "nowhere"}, "scene: got 'nowhere', allowed is one of cusps, disc,"),
-        ({"top__Iz": 1.0}, "top.Iz: got 1, allowed is 0 < Iz <= 2 Ix = 0.000456"),
-        ({"top__Ix": -1.0}, "top.Ix: got -1.0, allowed is a number from 1e-30 to 1e+30"),
-        ({"publish_rate": 0.0}, "publish_rate: got 0.0, allowed is a number from 1 to 2000"),
-        ({"publish_rate": "fast"}, "publish_rate: got 'fast', allowed is a number from 1 to 2000"),
-        ({"initial__theta": float("nan")}, "initial.theta: got nan, allowed is a number from 0"),
-        ({"initial__precession": "odd"}, "initial.precession: got 'odd', allowed is"),
-        ({"initial__orientation": [1.0, 2.0]}, "initial.orientation: got [1.0, 2.0], allowed is 4"),
+        ({"scene": "nowhere"}, "scene must be one of backward_start, closed_cusps,"),
+        ({"top__Iz": 1.0}, "top.Iz must be > 0 and <= 2 Ix = 0.000456 kg m^2, got 1"),
+        ({"top__Ix": -1.0}, "top.Ix must be 1e-30 to 1e+30 kg m^2, got -1.0"),
+        ({"publish_rate": 0.0}, "publish_rate must be 1 to 2000 Hz, got 0.0"),
+        ({"publish_rate": "fast"}, "publish_rate must be 1 to 2000 Hz, got 'fast'"),
+        ({"initial__theta": float("nan")}, "initial.theta must be 0 to 3.14159 rad, got nan"),
         (
-            {"initial__orientation": [0.0, 0.0, 0.0, 1.0]},
-            "initial.orientation and initial.angular_velocity: allowed is both, or neither",
+            {"initial__precession": "odd"},
+            ('initial.precession must be "" or "slow" or "fast", got \'odd\''),
         ),
-        ({"real_time_factor": 1000.0}, "real_time_factor: got 1000.0, allowed is a number from"),
-        ({"publish_tf": "yes"}, "publish_tf: got 'yes', allowed is true or false"),
-        ({"world_frame": " "}, "world_frame: got ' ', allowed is the name of a frame"),
+        (
+            {"initial__orientation": [1.0, 2.0]},
+            ("initial.orientation must have 4 elements (x, y, z, w), got 2"),
+        ),
+        (
+            {"initial__angular_velocity": [0.0, 0.0, 1.0]},
+            "initial.angular_velocity must be set together with initial.orientation, got none",
+        ),
+        ({"real_time_factor": 1000.0}, "real_time_factor must be 0.001 to 100, got 1000.0"),
+        ({"top__Mg": 1.0}, "parameter name must be known (the nearest is top.Mgl), got 'top.Mg'"),
+        ({"publish_tf": "yes"}, "publish_tf must be true or false, got 'yes'"),
+        (
+            {"world_frame": " "},
+            ("world_frame must be the name of a frame (1 to 200 printable characters), got ' '"),
+        ),
     ],
 )
 def test_a_bad_value_at_start_up_is_refused_in_words(start_top, values, sentence):
@@ -89,35 +106,35 @@ def test_a_bad_value_at_start_up_is_refused_in_words(start_top, values, sentence
 
 def test_a_whole_number_is_as_good_as_a_double(start_top):
     run = start_top(publish_rate=100, top__Mgl=0)
-    assert run.top.course.settings["publish_rate"] == 100.0
-    assert json.loads(run.trigger("get_state")[1])["engine"] == "elementary"
+    assert run.top.simulation.settings.publish_rate == 100.0
+    assert json.loads(run.trigger("get_state")[1])["engine"] == "free"
 
 
 @pytest.mark.parametrize(
     ("name", "value", "sentence"),
     [
-        ("publish_rate", 5000.0, "publish_rate: got 5000.0, allowed is a number from 1 to 2000"),
-        ("top.Iz", 1.0, "top.Iz: got 1, allowed is 0 < Iz <= 2 Ix"),
-        ("hurry_factor", "much", "hurry_factor: got 'much', allowed is a number"),
+        ("publish_rate", 5000.0, "publish_rate must be 1 to 2000 Hz, got 5000.0"),
+        ("top.Iz", 1.0, "top.Iz must be > 0 and <= 2 Ix"),
+        ("hurry_factor", "much", "hurry_factor must be -1e+06 to 1e+06, got 'much'"),
         ("scene", "disc", "read-only parameter: scene"),
         ("world_frame", "map", "read-only parameter: world_frame"),
     ],
 )
-def test_a_bad_value_later_is_refused_and_the_motion_goes_on(start_top, name, value, sentence):
+def test_a_bad_value_later_is_refused_and_the_motion_is_unchanged(start_top, name, value, sentence):
     run = start_top()
-    before = run.top.course.segment
+    before = run.top.simulation.segment
     granted, reason = run.connection.set(SET, {name: value})
     assert not granted
     assert sentence in reason
-    assert run.top.course.segment is before
+    assert run.top.simulation.segment is before
 
 
-def test_every_parameter_is_described_with_what_is_allowed(start_top):
+def test_every_parameter_is_described_with_its_allowed_values(start_top):
     run = start_top()
-    for name in DECLARATIONS:
+    for name in PARAMETERS:
         descriptor = run.top.describe_parameter(name)
         assert descriptor.description
-        assert descriptor.additional_constraints.startswith("allowed: ")
+        assert descriptor.additional_constraints.startswith("must be ")
     assert "Hz" in run.top.describe_parameter("publish_rate").additional_constraints
 
 
@@ -126,14 +143,14 @@ def test_another_weight_keeps_the_state_and_changes_what_follows(start_top):
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     assert run.connection.set(SET, {"top.Mgl": -0.068})[0]
     run.spin_until(lambda: len(events) == 2)
-    told = facts(events[1])
-    assert told["request"] == "top.Mgl=-0.068"
+    values = facts(events[1])
+    assert values["request"] == "top.Mgl=-0.068"
     for name in ("orientation", "angular_velocity"):
-        assert told[f"motion.{name}"] == told[f"before.{name}"]
-        before, after = (numbers(told[f"{when}.{name}"]) for when in ("before", "after"))
+        assert values[f"motion.{name}"] == values[f"before.{name}"]
+        before, after = (numbers(values[f"{when}.{name}"]) for when in ("before", "after"))
         # the new motion evaluated at its start: a few ulp of the largest component
         assert np.abs(after - before).max() <= 8 * EPS * np.abs(before).max()
-    assert told["top"] == "0.000228 5.72e-05 -0.068"
+    assert values["top"] == "0.000228 5.72e-05 -0.068"
 
 
 def test_another_publish_rate_takes_effect_without_a_gap(start_top):
@@ -193,10 +210,10 @@ def test_a_run_starts_from_the_quaternion_of_the_parameters(start_top):
 
 def test_another_factor_hurries_by_it(start_top):
     run = start_top(scene="hurry_slow", hurry_factor=2.0)
-    assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 12.99 rad/s")
+    assert run.trigger("hurry_precession")[1].startswith("Precession 6.50 -> 12.99 rad/s")
     run.trigger("reset")
     assert run.connection.set(SET, {"hurry_factor": 0.5})[0]
-    assert run.trigger("hurry_precession")[1].startswith("precession 6.50 -> 3.25 rad/s")
+    assert run.trigger("hurry_precession")[1].startswith("Precession 6.50 -> 3.25 rad/s")
 
 
 def test_messages_and_description_bear_the_frames_that_were_asked_for(start_top):
@@ -209,9 +226,22 @@ def test_messages_and_description_bear_the_frames_that_were_asked_for(start_top)
     assert '"gyro"' in described[0].data
 
 
+def test_in_a_namespace_frame_and_description_are_those_of_the_namespace(start_top):
+    run = start_top(arguments=["--ros-args", "-r", "__ns:=/a"])
+    described = run.collect(String, "/a/robot_description", LATCHED)
+    run.spin_until(lambda: described)
+    assert run.top.get_parameter("top_frame").value == "a/top"
+    assert '<link name="a/top">' in described[0].data
+
+
 def test_transforms_are_published_while_they_are_wanted(start_top, monkeypatch):
-    """With a type that is installed in the place of tf2_msgs': the bytes are looked at alone."""
-    monkeypatch.setattr(outputs, "TFMessage", TransformStamped)
+    """With an installed type in place of tf2_msgs: only the bytes are compared."""
+    load = Topic.load_message_class
+    monkeypatch.setattr(
+        Topic,
+        "load_message_class",
+        lambda topic: TransformStamped if topic.name == "tf" else load(topic),
+    )
     run = start_top()
     transforms = run.collect(TransformStamped, "/tf", raw=True)
     samples = run.collect(QuaternionStamped, "/top/orientation")

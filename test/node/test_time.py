@@ -1,4 +1,4 @@
-"""Simulation time: the top follows /clock, and goes on from where it is when the clock jumps."""
+"""Simulated time: the top follows /clock, and continues from its state when the clock jumps."""
 
 import random
 import time
@@ -13,30 +13,32 @@ from geometry_msgs.msg import QuaternionStamped
 from node.running_top import LATCHED, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
 
-from symtop_ros.node.fields import RefusedError
+from symtop_ros.node import top_node
+from symtop_ros.simulation.validation import RefusedError
 
 MS = 1_000_000
 
 
 class SimulatedClock:
-    """A /clock that a test turns."""
+    """A publisher of /clock; the clock of the run itself stays frozen."""
 
     def __init__(self, run):
         self.run = run
+        run.freeze()
         self.publisher = run.user.create_publisher(Clock, "/clock", 10)
         run.spin_until(lambda: self.publisher.get_subscription_count() > 0)
 
-    def turn_to(self, stamp):
+    def set_to(self, stamp):
         seconds, nanoseconds = divmod(stamp, 1_000_000_000)
         self.publisher.publish(Clock(clock=Time(sec=seconds, nanosec=nanoseconds)))
         self.run.spin_until(lambda: self.run.top.get_clock().now().nanoseconds == stamp)
 
     def run_from(self, stamp, count):
         for k in range(count):
-            self.turn_to(stamp + k * 10 * MS)
+            self.set_to(stamp + k * 10 * MS)
 
 
-def test_stamps_and_motion_follow_the_clock_also_when_it_jumps(start_top):
+def test_stamps_and_motion_follow_the_clock_even_when_it_jumps(start_top):
     run = start_top(use_sim_time=True, publish_rate=100.0)
     messages = run.collect(QuaternionStamped, "/top/orientation")
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
@@ -50,7 +52,7 @@ def test_stamps_and_motion_follow_the_clock_also_when_it_jumps(start_top):
     # to the first /clock, back, and forward
     run.spin_until(lambda: [each.status[0].name for each in events].count("top: clock") >= 3)
     segments = [segment_of(message) for message in events]
-    assert max(segment.elapsed for segment in segments) < 1.0  # no catching up with the jumps
+    assert max(segment.elapsed for segment in segments) < 10**9  # ns: no catching up with the jumps
     for message in messages:
         stamp, q = stamp_of(message), message.quaternion
         states = [each.state_at(stamp) for each in segments if each.stamp <= stamp]
@@ -63,16 +65,18 @@ def test_while_the_clock_stands_still_so_does_the_top(start_top):
     clock = SimulatedClock(run)
     clock.run_from(50_000 * MS, 5)
     run.spin_until(lambda: messages and stamp_of(messages[-1]) == 50_040 * MS)
-    told = [run.trigger("get_state")[1] for _ in range(20)]  # real time goes by
-    assert len(set(told)) == 1
+    answers = [run.trigger("get_state")[1] for _ in range(20)]  # while real time passes
+    assert len(set(answers)) == 1
     assert stamp_of(messages[-1]) == 50_040 * MS
     clock.run_from(50_050 * MS, 3)
     run.spin_until(lambda: stamp_of(messages[-1]) == 50_070 * MS)
     assert {b - a for a, b in pairwise(map(stamp_of, messages))} == {10 * MS}
 
 
-def test_a_published_clock_and_simulation_time_contradict_each_other(start_top):
-    with pytest.raises(RefusedError, match="publish_clock: got true together with use_sim_time"):
+def test_a_published_clock_and_simulated_time_contradict_each_other(start_top):
+    with pytest.raises(
+        RefusedError, match=("publish_clock must be false together with use_sim_time")
+    ):
         start_top(use_sim_time=True, publish_clock=True)
 
 
@@ -125,10 +129,13 @@ def test_when_the_clock_stops_for_good_requests_are_answered_and_the_log_ends(st
     assert run.switch("record", True)[0]
 
 
-def test_simulation_time_switched_on_and_off_while_recording_leaves_the_log_exact(
+@pytest.mark.realtime
+def test_simulated_time_switched_on_and_off_while_recording_leaves_the_log_exact(
     start_top, tmp_path
 ):
-    run = start_top(publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(
+        realtime=True, publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path)
+    )
     messages = run.collect(QuaternionStamped, "/top/orientation")
     clock = None
     for begin in (50_000, 20_000, 70_000):
@@ -146,3 +153,15 @@ def test_simulation_time_switched_on_and_off_while_recording_leaves_the_log_exac
         assert run.trigger("reset")[0]
         assert abs(stamp_of(messages[-1]) - time.time_ns()) < 5_000 * MS
     exact_log_of(run)
+
+
+def test_simulated_time_without_a_clock_is_warned_of_once(start_top, monkeypatch, capfd):
+    monkeypatch.setattr(top_node, "CLOCK_WAIT", 0.05)
+    run = start_top(realtime=True, use_sim_time=True)
+    for _ in range(8):
+        run.executor.spin_once(timeout_sec=0.05)
+    assert run.top._clock_is_missing
+    run.set_clock(10**9)
+    run.spin_until(lambda: not run.top._clock_is_missing)
+    warning = "use_sim_time is true, but no /clock was received for 0.05 s: no samples"
+    assert capfd.readouterr().err.count(warning) == 1

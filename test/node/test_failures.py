@@ -1,4 +1,4 @@
-"""Mistakes of our own in every callback: the motion goes on and it is told, or the node ends."""
+"""Unexpected exceptions in every callback: reported, and the motion keeps running or ends."""
 
 import subprocess
 import sys
@@ -6,20 +6,21 @@ from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from domains import claim_domain
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.running_top import LATCHED
 from programs import environment
 
-from symtop_ros.node.course import Course
 from symtop_ros.node.outputs import Output
+from symtop_ros.simulation.simulation import Simulation
 
-DOMAIN = 97
-MISTAKE = "ZeroDivisionError: by a mistake"
+DOMAIN = claim_domain()
+BUG = "ZeroDivisionError: by a bug"
 
 
-def mistake(*_):
-    raise ZeroDivisionError("by a\nmistake")
+def fail(*_):
+    raise ZeroDivisionError("by a\nbug")
 
 
 @pytest.fixture
@@ -29,7 +30,7 @@ def run(start_top, tmp_path):
 
 @pytest.fixture
 def failures(run):
-    """The events that tell of mistakes."""
+    """The events that report exceptions."""
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     run.spin_until(lambda: events)
     return lambda: [
@@ -37,8 +38,8 @@ def failures(run):
     ]
 
 
-def assert_goes_on(run):
-    """Samples come, requests are answered, and the log is what its events say."""
+def assert_keeps_running(run):
+    """Samples are published, requests are answered, and the log agrees with its events."""
     samples = run.collect(QuaternionStamped, "/top/orientation")
     run.spin_until(lambda: len(samples) > 20)
     assert run.trigger("hurry_precession")[0]
@@ -51,124 +52,128 @@ def assert_goes_on(run):
 
 def push(run):
     publisher = run.user.create_publisher(WrenchStamped, "/top/applied_torque", 10)
+    # the subscription is best effort: a message before both sides are matched would be lost
     run.spin_until(lambda: publisher.get_subscription_count() > 0)
+    run.spin_until(lambda: run.top.count_publishers("/top/applied_torque") > 0)
     message = WrenchStamped()
     message.wrench.torque.z = 1e-4
     publisher.publish(message)
 
 
-def test_one_in_a_torque_is_told_and_the_motion_goes_on(run, failures, monkeypatch):
-    monkeypatch.setattr(Course, "hold_torque", mistake)
+def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
+    run, failures, monkeypatch
+):
+    monkeypatch.setattr(Simulation, "hold_torque", fail)
     push(run)
     run.spin_until(failures)
-    assert failures() == [f"~/applied_torque failed: {MISTAKE}"]
+    assert failures() == [f"~/applied_torque failed: {BUG}"]
     monkeypatch.undo()
     push(run)
-    run.spin_until(lambda: run.top.course.segment.path.driven)
-    assert_goes_on(run)
+    run.spin_until(lambda: run.top.simulation.segment.motion.is_integrated)
+    assert_keeps_running(run)
 
 
-def test_one_after_a_torque_acts_already_leaves_the_log_exact(run, failures, monkeypatch):
-    def driven_then_mistaken(course, stamp, _verdict):
-        course.segment = course.segment.changed(stamp, torque=(0.0, 0.0, 1e-4))
-        mistake()
+def test_one_after_a_torque_was_applied_leaves_the_log_exact(run, failures, monkeypatch):
+    def apply_then_fail(simulation, stamp, _verdict):
+        simulation.segment = simulation.segment.change(stamp, torque=(0.0, 0.0, 1e-4))
+        fail()
 
-    monkeypatch.setattr(Course, "_drive", driven_then_mistaken)
+    monkeypatch.setattr(Simulation, "_apply_torque", apply_then_fail)
     push(run)
     run.spin_until(failures)
     monkeypatch.undo()
-    assert_goes_on(run)
+    assert_keeps_running(run)
 
 
-def test_one_that_comes_every_second_in_the_diagnostics_is_told_once(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.node.top_node.diagnostics", mistake)
+def test_one_in_each_of_the_diagnostics_is_reported_once(run, failures, monkeypatch):
+    monkeypatch.setattr("symtop_ros.node.top_node.collect_statuses", fail)
     run.spin_until(failures)
     for _ in range(3):
         run.top._diagnose()
     heard = run.collect(DiagnosticArray, "/diagnostics")
     monkeypatch.undo()
     run.spin_until(lambda: heard)
-    assert failures() == [f"/diagnostics failed: {MISTAKE}"]
-    assert_goes_on(run)
+    assert failures() == [f"/diagnostics failed: {BUG}"]
+    assert_keeps_running(run)
 
 
 def test_one_in_the_check_of_parameters_refuses_them(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.node.top_node.checked", mistake)
-    told = f"a check of parameters failed: {MISTAKE}"
+    monkeypatch.setattr("symtop_ros.node.top_node.Settings.from_values", fail)
+    report = f"a check of parameters failed: {BUG}"
     values = {"hurry_factor": 1.2}
-    assert run.connection.set("set_parameters_atomically", values) == (False, told)
+    assert run.connection.set("set_parameters_atomically", values) == (False, report)
     run.spin_until(failures)
     monkeypatch.undo()
-    assert failures() == [told]
+    assert failures() == [report]
     assert run.connection.set("set_parameters_atomically", values)[0]
-    assert_goes_on(run)
+    assert_keeps_running(run)
 
 
-def test_one_in_the_change_of_parameters_is_told_and_the_motion_goes_on(run, failures, monkeypatch):
-    monkeypatch.setattr(Course, "_describe", mistake)
+def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
+    run, failures, monkeypatch
+):
+    monkeypatch.setattr(Simulation, "_send_description", fail)
     run.connection.set("set_parameters_atomically", {"top.Mgl": 0.05})
     run.spin_until(failures)
     monkeypatch.undo()
-    assert failures() == [f"a change of parameters failed: {MISTAKE}"]
-    assert_goes_on(run)
+    assert failures() == [f"a change of parameters failed: {BUG}"]
+    assert_keeps_running(run)
 
 
-def test_one_in_a_request_that_was_half_done_leaves_the_log_exact(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.node.requests.kick_verdict", mistake)
+def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
+    monkeypatch.setattr("symtop_ros.simulation.requests.kick_verdict", fail)
     for _ in range(2):
-        assert run.trigger("hurry_precession") == (False, f"~/hurry_precession failed: {MISTAKE}")
+        assert run.trigger("hurry_precession") == (False, f"~/hurry_precession failed: {BUG}")
     run.spin_until(lambda: len(failures()) == 2)
     monkeypatch.undo()
-    assert_goes_on(run)
+    assert_keeps_running(run)
 
 
 def test_the_log_has_the_sample_complete_in_which_ros_ends(run, tmp_path, monkeypatch):
     heard = run.collect(QuaternionStamped, "/top/orientation")
     run.spin_until(lambda: len(heard) > 10)
-    first = run.top._outputs._samples["orientation"].output
+    first = run.top._outputs._samples["orientation"][0]
     send = Output.send
 
-    def ended(output, stamp, data):
+    def send_and_end(output, stamp, data):
         send(output, stamp, data)
         if output is first and run.context.ok():
             run.context.handle.shutdown()
 
-    monkeypatch.setattr(Output, "send", ended)
+    monkeypatch.setattr(Output, "send", send_and_end)
     while run.context.ok():
-        pass
+        run.set_clock(run.now + 2_000_000)
     run.top.close()
     (path,) = tmp_path.iterdir()
     assert_exact(path)
 
 
-# as processes, in which a mistake is made from outside
+# As processes, in which a patched method raises
 
 FAILING = """
 import sys
-from symtop_ros.node.{module} import {name}
+from symtop_ros.{module} import {name}
 from symtop_ros.programs import top_node
 calls = []
 original = {name}.{method}
-def mistaken(*arguments):
+def failing(*arguments):
     calls.append(1)
     if len(calls) > 300:
-        raise ZeroDivisionError("by a\\nmistake")
+        raise ZeroDivisionError("by a\\nbug")
     return original(*arguments)
-{name}.{method} = mistaken
+{name}.{method} = failing
 sys.exit(top_node())
 """
 
 
 @pytest.mark.parametrize(
-    ("module", "name", "method", "told"),
+    ("module", "name", "method"),
     [
-        ("outputs", "Outputs", "send_sample", f"a tick failed: {MISTAKE}"),
-        ("course", "Course", "advance", f"a tick failed: {MISTAKE}"),
+        ("node.outputs", "Outputs", "send_sample"),
+        ("simulation.simulation", "Simulation", "_publish"),
     ],
 )
-def test_one_in_a_tick_ends_the_node_with_a_line_and_a_whole_log(
-    module, name, method, told, tmp_path
-):
+def test_one_in_a_tick_ends_the_node_with_a_line_and_a_complete_log(module, name, method, tmp_path):
     program = FAILING.format(module=module, name=name, method=method)
     words = ("publish_rate:=500", "record.enabled:=true", f"record.directory:={tmp_path}")
     options = [word for parameter in words for word in ("-p", parameter)]
@@ -182,6 +187,6 @@ def test_one_in_a_tick_ends_the_node_with_a_line_and_a_whole_log(
     )
     assert result.returncode == 1
     (line,) = result.stderr.splitlines()
-    assert line.endswith(told)
+    assert line.endswith(f"a tick failed: {BUG}")
     (path,) = tmp_path.iterdir()
     assert assert_exact(path) > 100

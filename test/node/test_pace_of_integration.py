@@ -1,4 +1,4 @@
-"""What the engine cannot do in time is told, and everything else goes on."""
+"""A motion that is too fast to be integrated in real time is slowed down and reported."""
 
 import json
 import os
@@ -7,13 +7,20 @@ import signal
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from domains import claim_domain
 from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
-from node.running_top import LATCHED, facts, stamp_of
-from node.test_torque import assert_recomputed, named
+from node.running_top import (
+    LATCHED,
+    assert_recomputed,
+    events_named,
+    facts,
+    stamp_of,
+    status_of,
+)
 from programs import running_node
 
-pytestmark = pytest.mark.untraced
+pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 # a nutation of 5e6 rad/s a hundred times as fast: ten million steps for each second
 HOPELESS = {
     "top__Ix": 1e-4,
@@ -22,32 +29,35 @@ HOPELESS = {
     "friction__transverse": 1e-6,
     "real_time_factor": 100.0,
 }
+DOMAIN = claim_domain()
 SET = "set_parameters_atomically"
 MS = 1_000_000
 
 
-def test_a_motion_too_fast_for_the_engine_is_slowed_down_and_told(start_top, capfd):
-    run = start_top(publish_rate=200.0, **HOPELESS)
+def test_a_motion_too_fast_for_the_budget_is_slowed_down_and_reported(start_top, capfd):
+    run = start_top(realtime=True, publish_rate=200.0, **HOPELESS)
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     orientations = run.collect(QuaternionStamped, "/top/orientation")
     diagnostics = run.collect(DiagnosticArray, "/diagnostics")
-    run.spin_until(lambda: named(events, "pace") and len(orientations) > 60 and diagnostics)
-    assert "the engine cannot keep up: real-time factor 100 ->" in capfd.readouterr().err
-    pace = {pair.key: pair.value for pair in diagnostics[-1].status[1].values}
+    run.spin_until(lambda: events_named(events, "pace") and len(orientations) > 60 and diagnostics)
+    assert (
+        "the motion is too fast for the compute budget: real-time factor 100 ->"
+    ) in capfd.readouterr().err
+    pace = facts(diagnostics[-1], "top: pace")
     assert float(pace["real_time_factor"]) == 100.0
     assert 0 < float(pace["real_time_factor.achieved"]) < 1.0
-    assert "the engine keeps up with" in diagnostics[-1].status[1].message
+    assert "too fast for the compute budget" in status_of(diagnostics[-1], "top: pace").message
     # until the first slow-down samples were missed; since then all of them are there
-    begin = stamp_of(named(events, "pace")[0])
+    begin = stamp_of(events_named(events, "pace")[0])
     stamps = [stamp_of(each) for each in orientations if stamp_of(each) >= begin]
     assert set(np.diff(stamps)) == {5 * MS}
     assert_recomputed(events, orientations)
 
 
-def test_when_the_friction_ends_the_motion_is_as_fast_as_was_asked_again(start_top):
-    run = start_top(**HOPELESS)
+def test_without_friction_the_motion_returns_to_the_real_time_factor_of_the_settings(start_top):
+    run = start_top(realtime=True, **HOPELESS)
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    run.spin_until(lambda: named(events, "pace"))
+    run.spin_until(lambda: events_named(events, "pace"))
     assert run.set(SET, **{"friction.transverse": 0.0})[0]
     run.spin_until(
         lambda: (
@@ -58,8 +68,8 @@ def test_when_the_friction_ends_the_motion_is_as_fast_as_was_asked_again(start_t
     assert json.loads(run.trigger("get_state")[1])["engine"] == "closed form"
 
 
-def test_a_stopped_process_goes_on_where_the_clock_is_and_says_so():
-    with running_node(99, "publish_rate:=200") as node, Listener(99) as listener:
+def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
+    with running_node(DOMAIN, "publish_rate:=200") as node, Listener(DOMAIN) as listener:
         orientations = listener.collect(QuaternionStamped, "/top/orientation")
         diagnostics = listener.collect(DiagnosticArray, "/diagnostics")
         events = listener.collect(DiagnosticArray, "/top/events", LATCHED)
@@ -69,13 +79,13 @@ def test_a_stopped_process_goes_on_where_the_clock_is_and_says_so():
         os.kill(node.pid, signal.SIGCONT)
         seen = len(orientations)
         listener.spin_until(lambda: len(orientations) > seen + 40)
-        told = len(diagnostics)
-        listener.spin_until(lambda: len(diagnostics) > told)
+        reported = len(diagnostics)
+        listener.spin_until(lambda: len(diagnostics) > reported)
     gaps = np.diff([stamp_of(each) for each in orientations])
     assert 500 * MS < gaps.max() < 1500 * MS
     assert not (gaps % (5 * MS)).any()
-    pace = {pair.key: pair.value for pair in diagnostics[-1].status[1].values}
+    pace = facts(diagnostics[-1], "top: pace")
     assert int(pace["missed"]) == gaps.max() // (5 * MS) - 1
-    assert "ticks missed" in diagnostics[-1].status[1].message
+    assert "ticks missed" in status_of(diagnostics[-1], "top: pace").message
     assert len(events) == 1
     assert_recomputed(events, orientations)

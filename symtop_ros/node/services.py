@@ -1,0 +1,119 @@
+"""Translation between ROS services and the requests of a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.parameter import parameter_value_to_python
+from std_srvs.srv import SetBool, Trigger
+
+from symtop_ros.log.recording import Recording
+from symtop_ros.simulation.requests import Requests
+from symtop_ros.simulation.validation import RefusedError, refuse, show
+
+VALUE_FIELDS = (
+    *("bool_value", "integer_value", "double_value", "string_value"),
+    *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
+)
+Act = Callable[[Any], str]  # from the ROS request to the answer
+Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
+
+
+def service_table(requests: Requests, recording: Recording) -> dict[str, tuple[type, Act]]:
+    """Return type and action of each service by its name."""
+
+    def named(act: Callable[[dict[str, Any]], str]) -> tuple[type, Act]:
+        return SetParametersAtomically, lambda request: act(read_values(request.parameters))
+
+    def switch(act: Callable[[bool], str]) -> tuple[type, Act]:
+        return SetBool, lambda request: act(bool(request.data))
+
+    def plain(act: Callable[[], str]) -> tuple[type, Act]:
+        return Trigger, lambda _: act()
+
+    return {
+        "set_initial_conditions": named(requests.set_initial_conditions),
+        "kick": named(requests.kick),
+        "step": named(requests.step),
+        "hurry_precession": plain(requests.hurry_precession),
+        "reset": plain(requests.reset),
+        "pause": switch(requests.pause),
+        "record": switch(recording.switch),
+        "get_state": plain(requests.get_state),
+    }
+
+
+def fill_response(response: Any, granted: bool, answer: str) -> Any:
+    """Write success and answer into the response of any of the service types."""
+    if isinstance(response, SetParametersAtomically.Response):
+        response.result = SetParametersResult(successful=granted, reason=answer)
+    else:
+        response.success, response.message = granted, answer
+    return response
+
+
+def read_values(parameters: Iterable[ParameterMessage]) -> dict[str, Any]:
+    """Return the values of a request by name.
+
+    Raises
+    ------
+    RefusedError
+        If a name is repeated, a value is missing, or a type is unknown.
+    """
+    parameters = tuple(parameters)
+    refuse_unknown_types(parameters)
+    values: dict[str, Any] = {}
+    for parameter in parameters:
+        name, value = parameter.name, _read_value(parameter.value)
+        if name in values:
+            msg = f"{show(name)} must be given once, got it more than once"
+            raise RefusedError(msg)
+        if value is None:
+            raise refuse(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
+        values[name] = value
+    return values
+
+
+def _read_value(message: ParameterValue) -> Any:
+    """Return the value of a message; without a type, the one field that is set.
+
+    `ros2 service call ... {name: theta, value: {double_value: 0.5}}` sends no type.
+    """
+    if message.type != ParameterType.PARAMETER_NOT_SET:
+        return parameter_value_to_python(message)
+    given = [value for name in VALUE_FIELDS if (value := getattr(message, name))]
+    return given[0] if len(given) == 1 else None
+
+
+def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:
+    """Refuse values of a parameter type that ROS does not have."""
+    last = ParameterType.PARAMETER_STRING_ARRAY
+    for parameter in parameters:
+        if parameter.value.type > last:
+            raise refuse(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)
+
+
+def guard_types(service: Any, handler: Handler) -> Handler:
+    """Return a handler that answers unknown parameter types with a refusal.
+
+    rclpy's own handlers of the parameter services raise an exception for them, which would end the
+    node.
+    """
+    if service not in (SetParameters, SetParametersAtomically):
+        return handler
+
+    def answer(request: Any, response: Any) -> Any:
+        try:
+            refuse_unknown_types(request.parameters)
+        except RefusedError as refusal:
+            result = SetParametersResult(successful=False, reason=str(refusal))
+            if service is SetParameters:
+                return SetParameters.Response(results=[result] * len(request.parameters))
+            return SetParametersAtomically.Response(result=result)
+        return handler(request, response)
+
+    return answer

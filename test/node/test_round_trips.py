@@ -1,0 +1,114 @@
+"""Values that come back in the form in which ROS tools write them."""
+
+import pytest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from node.running_top import LATCHED, events_named, facts
+from rcl_interfaces.msg import Parameter, ParameterValue
+from rcl_interfaces.srv import SetParametersAtomically
+
+SET = "set_parameters_atomically"
+
+
+def test_a_node_starts_from_its_dumped_parameters(start_top, tmp_path):
+    """As `ros2 param dump` writes them; ros2cli is not on PyPI."""
+    first = start_top(scene="vertical_torque", hurry_factor=1.2)
+    parameters = {}
+    for name, parameter in first.top.get_parameters_by_prefix("").items():
+        value = parameter.value
+        parameters[name] = value if isinstance(value, str | bool | float | int) else list(value)
+    assert parameters["initial.orientation"] == []
+    path = tmp_path / "top.yaml"
+    path.write_text(yaml.safe_dump({"/top": {"ros__parameters": parameters}}))
+    again = start_top(arguments=["--ros-args", "--params-file", str(path)])
+    assert again.top.simulation.settings == first.top.simulation.settings
+
+
+def test_an_empty_list_in_a_parameter_file_is_not_set(start_top, tmp_path):
+    path = tmp_path / "top.yaml"
+    path.write_text(
+        "/**:\n  ros__parameters:\n    steady_torque: []\n    initial: {orientation: []}\n"
+    )
+    run = start_top(arguments=["--ros-args", "--params-file", str(path)])
+    assert run.top.simulation.settings.steady_torque == (0.0, 0.0, 0.0)
+
+
+def test_unknown_parameters_of_other_nodes_are_warned_about(start_top, tmp_path, capfd):
+    path = tmp_path / "all.yaml"
+    path.write_text("/**:\n  ros__parameters:\n    camera: {exposure: 3.0}\n")
+    start_top(arguments=["--ros-args", "--params-file", str(path)])
+    assert "parameter 'camera.exposure' is unknown and not used" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("value", "granted"),
+    [
+        (ParameterValue(double_value=9.0), True),
+        (ParameterValue(integer_value=9), True),
+        (ParameterValue(type=4, string_value="9e0"), True),
+        (ParameterValue(type=2, integer_value=9), True),
+        (ParameterValue(), False),
+        (ParameterValue(double_value=9.0, integer_value=9), False),
+    ],
+)
+def test_a_value_without_a_type_is_the_one_field_that_is_set(start_top, value, granted):
+    run = start_top()
+    request = SetParametersAtomically.Request(
+        parameters=[Parameter(name="precession_rate", value=value)]
+    )
+    result = run.connection._call(SetParametersAtomically, "kick", request).result
+    assert result.successful is granted
+    if granted:
+        rate = run.top.simulation.segment.motion.start.euler_rates.phi
+        assert rate == pytest.approx(9.0, rel=1e-13)  # rounding of psi' = 200 rad/s
+    else:
+        expected = "type of 'precession_rate' must be 1 to 9 (3 for a double), got 0"
+        assert result.reason == expected
+
+
+def test_a_reset_starts_from_initial_conditions_that_were_set_later(start_top):
+    run = start_top()
+    assert run.connection.set(SET, {"initial.theta": 0.8})[0]
+    assert run.trigger("reset")[0]
+    angles = run.top.simulation.segment.motion.start.euler_angles
+    assert angles.theta == pytest.approx(0.8, abs=4e-16)
+    half = 0.5**0.5
+    assert run.connection.set(SET, {"initial.orientation": [half, 0.0, 0.0, half]})[0]
+    assert run.trigger("reset")[0]
+    start = run.top.simulation.segment.motion.start
+    assert start.angular_velocity.tolist() == [0.0, 0.0, 0.0]
+
+
+def test_initial_conditions_without_a_regular_root_are_refused(start_top):
+    run = start_top(initial__psi_dot=3.0)
+    granted, reason = run.connection.set(SET, {"initial.precession": "slow"})
+    assert not granted
+    assert "regular precession has no real root" in reason
+
+
+def test_the_answers_of_a_recording_name_an_absolute_path(start_top, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run = start_top()
+    granted, answer = run.switch("record", True)
+    assert granted
+    assert answer.startswith(f"recording to {tmp_path}/logs/top_")
+    assert run.switch("record", False)[1].startswith(f"recorded to {tmp_path}/logs/top_")
+
+
+def test_a_force_in_an_applied_torque_is_refused(start_top, capfd):
+    from geometry_msgs.msg import WrenchStamped
+
+    run = start_top()
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    publisher = run.user.create_publisher(WrenchStamped, "/top/applied_torque", 10)
+    run.spin_until(lambda: publisher.get_subscription_count() > 0)
+    run.spin_until(lambda: run.top.count_publishers("/top/applied_torque") > 0)
+    wrong, right = WrenchStamped(), WrenchStamped()
+    wrong.wrench.force.x, wrong.wrench.torque.z = 1.0, 1e-4
+    right.wrench.torque.z = 2e-4
+    publisher.publish(wrong)
+    publisher.publish(right)
+    run.spin_until(lambda: events_named(events, "torque"))
+    assert facts(events_named(events, "torque")[0])["applied_torque"] == "0.0 0.0 0.0002"
+    error = capfd.readouterr().err
+    assert "applied_torque force must be 0 (only the torque acts), got (1.0, 0.0, 0.0)" in error
