@@ -1,1 +1,1 @@
-"""top_ctl and the demonstration: clients of a running node."""
+"""Client of a running node: `top_ctl` and the connection that other programs use."""

@@ -1,35 +1,42 @@
-"""Words of the command line, name=value, as values for a request."""
+"""Values for a request from words of the command line, name=value."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any
 
-from symtop_ros.wire.text import one_line
+from symtop_ros.simulation.validation import one_line
 
-SHOWN = 60  # characters of a word
+MAX_SHOWN = 60  # characters of a word in a message
 
 
 class UsageError(ValueError):
-    """Words that cannot be read."""
+    """A word of the command line that is not valid."""
 
 
-def named_values(words: Iterable[str]) -> dict[str, Any]:
-    """Read `name=value` words: numbers as doubles, a,b,c or [a, b, c] as lists, else text.
+def parse_values(words: Iterable[str]) -> dict[str, Any]:
+    """Parse words name=value: numbers become doubles, `a,b,c` and `[a, b, c]` lists, others text.
 
     Raises
     ------
     UsageError
-        For a word without `=`, or a name given twice.
+        If a word has no `=`, or a name is repeated.
+
+    Examples
+    --------
+    >>> parse_values(["precession_rate=9", "hold=spin_momentum"])
+    {'precession_rate': 9.0, 'hold': 'spin_momentum'}
+    >>> parse_values(["angular_impulse=0,0,1e-4"])
+    {'angular_impulse': [0.0, 0.0, 0.0001]}
     """
     values: dict[str, Any] = {}
     for word in words:
         name, equals, text = word.partition("=")
         if not equals or not name:
-            msg = f"{one_line(repr(word), SHOWN)}: allowed is name=value, such as precession_rate=9"
+            msg = f"argument must be NAME=VALUE, got {one_line(repr(word), MAX_SHOWN)}"
             raise UsageError(msg)
         if name in values:
-            msg = f"{one_line(name, SHOWN)}: got it more than once, allowed is once"
+            msg = f"{one_line(name, MAX_SHOWN)} must be given once, got it more than once"
             raise UsageError(msg)
         values[name] = _value(text)
     return values

@@ -1,4 +1,4 @@
-"""A client of a running top: calls its services and follows its topics, with time-outs."""
+"""A connection to a running top: service calls and subscriptions, with time-outs."""
 
 from __future__ import annotations
 
@@ -14,63 +14,69 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
+POLL = 0.01  # s; an executor does not notice that a service was found
+
 
 class UnreachableError(Exception):
-    """The node did not show up, or did not answer, in time."""
+    """The node was not found or did not answer in time."""
 
 
 class Connection:
-    """Calls to one top.
+    """Connection to one top.
 
     Parameters
     ----------
     node : Node
-        A node of the caller's own, spun here while waiting.
+        Node of the caller; it is spun while a method waits.
     name : str
-        Full name of the top's node, such as /top.
+        Full name of the top, such as "/top".
     timeout : float
-        How long to wait for the top to show up and to answer, s.
+        Seconds to wait until the top is found, and for each answer.
     """
 
     def __init__(self, node: Node, name: str = "/top", timeout: float = 5.0) -> None:
         self.node = node
         self.name = "/" + name.strip("/")
         self._timeout = timeout
-        self._clients: dict[str, Client[Any, Any]] = {}
+        self._clients: dict[str, Client] = {}
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
 
     def set(self, service: str, values: Mapping[str, Any]) -> tuple[bool, str]:
         """Call a service that takes named values; return success and the answer."""
-        request = SetParametersAtomically.Request(parameters=_messages(values))
+        request = SetParametersAtomically.Request(parameters=_parameter_messages(values))
         result = self._call(SetParametersAtomically, service, request).result
         return result.successful, result.reason
 
     def trigger(self, service: str) -> tuple[bool, str]:
-        """Call a service that takes nothing."""
+        """Call a service without arguments; return success and the answer."""
         answer = self._call(Trigger, service, Trigger.Request())
         return answer.success, answer.message
 
     def switch(self, service: str, on: bool) -> tuple[bool, str]:
-        """Call a service that takes on or off."""
+        """Call a service that switches on or off; return success and the answer."""
         answer = self._call(SetBool, service, SetBool.Request(data=on))
         return answer.success, answer.message
 
-    def follow(self, kind: Any, topic: str, callback: Callable[[Any], None]) -> None:
-        """Call back for every message of one of the top's topics, while spinning."""
+    def subscribe(self, kind: Any, topic: str, callback: Callable[[Any], None]) -> None:
+        """Call `callback` for each message on a topic of the top, given by its short name."""
         self.node.create_subscription(kind, f"{self.name}/{topic}", callback, 100)
 
     def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
-        """Spin until a condition holds; return whether it does."""
+        """Spin until a condition holds; return False after `timeout` seconds."""
         deadline = time.monotonic() + timeout
         while not done() and time.monotonic() < deadline:
-            self._executor.spin_once(timeout_sec=min(0.1, max(0.0, deadline - time.monotonic())))
+            self._executor.spin_once(timeout_sec=min(POLL, max(0.0, deadline - time.monotonic())))
         return done()
 
-    def _call(self, kind: Any, service: str, request: Any) -> Any:
+    def prepare(self, kind: Any, service: str) -> Client:
+        """Return the client of a service; created early, it has found the top at the first call."""
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, f"{self.name}/{service}")
-        client = self._clients[service]
+        return self._clients[service]
+
+    def _call(self, kind: Any, service: str, request: Any) -> Any:
+        client = self.prepare(kind, service)
         if not self.spin_until(client.service_is_ready, self._timeout):
             msg = (
                 f"no answer from {self.name} within {self._timeout:g} s: "
@@ -85,5 +91,5 @@ class Connection:
         return future.result()
 
 
-def _messages(values: Mapping[str, Any]) -> list[ParameterMessage]:
+def _parameter_messages(values: Mapping[str, Any]) -> list[ParameterMessage]:
     return [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]

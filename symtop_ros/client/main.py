@@ -1,4 +1,4 @@
-"""Entry point of `top_ctl`: the services of a running top, from the command line."""
+"""Entry point of `top_ctl`: call the services of a running top from the command line."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 
-from symtop_ros.client.arguments import UsageError, named_values
+from symtop_ros.client.arguments import UsageError, parse_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.watch import watch
-from symtop_ros.ending import ros
-from symtop_ros.wire.text import one_line
+from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.simulation.validation import one_line
 
 Answer = tuple[bool, str]
 NAMED = {
@@ -26,31 +26,38 @@ NAMED = {
     "step": ("step", "while paused: duration=0.01"),
 }
 PLAIN: dict[str, tuple[str, Callable[[Connection], Answer]]] = {
-    "hurry": ("kick by the parameter hurry_factor", lambda top: top.trigger("hurry_precession")),
+    "hurry": (
+        "multiply the precession rate by the parameter hurry_factor",
+        lambda top: top.trigger("hurry_precession"),
+    ),
     "reset": ("back to the last initial conditions", lambda top: top.trigger("reset")),
     "pause": ("stop the motion", lambda top: top.switch("pause", True)),
-    "resume": ("go on from where it stopped", lambda top: top.switch("pause", False)),
+    "resume": ("continue the motion from where it stopped", lambda top: top.switch("pause", False)),
 }
+UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
 
 
 def main(args: list[str] | None = None) -> int:
-    """Run one command; return 0 (granted), 1 (refused, unreachable, ended) or 2 (usage)."""
+    """Run one command; return 0 (granted), 1 (refused, no answer) or 2 (usage)."""
     arguments = sys.argv if args is None else ["top_ctl", *args]
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
-        values = named_values(getattr(options, "values", ()))
-        with ros(arguments) as listen:
+        values = parse_values(getattr(options, "values", ()))
+        with ros_context(arguments) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
             top = Connection(node, options.node, options.timeout)
             listen()
             granted, text = _run(options, values, top)
     except ExternalShutdownException:
-        granted, text = options.command == "watch", "ended before the answer came"
+        granted = options.command in UNTIL_INTERRUPTED
+        text = "" if granted else "interrupted before the answer arrived"
     except UsageError as error:
         print(f"top_ctl: {error}", file=sys.stderr)
         return 2
+    except BrokenPipeError:
+        raise
     except Exception as error:
-        granted, text = False, str(error) or type(error).__name__
+        granted, text = False, describe_failure(error)
     if granted:
         print(text, end="\n" if text else "")
     elif text:
@@ -60,7 +67,8 @@ def main(args: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="top_ctl", description="Talk to a running top_node; exit status 1 where it refuses."
+        prog="top_ctl",
+        description="Call the services of a running top_node; exit status 1 if it refuses.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
     parser.add_argument("--timeout", type=_seconds, default=5.0, help="seconds to wait (default 5)")
@@ -70,13 +78,14 @@ def _parser() -> argparse.ArgumentParser:
         named.add_argument("values", nargs="*", metavar="NAME=VALUE", help=text)
     for name, (text, _call) in PLAIN.items():
         commands.add_parser(name, help=text)
-    commands.add_parser("record", help="start or end a log").add_argument(
+    commands.add_parser("record", help="start or stop a log").add_argument(
         "switch", choices=("on", "off")
     )
     commands.add_parser("state", help="full state, constants and verdict").add_argument(
-        "--json", action="store_true", help="as it comes, in one line"
+        "--json", action="store_true", help="as JSON in one line"
     )
-    commands.add_parser("watch", help="live line of the motion").add_argument(
+    commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
+    commands.add_parser("watch", help="show the motion in a line that is updated").add_argument(
         "--seconds", type=_seconds, default=math.inf, help="how long (default: until Ctrl-C)"
     )
     return parser
@@ -99,7 +108,12 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
     if options.command == "state":
         granted, text = top.trigger("get_state")
         return granted, text if options.json or not granted else _readable(json.loads(text))
-    watch(top, options.seconds, options.timeout)
+    if options.command == "keys":
+        from symtop_ros.client.keys import follow_keys
+
+        follow_keys(top)
+    else:
+        watch(top, options.seconds, options.timeout)
     return True, ""
 
 
@@ -112,5 +126,5 @@ def _plain(value: Any) -> str:
     if isinstance(value, dict):
         return ", ".join(f"{name} {_plain(part)}" for name, part in value.items())
     if isinstance(value, list):
-        return " ".join(map(_plain, value)) or "none"
+        return " ".join(map(_plain, value)) or "-"
     return f"{value:.6g}" if isinstance(value, float) else str(value)

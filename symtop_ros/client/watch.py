@@ -11,26 +11,26 @@ from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
 
-INTERVAL = 0.1  # s between two states of the line
+UPDATE_PERIOD = 0.1  # s
 
 
 def watch(connection: Connection, seconds: float, timeout: float) -> None:
-    """Show tilt, precession and spin as they change, in one line of a terminal.
+    """Show tilt, precession and spin in one line of a terminal, updated 10 times a second.
 
     Parameters
     ----------
     connection : Connection
     seconds : float
-        How long from the first sample on; infinite until interrupted.
+        Duration from the first sample on; infinite: until interrupted.
     timeout : float
-        How long to wait for a sample, s.
+        Seconds to wait for a sample.
     """
     latest: list[Any] = []
 
     def take(message: JointState) -> None:
         latest[:] = [message]
 
-    connection.follow(JointState, "euler_angles", take)
+    connection.subscribe(JointState, "euler_angles", take)
     end = math.inf
     try:
         while time.monotonic() < end:
@@ -40,7 +40,7 @@ def watch(connection: Connection, seconds: float, timeout: float) -> None:
                 raise UnreachableError(msg)
             end = min(end, time.monotonic() + seconds)
             _show(latest[0])
-            connection.spin_until(lambda: False, INTERVAL)
+            connection.spin_until(lambda: False, UPDATE_PERIOD)
     finally:
         if sys.stdout.isatty():
             print()

@@ -1,17 +1,18 @@
 import pytest
 import rclpy
+from domains import claim_domain
 from std_srvs.srv import Trigger
 
 from symtop_ros.client.connection import Connection, UnreachableError
 
-DOMAIN = 98
+DOMAIN = claim_domain()
 
 
-def test_a_service_that_does_not_answer_is_told_after_the_time_out():
+def test_a_service_that_does_not_answer_is_reported_after_the_time_out():
     context = rclpy.Context()
     rclpy.init(context=context, domain_id=DOMAIN)
     try:
-        silent = rclpy.create_node("silent", context=context)  # nobody spins it
+        silent = rclpy.create_node("silent", context=context)  # it is never spun
         silent.create_service(Trigger, "~/reset", lambda _, response: response)
         user = rclpy.create_node("user", context=context)
         with pytest.raises(UnreachableError, match=r"/silent/reset did not answer within 3 s"):

@@ -1,11 +1,18 @@
 """top_ctl as a user types it, against a real top_node in another process."""
 
 import json
+import os
+import subprocess
+import time
 
 import pytest
-from programs import run, running_node
+from domains import claim_domain
+from node.listener import Listener
+from programs import command, environment, run, running_node
 
-DOMAIN = 98
+from symtop_ros.programs import BROKEN_PIPE
+
+DOMAIN = claim_domain()
 
 
 def ctl(*arguments):
@@ -22,7 +29,7 @@ def test_hurry_prints_the_verdict():
     assert ctl("reset").returncode == 0
     result = ctl("hurry")
     assert result.returncode == 0
-    assert "precession 6.50 -> 9.10 rad/s (regular at 6.50 and 69.82)" in result.stdout
+    assert "Precession 6.50 -> 9.10 rad/s. The top rises" in result.stdout
     assert result.stderr == ""
 
 
@@ -40,7 +47,7 @@ def test_start_kick_and_state_work_together():
 def test_a_refusal_is_one_line_and_status_1():
     result = ctl("kick", "precession_rat=9")
     assert result.returncode == 1
-    assert result.stderr.startswith("top_ctl: field: got 'precession_rat', allowed is one of")
+    assert result.stderr.startswith("top_ctl: field name must be one of precession_rate,")
     assert result.stderr.count("\n") == 1
 
 
@@ -51,10 +58,10 @@ def test_wrong_usage_is_status_2(arguments):
     assert "Traceback" not in result.stderr
 
 
-def test_a_node_that_is_not_there_is_told_after_the_time_out():
-    result = ctl("--node", "/nobody", "--timeout", "1", "hurry")
+def test_a_missing_node_is_reported_after_the_time_out():
+    result = ctl("--node", "/missing", "--timeout", "1", "hurry")
     assert result.returncode == 1
-    assert "no answer from /nobody within 1 s: is top_node running" in result.stderr
+    assert "no answer from /missing within 1 s: is top_node running" in result.stderr
     assert result.stderr.count("\n") == 1
 
 
@@ -64,6 +71,36 @@ def test_watch_shows_the_motion():
     lines = result.stdout.splitlines()
     assert len(lines) >= 3
     assert all("theta" in line and "phi'" in line for line in lines)
+
+
+def test_the_others_know_at_once_that_it_is_gone():
+    """Else they would send to it until its lease ends, 20 s later."""
+    words = command("top_ctl", "watch", "--seconds", "1")
+    with (
+        Listener(DOMAIN) as listener,
+        subprocess.Popen(words, stdout=subprocess.DEVNULL, env=environment(DOMAIN)) as watching,
+    ):
+        listener.spin_until(lambda: "top_ctl" in listener.node.get_node_names())
+        assert watching.wait(timeout=20) == 0
+        ended = time.monotonic()
+        listener.spin_until(lambda: "top_ctl" not in listener.node.get_node_names())
+        assert time.monotonic() - ended < 10  # half of the lease
+
+
+@pytest.mark.parametrize(("verb", "unbuffered"), [("state", ""), ("state", "1"), ("watch", "")])
+def test_if_nobody_reads_the_output_it_ends_in_silence_as_by_sigpipe(verb, unbuffered):
+    words, settings = command("top_ctl", verb), environment(DOMAIN)
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "wb") as closed:
+        result = subprocess.run(
+            words,
+            stdout=closed,
+            stderr=subprocess.PIPE,
+            env={**settings, "PYTHONUNBUFFERED": unbuffered},
+            check=False,
+        )
+    assert (result.returncode, result.stderr) == (BROKEN_PIPE, b"")
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["kick", "--help"]])

@@ -11,7 +11,7 @@ SAMPLE = JointState(position=[0.1, 0.5, 0.2], velocity=[9.0, 0.0, 200.0])
 
 
 class Top:
-    """A connection that has so many samples, one at each look."""
+    """A connection that delivers some samples, one for each call."""
 
     name = "/top"
 
@@ -19,7 +19,7 @@ class Top:
         self._left = samples
         self._take = None
 
-    def follow(self, kind, topic, take):
+    def subscribe(self, kind, topic, take):
         assert (kind, topic) == (JointState, "euler_angles")
         self._take = take
 
@@ -32,14 +32,14 @@ class Top:
 
 def test_on_a_terminal_there_is_one_line_that_changes(monkeypatch, capsys):
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
-    monkeypatch.setattr(module, "INTERVAL", 0.0)
+    monkeypatch.setattr(module, "UPDATE_PERIOD", 0.0)
     watch(Top(samples=10**9), seconds=0.01, timeout=1.0)
-    told = capsys.readouterr().out
-    assert told.count("\n") == 1
-    assert told.startswith("theta 0.5000 rad [....|")
-    assert told.endswith("rad/s\r\n")
+    shown = capsys.readouterr().out
+    assert shown.count("\n") == 1
+    assert shown.startswith("theta 0.5000 rad [....|")
+    assert shown.endswith("rad/s\r\n")
 
 
-def test_samples_that_end_are_told():
+def test_missing_samples_are_reported():
     with pytest.raises(UnreachableError, match="no samples from /top within 1 s"):
         watch(Top(samples=4), seconds=60.0, timeout=1.0)

@@ -1,0 +1,131 @@
+"""The keys of `top_ctl keys`: each one is a request."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import select
+import sys
+import termios
+import tty
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import NamedTuple
+
+import rclpy
+
+from symtop_ros.client.connection import Connection
+
+Answer = tuple[bool, str]
+DELAY_FACTOR = 1 / 1.4  # of the precession rate; undoes a hurry with the default hurry_factor
+PUSH = 1.0  # rad/s by which an arrow changes a rate
+WAIT = 0.1  # s between two checks that ROS is running
+QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
+
+
+def follow_keys(top: Connection) -> None:
+    """Send a request for each key that is pressed, and print the answers, until q or Ctrl-C.
+
+    Raises
+    ------
+    ValueError
+        If the standard input is not a terminal.
+    """
+    if not sys.stdin.isatty():
+        msg = "standard input must be a terminal for keys, got a file or a pipe"
+        raise ValueError(msg)
+    with _single_keys(sys.stdin.fileno()) as descriptor:
+        print("\n".join(f"{key.name:<12}{key.effect}" for key in KEYS.values()))
+        print(f"{'q':<12}quit", flush=True)
+        for key in _pressed(descriptor):
+            if key in QUIT:
+                return
+            if key in KEYS:
+                granted, text = KEYS[key].act(top)
+                print(f"{KEYS[key].name}: {'' if granted else 'refused: '}{text}", flush=True)
+
+
+def _toggle_pause(top: Connection) -> Answer:
+    return top.switch("pause", json.loads(top.trigger("get_state")[1])["running"])
+
+
+def _push_along(change: float) -> Callable[[Connection], Answer]:
+    """Return a push on the axle that changes phi' (rad/s)."""
+    return _kick(precession_rate_change=change, hold="spin_momentum")
+
+
+def _push_tilt(change: float) -> Callable[[Connection], Answer]:
+    """Return a push on the axle that changes theta' (rad/s).
+
+    Its angular impulse is Ix times the change, about the line of nodes (cos phi, sin phi, 0).
+    """
+
+    def push(top: Connection) -> Answer:
+        state = json.loads(top.trigger("get_state")[1])
+        phi, size = state["euler_angles"]["phi"], state["top"]["Ix"] * change
+        return top.set(
+            "kick", {"angular_impulse": [size * math.cos(phi), size * math.sin(phi), 0.0]}
+        )
+
+    return push
+
+
+def _kick(**values: float | str) -> Callable[[Connection], Answer]:
+    return lambda top: top.set("kick", values)
+
+
+def _trigger(service: str) -> Callable[[Connection], Answer]:
+    return lambda top: top.trigger(service)
+
+
+class Key(NamedTuple):
+    """A key: its name, its effect in words, and the request that it sends."""
+
+    name: str
+    effect: str
+    act: Callable[[Connection], Answer]
+
+
+# By the bytes that a terminal sends.
+KEYS = {
+    "h": Key(
+        "h", "hurry: multiply phi' by the parameter hurry_factor", _trigger("hurry_precession")
+    ),
+    "d": Key("d", "delay: divide phi' by 1.4", _kick(precession_rate_factor=DELAY_FACTOR)),
+    " ": Key("space", "pause or resume", _toggle_pause),
+    "r": Key("r", "reset", _trigger("reset")),
+    "\x1b[A": Key("up", "push the axle up: theta' - 1 rad/s", _push_tilt(-PUSH)),
+    "\x1b[B": Key("down", "push the axle down: theta' + 1 rad/s", _push_tilt(PUSH)),
+    "\x1b[C": Key("right", "push the axle forward: phi' + 1 rad/s", _push_along(PUSH)),
+    "\x1b[D": Key("left", "push the axle back: phi' - 1 rad/s", _push_along(-PUSH)),
+}
+
+
+@contextmanager
+def _single_keys(descriptor: int) -> Iterator[int]:
+    """Deliver each key at once and without echo; signals of the terminal are kept."""
+    before = termios.tcgetattr(descriptor)
+    try:
+        tty.setcbreak(descriptor, termios.TCSADRAIN)  # keys that were pressed early are kept
+        yield descriptor
+    finally:
+        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
+
+
+def _pressed(descriptor: int) -> Iterator[str]:
+    """Yield keys until ROS shuts down or the terminal is closed."""
+    while rclpy.ok():
+        if select.select([descriptor], [], [], WAIT)[0]:
+            data = os.read(descriptor, 64).decode(errors="replace")
+            if not data:
+                return
+            yield from _split(data)
+
+
+def _split(data: str) -> Iterator[str]:
+    """Split what was read into keys; an arrow is an escape and two characters."""
+    while data:
+        length = 3 if data.startswith("\x1b[") else 1
+        yield data[:length]
+        data = data[length:]
