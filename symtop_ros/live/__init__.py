@@ -1,1 +1,1 @@
-"""A running node in Rerun: needs ROS 2 and Rerun in one environment."""
+"""A running node in Rerun. Needs ROS 2 and Rerun in one environment."""

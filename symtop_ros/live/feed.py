@@ -1,64 +1,71 @@
-"""The messages of a running top as they are on the wire, for playback to read."""
+"""Subscriptions to a running top; messages are decoded as those of a log."""
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Collection
 from functools import partial
-from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from rclpy.node import Node
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
-from sensor_msgs.msg import JointState
 
-from symtop_ros.playback.batch import EVENTS, Batch, BatchReader
+from symtop_ros.log.batch import TF, Batch, BatchReader
+from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
 
-LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-DEPTH = 1000  # samples; a second at 1 kHz
-TYPES: dict[str, Any] = {
-    "orientation": QuaternionStamped,
-    "angular_velocity": TwistStamped,
-    "angular_momentum": Vector3Stamped,
-    "torque": WrenchStamped,
-    "euler_angles": JointState,
-}
+LATCHED = QoSProfile(depth=EVENTS.depth, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+DEPTH = 1000  # samples that are queued: 1 s at 1 kHz
+
+
+# The attitude of /tf is that of ~/orientation.
+DRAWN = tuple(name for name in STATE_TOPICS if name != TF)
 
 
 class Feed:
-    """Subscriptions to one top; a node that restarts is found again by itself.
+    """Subscriptions to one top. They find the node again after it was restarted.
+
+    Messages may arrive in another thread than that of the caller.
 
     Parameters
     ----------
     node : Node
-        A node of the caller's own.
+        Node of the caller.
     name : str
-        Full name of the top's node, such as /top.
+        Full name of the top, such as "/top".
+    topics : collection of str
+        Topics of the samples to subscribe to; the events are always received.
     """
 
-    def __init__(self, node: Node, name: str) -> None:
-        self._messages: list[tuple[str, bytes]] = []
-        self._event: bytes | None = None  # the latest: a new recording begins with it
+    def __init__(self, node: Node, name: str, topics: Collection[str] = DRAWN) -> None:
+        self._messages: deque[tuple[str, bytes]] = deque()
+        self._event: bytes | None = None  # the last one, with which a new recording begins
         self._reader = BatchReader()
         node.create_subscription(
-            DiagnosticArray, f"{name}/{EVENTS}", self._take_event, LATCHED, raw=True
+            EVENTS.load_message_class(),
+            EVENTS.resolve(name),
+            self._receive_event,
+            LATCHED,
+            raw=True,
         )
-        for topic, kind in TYPES.items():
-            take = partial(self._take, topic)
-            node.create_subscription(kind, f"{name}/{topic}", take, DEPTH, raw=True)
+        for topic in map(STATE_TOPICS.__getitem__, topics):
+            receive = partial(self.receive, topic.name)
+            message_class = topic.load_message_class()
+            node.create_subscription(message_class, topic.resolve(name), receive, DEPTH, raw=True)
 
     def batch(self) -> Batch:
-        """Return what has come since the last call."""
-        messages, self._messages = self._messages, []
+        """Return the messages since the last call."""
+        # Each removal is atomic, so that a message that arrives meanwhile is kept.
+        messages = [self._messages.popleft() for _ in range(len(self._messages))]
         return self._reader.read(messages)
 
-    def start_again(self) -> None:
-        """Begin the next batch with the event that holds."""
+    def repeat_event(self) -> None:
+        """Put the last event into the next batch, for a new recording."""
         if self._event is not None:
-            self._messages.insert(0, (EVENTS, self._event))
+            self._messages.appendleft((EVENTS.name, self._event))
 
-    def _take(self, topic: str, data: bytes) -> None:
+    def receive(self, topic: str, data: bytes) -> None:
+        """Put an encoded message of a topic into the next batch."""
         self._messages.append((topic, data))
 
-    def _take_event(self, data: bytes) -> None:
+    def _receive_event(self, data: bytes) -> None:
         self._event = data
-        self._take(EVENTS, data)
+        self.receive(EVENTS.name, data)

@@ -1,4 +1,4 @@
-"""Entry point of `top_live`: a running top in a Rerun viewer."""
+"""Entry point of `top_live`: stream a running top to a Rerun viewer."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ import rerun as rr
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
-from symtop_ros.ending import ros
 from symtop_ros.live.feed import Feed
+from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
-from symtop_ros.playback.mcap_file import LogError
+from symtop_ros.playback.main import add_view_options
 from symtop_ros.playback.replay import APPLICATION
-from symtop_ros.playback.scene.scene import Scene
-from symtop_ros.wire.text import one_line
+from symtop_ros.playback.view.view import View, ViewOptions
+from symtop_ros.shutdown import describe_failure, ros_context
 
-PORT = 9876  # Rerun's own
-SENDING = 0.05  # s between two batches
-PROBING = 1.0  # s between two looks whether the viewer is there
-STARTING = 30.0  # s that a viewer may take to come up
+PORT = 9876  # default of Rerun
+SEND_PERIOD = 0.05  # s between two batches
+PROBE_PERIOD = 1.0  # s between two checks that the viewer is running
+START_TIMEOUT = 30.0  # s for the viewer to start
 
 
 def main(args: list[str] | None = None) -> int:
@@ -34,18 +34,18 @@ def main(args: list[str] | None = None) -> int:
     arguments = sys.argv if args is None else ["top_live", *args]
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
-        with ros(arguments) as listen:
+        with ros_context(arguments) as listen:
             node = rclpy.create_node("top_live", start_parameter_services=False)
             executor = SingleThreadedExecutor()
             executor.add_node(node)
             feed = Feed(node, f"/{options.node.strip('/')}")
             listen()
             with _viewer(options.port, options.web) as process:
-                _stream(executor, feed, options.port, process)
+                _stream(executor, feed, options, process)
     except ExternalShutdownException:
         return 0
     except Exception as error:
-        print(f"top_live: {one_line(error) or type(error).__name__}", file=sys.stderr)
+        print(f"top_live: {describe_failure(error)}", file=sys.stderr)
         return 1
     return 0
 
@@ -53,12 +53,15 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="top_live",
-        description="Show a running top in a Rerun viewer: in the one that listens on the port, "
-        "which may end and come again, or in one of its own.",
+        description="Show a running top in the Rerun viewer that listens on the port (it may be "
+        "restarted), or else in a new viewer.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
-    parser.add_argument("--port", type=_port, default=PORT, help=f"of the viewer (default {PORT})")
-    parser.add_argument("--web", action="store_true", help="serve a browser on this machine")
+    parser.add_argument(
+        "--port", type=_port, default=PORT, help=f"port of the viewer (default {PORT})"
+    )
+    parser.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
+    add_view_options(parser)
     return parser
 
 
@@ -71,19 +74,19 @@ def _port(text: str) -> int:
 
 @contextlib.contextmanager
 def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
-    """A viewer of our own where none listens: it ends with us, and we with it."""
+    """Start a viewer if none listens on the port; it is ended on exit."""
     if _listens(port):
         yield None
         return
     if not web and not viewer.has_screen():
-        msg = f"no viewer listens on port {port}, and there is no screen for one: try --web"
+        msg = f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
         raise LogError(msg)
     process = viewer.start(port=port, web=web)
     try:
-        deadline = time.monotonic() + STARTING
+        deadline = time.monotonic() + START_TIMEOUT
         while rclpy.ok() and not _listens(port):
             if process.poll() is not None or time.monotonic() > deadline:
-                msg = "the Rerun viewer did not start"
+                msg = f"the Rerun viewer did not start within {START_TIMEOUT:g} s"
                 raise LogError(msg)
             time.sleep(0.1)
         yield process
@@ -95,36 +98,38 @@ def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
 def _stream(
     executor: SingleThreadedExecutor,
     feed: Feed,
-    port: int,
+    options: argparse.Namespace,
     process: subprocess.Popen[bytes] | None,
 ) -> None:
-    scene: Scene | None = None
+    view: View | None = None
     probed = 0.0
     try:
         while process is None or process.poll() is None:
             now = time.monotonic()
-            if now - probed > PROBING:
+            if now - probed > PROBE_PERIOD:
                 probed = now
-                scene = _followed(scene, feed, port)
-            _spin(executor, now + SENDING)
+                view = _connect(view, feed, options)
+            _spin(executor, now + SEND_PERIOD)
             batch = feed.batch()
-            if scene:
-                scene.send(batch)
+            if view:
+                view.send(batch)
     finally:
-        scene = None  # it hands over what it holds, as long as there is the viewer
+        view = None  # the recording is flushed while the viewer still runs
 
 
-def _followed(scene: Scene | None, feed: Feed, port: int) -> Scene | None:
-    """The scene while the viewer is there, none while it is gone, a new one when it is back."""
+def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View | None:
+    """Return the view while the viewer runs, None without one, a new view for a new viewer."""
+    port: int = options.port
     if not _listens(port):
-        if scene:
-            print("the viewer is gone; waiting for it to come back", file=sys.stderr, flush=True)
+        if view:
+            print("the viewer ended; waiting for a new one", file=sys.stderr, flush=True)
         return None
-    if scene is None:
-        print(f"showing in the viewer on port {port}", flush=True)
-        feed.start_again()
-        scene = Scene(_recording(port), live=True)
-    return scene
+    if view is None:
+        print(f"showing the top in the viewer on port {port}", flush=True)
+        feed.repeat_event()
+        drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
+        view = View(_recording(port), live=True, options=drawn)
+    return view
 
 
 def _recording(port: int) -> rr.RecordingStream:

@@ -1,1 +1,1 @@
-"""Logs read, checked, repaired and shown in Rerun. Needs no ROS, and never imports it."""
+"""Logs played back in 3D with Rerun. Needs no ROS."""

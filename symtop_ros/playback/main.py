@@ -1,4 +1,4 @@
-"""Entry point of `top_replay`: logs in Rerun, checked against the closed form, or repaired."""
+"""Entry point of `top_replay`: play a log in Rerun, check it or repair it."""
 
 from __future__ import annotations
 
@@ -8,112 +8,153 @@ import sys
 import tempfile
 from pathlib import Path
 
-from symtop_ros.playback.check import Deviation, check
-from symtop_ros.playback.mcap_file import LogError, McapFile, told
-from symtop_ros.playback.repair import repair
-from symtop_ros.playback.top_log import TopLog
-from symtop_ros.wire.text import one_line
+from symtop_ros.log.bag import open_run
+from symtop_ros.log.check import Deviation, check_log
+from symtop_ros.log.reader import LogError, McapFile, list_problems
+from symtop_ros.log.repair import repair
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.simulation.validation import one_line
 
-ENDED = 130  # as a shell says it of Ctrl-C
+INTERRUPTED = 130  # exit status after Ctrl-C, as shells have it
 
 
 def main(args: list[str] | None = None) -> int:
-    """Replay, check or repair a log; return 0 (good), 1 (failed), 2 (usage) or 130 (ended)."""
+    """Replay, check or repair a log; return 0 (success), 1 (failure), 2 (usage) or 130."""
     options = _parser().parse_args(args)
     try:
-        for number in (signal.SIGINT, signal.SIGTERM):  # what is half written is removed
+        # Both signals raise KeyboardInterrupt, so that an incomplete file is removed.
+        for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, signal.default_int_handler)
         return _run(options)
     except LogError as error:
         print(f"top_replay: {one_line(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return ENDED
+        return INTERRUPTED
+
+
+def add_view_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of what is drawn: those of `ViewOptions`, which needs Rerun."""
+    parser.add_argument(
+        "--no-ghost", action="store_true", help="do not draw the top that was not kicked"
+    )
+    parser.add_argument(
+        "--angles", action="store_true", help="draw both frames and Euler's angles phi, theta, psi"
+    )
+    parser.add_argument(
+        "--torques",
+        action="store_true",
+        help="draw dL/dt and the inertial torque, in the body frame and in that of the nodes",
+    )
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="top_replay",
-        description="Play a log of top_node in Rerun; without an option, at once.",
+        description="Play a log of top_node in the Rerun viewer, or save, check or repair it.",
     )
-    parser.add_argument("file", type=Path, metavar="FILE.mcap", help="a log, whole or damaged")
-    parser.add_argument("--node", help="full name of the node, where a log holds several tops")
+    parser.add_argument(
+        "files",
+        type=Path,
+        nargs="+",
+        metavar="FILE.mcap",
+        help="a log, complete or damaged; a rosbag2 folder or a .db3 file; several are one run",
+    )
+    parser.add_argument("--node", help="full name of the node if the log has several tops")
+    add_view_options(parser)
     ways = parser.add_mutually_exclusive_group()
     ways.add_argument("--save", type=Path, metavar="OUT.rrd", help="write a Rerun recording")
-    ways.add_argument("--web", action="store_true", help="show it in a browser on this machine")
-    ways.add_argument("--check", action="store_true", help="compute the run again and compare")
+    ways.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
     ways.add_argument(
-        "--repair", type=Path, metavar="OUT.mcap", help="write a whole log of what is readable"
+        "--check", action="store_true", help="compute the run again from its events and compare"
+    )
+    ways.add_argument(
+        "--repair",
+        type=Path,
+        metavar="OUT.mcap",
+        help="write the readable messages to a complete log",
     )
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
-    file = McapFile(options.file)
     if options.repair:
+        if len(options.files) > 1:
+            msg = f"--repair must be given one log, got {len(options.files)}"
+            raise LogError(msg)
+        file = McapFile(options.files[0])
         count = repair(file, options.repair)
-        _tell(file.problems)
+        _print_problems(file.problems)
         print(f"wrote {count} messages to {options.repair}")
         return 0
-    log = TopLog(file, options.node)
+    log = TopLog(open_run(options.files), options.node)
     if options.check:
         return _check(log)
-    return _show(log, options.save, options.web)
+    return _show(log, options)
 
 
 def _check(log: TopLog) -> int:
-    deviations = check(log)
-    _tell(log.problems)
+    deviations = check_log(log)
+    _print_problems(log.problems)
     for name, deviation in deviations.items():
         print(_row(log.topics[name], deviation))
     unreached = sum(each.unreached for each in deviations.values())
     if unreached:
-        msg = f"{unreached} samples are of a motion too fast or too long to be integrated again"
+        msg = (
+            f"{unreached} samples cannot be checked: "
+            "the motion is too fast or too long to integrate"
+        )
         raise LogError(msg)
     if not any(each.samples for each in deviations.values()):
-        msg = "nothing could be checked: no sample comes after an event"
+        msg = "nothing can be checked: no sample follows an event"
         raise LogError(msg)
     good = all(each.is_rounding for each in deviations.values())
-    print(f"the log is {'' if good else 'NOT '}what its events say")
+    print(f"the samples {'agree' if good else 'DO NOT agree'} with the events")
     return 0 if good else 1
 
 
 def _row(topic: str, deviation: Deviation) -> str:
-    row = f"{topic:28}{deviation.samples:9} samples, largest deviation {deviation.largest:g}"
+    row = f"{topic:28}{deviation.samples:9} samples, largest difference {deviation.largest:g}"
     if deviation.largest:
         row += f" ({deviation.relative:.1e} of its size)"
     if deviation.unchecked:
-        row += f"; {deviation.unchecked} before the first event are not checked"
+        row += f"; {deviation.unchecked} before the first event not checked"
     return row
 
 
-def _show(log: TopLog, save: Path | None, web: bool) -> int:
+def _show(log: TopLog, options: argparse.Namespace) -> int:
     try:
         from symtop_ros.playback import viewer
         from symtop_ros.playback.replay import replay
+        from symtop_ros.playback.view.view import ViewOptions
     except ModuleNotFoundError as error:
         msg = f"{error.name} is missing: pip install 'symtop_ros[playback]'"
         raise LogError(msg) from None
+    drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
+    save: Path | None = options.save
     if save:
         if save.suffix != ".rrd":
-            msg = f"--save: got {save}, allowed is a name that ends in .rrd"
+            msg = f"--save must be a name that ends in .rrd, got {save}"
             raise LogError(msg)
-        replay(log, save)
-        _tell(log.problems)
-        print(f"wrote {save}: rerun {save}")
+        replay(log, save, drawn)
+        _print_problems(log.problems)
+        print(f"wrote {save}; open it with: rerun {save}")
         return 0
-    if not web and not viewer.has_screen():
-        msg = "there is no screen: --save OUT.rrd writes a recording, --web serves a browser"
+    if not options.web and not viewer.has_screen():
+        msg = (
+            "no screen for the viewer: use --save OUT.rrd to write a recording, or --web for a "
+            "browser"
+        )
         raise LogError(msg)
     with tempfile.TemporaryDirectory() as folder:
         recording = Path(folder, f"{log.file.path.stem}.rrd")
-        replay(log, recording)
-        _tell(log.problems)
-        return viewer.show(recording, web)
+        replay(log, recording, drawn)
+        _print_problems(log.problems)
+        return viewer.show(recording, options.web)
 
 
-def _tell(problems: list[str]) -> None:
-    for problem in told(problems):
+def _print_problems(problems: list[str]) -> None:
+    for problem in list_problems(problems):
         print(f"top_replay: {problem}", file=sys.stderr)
 
 

@@ -1,4 +1,4 @@
-"""A log as a Rerun recording."""
+"""Conversion of a log into a Rerun recording."""
 
 from __future__ import annotations
 
@@ -7,43 +7,50 @@ from pathlib import Path
 
 import rerun as rr
 
-from symtop_ros.playback.mcap_file import LogError, told
-from symtop_ros.playback.scene.scene import Scene
-from symtop_ros.playback.top_log import TopLog
+from symtop_ros.log.reader import LogError, list_problems
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.playback.view.view import DEFAULT_OPTIONS, View, ViewOptions
 
 APPLICATION = "symtop_ros"
-LONG = 20 * 2**20  # bytes; below, a bar would only flash
-BAR = 40
+MIN_SIZE_FOR_BAR = 20 * 2**20  # bytes; smaller files take less than a second
+BAR_LENGTH = 40  # characters
 
 
-def replay(log: TopLog, target: Path) -> None:
-    """Write the recording of a log; what is missing in it stands among its events.
+def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) -> None:
+    """Write a log as a Rerun recording; problems of the log are listed with its events.
+
+    Parameters
+    ----------
+    log : TopLog
+    target : Path
+        A .rrd file, which is overwritten.
+    options : ViewOptions
 
     Raises
     ------
     LogError
-        Where the log holds no top, or the target cannot be written.
+        If the log has no top, or the target cannot be written.
     """
     recording = rr.RecordingStream(APPLICATION, recording_id=log.file.path.stem)
     try:
-        target.open("wb").close()  # Rerun would only warn
+        target.open("wb").close()  # Rerun itself only warns if it cannot write
         recording.save(target)
     except (OSError, RuntimeError) as error:
-        msg = f"{target}: {getattr(error, 'strerror', None) or error}"
+        msg = f"cannot write {target}: {getattr(error, 'strerror', None) or error}"
         raise LogError(msg) from None
-    scene = Scene(recording)
+    view = View(recording, options=options)
     for batch in log.batches():
-        scene.send(batch)
-        _progress(log.file.offset, log.file.size)
-    for problem in told(log.problems):
-        scene.tell(problem)
+        view.send(batch)
+        _show_progress(log.file.offset, log.file.size)
+    for problem in list_problems(log.problems):
+        view.log_text(problem)
     recording.flush()
     recording.disconnect()
 
 
-def _progress(done: int, size: int) -> None:
-    if size > LONG and sys.stderr.isatty():
-        filled = round(BAR * done / size)
-        bar = "#" * filled + "." * (BAR - filled)
+def _show_progress(done: int, size: int) -> None:
+    if size > MIN_SIZE_FOR_BAR and sys.stderr.isatty():
+        filled = round(BAR_LENGTH * done / size)
+        bar = "#" * filled + "." * (BAR_LENGTH - filled)
         end = "\n" if done == size else "\r"
         print(f"[{bar}] {done / 2**20:.0f} of {size / 2**20:.0f} MiB", end=end, file=sys.stderr)

@@ -1,4 +1,4 @@
-"""The programs of Rerun: its viewer on this screen, or in a browser on this machine."""
+"""The Rerun viewer: on the screen, or in a browser on this machine."""
 
 from __future__ import annotations
 
@@ -11,27 +11,30 @@ from pathlib import Path
 
 import rerun_cli
 
-HOST = "127.0.0.1"  # Rerun's own default is every network the machine is in
+HOST = "127.0.0.1"  # Rerun's default is to listen on all networks
 
 
 def has_screen() -> bool:
-    """Whether a window can be opened."""
+    """Return True if a window can be opened."""
     return sys.platform in {"darwin", "win32"} or any(
         os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
     )
 
 
 def start(*files: str, port: int | None = None, web: bool = False) -> subprocess.Popen[bytes]:
-    """Start a viewer, or in the background a server for browsers, and say where it is.
+    """Start a viewer, or a server for browsers whose address is printed.
+
+    It runs in a separate session, so that Ctrl-C ends the caller first, which can then still send
+    its last data.
 
     Parameters
     ----------
     *files : str
-        What it opens.
+        Recordings that it opens.
     port : int or None
-        Where it takes data; any free one.
+        Port on which it receives data; None for any free port.
     web : bool
-        Serve browsers on this machine instead of opening a window.
+        Serve a browser on this machine instead of opening a window.
     """
     port = port or free_port()
     options = ["--bind", HOST, "--port", str(port)]
@@ -41,12 +44,19 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
         source = f"rerun%2Bhttp%3A%2F%2F{HOST}%3A{port}%2Fproxy"
         print(f"open http://{HOST}:{page}/?url={source} in a browser; Ctrl-C ends it", flush=True)
     program = Path(rerun_cli.__file__).parent / "rerun"
-    return subprocess.Popen([program, *options, *files], stdout=subprocess.DEVNULL)
+    if sys.platform != "win32":  # a closed terminal ends the caller, which ends the viewer
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
+    return subprocess.Popen(
+        [program, *options, *files],
+        stdout=subprocess.DEVNULL,
+        env={"RUST_LOG": "warn", **os.environ},
+        start_new_session=True,
+    )
 
 
 def show(recording: Path, web: bool) -> int:
-    """Show a recording until the viewer is closed or we are ended; return the exit status."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a viewer is not left behind
+    """Show a recording until the viewer or this process is ended; return the exit status."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that the viewer is ended too
     process = start(str(recording), web=web)
     try:
         return 0 if process.wait() == 0 else 1
@@ -58,7 +68,7 @@ def show(recording: Path, web: bool) -> int:
 
 
 def free_port() -> int:
-    """Return a port that nobody listens on."""
+    """Return a port that is not in use."""
     with socket.socket() as probe:
         probe.bind((HOST, 0))
         return int(probe.getsockname()[1])

@@ -54,7 +54,7 @@ def laptop(tmp_path_factory):
 
 
 def replay(python, *arguments):
-    """Run top_replay in an environment of its own, which inherits no ROS."""
+    """Run top_replay in a separate environment, which inherits no ROS."""
     return subprocess.run(
         [python, "-m", "symtop_ros.playback.main", *map(str, arguments)],
         env={"PATH": "/usr/bin:/bin"},
@@ -72,20 +72,24 @@ def test_without_ros_a_log_becomes_a_recording_and_is_checked(laptop, log, tmp_p
     assert "No module named 'rclpy'" in none.stderr
     saved = replay(laptop, log, "--save", tmp_path / "run.rrd")
     assert (saved.returncode, saved.stderr) == (0, "")
-    assert saved.stdout == f"wrote {tmp_path / 'run.rrd'}: rerun {tmp_path / 'run.rrd'}\n"
+    assert saved.stdout == (
+        f"wrote {tmp_path / 'run.rrd'}; open it with: rerun {tmp_path / 'run.rrd'}\n"
+    )
     assert (tmp_path / "run.rrd").stat().st_size > 100_000
     checked = replay(laptop, log, "--check")
     assert (checked.returncode, checked.stderr) == (0, "")
-    assert checked.stdout.count("      400 samples, largest deviation 0\n") == 6
-    assert checked.stdout.endswith("the log is what its events say\n")
+    assert checked.stdout.count("      400 samples, largest difference 0\n") == 6
+    assert checked.stdout.endswith("the samples agree with the events\n")
     repaired = replay(laptop, log, "--repair", tmp_path / "again.mcap")
     assert repaired.stdout == f"wrote {len(RUN.messages)} messages to {tmp_path / 'again.mcap'}\n"
 
 
-def test_without_a_screen_it_says_what_else_there_is(laptop, log):
+def test_without_a_screen_the_message_names_the_options(laptop, log):
     result = replay(laptop, log)
     assert result.returncode == 1
-    expected = "there is no screen: --save OUT.rrd writes a recording, --web serves a browser"
+    expected = (
+        "no screen for the viewer: use --save OUT.rrd to write a recording, or --web for a browser"
+    )
     assert result.stderr == f"top_replay: {expected}\n"
 
 
@@ -93,42 +97,47 @@ def test_a_wrong_log_is_status_1_and_names_the_topic(log, tmp_path, capsys):
     run = Run()
     k = next(k for k, each in enumerate(run.messages) if each[0] == "torque")
     _, stamp, _ = run.messages[k]
-    run.messages[k] = "torque", stamp, LAYOUTS["torque"].pack(stamp, [0.0, 0, 0, 1.0, 0, 0])
+    run.messages[k] = "torque", stamp, LAYOUTS["torque"].encode(stamp, [0.0, 0, 0, 1.0, 0, 0])
     assert module.main([str(run.write(tmp_path / "wrong")), "--check"]) == 1
-    told = capsys.readouterr().out
+    output = capsys.readouterr().out
     assert re.search(
-        r"/top/torque +400 samples, largest deviation 0\.9\d+ \(\S+ of its size\)", told
+        r"/top/torque +400 samples, largest difference 0\.9\d+ \(\S+ of its size\)", output
     )
-    assert told.endswith("the log is NOT what its events say\n")
+    assert output.endswith("the samples DO NOT agree with the events\n")
 
 
 def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
     run = Run()
     run.messages = [each for each in run.messages if each[0] != "events"]
     assert module.main([str(run.write(tmp_path)), "--check"]) == 1
-    assert "nothing could be checked: no sample comes after an event" in capsys.readouterr().err
+    assert "nothing can be checked: no sample follows an event" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "sentence"),
     [
-        (["none.mcap"], "none.mcap: No such file or directory"),
-        (["none.mcap", "--check"], "none.mcap: No such file or directory"),
+        (["none.mcap"], "cannot open none.mcap: No such file or directory"),
+        (["none.mcap", "--check"], "cannot open none.mcap: No such file or directory"),
         (
             ["{log}", "--save", "out.mp4"],
-            "--save: got out.mp4, allowed is a name that ends",
+            "--save must be a name that ends in .rrd, got out.mp4",
         ),
-        (["{log}", "--save", "none/out.rrd"], "none/out.rrd: No such file or directory"),
-        (["{log}", "--repair", "{log}"], "exists already, and is not overwritten"),
-        (["{log}", "--node", "/x", "--check"], "holds no top /x; its topics: /robot_description"),
+        (
+            ["{log}", "--save", "none/out.rrd"],
+            ("cannot write none/out.rrd: No such file or directory"),
+        ),
+        (["{log}", "--repair", "{log}"], "must not exist (nothing is overwritten)"),
+        (["{log}", "--node", "/x", "--check"], "no run of a top /x in"),
     ],
 )
-def test_a_refusal_is_one_line_and_status_1(arguments, told, log, tmp_path, capsys, monkeypatch):
+def test_a_refusal_is_one_line_and_status_1(
+    arguments, sentence, log, tmp_path, capsys, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     assert module.main([each.format(log=log) for each in arguments]) == 1
     error = capsys.readouterr().err
     assert error.startswith("top_replay: ")
-    assert told in error
+    assert sentence in error
     assert error.count("\n") == 1
 
 
@@ -139,7 +148,7 @@ def test_wrong_usage_is_status_2(arguments):
     assert end.value.code == 2
 
 
-def test_a_missing_rerun_is_told_with_the_extra_that_brings_it(log):
+def test_a_missing_rerun_is_reported_with_the_extra_that_installs_it(log):
     code = "import sys; sys.modules['rerun_cli'] = None; "
     code += "from symtop_ros.playback.main import main; sys.exit(main(sys.argv[1:]))"
     result = subprocess.run(

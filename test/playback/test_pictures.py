@@ -1,21 +1,22 @@
-"""What people will see: scenes rendered without a screen, checked against the log."""
+"""Scenes rendered without a screen, compared with the log."""
 
 import numpy as np
 import pytest
 import rerun as rr
 import rerun.blueprint as rrb
 from log_files import ARTICLE, BEGIN, Run
-from pictures import picture, running_viewer, view_named, views
+from pictures import pause_at, picture, running_viewer, view_named, views
 from PIL import Image
 
-from symtop_ros.physics import State, Top, motion, regular_precession_rates
-from symtop_ros.playback.mcap_file import McapFile
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 from symtop_ros.playback.replay import replay
-from symtop_ros.playback.scene import paths
-from symtop_ros.playback.scene.blueprint import UPPER, WHOLE
-from symtop_ros.playback.scene.scene import Scene
-from symtop_ros.playback.top_log import TopLog
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.blueprint import EYE_UPPER_HALF, EYE_WHOLE_SPHERE
+from symtop_ros.playback.view.view import View
 
+VIEWS = 13
 FOV = np.radians(55.0)  # vertical, Rerun's own
 SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
 HANGING = Top(2.28e-4, 5.72e-5, -0.068)
@@ -29,22 +30,30 @@ SCENES = {
 }
 
 
-@pytest.mark.parametrize("name", ["cusps", "regular", "hurried", "hanging"])
+NAMES = [
+    "hurried",
+    *(pytest.param(name, marks=pytest.mark.long) for name in ("hanging", "cusps", "regular")),
+]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     target = tmp_path / f"{name}.rrd"
     replay(TopLog(McapFile(SCENES[name].write(tmp_path))), target)
     with running_viewer(target) as (client, _):
-        found = views(client, 9)
-        client.set_time(paths.TIMELINE, duration=1.2, play_state="paused")
+        found = views(client, VIEWS)
+        pause_at(client, entities.TIMELINE, duration=1.2)
         shot = picture(client)
         Image.fromarray(shot).save(tmp_path / f"{name}.png")
         assert {each.origin for each in found.values()} == {
-            paths.SPACE,
-            paths.PANEL,
-            paths.EVENTS,
-            *paths.PLOTS,
+            entities.SPACE,
+            entities.PANEL,
+            entities.EVENTS,
+            entities.POTENTIAL,
+            entities.CUBIC,
+            *entities.PLOTS,
         }
-        assert [each.reports for each in views(client, 9).values()] == [[]] * 9
+        assert [each.reports for each in views(client, VIEWS).values()] == [[]] * VIEWS
         drawn = picture(client, found["the top"])
     assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500  # shaded bodies, not an empty view
 
@@ -62,32 +71,32 @@ def projected(point, eye, target, shape):
     return np.array([width / 2 + scale * (away @ right), height / 2 - scale * (away @ up)])
 
 
-@pytest.mark.parametrize("name", ["cusps", "regular", "hurried", "hanging"])
+@pytest.mark.parametrize("name", NAMES)
 def test_the_axis_is_drawn_where_the_log_says(name, tmp_path):
     run = SCENES[name]
     recording = rr.RecordingStream("test")
     recording.save(tmp_path / "body.rrd")
-    scene = Scene(recording)
+    shown = View(recording)
     for batch in TopLog(McapFile(run.write(tmp_path))).batches():
-        scene.send(batch)
-    eye, target = WHOLE if name == "hanging" else UPPER
+        shown.send(batch)
+    eye, target = EYE_WHOLE_SPHERE if name == "hanging" else EYE_UPPER_HALF
     alone = rrb.Spatial3DView(
-        origin=paths.SPACE,
+        origin=entities.SPACE,
         name="alone",
-        contents=[paths.BODY],
+        contents=[entities.BODY],
         background=(0, 0, 255),
         line_grid=False,
         eye_controls=rrb.EyeControls3D(position=eye, look_target=target, eye_up=(0, 0, 1)),
     )
-    recording.send_blueprint(rrb.Blueprint(alone, rrb.TimePanel(timeline=paths.TIMELINE)))
+    recording.send_blueprint(rrb.Blueprint(alone, rrb.TimePanel(timeline=entities.TIMELINE)))
     recording.flush()
     recording.disconnect()
     with running_viewer(tmp_path / "body.rrd") as (client, _):
         view = view_named(client, "alone")
         for seconds in (0.2, 0.5, 0.7):
-            client.set_time(paths.TIMELINE, duration=seconds, play_state="paused")
+            pause_at(client, entities.TIMELINE, duration=seconds)
             shot = picture(client, view)
-            axis = motion(run.top, run.start).at(seconds).to_world([0.0, 0.0, 1.0])
+            axis = Motion(run.top, run.start).at(seconds).to_world([0.0, 0.0, 1.0])
             pivot = projected([0.0, 0.0, 0.0], eye, target, shot.shape)
             tip = projected(axis, eye, target, shot.shape)
             drawn = np.abs(shot.astype(int) - shot[0, 0]).max(axis=2) > 60
@@ -106,7 +115,7 @@ def test_rerun_shows_the_turning_top_of_a_log_by_itself(tmp_path):
         for seconds in (0.2, 0.8):
             stamp = BEGIN * 1e-9 + seconds
             found = views(client, 4)
-            client.set_time("message_log_time", timestamp=stamp, play_state="paused")
+            pause_at(client, "message_log_time", timestamp=stamp)
             space = next(each for each in found.values() if each.view_class == "3D")
             shots.append(picture(client, space))
             assert all(not each.reports for each in views(client, 4).values())

@@ -5,7 +5,8 @@ import pytest
 from log_files import LAYOUTS, Run, topic
 from rerun.chunk import McapReader
 
-from symtop_ros.wire.messages import KINDS, unpacked
+from symtop_ros.simulation.topics import STATE_TOPICS
+from symtop_ros.wire.messages import decode_messages
 
 RUN = Run(seconds=1.0)
 VECTORS = {
@@ -24,7 +25,7 @@ def chunks(tmp_path_factory):
 
 def ours(name):
     data = [data for each, _, data in RUN.messages if each == name]
-    ((found,), _) = unpacked(KINDS[name], data)
+    ((found,), _) = decode_messages(STATE_TOPICS[name].format, data)
     return found
 
 

@@ -1,4 +1,4 @@
-"""The top as a turned body: a lathe's profile, in sectors of two colours so that spin is seen.
+"""The body of the top: surfaces of revolution in sectors of two colours, which make spin visible.
 
 Lengths are in scene units: the pivot is the origin, and the axis ends on the unit sphere.
 """
@@ -11,18 +11,17 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-import rerun as rr
 from numpy.typing import NDArray
 
 from symtop_ros.physics import Top
 
-SECTORS = 6  # an odd number of pairs would look the same half a turn on
-STEPS = 10  # of a sector
+SECTORS = 6  # three pairs of colours: after half a turn the colours are exchanged
+STEPS = 10  # facets of a sector
 STEEL = (196, 202, 210)
 BRASS = (222, 178, 92)
 ENAMEL = (150, 32, 44)
 IVORY = (240, 230, 205)
-Profile = Sequence[tuple[float, float]]  # radius and height, from below
+Profile = Sequence[tuple[float, float]]  # radius and height, from the lowest point upwards
 
 
 class Mesh(NamedTuple):
@@ -33,18 +32,15 @@ class Mesh(NamedTuple):
     colors: NDArray[np.uint8]
     triangles: NDArray[np.uint32]
 
-    def drawn(self) -> rr.Mesh3D:
-        """Return it for Rerun."""
-        return rr.Mesh3D(
-            vertex_positions=self.positions,
-            vertex_normals=self.normals,
-            vertex_colors=self.colors,
-            triangle_indices=self.triangles,
-        )
 
+def create_body(top: Top | None) -> Mesh:
+    """Return the body of a top, its rotor at the centre of mass and wider for larger Iz/Ix.
 
-def top_mesh(top: Top | None) -> Mesh:
-    """Return the body of a top: the rotor where its weight is, its radius after Iz / Ix."""
+    Parameters
+    ----------
+    top : Top or None
+        None for a log that does not contain the parameters.
+    """
     sign = 1.0 if top is None else math.copysign(bool(top.Mgl), top.Mgl)
     ratio = 0.25 if top is None else top.Iz / top.Ix
     radius, height = 0.2 + 0.26 * math.sqrt(ratio), 0.56 * sign
@@ -58,23 +54,25 @@ def top_mesh(top: Top | None) -> Mesh:
         (0.0, 1.0),
     )
     parts = [
-        lathe(axle, (STEEL, STEEL)),
-        lathe(_rotor(radius, height), (IVORY, ENAMEL)),
-        lathe(_rim(radius, height), (BRASS, BRASS)),
+        create_lathe(axle, (STEEL, STEEL)),
+        create_lathe(_rotor(radius, height), (IVORY, ENAMEL)),
+        create_lathe(_rim(radius, height), (BRASS, BRASS)),
     ]
-    return _joined(parts)
+    return _join(parts)
 
 
-def lathe(profile: Profile, colors: tuple[tuple[int, int, int], tuple[int, int, int]]) -> Mesh:
-    """Turn a profile about the z axis, in sectors of alternating colours."""
+def create_lathe(
+    profile: Profile, colors: tuple[tuple[int, int, int], tuple[int, int, int]]
+) -> Mesh:
+    """Return the surface of a profile turned about the z axis, in sectors of two colours."""
     bands = [_band(*edge, colors[k % 2], k) for edge in pairwise(profile) for k in range(SECTORS)]
-    return _joined(bands)
+    return _join(bands)
 
 
 def _band(
     below: tuple[float, float], above: tuple[float, float], color: tuple[int, int, int], sector: int
 ) -> Mesh:
-    """One edge of the profile over one sector, with the normals of a cone."""
+    """Return one edge of the profile over one sector; the normals are those of a cone."""
     angles = 2 * np.pi / SECTORS * (sector + np.linspace(0, 1, STEPS + 1))
     rim = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     rows = [np.column_stack([r * rim, np.full(len(rim), z)]) for r, z in (below, above)]
@@ -94,7 +92,7 @@ def _band(
     )
 
 
-def _joined(parts: Sequence[Mesh]) -> Mesh:
+def _join(parts: Sequence[Mesh]) -> Mesh:
     offsets = np.cumsum([0, *(len(part.positions) for part in parts[:-1])])
     return Mesh(
         np.concatenate([part.positions for part in parts]),
@@ -107,14 +105,14 @@ def _joined(parts: Sequence[Mesh]) -> Mesh:
 
 
 def _rotor(radius: float, height: float) -> Profile:
-    """A body like a flat pear, whose wide side is where the weight is."""
+    """Return the profile of the rotor: a flat pear, widest at the centre of mass."""
     shape = ((0.022, -0.2), (0.10, -0.17), (0.35, -0.11), (0.72, -0.06), (0.94, -0.035))
     upper = ((0.94, 0.035), (0.80, 0.05), (0.45, 0.075), (0.16, 0.105), (0.022, 0.14))
     return tuple((max(0.022, r * radius), height + z) for r, z in (*shape, *upper))
 
 
 def _rim(radius: float, height: float) -> Profile:
-    """A round edge of brass."""
+    """Return the profile of the round brass edge of the rotor."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 9)
     return [
         (0.94 * radius + 0.06 * radius * math.cos(a), height + 0.035 * math.sin(a)) for a in angles

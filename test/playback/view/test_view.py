@@ -1,33 +1,25 @@
-"""What is in a recording, read back by Rerun's own reader."""
+"""Contents of a recording, read back by the reader of Rerun."""
 
 import numpy as np
 import pytest
 import rerun as rr
 from log_files import ARTICLE, BEGIN, Run
-from rerun.chunk import RrdReader
+from playback.view.rows import rows
 
-from symtop_ros.physics import State, motion
-from symtop_ros.playback.mcap_file import McapFile
+from symtop_ros.log.batch import Batch, Columns
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import ExactTimes, Motion, State, specific_force
 from symtop_ros.playback.replay import replay
-from symtop_ros.playback.scene import paths
-from symtop_ros.playback.scene.scene import Scene
-from symtop_ros.playback.top_log import TopLog
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.view import View
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
 RUN = Run(seconds=2.0)
 FLOAT = 2 * float(np.finfo(np.float32).eps)  # vectors and rotations are single precision in Rerun
-
-
-def rows(path, entity, column):
-    """Times in ns, and the values of a column, of one entity."""
-    times, values = [], []
-    for chunk in RrdReader(path).stream():
-        if chunk.entity_path == entity and not chunk.is_static:
-            batch = chunk.to_record_batch()
-            if column in batch.schema.names:
-                times += [each.value for each in batch.column(paths.TIMELINE)]
-                values += batch.column(column).to_pylist()
-    order = np.argsort(times, kind="stable")
-    return np.array(times)[order], [values[k] for k in order]
 
 
 @pytest.fixture(scope="module")
@@ -42,12 +34,12 @@ def recording(tmp_path_factory):
 @pytest.fixture(scope="module")
 def truth():
     """States of the run, before the kick."""
-    times = np.rint(np.arange(200) * 1e9 / 200) * 1e-9  # as from stamps in ns
-    return times, motion(ARTICLE, RUN.start).at(times)
+    stamps = np.arange(200) * 5_000_000  # ns
+    return stamps * 1e-9, Motion(ARTICLE, RUN.start).at(ExactTimes(stamps))
 
 
 def test_the_body_is_turned_as_logged_at_every_sample(recording, truth):
-    times, values = rows(recording, paths.BODY, "Transform3D:quaternion")
+    times, values = rows(recording, entities.BODY, "Transform3D:quaternion")
     assert times.tolist() == [stamp - BEGIN for name, stamp, _ in RUN.messages if name == "tf"]
     drawn = np.array([value[0] for value in values])[:200, [3, 0, 1, 2]]
     assert np.abs(drawn - truth[1].orientation).max() <= FLOAT
@@ -55,16 +47,16 @@ def test_the_body_is_turned_as_logged_at_every_sample(recording, truth):
 
 def test_arrows_are_the_vectors_over_one_scale_that_is_stated(recording, truth):
     momentum = ARTICLE.angular_momentum(truth[1])
-    _, texts = rows(recording, paths.PANEL, "TextDocument:text")
-    scale = float(texts[0][0].split("1 unit of L | **")[1].split(" ")[0])
-    _, values = rows(recording, paths.MOMENTUM, "Arrows3D:vectors")
+    _, texts = rows(recording, entities.PANEL, "TextDocument:text")
+    scale = float(texts[0][0].split("1 unit of L, omega, torque | **")[1].split(" ")[0])
+    _, values = rows(recording, entities.MOMENTUM, "Arrows3D:vectors")
     drawn = np.array([value[0] for value in values])[:200]
     assert np.abs(drawn - momentum / scale).max() <= FLOAT * np.abs(momentum / scale).max()
     assert 1.3 < np.linalg.norm(drawn, axis=1).max() < 1.6
 
 
 def test_the_trace_is_an_unbroken_line_on_the_unit_sphere(recording, truth):
-    times, values = rows(recording, paths.TRACE, "LineStrips3D:strips")
+    times, values = rows(recording, entities.TRACE, "LineStrips3D:strips")
     strips = np.array([value[0] for value in values])
     assert len(strips) == 399
     assert np.array_equal(strips[1:, 0], strips[:-1, 1])
@@ -75,21 +67,21 @@ def test_the_trace_is_an_unbroken_line_on_the_unit_sphere(recording, truth):
 
 def test_plots_hold_the_doubles_that_were_logged(recording, truth):
     for path, expected in (
-        (paths.THETA, truth[1].euler_angles.theta),
-        (paths.PHI_DOT, truth[1].euler_rates.phi),
-        (paths.PSI_DOT, truth[1].euler_rates.psi),
+        (entities.THETA, truth[1].euler_angles.theta),
+        (entities.PHI_DOT, truth[1].euler_rates.phi),
+        (entities.PSI_DOT, truth[1].euler_rates.psi),
     ):
         _, values = rows(recording, path, "Scalars:scalars")
         assert [value[0] for value in values[:200]] == expected.tolist()
-    _, values = rows(recording, paths.L, "Scalars:scalars")
+    _, values = rows(recording, entities.L, "Scalars:scalars")
     assert values[:200] == ARTICLE.angular_momentum(truth[1]).tolist()
-    _, values = rows(recording, paths.L_HORIZONTAL, "Scalars:scalars")
+    _, values = rows(recording, entities.L_HORIZONTAL, "Scalars:scalars")
     L = ARTICLE.angular_momentum(truth[1])
     assert [value[0] for value in values[:200]] == (L[:, 0] ** 2 + L[:, 1] ** 2).tolist()
 
 
 def test_constants_drift_by_rounding_only_and_start_anew_after_a_kick(recording):
-    _, values = rows(recording, paths.DRIFT, "Scalars:scalars")
+    _, values = rows(recording, entities.DRIFT, "Scalars:scalars")
     drift = np.array(values)
     assert drift.shape == (400, 3)
     assert drift[0].tolist() == drift[200].tolist() == [0.0, 0.0, 0.0]
@@ -98,12 +90,12 @@ def test_constants_drift_by_rounding_only_and_start_anew_after_a_kick(recording)
 
 
 def test_events_and_turning_circles_are_on_the_time_line(recording):
-    times, texts = rows(recording, paths.EVENTS, "TextLog:text")
+    times, texts = rows(recording, entities.EVENTS, "TextLog:text")
     kick = next(stamp for name, stamp, _ in RUN.messages[1:] if name == "events") - BEGIN
     assert times.tolist() == [0, kick]
     assert [text[0].split(":")[0] for text in texts] == ["start", "kick"]
-    _, circles = rows(recording, paths.CIRCLES, "LineStrips3D:strips")
-    low, high = motion(ARTICLE, RUN.start).turning_angles
+    _, circles = rows(recording, entities.CIRCLES, "LineStrips3D:strips")
+    low, high = Motion(ARTICLE, RUN.start).turning_angles
     heights = [strip[0][2] for strip in circles[0]]
     assert heights == pytest.approx(np.cos([low, high]), abs=FLOAT)
 
@@ -113,8 +105,8 @@ def test_what_is_missing_in_the_log_is_told_among_the_events(tmp_path):
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) // 2])
     replay(TopLog(McapFile(path)), tmp_path / "cut.rrd")
-    _, texts = rows(tmp_path / "cut.rrd", paths.EVENTS, "TextLog:text")
-    assert "nothing after" in texts[-1][0]
+    _, texts = rows(tmp_path / "cut.rrd", entities.EVENTS, "TextLog:text")
+    assert "messages after" in texts[-1][0]
 
 
 @pytest.mark.parametrize("missing", ["events", "orientation", "angular_momentum", "euler_angles"])
@@ -126,8 +118,8 @@ def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
     log = TopLog(McapFile(run.write(tmp_path)))
     replay(log, target)
     rr.set_strict_mode(False)
-    assert f"there is no {missing} in it" in log.problems
-    assert len(rows(target, paths.BODY, "Transform3D:quaternion")[0]) == 400
+    assert f"the log has no {missing}" in log.problems
+    assert len(rows(target, entities.BODY, "Transform3D:quaternion")[0]) == 400
 
 
 def test_a_top_at_rest_is_drawn_too(tmp_path):
@@ -135,7 +127,7 @@ def test_a_top_at_rest_is_drawn_too(tmp_path):
     rr.set_strict_mode(True)
     replay(TopLog(McapFile(run.write(tmp_path))), tmp_path / "rest.rrd")
     rr.set_strict_mode(False)
-    _, values = rows(tmp_path / "rest.rrd", paths.TORQUE, "Arrows3D:vectors")
+    _, values = rows(tmp_path / "rest.rrd", entities.TORQUE, "Arrows3D:vectors")
     assert np.array(values).any() is np.False_
 
 
@@ -143,7 +135,7 @@ def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
     run = Run(hurried=False)
     run.messages = [each for each in run.messages if not 0.5e9 < each[1] - BEGIN < 1.0e9]
     replay(TopLog(McapFile(run.write(tmp_path))), tmp_path / "gap.rrd")
-    _, values = rows(tmp_path / "gap.rrd", paths.TRACE, "LineStrips3D:strips")
+    _, values = rows(tmp_path / "gap.rrd", entities.TRACE, "LineStrips3D:strips")
     strips = np.array([value[0] for value in values])
     steps = np.linalg.norm(strips[:, 1] - strips[:, 0], axis=1)
     assert steps.max() < 0.05  # a sample's worth; the gap is some tenths
@@ -152,12 +144,39 @@ def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
 def test_samples_that_come_one_by_one_make_the_same_recording_as_all_at_once(tmp_path):
     recording = rr.RecordingStream("test")
     recording.save(tmp_path / "live.rrd")
-    scene = Scene(recording, live=True)
-    log = TopLog(McapFile(RUN.write(tmp_path)))
-    reader = log._reader
-    for name, _, data in RUN.messages:
-        scene.send(reader.read([(name, data)]))
+    view = View(recording, live=True)
+    run = Run(seconds=0.5)
+    reader = TopLog(McapFile(run.write(tmp_path)))._reader
+    for name, _, data in run.messages:
+        view.send(reader.read([(name, data)]))
     recording.flush()
     recording.disconnect()
-    _, values = rows(tmp_path / "live.rrd", paths.TRACE, "LineStrips3D:strips")
-    assert len(values) == 399
+    _, values = rows(tmp_path / "live.rrd", entities.TRACE, "LineStrips3D:strips")
+    assert len(values) == 99
+
+
+def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
+    stamps = np.arange(50) * 5_000_000
+    imu = Imu((0.0, 0.0, 0.02), (0.6, 0.0, 0.0, 0.8))
+    segment = Segment.begin(Motion(ARTICLE, RUN.start), 0, 1.0, Rig(9.81, imu))
+    samples = Samples.at(segment, stamps)
+    columns = {
+        name: Columns(stamps, SAMPLE_TOPICS[name].compute(samples), 1 + np.arange(50))
+        for name in ("orientation", "imu")
+    }
+    event = Event.of(0, "start", "", {}, RUN.start, segment)
+    file = tmp_path / "sensor.rrd"
+    recording = rr.RecordingStream("test")
+    recording.save(file)
+    View(recording).send(Batch(columns, [(0, event)]))
+    recording.flush()
+    recording.disconnect()
+    _, texts = rows(file, entities.PANEL, "TextDocument:text")
+    assert "a + g z'" in texts[0][0]
+    _, values = rows(file, entities.SPECIFIC_FORCE, "Arrows3D:vectors")
+    drawn = np.array([value[0] for value in values])
+    force = specific_force(segment.motion, samples.state, imu.position)
+    world = samples.state.to_world(force)
+    scale = np.linalg.norm(world, axis=1).max() / np.linalg.norm(drawn, axis=1).max()
+    # the scale is rounded to two digits for the panel
+    assert np.abs(drawn * float(f"{scale:.2g}") - world).max() <= 2 * FLOAT * np.abs(world).max()

@@ -1,0 +1,1 @@
+"""Drawings as arrays: the body, the ghost and the charts. Needs no viewer."""

@@ -1,0 +1,89 @@
+"""The ghost: the top that was not kicked, next to the one that was.
+
+Would the top have risen anyway? The motion just before the last kick continues, exactly, at the
+same stamps. Whatever else happens to the run (parameters, torques, pauses, steps, another real-time
+factor) happens to both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from symtop_ros.physics import Motion
+from symtop_ros.simulation.events import RESTARTS
+from symtop_ros.simulation.segment import BEGIN, Segment
+
+MOST_STEPS = 3000  # of an integration, for one batch; a log may ask for years
+
+
+class Ghost:
+    """The motion without the last kick.
+
+    Attributes
+    ----------
+    segment : Segment or None
+        The run without the last kick; None before the first kick and after a restart.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State, Top, hurry
+    >>> motion = Motion(Top(Ix=2.0, Iz=1.0, Mgl=1.0), State.from_euler(theta=0.5, phi_dot=1.0))
+    >>> before = Segment.begin(motion, stamp=0, factor=1.0)
+    >>> after = before.restart(hurry(before.state_at(0), factor=1.4), stamp=0)
+    >>> ghost = Ghost()
+    >>> ghost.follow("kick", before, after)
+    >>> ghost.segment is before
+    True
+    """
+
+    def __init__(self) -> None:
+        self.segment: Segment | None = None
+
+    def follow(self, name: str, before: Segment | None, after: Segment) -> None:
+        """Take over what an event changes.
+
+        Parameters
+        ----------
+        name : str
+            Name of the event.
+        before, after : Segment
+            The run before and after it.
+        """
+        if name in RESTARTS or before is None:
+            self.segment = None
+        elif name == "kick":
+            self.segment = before
+        elif self.segment is not None:
+            self.segment = _continue(self.segment, after, before)
+
+    def reach(self, stamp: int) -> Segment | None:
+        """Return the segment if its state at a stamp (ns) can be computed in time.
+
+        A motion under friction or a torque that is too fast or too long is given up.
+        """
+        if self.segment is not None and not _is_ready(self.segment, stamp):
+            self.segment = None
+        return self.segment
+
+
+def _is_ready(segment: Segment, stamp: int) -> bool:
+    """Return False if a motion is too fast or too long to be integrated up to a stamp."""
+    end = segment.time_at(stamp)
+    try:
+        return bool(segment.motion.reach(end, MOST_STEPS) == end)
+    except ValueError:
+        return False
+
+
+def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
+    """Return the ghost's segment from the begin of `after` on, which follows `before`."""
+    stamp, old, new = after.stamp, before.motion, after.motion
+    added = (new.top, new.friction, new.applied_torque)
+    timing = replace(ghost, factor=after.factor, running=after.running, stamp=stamp)
+    if added != (old.top, old.friction, old.applied_torque):
+        motion = Motion(new.top, ghost.state_at(stamp), new.friction, new.applied_torque)
+        return replace(timing, motion=motion, elapsed=BEGIN)
+    elapsed = ghost.elapsed_at(stamp)
+    if new.start == old.start:  # the same motion: a step, or a time that the clock lost
+        elapsed += after.elapsed - before.elapsed_at(stamp)
+    return replace(timing, elapsed=elapsed)

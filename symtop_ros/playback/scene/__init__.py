@@ -1,1 +1,0 @@
-"""The top in Rerun: what is drawn, where it comes from, and how it is laid out."""

@@ -1,0 +1,114 @@
+"""Euler's angles drawn as in the article's figure 1: two frames, the line of nodes, three arcs.
+
+phi turns from x' to the line of nodes N in the horizontal plane, theta from z' to z in the vertical
+plane of the axis, and psi from N to x in the plane across the axis.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from symtop_ros.log.batch import Columns
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.entities import GOLD, GREEN, ORANGE, VIOLET, WHITE
+from symtop_ros.playback.view.quantities import find_step
+from symtop_ros.playback.view.stream import Stream
+
+Real = NDArray[np.float64]
+RATE = 60.0  # positions per s of the clock
+POINTS = 33  # of an arc
+# In scene units. The arcs have different radii, so that letters do not meet; that of theta is
+# outside of the sphere, where the rotor does not hide it. The z axis is longer than L and omega,
+# which are nearly parallel to it in a fast top, so that its letter stands beyond theirs.
+WORLD_AXES, BODY_AXES = 1.3, (0.8, 0.8, 1.55)
+RADII = {"phi": 0.5, "theta": 1.08, "psi": 0.66}
+NODES_LENGTH = 0.95
+LETTERS = {"phi": "\u03c6", "theta": "\u03b8", "psi": "\u03c8"}
+COLORS = {"phi": ORANGE, "theta": GOLD, "psi": GREEN}  # of their curves in the plots
+BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
+
+
+def log_frames(stream: Stream) -> None:
+    """Log what does not change: both frames, and the styles of the arcs."""
+    for entity, lengths, color, mark in (
+        (f"{entities.ANGLES}/world", (WORLD_AXES,) * 3, WHITE, "'"),
+        (f"{entities.BODY}/axes", BODY_AXES, VIOLET, ""),
+    ):
+        ends = np.diag(lengths)
+        stream.log(entity, rr.Arrows3D(vectors=ends, colors=[color], radii=[0.005]), static=True)
+        names = [f"{letter}{mark}" for letter in "xyz"]
+        _log_labels(stream, f"{entity}/names", 1.06 * ends, names, color)
+    for name, color in COLORS.items():
+        entity = f"{entities.ANGLES}/{name}"
+        lines = rr.LineStrips3D.from_fields(colors=[color], radii=[0.008])
+        stream.log(entity, lines, static=True)
+        _log_labels(stream, f"{entity}/letter", None, [LETTERS[name]], color)
+    arrow = rr.Arrows3D.from_fields(colors=[ORANGE], radii=[0.006])
+    stream.log(f"{entities.ANGLES}/nodes", arrow, static=True)
+    _log_labels(stream, f"{entities.ANGLES}/nodes/name", None, ["N"], ORANGE)
+
+
+def _log_labels(
+    stream: Stream,
+    entity: str,
+    positions: Real | None,
+    labels: list[str],
+    color: tuple[int, int, int],
+) -> None:
+    """Log texts at points that are too small to be seen."""
+    points = rr.Points3D.from_fields(
+        positions=positions,
+        radii=[0.001],
+        colors=[entities.lighten(color)],
+        labels=labels,
+        show_labels=True,
+    )
+    stream.log(entity, points, static=True)
+
+
+def send_angles(stream: Stream, euler: Columns) -> None:
+    """Send the arcs, their letters and the line of nodes, at some of the stamps."""
+    step = find_step(euler.stamps, RATE)
+    stamps, angles = euler.stamps[::step], euler.numbers[::step]
+    phi, theta, psi = angles[:, 0] % (2 * np.pi), angles[:, 1], angles[:, 2] % (2 * np.pi)
+    for name, arcs in draw_arcs(phi, theta, psi).items():
+        entity = f"{entities.ANGLES}/{name}"
+        stream.send(entity, stamps, rr.LineStrips3D.columns(strips=list(arcs)))
+        letters = BEYOND * arcs[:, POINTS // 2]
+        stream.send(f"{entity}/letter", stamps, rr.Points3D.columns(positions=letters))
+    nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
+    vectors = NODES_LENGTH * nodes
+    stream.send(f"{entities.ANGLES}/nodes", stamps, rr.Arrows3D.columns(vectors=vectors))
+    ends = rr.Points3D.columns(positions=1.06 * vectors)
+    stream.send(f"{entities.ANGLES}/nodes/name", stamps, ends)
+
+
+def draw_arcs(phi: Real, theta: Real, psi: Real) -> dict[str, Real]:
+    """Return the arcs (n, 33, 3) of angles (n,) in rad, by the name of the angle.
+
+    Examples
+    --------
+    >>> arcs = draw_arcs(np.zeros(1), np.full(1, np.pi / 2), np.zeros(1))
+    >>> (arcs["theta"][0, -1] / RADII["theta"]).round(6).tolist()  # where z points to
+    [0.0, -1.0, 0.0]
+    """
+    part = np.linspace(0.0, 1.0, POINTS)
+    nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
+    ahead = np.stack([np.sin(phi), -np.cos(phi), np.zeros_like(phi)], axis=-1)  # where z leans to
+    up = np.array([0.0, 0.0, 1.0])
+    sine, cosine = np.sin(theta)[:, None], np.cos(theta)[:, None]
+    across = sine * up - cosine * ahead  # z x N
+    starts = {"phi": np.broadcast_to([1.0, 0.0, 0.0], nodes.shape), "theta": up, "psi": nodes}
+    quarters = {"phi": np.array([0.0, 1.0, 0.0]), "theta": ahead, "psi": across}
+    turned = {"phi": phi, "theta": theta, "psi": psi}
+    return {
+        name: RADII[name]
+        * (
+            np.cos(turned[name][:, None] * part)[..., None] * np.atleast_2d(starts[name])[:, None]
+            + np.sin(turned[name][:, None] * part)[..., None]
+            * np.atleast_2d(quarters[name])[:, None]
+        )
+        for name in RADII
+    }

@@ -1,0 +1,136 @@
+"""Layout of a recording: the 3D scene on the left, the plots of the article on the right.
+
+The framing of a motion says how much of it is visible: of its trace, and in the plots.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import rerun.blueprint as rrb
+from rerun.blueprint.archetypes import PlotBackground
+
+from symtop_ros.playback.view import entities
+from symtop_ros.simulation.segment import Segment
+
+# Position of the eye and its target in scene units: from the front, slightly from above
+EYE_UPPER_HALF = ((1.55, -1.75, 1.05), (0.0, 0.0, 0.46))
+EYE_WHOLE_SPHERE = ((1.85, -2.1, 0.9), (0.0, 0.0, 0.0))
+
+# The colours are for a dark background; in the light theme of the viewer plots would be white.
+PLOT_BACKGROUND = PlotBackground(color=entities.BACKGROUND)
+TRACE_NUTATIONS = 12  # longest trace in nutations, if one turn of the precession has more
+PLOT_NUTATIONS = 30  # nutations on each side of the cursor
+HORIZON = 1.65  # rad; slightly below the horizontal plane of the pivot
+
+
+@dataclass(frozen=True, slots=True)
+class Framing:
+    """Visible part of a motion. The default is for a log without events.
+
+    Attributes
+    ----------
+    trace : float
+        Time for which the trace of the axis stays visible, s of the clock.
+    window : float
+        Range of the plots on each side of the cursor, s of the clock.
+    below_pivot : bool
+        True if the axis moves below the pivot: the whole sphere is drawn, and no stand.
+    """
+
+    trace: float = 2.0
+    window: float = 10.0
+    below_pivot: bool = True
+
+    @classmethod
+    def of(cls, segment: Segment) -> Framing:
+        """Return the framing of a motion."""
+        motion = segment.motion
+        rate, nutation = motion.mean_precession_rate, motion.nutation_period
+        turn = 2 * math.pi / abs(rate) if rate else math.inf
+        return cls(
+            trace=_clip(0.2, min(turn, TRACE_NUTATIONS * nutation) / segment.factor, 30.0),
+            window=_clip(2.0, PLOT_NUTATIONS * nutation / segment.factor, 60.0),
+            below_pivot=motion.top.Mgl < 0 or motion.turning_angles[1] > HORIZON,
+        )
+
+
+def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
+    """Return the layout for a motion; a live view follows the newest data."""
+    after = 0.0 if live else framing.window
+    window = around_cursor(-framing.window, after)
+    plots = [_plot(entity, name, window) for entity, name in entities.PLOTS.items()]
+    half = (len(plots) + 1) // 2
+    charts = rrb.Tabs(
+        _chart(entities.POTENTIAL, "effective potential (J)"),
+        _chart(entities.CUBIC, "f(u), u = cos(theta)"),
+    )
+    motion = rrb.TextDocumentView(origin=entities.PANEL, name="this motion")
+    left = rrb.Vertical(
+        create_space_view(framing),
+        rrb.Horizontal(motion, charts, column_shares=[5, 4]),
+        row_shares=[3, 2],
+    )
+    right = rrb.Vertical(*plots[:half]), rrb.Vertical(*plots[half:])
+    events = rrb.TextLogView(
+        origin=entities.EVENTS,
+        name="events",
+        columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+    )
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Horizontal(left, *right, column_shares=[6, 3, 3]), events, row_shares=[6, 1]
+        ),
+        rrb.TimePanel(
+            timeline=entities.TIMELINE,
+            state="collapsed",
+            play_state="following" if live else "playing",
+        ),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+    )
+
+
+def create_space_view(framing: Framing) -> rrb.Spatial3DView:
+    """Return the 3D view of the top."""
+    eye, target = EYE_WHOLE_SPHERE if framing.below_pivot else EYE_UPPER_HALF
+    return rrb.Spatial3DView(
+        origin=entities.SPACE,
+        name="the top",
+        background=entities.BACKGROUND,
+        line_grid=False,
+        eye_controls=rrb.EyeControls3D(position=eye, look_target=target, eye_up=(0, 0, 1)),
+        overrides={
+            entity: around_cursor(-framing.trace, 0.0)
+            for entity in (entities.TRACE, entities.GHOST_TRACE)
+        },
+    )
+
+
+def _chart(entity: str, name: str) -> rrb.Spatial2DView:
+    return rrb.Spatial2DView(origin=entity, name=name, background=entities.BACKGROUND)
+
+
+def _plot(entity: str, name: str, window: rrb.VisibleTimeRanges) -> rrb.TimeSeriesView:
+    return rrb.TimeSeriesView(
+        origin=entity,
+        name=name,
+        plot_legend=rrb.Corner2D.RightTop,
+        background=PLOT_BACKGROUND,
+        time_ranges=window,
+    )
+
+
+def around_cursor(first: float, last: float) -> rrb.VisibleTimeRanges:
+    """Return the time range between two offsets from the cursor, in s."""
+    return rrb.VisibleTimeRanges(
+        timeline=entities.TIMELINE,
+        start=rrb.TimeRangeBoundary.cursor_relative(seconds=first),
+        end=rrb.TimeRangeBoundary.cursor_relative(seconds=last),
+    )
+
+
+def _clip(low: float, value: float, high: float) -> float:
+    """Return a number within bounds; the lower bound for nan."""
+    return min(max(low, value), high)

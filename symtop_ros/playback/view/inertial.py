@@ -1,0 +1,145 @@
+"""Arrows of the inertial torque: which part of the torque changes L, seen from which frame.
+
+In the body frame torque = dL/dt + omega x L. In the frame of the line of nodes, which follows the
+precession alone, torque = dL/dt + phi' z' x L, and in regular precession dL/dt is zero there. The
+arrows lie below and above the pivot, so that those along one line do not hide each other: omega x L
+begins below the tip of dL/dt and ends below the tip of the torque.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN
+from symtop_ros.playback.view.quantities import Samples, Stamps, find_step
+from symtop_ros.playback.view.stream import Stream
+
+Real = NDArray[np.float64]
+RATE = 60.0  # arrows per s of the clock
+LENGTH = 0.9  # of the longest arrow in scene units
+TOPICS = ("angular_velocity", "angular_momentum", "torque", "euler_angles")
+EQUATIONS = {
+    "in the body frame": "torque = dL/dt + \u03c9 x L",
+    "in the frame of the nodes": "torque = dL/dt + \u03c6' z' x L",
+}
+
+
+class TorqueArrow(NamedTuple):
+    """An arrow below or above the pivot.
+
+    Attributes
+    ----------
+    label : str
+    color : (int, int, int)
+    depth : float
+        Below the pivot, in scene units; negative above it.
+    place : (float, float)
+        Of the label: along the line of nodes, and up. It is fixed, so that labels stay apart when
+        the arrows are short, as they are at cusps.
+    """
+
+    label: str
+    color: tuple[int, int, int]
+    depth: float
+    place: tuple[float, float]
+
+
+ARROWS = {
+    "body": TorqueArrow("dL/dt (body)", GREEN, 0.10, (1.15, 0.0)),
+    "turning": TorqueArrow("\u03c9 x L (body)", BLUE, 0.20, (0.2, -0.22)),
+    "precession": TorqueArrow("\u03c6' z' x L (nodes)", GOLD, -0.10, (-0.9, 0.12)),
+}
+
+
+class Torques(NamedTuple):
+    """Parts of the torque as vectors in the world frame, (n, 3), in N m.
+
+    Attributes
+    ----------
+    total : ndarray (n, 3)
+        The torque.
+    body : ndarray (n, 3)
+        dL/dt as the body frame sees it.
+    turning : ndarray (n, 3)
+        omega x L.
+    precession : ndarray (n, 3)
+        phi' z' x L.
+    nodes : ndarray (n, 3)
+        Unit vectors along the line of nodes.
+
+    Examples
+    --------
+    >>> along = np.array([[1.0, 0.0, 0.0]])
+    >>> Torques(along, 4.5 * along, -3.5 * along, along, along).find_scale()
+    5.0
+    """
+
+    total: Real
+    body: Real
+    turning: Real
+    precession: Real
+    nodes: Real
+
+    @classmethod
+    def of(cls, samples: Samples) -> tuple[Stamps, Torques] | None:
+        """Return stamps and torques; None if a topic or a sample is missing."""
+        if not all(name in samples for name in TOPICS):
+            return None
+        velocity, momentum, torque, euler = (samples[name] for name in TOPICS)
+        stamps = velocity.stamps
+        if not all(np.array_equal(stamps, each.stamps) for each in (momentum, torque, euler)):
+            return None
+        L, total = momentum.numbers, torque.numbers[:, 3:]
+        turning = np.cross(velocity.numbers[:, 3:], L)
+        zero = np.zeros(len(L))
+        precession = euler.numbers[:, 3:4] * np.stack([-L[:, 1], L[:, 0], zero], axis=1)
+        phi = euler.numbers[:, 0]
+        nodes = np.stack([np.cos(phi), np.sin(phi), zero], axis=1)
+        return stamps, cls(total, total - turning, turning, precession, nodes)
+
+    def find_scale(self) -> float:
+        """Return the torque in N m of one scene unit, so that the longest arrow has `LENGTH`."""
+        parts = self[:-1]
+        longest = max(float(np.linalg.norm(part, axis=1).max(initial=0.0)) for part in parts)
+        return float(f"{longest / LENGTH:.2g}") or 1.0
+
+
+def log_styles(stream: Stream) -> None:
+    """Log colours and labels of the arrows."""
+    for name, arrow in ARROWS.items():
+        entity = f"{entities.INERTIAL}/{name}"
+        style = rr.Arrows3D.from_fields(colors=[arrow.color], radii=[0.010])
+        stream.log(entity, style, static=True)
+        label = rr.Points3D.from_fields(
+            colors=[entities.lighten(arrow.color)],
+            radii=[0.001],
+            labels=[arrow.label],
+            show_labels=True,
+        )
+        stream.log(f"{entity}/name", label, static=True)
+
+
+def send_arrows(stream: Stream, stamps: Stamps, torques: Torques, scale: float) -> None:
+    """Send the arrows at some of the stamps; a scale is the torque in N m of one scene unit."""
+    step = find_step(stamps, RATE)
+    _, body, turning, precession, _ = (part[::step] / scale for part in torques)
+    rest = np.zeros_like(body)
+    placed = {
+        "body": (rest, body),
+        "turning": (body, turning),
+        "precession": (rest, precession),
+    }
+    for name, (tails, vectors) in placed.items():
+        origins = tails - [0.0, 0.0, ARROWS[name].depth]
+        along, up = ARROWS[name].place
+        entity = f"{entities.INERTIAL}/{name}"
+        arrows = rr.Arrows3D.columns(origins=origins, vectors=vectors)
+        stream.send(entity, stamps[::step], arrows)
+        places = along * torques.nodes[::step] + [0.0, 0.0, up]
+        labels = rr.Points3D.columns(positions=places)
+        stream.send(f"{entity}/name", stamps[::step], labels)

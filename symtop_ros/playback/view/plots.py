@@ -1,0 +1,124 @@
+"""The plots next to the 3D scene: angles, momenta, energies, drift, charts of the potential."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from symtop_ros.log.batch import Columns
+from symtop_ros.physics import EffectivePotential, Motion, Top
+from symtop_ros.playback.view import entities, quantities
+from symtop_ros.playback.view.energy import EnergyBook
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE
+from symtop_ros.playback.view.potential import PotentialView
+from symtop_ros.playback.view.stream import Stream
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+
+Real = NDArray[np.float64]
+EPS = float(np.finfo(float).eps)
+RATE_OF_DOTS = 125.0  # positions per s of the clock
+DRIFT_INTERVAL = 100_000_000  # ns between two curves of a potential that drifts
+LINES = {
+    entities.THETA: (["theta"], [GOLD]),
+    entities.PHI_DOT: (["phi'"], [ORANGE]),
+    entities.PSI_DOT: (["psi'"], [GREEN]),
+    entities.L: (["L_x'", "L_y'", "L_z'"], [RED, GREEN, BLUE]),
+    entities.L_HORIZONTAL: (["L\u00b2 - L_z'\u00b2"], [BLUE]),
+    entities.ENERGY: (
+        ["kinetic", "+ potential", "+ lost to friction", "start + work"],
+        [GREEN, GOLD, RED, WHITE],
+    ),
+    entities.NODES_TORQUE: (["torque", "dL/dt in the body", "omega x L"], [RED, GREEN, BLUE]),
+    entities.DRIFT: (["E", "L_z", "L_z'"], [GOLD, RED, BLUE]),
+}
+
+
+class Plots:
+    """Everything of a recording that is a curve.
+
+    Parameters
+    ----------
+    stream : Stream
+    """
+
+    def __init__(self, stream: Stream) -> None:
+        self._stream = stream
+        self._potential, self._energy = PotentialView(stream), EnergyBook()
+        self._reference: Real | None = None  # constants of motion when the segment began
+        for entity, (names, colors) in LINES.items():
+            series = rr.SeriesLines(names=names, colors=colors, widths=[1.6] * len(names))
+            stream.log(entity, series, static=True)
+
+    def follow(self, event: Event, before: Segment | None, after: Segment) -> None:
+        """Take over an event; a new motion has another potential."""
+        self._reference = None
+        self._energy.follow(event, before, after)
+        if before is None or not _is_same(before.motion, after.motion):
+            potential = EffectivePotential.of(after.motion.top, after.motion.start)
+            self._potential.log_motion(after.motion, potential)
+
+    def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
+        """Send the samples of a segment; None: its top is unknown."""
+        if "euler_angles" in columns:
+            euler = columns["euler_angles"]
+            for entity, column in (
+                (entities.THETA, 1),
+                (entities.PHI_DOT, 3),
+                (entities.PSI_DOT, 5),
+            ):
+                values = euler.numbers[:, column : column + 1]
+                self._stream.send_scalars(entity, euler.stamps, values)
+        if "angular_momentum" in columns:
+            momentum = columns["angular_momentum"]
+            self._stream.send_scalars(entities.L, momentum.stamps, momentum.numbers)
+            square = quantities.horizontal_square(momentum)
+            self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square[:, None])
+        if segment:
+            self._send_drift(columns, segment.motion.top)
+            self._send_constants(columns, segment.motion)
+
+    def _send_drift(self, columns: Mapping[str, Columns], top: Top) -> None:
+        found = quantities.constants(columns, top)
+        if found and len(found[0]):
+            stamps, values = found
+            if self._reference is None:
+                self._reference = values[0]
+            drift = (
+                (values - self._reference)
+                / quantities.scales_of_constants(top, self._reference)
+                / EPS
+            )
+            self._stream.send_scalars(entities.DRIFT, stamps, drift)
+
+    def _send_constants(self, columns: Mapping[str, Columns], motion: Motion) -> None:
+        """Send the moving dots of the potential, the energies and the inertial torque."""
+        if "euler_angles" in columns:
+            euler = columns["euler_angles"]
+            step = quantities.find_step(euler.stamps, RATE_OF_DOTS)
+            heights = quantities.heights_of_dots(motion.top, euler.numbers[::step])
+            for entity, points in self._potential.place(*heights).items():
+                positions = rr.Points2D.columns(positions=points)
+                self._stream.send(f"{entity}/state", euler.stamps[::step], positions)
+            if motion.is_integrated:
+                self._send_drifting_curves(euler, motion)
+        for entity, found in (
+            (entities.ENERGY, self._energy.rows(columns, motion)),
+            (entities.NODES_TORQUE, quantities.torques_along_nodes(columns)),
+        ):
+            if found:
+                self._stream.send_scalars(entity, *found)
+
+    def _send_drifting_curves(self, euler: Columns, motion: Motion) -> None:
+        instants = np.unique(euler.stamps // DRIFT_INTERVAL, return_index=True)[1]
+        potentials = quantities.potentials_at(motion.top, euler.numbers[instants])
+        for entity, strips in self._potential.draw(potentials).items():
+            lines = rr.LineStrips2D.columns(strips=strips)
+            self._stream.send(entity, euler.stamps[instants], lines)
+
+
+def _is_same(one: Motion, other: Motion) -> bool:
+    return (one.top, one.friction) == (other.top, other.friction) and one.start == other.start

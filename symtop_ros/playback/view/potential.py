@@ -1,0 +1,170 @@
+"""The effective potential with its energy line, and the cubic f(u): why theta stays where it does.
+
+Both are drawn as curves in a box, with what is allowed hatched and the state as a moving dot.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from symtop_ros.drawing.chart import TILTS, Chart, frame_cubic, frame_potential
+from symtop_ros.physics import EffectivePotential, Motion
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREY, WHITE
+from symtop_ros.playback.view.stream import Stream
+
+Real = NDArray[np.float64]
+HATCHES = 40
+OLD = (118, 126, 140)
+HATCHED, DRAWN = 10.0, 20.0  # what is drawn later is in front
+CLEAR = rr.Clear(recursive=False)
+
+
+class PotentialView:
+    """Both charts of one recording.
+
+    Parameters
+    ----------
+    stream : Stream
+    """
+
+    def __init__(self, stream: Stream) -> None:
+        self._stream = stream
+        self._potential: EffectivePotential | None = None
+        self._charts: tuple[Chart, Chart] | None = None
+        for entity in (entities.POTENTIAL, entities.CUBIC):
+            dot = rr.Points2D.from_fields(
+                colors=[WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
+            )
+            stream.log(f"{entity}/state", dot, static=True)
+
+    def log_motion(self, motion: Motion, potential: EffectivePotential) -> None:
+        """Draw the curves of a motion from the current time on, and those before it in grey."""
+        chart, cubic = frame_potential(motion, potential), frame_cubic(motion, potential)
+        self._log_potential(motion, potential, chart)
+        self._log_cubic(motion, potential, cubic)
+        self._potential, self._charts = potential, (chart, cubic)
+
+    def place(self, tilts: Real, energies: Real, squares: Real) -> dict[str, Real]:
+        """Return the positions (n, 2) of the dot in each chart, by its entity.
+
+        Parameters
+        ----------
+        tilts : ndarray (n,)
+            theta in rad.
+        energies : ndarray (n,)
+            E' in J.
+        squares : ndarray (n,)
+            (du/dt)^2 in 1/s^2.
+        """
+        if self._charts is None:
+            return {}
+        chart, cubic = self._charts
+        return {
+            entities.POTENTIAL: chart.place(tilts, energies),
+            entities.CUBIC: cubic.place(np.cos(tilts), squares),
+        }
+
+    def draw(self, potentials: list[EffectivePotential]) -> dict[str, list[Real]]:
+        """Return lines for potentials that drift, one strip for each, by the entity.
+
+        Friction and torques change the constants of motion, and the curves with them.
+        """
+        if self._charts is None:
+            return {}
+        chart, cubic = self._charts
+        ends = np.array([chart.left, chart.right])
+        heights = np.linspace(cubic.left, cubic.right, 501)
+        return {
+            f"{entities.POTENTIAL}/curve": [
+                _join(chart.cut(TILTS[::8], each.at(TILTS[::8]))) for each in potentials
+            ],
+            f"{entities.POTENTIAL}/energy": [chart.place(ends, each.energy) for each in potentials],
+            f"{entities.CUBIC}/curve": [
+                _join(cubic.cut(heights, each.cubic(heights))) for each in potentials
+            ],
+        }
+
+    def _log_potential(self, motion: Motion, potential: EffectivePotential, chart: Chart) -> None:
+        low, high = motion.turning_angles
+        line = chart.place(np.array([chart.left, chart.right]), potential.energy)
+        between = np.linspace(low, high, HATCHES)
+        hatches = np.stack(
+            [
+                chart.place(between, np.minimum(potential.at(between), potential.energy)),
+                chart.place(between, potential.energy),
+            ],
+            axis=1,
+        )
+        self._log_lines(entities.POTENTIAL, "curve", chart.cut(TILTS, potential.at(TILTS)), BLUE)
+        self._log_lines(entities.POTENTIAL, "energy", [line], GOLD)
+        self._log_lines(entities.POTENTIAL, "allowed", list(hatches), (*GOLD, 40), 2.0)
+        self._log_lines(entities.POTENTIAL, "frame", [chart.frame()], GREY, 1.0)
+        old = self._potential
+        before = chart.cut(TILTS, old.at(TILTS)) if old and old != potential else []
+        self._log_lines(entities.POTENTIAL, "before", before, OLD, 1.0)
+        marks = {f"{low:.3f} rad": low, f"{high:.3f}": high} if high > low else {f"{low:.3f}": low}
+        self._log_marks(entities.POTENTIAL, chart, marks, chart.bottom)
+
+    def _log_cubic(self, motion: Motion, potential: EffectivePotential, chart: Chart) -> None:
+        u2, u1 = (float(np.cos(angle)) for angle in motion.turning_angles)
+        third = potential.find_third_root(*motion.turning_angles)
+        heights = np.linspace(chart.left, chart.right, 2001)
+        between = np.linspace(u1, u2, HATCHES)
+        values = np.maximum(potential.cubic(between), 0.0)
+        hatches = np.stack([chart.place(between, 0.0), chart.place(between, values)], axis=1)
+        self._log_lines(entities.CUBIC, "curve", chart.cut(heights, potential.cubic(heights)), BLUE)
+        self._log_lines(entities.CUBIC, "allowed", list(hatches), (*GOLD, 40), 2.0)
+        zero = chart.place(np.array([chart.left, chart.right]), 0.0)
+        poles = [chart.place(end, np.array([chart.bottom, chart.top])) for end in (-1.0, 1.0)]
+        self._log_lines(entities.CUBIC, "frame", [zero, *poles], GREY, 1.0)
+        old = self._potential
+        before = chart.cut(heights, old.cubic(heights)) if old and old != potential else []
+        self._log_lines(entities.CUBIC, "before", before, OLD, 1.0)
+        roots = {f"u1 = {u1:.3f}": u1, f"u2 = {u2:.3f}": u2}
+        if chart.left < third < chart.right:
+            roots[f"u3 = {third:.3f}"] = third
+        self._log_marks(entities.CUBIC, chart, roots, 0.0)
+
+    def _log_lines(
+        self,
+        entity: str,
+        name: str,
+        strips: list[Real],
+        color: tuple[int, ...],
+        width: float = 1.8,
+    ) -> None:
+        lines = rr.LineStrips2D(
+            strips,
+            colors=[color],
+            radii=_in_pixels(width),
+            draw_order=HATCHED if name == "allowed" else DRAWN,
+        )
+        self._stream.log(f"{entity}/{name}", lines if strips else CLEAR)
+
+    def _log_marks(self, entity: str, chart: Chart, marks: dict[str, float], y: float) -> None:
+        points = chart.place(np.array(list(marks.values())), y)
+        self._stream.log(
+            f"{entity}/marks",
+            rr.Points2D(
+                points,
+                labels=list(marks),
+                colors=[GOLD],
+                radii=_in_pixels(3.5),
+                draw_order=DRAWN + 1,
+                show_labels=True,
+            ),
+        )
+
+
+def _join(strips: list[Real]) -> Real:
+    """Return the longest strip, or a point."""
+    return max(strips, key=len, default=np.zeros((1, 2)))
+
+
+def _in_pixels(width: float) -> Any:
+    return [rr.Radius.ui_points(width)]

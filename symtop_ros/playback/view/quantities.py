@@ -1,0 +1,148 @@
+"""Quantities that are drawn but not logged, computed from the logged samples as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.log.batch import Columns
+from symtop_ros.physics import EffectivePotential, Top
+
+Real = NDArray[np.float64]
+Stamps = NDArray[np.int64]
+Samples = Mapping[str, Columns]
+
+
+def attitudes(samples: Samples) -> tuple[Stamps, Real] | None:
+    """Return stamps and quaternions x, y, z, w (n, 4), None if the log has no attitude.
+
+    They are taken from ~/orientation, else from /tf, else from the Euler angles.
+    """
+    if "orientation" in samples:
+        columns = samples["orientation"]
+        return columns.stamps, columns.numbers
+    if "tf" in samples:
+        columns = samples["tf"]
+        return columns.stamps, columns.numbers[:, 3:]
+    if "euler_angles" in samples:
+        columns = samples["euler_angles"]
+        return columns.stamps, _from_euler_angles(columns.numbers)
+    return None
+
+
+def _from_euler_angles(angles: Real) -> Real:
+    phi, theta, psi = angles[:, 0] / 2, angles[:, 1] / 2, angles[:, 2] / 2
+    c, s = np.cos(theta), np.sin(theta)
+    parts = (
+        s * np.cos(phi - psi),
+        s * np.sin(phi - psi),
+        c * np.sin(phi + psi),
+        c * np.cos(phi + psi),
+    )
+    return np.stack(parts, axis=1)
+
+
+def axis_of(quaternions: Real) -> Real:
+    """Return the symmetry axis in the world frame (n, 3) from quaternions x, y, z, w."""
+    x, y, z, w = quaternions.T
+    return np.stack(
+        [2 * (x * z + w * y), 2 * (y * z - w * x), (w * w + z * z) - (x * x + y * y)], axis=1
+    )
+
+
+def rotate(quaternions: Real, vectors: Real) -> Real:
+    """Return vectors (n, 3) turned by quaternions x, y, z, w, (n, 4).
+
+    Examples
+    --------
+    >>> rotate(np.array([[0.0, 0.0, 1.0, 0.0]]), np.array([[1.0, 2.0, 3.0]])).tolist()
+    [[-1.0, -2.0, 3.0]]
+    """
+    axis = quaternions[:, :3]
+    turned = 2 * np.cross(axis, vectors)
+    return np.asarray(vectors + quaternions[:, 3:] * turned + np.cross(axis, turned))
+
+
+def find_step(stamps: Stamps, rate: float) -> int:
+    """Return how many samples to skip so that at most `rate` of them are left for each s."""
+    span = (stamps[-1] - stamps[0]) * 1e-9 if len(stamps) else 0.0
+    return max(1, int(len(stamps) / max(span * rate, 1.0)))
+
+
+def align(one: Columns, other: Columns) -> tuple[Stamps, Real, Real]:
+    """Return the common stamps of two topics and the doubles of both at them."""
+    if np.array_equal(one.stamps, other.stamps):
+        return one.stamps, one.numbers, other.numbers
+    stamps, first, second = np.intersect1d(one.stamps, other.stamps, return_indices=True)
+    return stamps, one.numbers[first], other.numbers[second]
+
+
+def horizontal_square(momentum: Columns) -> Real:
+    """Return L^2 - L_z'^2 (n,), computed as L_x'^2 + L_y'^2, where nothing cancels."""
+    return np.asarray((momentum.numbers[:, :2] ** 2).sum(axis=1))
+
+
+def constants(samples: Samples, top: Top) -> tuple[Stamps, Real] | None:
+    """Return stamps and constants of motion (n, 3): energy, L_z, L_z'; None if a topic is missing.
+
+    E = omega . L / 2 + Mgl cos(theta), L_z = L . axis, L_z' = L . z'.
+    """
+    names = ("orientation", "angular_velocity", "angular_momentum")
+    if not all(name in samples for name in names):
+        return None
+    orientation, velocity, momentum = (samples[name] for name in names)
+    stamps, q, omega = align(orientation, velocity)
+    joined = Columns(stamps, np.concatenate([q, omega[:, 3:]], axis=1), stamps)
+    stamps, both, L = align(joined, momentum)
+    axis, omega = axis_of(both[:, :4]), both[:, 4:]
+    energy = (omega * L).sum(axis=1) / 2 + top.Mgl * axis[:, 2]
+    return stamps, np.stack([energy, (L * axis).sum(axis=1), L[:, 2]], axis=1)
+
+
+def torques_along_nodes(samples: Samples) -> tuple[Stamps, Real] | None:
+    """Return stamps and three torques (n, 3) along the line of nodes; None if a topic is missing.
+
+    torque = (dL/dt in the body frame) + omega x L, in this order: the total torque, the rate of
+    change of L as the body sees it, and the inertial torque with the sign that it has here.
+    """
+    names = ("angular_velocity", "angular_momentum", "torque", "euler_angles")
+    if not all(name in samples for name in names):
+        return None
+    velocity, momentum, torque, euler = (samples[name] for name in names)
+    stamps = velocity.stamps
+    if not all(np.array_equal(stamps, each.stamps) for each in (momentum, torque, euler)):
+        return None
+    phi = euler.numbers[:, 0]
+    nodes = np.stack([np.cos(phi), np.sin(phi)], axis=1)
+    turning = np.cross(velocity.numbers[:, 3:], momentum.numbers)
+    total, added = (
+        (vectors[:, :2] * nodes).sum(axis=1) for vectors in (torque.numbers[:, 3:], turning)
+    )
+    return stamps, np.stack([total, total - added, added], axis=1)
+
+
+def heights_of_dots(top: Top, angles: Real) -> tuple[Real, Real, Real]:
+    """Return theta, E' = E - p_psi^2/(2 Iz) and (du/dt)^2, each (n,), from angles and rates."""
+    theta, phi_dot, theta_dot = angles[:, 1], angles[:, 3], angles[:, 4]
+    sine = np.sin(theta)
+    across = theta_dot**2 + (sine * phi_dot) ** 2
+    return theta, top.Ix * across / 2 + top.Mgl * np.cos(theta), (sine * theta_dot) ** 2
+
+
+def potentials_at(top: Top, angles: Real) -> list[EffectivePotential]:
+    """Return the effective potential for angles and rates (n, 6), one for each row."""
+    cosine, sine = np.cos(angles[:, 1]), np.sin(angles[:, 1])
+    axial = top.Iz * (angles[:, 5] + angles[:, 3] * cosine)
+    vertical = top.Ix * sine * sine * angles[:, 3] + axial * cosine
+    _, energies, _ = heights_of_dots(top, angles)
+    rows = zip(vertical.tolist(), axial.tolist(), energies.tolist(), strict=True)
+    return [EffectivePotential(top, *row) for row in rows]
+
+
+def scales_of_constants(top: Top, values: Real) -> Real:
+    """Return the sizes (3,) that a drift of the constants is divided by: of the larger term."""
+    energy, axial, vertical = np.abs(values)
+    momentum = max(axial, vertical, 1e-300)
+    return np.array([max(energy, abs(top.Mgl), 1e-300), momentum, momentum])

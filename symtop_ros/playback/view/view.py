@@ -1,0 +1,312 @@
+"""The view: batches of a run are sent to a Rerun recording in columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from symtop_ros.drawing.mesh import create_body
+from symtop_ros.log.batch import Batch, Columns
+from symtop_ros.physics import Motion, State, Top
+from symtop_ros.playback.view import (
+    angles,
+    cones,
+    entities,
+    ghost,
+    inertial,
+    quantities,
+    surroundings,
+)
+from symtop_ros.playback.view.blueprint import Framing, create_blueprint
+from symtop_ros.playback.view.bodies import to_mesh3d
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VIOLET
+from symtop_ros.playback.view.ghost import Ghost
+from symtop_ros.playback.view.panel import describe_motion
+from symtop_ros.playback.view.plots import Plots
+from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.surroundings import Trace
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+
+Real = NDArray[np.float64]
+Stamps = NDArray[np.int64]
+
+
+class Arrow(NamedTuple):
+    """An arrow of the scene.
+
+    Attributes
+    ----------
+    entity : str
+        Path of the entity.
+    label, unit : str
+    color : (int, int, int)
+    length : float
+        Length of the first vector in scene units.
+    first : int
+        Index of the vector among the doubles of its topic.
+    """
+
+    entity: str
+    label: str
+    unit: str
+    color: tuple[int, int, int]
+    length: float
+    first: int
+
+
+SENSOR = "imu"
+ARROWS = {
+    "angular_momentum": Arrow(entities.MOMENTUM, "L", "N m s", BLUE, 1.45, 0),
+    "angular_velocity": Arrow(entities.VELOCITY, "omega", "rad/s", GREEN, 1.2, 3),
+    "torque": Arrow(entities.TORQUE, "torque", "N m", RED, 0.6, 3),
+    SENSOR: Arrow(entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", VIOLET, 0.8, 25),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ViewOptions:
+    """Parts of the scene that can be left out. One that is off costs nothing.
+
+    Attributes
+    ----------
+    ghost : bool
+        The top that was not kicked.
+    angles : bool
+        Both frames, the line of nodes, and the arcs of phi, theta and psi.
+    torques : bool
+        Arrows of dL/dt and of the inertial torque in two frames.
+
+    Examples
+    --------
+    >>> ViewOptions(angles=True)
+    ViewOptions(ghost=True, angles=True, torques=False)
+    """
+
+    ghost: bool = True
+    angles: bool = False
+    torques: bool = False
+
+
+DEFAULT_OPTIONS = ViewOptions()
+
+
+class View:
+    """A Rerun recording of one top.
+
+    Parameters
+    ----------
+    recording : RecordingStream
+    live : bool
+        True to follow the newest sample, False to play the whole run.
+    options : ViewOptions
+    """
+
+    def __init__(
+        self,
+        recording: rr.RecordingStream,
+        live: bool = False,
+        options: ViewOptions = DEFAULT_OPTIONS,
+    ) -> None:
+        self._stream, self._live, self._options = Stream(recording), live, options
+        self._plots = Plots(self._stream)
+        self._ghost = Ghost() if options.ghost else None
+        self._has_cones = False
+        self._segment: Segment | None = None
+        self._framing: Framing | None = None
+        self._top: Top | None = None
+        self._scales: dict[str, float] = {}  # of each arrow: value of one scene unit
+        self._trace = Trace()
+        self._log_styles()
+
+    def send(self, batch: Batch) -> None:
+        """Send a batch; numbers that cannot be drawn (nan) are not visible."""
+        with np.errstate(all="ignore"):
+            self._send_batch(batch)
+
+    def _send_batch(self, batch: Batch) -> None:
+        for event, columns in batch.stretches():
+            if self._stream.origin is None:
+                self._stream.origin = _first_stamp(event, columns)
+            if columns:
+                self._choose_scales(columns)
+            if event:
+                self._send_event(event)
+            if columns and self._stream.origin is not None:
+                self._send_samples(columns)
+
+    def log_text(self, sentence: str, level: str = "WARN") -> None:
+        """Add a sentence to the list of events at the current time."""
+        self._stream.log(entities.EVENTS, rr.TextLog(sentence, level=level))
+
+    def _send_event(self, event: Event) -> None:
+        previous, self._segment = self._segment, event.segment()
+        motion, framing = self._segment.motion, Framing.of(self._segment)
+        before, self._framing = self._framing, framing
+        if before is None:
+            self._send_layout(framing)
+        self._stream.set_time(event.stamp)
+        if self._top != motion.top:
+            self._log_body(motion.top)
+        if before is None or before.below_pivot != framing.below_pivot:
+            surroundings.log_surroundings(self._stream.recording, framing.below_pivot)
+        self._send_ghost_event(event.name, previous, self._segment)
+        self._send_cones(motion, event.state())
+        self._plots.follow(event, previous, self._segment)
+        circles = surroundings.turning_circles(motion.turning_angles)
+        self._stream.log(entities.CIRCLES, circles)
+        asked = event.values.get("request", "")
+        sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
+        self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
+        equations = inertial.EQUATIONS if self._options.torques else {}
+        text = describe_motion(self._segment, event.state(), self._scale_texts(), equations)
+        self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
+
+    def _send_cones(self, motion: Motion, state: State) -> None:
+        """Draw the cones of a free motion; remove them when it ceases to be free."""
+        scale = self._scales.get("angular_velocity")
+        if cones.has_cones(motion) and scale:
+            cones.log_cones(self._stream, motion, state, scale)
+            self._has_cones = True
+        elif self._has_cones:
+            cones.clear_cones(self._stream)
+            self._has_cones = False
+
+    def _send_ghost_event(self, name: str, before: Segment | None, after: Segment) -> None:
+        if self._ghost is None:
+            return
+        old = self._ghost.segment
+        self._ghost.follow(name, before, after)
+        new = self._ghost.segment
+        if new is None and old is not None:
+            self._clear_ghost()
+        elif new is not None and (old is None or new.motion.top != old.motion.top):
+            self._stream.log(entities.GHOST, ghost.create_ghost(new.motion))
+            self._stream.log(f"{entities.GHOST}/axis", ghost.create_axis())
+
+    def _send_samples(self, columns: Mapping[str, Columns]) -> None:
+        if self._framing is None:  # there was no event: the top is unknown
+            self._framing = Framing()
+            self._send_layout(self._framing)
+            self._log_body(None)
+        found = quantities.attitudes(columns)
+        if found:
+            stamps, quaternions = found
+            self._stream.send(entities.BODY, stamps, rr.Transform3D.columns(quaternion=quaternions))
+            times, strips = self._trace.strips(stamps, quantities.axis_of(quaternions))
+            self._stream.send(entities.TRACE, times, rr.LineStrips3D.columns(strips=list(strips)))
+            self._send_ghost(stamps)
+        for name, arrow in ARROWS.items():
+            if name in columns:
+                vectors = _vectors(columns[name], arrow) / self._scales[name]
+                stamps = columns[name].stamps
+                self._stream.send(arrow.entity, stamps, rr.Arrows3D.columns(vectors=vectors))
+                ends = rr.Points3D.columns(positions=vectors)
+                self._stream.send(f"{arrow.entity}/name", stamps, ends)
+        if "euler_angles" in columns:
+            euler = columns["euler_angles"]
+            nodes = surroundings.line_of_nodes(euler.numbers[:, 0])
+            lines = rr.LineStrips3D.columns(strips=list(nodes))
+            self._stream.send(entities.NODES, euler.stamps, lines)
+            if self._options.angles:
+                angles.send_angles(self._stream, euler)
+        if self._options.torques and (parts := inertial.Torques.of(columns)):
+            inertial.send_arrows(self._stream, *parts, self._scales["torque"])
+        self._plots.send(columns, self._segment)
+
+    def _send_ghost(self, stamps: Stamps) -> None:
+        if self._ghost is None or self._ghost.segment is None:
+            return
+        first = int(stamps[0])
+        stamps, quaternions = self._ghost.states_at(stamps)
+        if self._ghost.segment is None:
+            self._stream.set_time(first)
+            self._clear_ghost()
+            return
+        self._stream.send(entities.GHOST, stamps, rr.Transform3D.columns(quaternion=quaternions))
+        times, strips = self._ghost.strips(stamps, quaternions, self._trace.length)
+        if len(times):
+            lines = rr.LineStrips3D.columns(strips=list(strips))
+            self._stream.send(entities.GHOST_TRACE, times, lines)
+
+    def _clear_ghost(self) -> None:
+        self._stream.log(entities.GHOST, rr.Clear(recursive=True))
+        self._stream.log(entities.GHOST_TRACE, rr.Clear(recursive=False))
+
+    def _choose_scales(self, columns: Mapping[str, Columns]) -> None:
+        """Choose the scale of each arrow by its first vectors."""
+        if self._options.torques and "torque" not in self._scales:
+            # One scale for all torques, so that their sum can be seen.
+            parts = inertial.Torques.of(columns)
+            if parts:
+                self._scales["torque"] = parts[1].find_scale()
+        for name, arrow in ARROWS.items():
+            if name in columns and name not in self._scales:
+                lengths = np.linalg.norm(_vectors(columns[name], arrow), axis=1)
+                self._scales[name] = float(f"{lengths.max() / arrow.length:.2g}") or 1.0
+                if name == SENSOR:
+                    self._log_arrow_style(arrow)
+
+    def _scale_texts(self) -> dict[str, str]:
+        return {
+            arrow.label: f"{self._scales[name]:g} {arrow.unit}"
+            for name, arrow in ARROWS.items()
+            if name in self._scales
+        }
+
+    def _send_layout(self, framing: Framing) -> None:
+        self._trace.length = framing.trace
+        self._stream.recording.send_blueprint(create_blueprint(framing, self._live))
+
+    def _log_styles(self) -> None:
+        ghost.log_styles(self._stream)
+        if self._options.angles:
+            angles.log_frames(self._stream)
+        if self._options.torques:
+            inertial.log_styles(self._stream)
+        for name, arrow in ARROWS.items():
+            if name != SENSOR:  # most tops have none
+                self._log_arrow_style(arrow)
+        for entity, color, radius in (
+            (entities.TRACE, GOLD, 0.007),
+            (entities.NODES, ORANGE, 0.005),
+        ):
+            lines = rr.LineStrips3D.from_fields(colors=[color], radii=[radius])
+            self._stream.log(entity, lines, static=True)
+
+    def _log_arrow_style(self, arrow: Arrow) -> None:
+        style = rr.Arrows3D.from_fields(colors=[arrow.color], radii=[0.012])
+        self._stream.log(arrow.entity, style, static=True)
+        # A point at the tip carries the label: that of an arrow would be drawn at its middle.
+        name = rr.Points3D.from_fields(
+            colors=[entities.lighten(arrow.color)],
+            radii=[0.001],
+            labels=[arrow.label],
+            show_labels=True,
+        )
+        self._stream.log(f"{arrow.entity}/name", name, static=True)
+
+    def _log_body(self, top: Top | None) -> None:
+        self._top = top
+        self._stream.log(entities.BODY, to_mesh3d(create_body(top)))
+
+
+def _vectors(columns: Columns, arrow: Arrow) -> Real:
+    """Return the vectors of an arrow in the world frame, (n, 3)."""
+    vectors = columns.numbers[:, arrow.first : arrow.first + 3]
+    if arrow.entity == entities.SPECIFIC_FORCE:  # in the frame of the sensor
+        return quantities.rotate(columns.numbers[:, :4], vectors)
+    return vectors
+
+
+def _first_stamp(event: Event | None, columns: Mapping[str, Columns]) -> int | None:
+    """Return the stamp of the first sample, or of the event if there is no sample."""
+    stamps = [int(each.stamps[0]) for each in columns.values()]
+    if stamps:
+        return min(stamps)
+    return event.stamp if event else None

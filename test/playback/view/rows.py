@@ -1,0 +1,24 @@
+"""Rows of a recording, read back by the reader of Rerun."""
+
+import numpy as np
+from rerun.chunk import RrdReader
+
+from symtop_ros.playback.view import entities
+
+
+def rows(path, entity, column):
+    """Times in ns, and the values of a column, of one entity."""
+    times, values = [], []
+    for chunk in RrdReader(path).stream():
+        if chunk.entity_path == entity and not chunk.is_static:
+            batch = chunk.to_record_batch()
+            if column in batch.schema.names:
+                times += [each.value for each in batch.column(entities.TIMELINE)]
+                values += batch.column(column).to_pylist()
+    order = np.argsort(times, kind="stable")
+    return np.array(times)[order], [values[k] for k in order]
+
+
+def entities_of(path):
+    """Paths of the entities that a recording has."""
+    return {chunk.entity_path for chunk in RrdReader(path).stream()}

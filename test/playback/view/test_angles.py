@@ -1,0 +1,79 @@
+"""Arcs of Euler's angles: they join the axes between which the angles are measured."""
+
+import numpy as np
+from log_files import Run
+from playback.view.rows import entities_of, rows
+from rerun.chunk import RrdReader
+
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import Motion, State
+from symtop_ros.playback.replay import replay
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.angles import POINTS, RADII, draw_arcs
+from symtop_ros.playback.view.view import ViewOptions
+
+FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
+# of a point: sums of four rounded products of numbers up to 1.1
+ROUNDING = 8 * float(np.finfo(float).eps)
+
+
+def random_angles():
+    rng = np.random.default_rng(3)
+    phi, psi = rng.uniform(0, 2 * np.pi, (2, 50))
+    return phi, rng.uniform(0.01, np.pi - 0.01, 50), psi
+
+
+def test_each_arc_begins_at_one_axis_and_ends_at_the_other():
+    phi, theta, psi = random_angles()
+    arcs = draw_arcs(phi, theta, psi)
+    for k in range(50):
+        state = State.from_euler(theta=theta[k], phi=phi[k], psi=psi[k])
+        x, z = (state.to_world(axis) for axis in ([1.0, 0, 0], [0, 0, 1.0]))
+        nodes = np.array([np.cos(phi[k]), np.sin(phi[k]), 0.0])
+        ends = {"phi": ([1.0, 0, 0], nodes), "theta": ([0, 0, 1.0], z), "psi": (nodes, x)}
+        for name, (first, last) in ends.items():
+            arc = arcs[name][k] / RADII[name]
+            assert np.abs(arc[0] - first).max() <= ROUNDING
+            assert np.abs(arc[-1] - last).max() <= ROUNDING
+
+
+def test_an_arc_is_a_part_of_a_circle_as_long_as_its_angle():
+    angles = dict(zip(("phi", "theta", "psi"), random_angles(), strict=True))
+    for name, arcs in draw_arcs(*angles.values()).items():
+        assert np.abs(np.linalg.norm(arcs, axis=2) / RADII[name] - 1).max() <= ROUNDING
+        chords = np.linalg.norm(np.diff(arcs, axis=1), axis=2) / RADII[name]
+        turned = (2 * np.arcsin(chords / 2)).sum(axis=1)
+        # sums of 32 chords, each a difference of points
+        assert np.abs(turned - angles[name]).max() <= POINTS * ROUNDING
+
+
+def test_on_the_vertical_there_is_no_angle_but_no_error_either():
+    arcs = draw_arcs(np.zeros(1), np.zeros(1), np.array([0.3]))
+    assert np.isfinite([*arcs.values()]).all()
+
+
+def test_a_replay_draws_angles_only_if_asked(tmp_path):
+    path = Run(seconds=0.5).write(tmp_path)
+    for name, options in (("with", ViewOptions(angles=True)), ("without", ViewOptions())):
+        replay(TopLog(McapFile(path)), tmp_path / f"{name}.rrd", options)
+    added = entities_of(tmp_path / "with.rrd") - entities_of(tmp_path / "without.rrd")
+    assert {f"{entities.ANGLES}/{name}" for name in ("phi", "theta", "psi", "nodes")} <= added
+    assert all(entity.startswith((entities.ANGLES, f"{entities.BODY}/axes")) for entity in added), (
+        added
+    )
+
+
+def test_the_axes_of_the_body_turn_with_it_and_the_letters_are_greek(tmp_path):
+    run = Run(seconds=0.5, hurried=False)
+    replay(TopLog(McapFile(run.write(tmp_path))), tmp_path / "run.rrd", ViewOptions(angles=True))
+    times, strips = rows(tmp_path / "run.rrd", f"{entities.ANGLES}/theta", "LineStrips3D:strips")
+    ends = np.array([strip[0][-1] for strip in strips])
+    axis = Motion(run.top, run.start).at(times * 1e-9).to_world([0, 0, 1.0])
+    assert np.abs(ends / RADII["theta"] - axis).max() <= FLOAT
+    letters = {}
+    for chunk in RrdReader(tmp_path / "run.rrd").stream():
+        if chunk.is_static and chunk.entity_path.endswith("/letter"):
+            labels = chunk.to_record_batch().column("Points3D:labels").to_pylist()
+            letters[chunk.entity_path.split("/")[-2]] = labels[0][0]
+    assert letters == {"phi": "φ", "theta": "θ", "psi": "ψ"}

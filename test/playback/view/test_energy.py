@@ -1,0 +1,70 @@
+"""The stacked energies end at the energy of the start plus the work, whatever happens."""
+
+import numpy as np
+import pytest
+from log_files import ARTICLE, CUSPS, Run
+from physics.tops import EPS
+
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import Friction
+from symtop_ros.playback.view.energy import EnergyBook
+
+LOWEST = abs(ARTICLE.Mgl)
+SIZE = float(ARTICLE.energy(CUSPS)) + LOWEST
+ROUNDING = 64 * EPS * SIZE  # of sums of energies; measured: 9 EPS
+
+
+def read(run, folder):
+    """Return the rows of energies of a run, and its events."""
+    book, segment, rows, events = EnergyBook(), None, [], []
+    for batch in TopLog(McapFile(run.write(folder))).batches():
+        for event, columns in batch.stretches():
+            if event:
+                before, segment = segment, event.segment()
+                book.follow(event, before, segment)
+                events.append(event)
+            if columns:
+                rows.append(book.rows(columns, segment.motion)[1])
+    return np.concatenate(rows), events
+
+
+def test_without_friction_nothing_is_lost_and_a_kick_does_work(tmp_path):
+    rows, (start, kick) = read(Run(seconds=1.0), tmp_path)
+    kinetic, stacked, with_lost, done = rows.T
+    assert np.abs(with_lost - stacked).max() == 0.0
+    assert np.abs(done - stacked).max() <= ROUNDING
+    half = len(rows) // 2
+    assert done[0] == pytest.approx(float(ARTICLE.energy(start.state())) + LOWEST, rel=8 * EPS)
+    work = float(ARTICLE.energy(kick.state())) - float(ARTICLE.energy(start.state()))
+    assert done[half] - done[half - 1] == pytest.approx(work, abs=ROUNDING)
+    assert (kinetic < stacked).all()
+
+
+def test_what_friction_takes_is_booked_as_lost(tmp_path):
+    friction = Friction(axial=1e-5, transverse=1e-5)
+    rows, _ = read(Run(seconds=1.0, hurried=False, friction=friction), tmp_path)
+    _, stacked, with_lost, done = rows.T
+    assert (np.diff(stacked) < 0).all()
+    assert np.abs(with_lost - done).max() <= ROUNDING
+    assert np.ptp(done) == 0.0
+
+
+def test_the_work_of_a_torque_is_that_of_its_power(tmp_path):
+    torque = (0.0, 0.0, 1e-3)
+    rows, _ = read(Run(seconds=1.0, hurried=False, torque=torque), tmp_path)
+    _, stacked, with_lost, done = rows.T
+    assert np.ptp(done) > 0.01 * SIZE
+    assert np.abs(done - stacked).max() <= ROUNDING
+    assert np.array_equal(stacked, with_lost)
+
+
+def test_with_both_the_sum_is_still_start_and_work(tmp_path):
+    friction, torque = Friction(axial=1e-5, transverse=1e-5), (0.0, 0.0, 1e-3)
+    run = Run(seconds=1.0, rate=1000.0, hurried=False, friction=friction, torque=torque)
+    rows, _ = read(run, tmp_path)
+    _, stacked, with_lost, done = rows.T
+    assert np.abs(with_lost - done).max() <= ROUNDING
+    lost = with_lost - stacked
+    # the trapezoid rule at 1000 Hz is off by 1e-6 of the work, less than a step loses
+    assert (np.diff(lost) > 0).all()

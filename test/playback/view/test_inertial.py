@@ -1,0 +1,78 @@
+"""Arrows of the inertial torque: their sums are the torque, in either frame."""
+
+import numpy as np
+import pytest
+from log_files import ARTICLE, CUSPS, Run
+from playback.view.rows import entities_of, rows
+
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import Motion, State, regular_precession_rates
+from symtop_ros.playback.replay import replay
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.inertial import ARROWS, LENGTH, Torques
+from symtop_ros.playback.view.view import ViewOptions
+
+SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
+REGULAR = State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0)
+FLOAT = 4 * float(np.finfo(np.float32).eps)
+
+
+def read(start, folder):
+    run = Run(start=start, seconds=0.5, hurried=False)
+    (batch,) = TopLog(McapFile(run.write(folder))).batches()
+    return Torques.of(batch.columns)
+
+
+def test_in_regular_precession_the_frame_of_the_nodes_needs_no_change_of_L(tmp_path):
+    _, torques = read(REGULAR, tmp_path)
+    size = np.abs(torques.total).max()
+    # the root is a double, and L a sum of products of doubles; measured: 3e-16
+    assert np.abs(torques.precession - torques.total).max() <= 1e-14 * size
+
+
+def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
+    stamps, torques = read(CUSPS, tmp_path)
+    times, step, motion = (stamps - stamps[0]) * 1e-9, 1e-5, Motion(ARTICLE, CUSPS)
+    L = [ARTICLE.body_angular_momentum(motion.at(times + h)) for h in (-step, step)]
+    found = motion.at(times).to_world((L[1] - L[0]) / (2 * step))
+    # a central difference: its error is (200 rad/s step)^2 / 6, about 1e-6
+    assert np.abs(found - torques.body).max() <= 2e-6 * np.abs(torques.body).max()
+    assert np.abs(torques.precession - torques.total).max() > 0.5 * np.abs(torques.total).max()
+
+
+@pytest.mark.parametrize("missing", ["angular_velocity", "torque", "euler_angles"])
+def test_without_a_topic_there_are_no_arrows(missing, tmp_path):
+    run = Run(hurried=False)
+    run.messages = [each for each in run.messages if each[0] != missing]
+    target = tmp_path / "part.rrd"
+    replay(TopLog(McapFile(run.write(tmp_path))), target, ViewOptions(torques=True))
+    assert not len(rows(target, f"{entities.INERTIAL}/body", "Arrows3D:vectors")[0])
+
+
+def test_the_second_arrow_begins_below_the_tip_of_the_first_and_ends_below_the_torque(tmp_path):
+    target = tmp_path / "run.rrd"
+    replay(TopLog(McapFile(Run().write(tmp_path))), target, ViewOptions(torques=True))
+    drawn = {
+        name: [
+            np.array(rows(target, f"{entities.INERTIAL}/{name}", f"Arrows3D:{column}")[1])[:, 0]
+            for column in ("origins", "vectors")
+        ]
+        for name in ("body", "turning")
+    }
+    shown, _ = rows(target, f"{entities.INERTIAL}/body", "Arrows3D:vectors")
+    times, torques = rows(target, entities.TORQUE, "Arrows3D:vectors")
+    at_shown = np.array(torques)[np.isin(times, shown), 0]
+    (origins, first), (tails, second) = drawn["body"], drawn["turning"]
+    assert np.abs((tails - origins - first)[:, :2]).max() <= FLOAT
+    assert np.abs((tails + second - at_shown)[:, :2]).max() <= FLOAT
+    lengths = np.linalg.norm(np.concatenate([first, second]), axis=1)
+    assert 0.9 * LENGTH < lengths[: len(lengths) // 4].max() < 1.1 * LENGTH
+    _, texts = rows(target, entities.PANEL, "TextDocument:text")
+    assert "| in the frame of the nodes | **torque = dL/dt + φ' z' x L** |" in texts[0][0]
+
+
+def test_arrows_are_drawn_only_if_asked(tmp_path):
+    replay(TopLog(McapFile(Run().write(tmp_path))), tmp_path / "run.rrd")
+    assert not any(each.startswith(entities.INERTIAL) for each in entities_of(tmp_path / "run.rrd"))
+    assert len(ARROWS) == 3
