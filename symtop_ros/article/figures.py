@@ -1,0 +1,285 @@
+"""The article's figures: angles, rates and angular momentum against time, and the parabola."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from symtop_ros.article.kinds import DISC
+from symtop_ros.article.motions import (
+    FAST,
+    PRINTED_ROOTS,
+    PSI_DOT,
+    RATES,
+    SLOW,
+    THETA,
+    TOP,
+    Rate,
+    cusps,
+    precession_period,
+    regular,
+    start,
+)
+from symtop_ros.article.nutation import horizontal_square
+from symtop_ros.article.pivot import pivot_forces
+from symtop_ros.article.sphere import draw_sphere
+from symtop_ros.article.style import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
+from symtop_ros.article.torque import split_torque
+from symtop_ros.physics import (
+    EffectivePotential,
+    Motion,
+    regular_precession_rates,
+    theta_acceleration,
+)
+
+Real = NDArray[np.float64]
+TIMES = np.linspace(0.0, 0.5, 2001)  # s; three nutations of cusps
+PHI_DOTS = np.linspace(-8.0, 85.0, 400)  # rad/s
+LOOKS = {"falls": (RED, "--"), "stays": (INK, "-"), "rises": (BLUE, "-.")}
+
+
+def draw_cusps_against_time() -> Figure:
+    """Draw theta, theta', phi' and psi' of cusps."""
+    figure, motion = new_figure(6.6), cusps()
+    states = motion.at(TIMES)
+    rates = states.euler_rates
+    curves = {
+        r"$\theta$ (rad)": states.euler_angles.theta,
+        r"$\dot\theta$ (rad/s)": rates.theta,
+        r"$\dot\phi$ (rad/s)": rates.phi,
+        r"$\dot\psi$ (rad/s)": rates.psi,
+    }
+    for axes, (label, values) in zip(rows(figure, 4), curves.items(), strict=True):
+        axes.plot(TIMES, values, color=BLUE)
+        axes.set_ylabel(label)
+        axes.margins(x=0)
+        _mark_cusps(axes, motion)
+    figure.axes[0].set_title("dotted: at the cusps", loc="right")
+    return figure
+
+
+def _mark_cusps(axes: Axes, motion: Motion) -> None:
+    for time in np.arange(0.0, TIMES[-1], motion.nutation_period):
+        axes.axvline(time, color=GREY, lw=0.9, ls=":")
+
+
+def draw_six_rates() -> Figure:
+    """Draw theta for the six precession rates, three about each root."""
+    figure = new_figure(3.3)
+    for axes, rates in zip(columns(figure, 2, sharey=True), (RATES[:3], RATES[3:]), strict=True):
+        for rate in rates:
+            color, dash = LOOKS[rate.direction]
+            theta = Motion(TOP, start(rate.phi_dot)).at(TIMES).euler_angles.theta
+            axes.plot(TIMES, theta, color=color, ls=dash, label=_label(rate))
+        axes.set_xlabel("$t$ (s)")
+        axes.margins(x=0)
+        axes.legend(loc="upper left", title=r"$\dot\phi(0)$")
+    figure.axes[0].set_ylabel(r"$\theta$ (rad)")
+    figure.axes[0].set_ylim(THETA - 0.08, THETA + 0.2)
+    return figure
+
+
+def _label(rate: Rate) -> str:
+    return f"{rate.phi_dot:#.3g} rad/s: {rate.direction}"
+
+
+def draw_theta_acceleration() -> Figure:
+    """Draw theta'' against phi', with the two roots and the six rates."""
+    figure = new_figure(3.9)
+    axes = figure.subplots()
+    axes.axhline(0.0, color=INK, lw=0.9)
+    axes.plot(PHI_DOTS, theta_acceleration(TOP, THETA, PHI_DOTS, PSI_DOT), color=BLUE)
+    _mark_rates(axes)
+    _mark_roots(axes)
+    _mark_sides(axes)
+    axes.set_xlabel(r"$\dot\phi$ (rad/s)")
+    axes.set_ylabel(r"$\ddot\theta$ (rad/s$^2$)")
+    axes.margins(x=0)
+    axes.legend(loc="upper center")
+    return figure
+
+
+def _mark_rates(axes: Axes) -> None:
+    rates = np.array([rate.phi_dot for rate in RATES if rate.direction != "stays"])
+    values = theta_acceleration(TOP, THETA, rates, PSI_DOT)
+    axes.plot(rates, values, "s", color=INK, ms=5, label="the article's other rates", zorder=3)
+
+
+def _mark_roots(axes: Axes) -> None:
+    axes.plot(
+        [SLOW, FAST], [0, 0], "o", color=RED, ms=7, label="regular precession: it stays", zorder=3
+    )
+    for root, printed, side in ((SLOW, PRINTED_ROOTS[0], -1), (FAST, PRINTED_ROOTS[1], 1)):
+        axes.annotate(
+            f"{printed} rad/s",
+            (root, 0),
+            (9 * side, -14),
+            textcoords="offset points",
+            ha="right" if side < 0 else "left",
+        )
+
+
+def _mark_sides(axes: Axes) -> None:
+    axes.axvspan(SLOW, FAST, color=PALE, alpha=0.35, lw=0)
+    middle = (SLOW + FAST) / 2
+    for place, word in ((middle, "the top rises"), (-1.0, "it falls"), (77.5, "it falls")):
+        axes.text(place, -205, word, ha="center", style="italic")
+
+
+def draw_angular_momentum() -> Figure:
+    """Draw the components of L of regular precession and of cusps."""
+    figure = new_figure(4.6)
+    times = np.linspace(0.0, 1.5, 3001)
+    titles = {"regular precession": regular(), "cusps": cusps()}
+    for axes, (title, motion) in zip(rows(figure, 2), titles.items(), strict=True):
+        L = 1e3 * motion.top.angular_momentum(motion.at(times))
+        for part, color, dash in zip(range(3), (BLUE, RED, INK), ("-", "--", "-"), strict=True):
+            axes.plot(times, L[:, part], color=color, ls=dash, label=f"$L_{{{'xyz'[part]}'}}$")
+        axes.set_ylabel("$L$ ($10^{-3}$ N m s)")
+        axes.set_title(title, loc="left")
+        axes.margins(x=0)
+    figure.axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3)
+    return figure
+
+
+def draw_horizontal_momentum() -> Figure:
+    """Draw the end of L from above, over one turn of the precession."""
+    figure = new_figure(3.4)
+    titles = {"regular precession": regular(), "cusps": cusps()}
+    both = columns(figure, 2, sharex=True, sharey=True)
+    for axes, (title, motion) in zip(both, titles.items(), strict=True):
+        times = np.linspace(0.0, precession_period(motion), 3001)
+        L = 1e3 * motion.top.angular_momentum(motion.at(times))
+        axes.plot(L[:, 0], L[:, 1], color=BLUE)
+        axes.plot(*L[0, :2], "o", color=RED)
+        axes.annotate("start", (L[0, 0], L[0, 1]), (0, 8), textcoords="offset points", ha="center")
+        axes.plot(0, 0, "+", color=INK)
+        axes.set_aspect("equal")
+        axes.set_xticks(range(-6, 7, 2))
+        axes.set_yticks(range(-6, 7, 2))
+        axes.set_xlabel("$L_{x'}$ ($10^{-3}$ N m s)")
+        axes.set_title(title, loc="left")
+    both[0].set_ylabel("$L_{y'}$ ($10^{-3}$ N m s)")
+    return figure
+
+
+def draw_horizontal_momentum_squared() -> Figure:
+    """Draw L^2 - L_z'^2 and theta of regular precession and of cusps."""
+    figure = new_figure(4.6)
+    upper, lower = rows(figure, 2)
+    titles = {"cusps": (cusps(), BLUE, "-"), "regular precession": (regular(), RED, "--")}
+    for title, (motion, color, dash) in titles.items():
+        lower.plot(TIMES, motion.at(TIMES).euler_angles.theta, color=color, ls=dash)
+        square = 1e6 * horizontal_square(motion, TIMES)
+        upper.plot(TIMES, square, color=color, ls=dash, label=title)
+    upper.set_ylabel("$L^2 - {L_{z'}}^2$ ($10^{-6}$ N$^2$ m$^2$ s$^2$)")
+    lower.set_ylabel(r"$\theta$ (rad)")
+    upper.margins(x=0)
+    upper.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
+    return figure
+
+
+def draw_inertial_torque() -> Figure:
+    """Draw the torque, dL/dt in the body frame and omega x L, along the line of nodes."""
+    figure = new_figure(3.4)
+    titles = {"regular precession": regular(), "cusps": cusps()}
+    looks = ((INK, "-"), (BLUE, "--"), (RED, "-."))
+    times = TIMES[:1401]
+    for axes, (title, motion) in zip(columns(figure, 2, sharey=True), titles.items(), strict=True):
+        for (name, part), (color, dash) in zip(
+            split_torque(motion, times).items(), looks, strict=True
+        ):
+            axes.plot(times, part, color=color, ls=dash, label=_in_math(name))
+        axes.set_title(title, loc="left")
+        axes.set_xlabel("$t$ (s)")
+        axes.margins(x=0)
+    figure.axes[0].set_ylabel("along the line of nodes (N m)")
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure
+
+
+def _in_math(name: str) -> str:
+    return name.replace("dL/dt", "$dL/dt$").replace("omega x L", r"$\omega \times L$")
+
+
+def draw_same_accelerations() -> Figure:
+    """Draw two motions that begin with the same accelerations: theta, and both potentials."""
+    figure = new_figure(3.5)
+    left, right = columns(figure, 2)
+    for phi_dot, color, dash in ((0.0, BLUE, "-"), (SLOW + FAST, RED, "--")):
+        motion = Motion(TOP, start(phi_dot))
+        label = rf"$\dot\phi(0)$ = {phi_dot:.3g} rad/s: {motion.kind}"
+        left.plot(TIMES, motion.at(TIMES).euler_angles.theta, color=color, ls=dash, label=label)
+        potential, (low, high) = EffectivePotential.of(TOP, motion.start), motion.turning_angles
+        theta = np.linspace(low - 0.04, high + 0.04, 300)
+        depth = 1e3 * (potential.at(theta) - potential.energy)
+        right.plot(theta, depth, color=color, ls=dash)
+        right.plot([low, high], [0, 0], "o", color=color, ms=5)
+    left.set_xlabel("$t$ (s)")
+    left.set_ylabel(r"$\theta$ (rad)")
+    left.margins(x=0)
+    right.set_xlabel(r"$\theta$ (rad)")
+    right.set_ylabel(r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)")
+    right.set_ylim(-2.4, 2.4)
+    right.axhline(0.0, color=INK, lw=0.9)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    return figure
+
+
+def draw_parabola_downward() -> Figure:
+    """Draw theta'' against phi' for a disc, Iz > Ix: it falls between the roots."""
+    figure = new_figure(3.2)
+    axes = figure.subplots()
+    low, high = sorted(regular_precession_rates(DISC, THETA, PSI_DOT))
+    rates = np.linspace(low - 150.0, high + 150.0, 400)
+    axes.axhline(0.0, color=INK, lw=0.9)
+    axes.axvspan(low, high, color=PALE, alpha=0.35, lw=0)
+    axes.plot(rates, 1e-3 * theta_acceleration(DISC, THETA, rates, PSI_DOT), color=BLUE)
+    axes.plot([low, high], [0, 0], "o", color=RED, ms=7, zorder=3)
+    for place, word in ((low - 75, "rises"), ((low + high) / 2, "falls"), (high + 75, "rises")):
+        axes.text(place, 7.0, f"it {word}", ha="center", style="italic")
+    axes.set_xlabel(r"$\dot\phi$ (rad/s)")
+    axes.set_ylabel(r"$\ddot\theta$ ($10^3$ rad/s$^2$)")
+    axes.set_title(f"a disc, $I_z > I_x$: roots {low:.0f} and {high:.2f} rad/s", loc="left")
+    axes.margins(x=0)
+    return figure
+
+
+def draw_pivot_force() -> Figure:
+    """Draw the force of the pivot on cusps, and hurried from the fast root."""
+    figure = new_figure(3.4)
+    titles = {"cusps": 0.0, "fast root, hurried by 1.4": 1.4 * FAST}
+    for axes, (title, phi_dot) in zip(columns(figure, 2), titles.items(), strict=True):
+        motion = Motion(TOP, start(phi_dot))
+        times = np.linspace(0.0, 3 * motion.nutation_period, 1200)
+        vertical, horizontal = pivot_forces(motion, times)
+        axes.plot(times, vertical, color=BLUE, label="vertical")
+        axes.plot(times, horizontal, color=RED, ls="--", label="horizontal")
+        axes.axhline(vertical.mean(), color=GREY, lw=0.9, ls=":", label="weight")
+        axes.set_title(title, loc="left")
+        axes.set_xlabel("$t$ (s)")
+        axes.set_ylim(0.0, None)
+        axes.margins(x=0)
+    figure.axes[0].set_ylabel("force of the pivot (N)")
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure
+
+
+FIGURES: dict[str, Callable[[], Figure]] = {
+    "regular_precession": lambda: draw_sphere(regular()),
+    "cusps": lambda: draw_sphere(cusps()),
+    "cusps_against_time": draw_cusps_against_time,
+    "theta_acceleration": draw_theta_acceleration,
+    "six_rates": draw_six_rates,
+    "angular_momentum": draw_angular_momentum,
+    "horizontal_momentum": draw_horizontal_momentum,
+    "horizontal_momentum_squared": draw_horizontal_momentum_squared,
+    "inertial_torque": draw_inertial_torque,
+    "same_accelerations": draw_same_accelerations,
+    "parabola_downward": draw_parabola_downward,
+    "pivot_force": draw_pivot_force,
+}

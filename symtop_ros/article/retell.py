@@ -1,0 +1,62 @@
+"""Retell the article in a folder: its claims with numbers, its figures, and its motions in 3D."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from symtop_ros.article.claims import Claim, markdown, table
+from symtop_ros.article.figures import FIGURES
+from symtop_ros.article.kinds import claims_on_kinds
+from symtop_ros.article.momentum import claims_on_momentum
+from symtop_ros.article.motions import TOP
+from symtop_ros.article.nutation import claims_on_nutation
+from symtop_ros.article.pivot import claims_on_pivot
+from symtop_ros.article.rates import claims_on_rates
+from symtop_ros.article.recordings import write_recordings
+from symtop_ros.article.style import write_figures
+from symtop_ros.article.torque import claims_on_torque
+from symtop_ros.physics import Top
+
+
+def retell(folder: Path) -> int:
+    """Write figures, recordings and claims.md; print the claims.
+
+    Parameters
+    ----------
+    folder : Path
+        Created if it does not exist; files of the same names are replaced.
+
+    Returns
+    -------
+    int
+        Exit status: 0 if all claims hold, 1 if one does not or a file cannot be written.
+    """
+    try:
+        claims = _write(folder)
+    except OSError as error:
+        print(f"top_report: {error.filename or folder}: {error.strerror or error}", file=sys.stderr)
+        return 1
+    print(table(claims))
+    return 0 if all(claim.holds for claim in claims) else 1
+
+
+def _write(folder: Path) -> list[Claim]:
+    folder.mkdir(parents=True, exist_ok=True)
+    claims = check_claims()
+    (folder / "claims.md").write_text(markdown(claims), encoding="utf-8")
+    write_figures(FIGURES, folder)
+    write_recordings(folder)
+    return claims
+
+
+def check_claims(top: Top = TOP) -> list[Claim]:
+    """Check every claim of the article for its top, or for a different one."""
+    return [
+        *claims_on_torque(top),
+        *claims_on_momentum(top),
+        *claims_on_rates(top),
+        *claims_on_nutation(top),
+        *claims_on_kinds(top),
+        *claims_on_pivot(top),
+    ]

@@ -1,0 +1,69 @@
+"""Perry's maps: their numbers, and their files."""
+
+import contextlib
+import io
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from PIL import Image
+
+from symtop_ros.article.maps import FACTOR, PSI_DOT, THETA, TOP, map_spin, map_tilt, write_maps
+from symtop_ros.physics import Motion, State, hurry, regular_precession_rates
+
+SIDES = ("highest", "lowest")
+FILES = {"perry.rrd"} | {
+    f"perry_{name}.{suffix}" for name in ("spin", "tilt") for suffix in ("png", "svg", "parquet")
+}
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Folder of both maps, and what was printed."""
+    folder = tmp_path_factory.mktemp("maps")
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        assert write_maps(folder, 60) == 0
+    return folder, printed.getvalue()
+
+
+def test_the_points_of_a_table_are_those_of_the_closed_form(written):
+    rows = pq.read_table(written[0] / "perry_spin.parquet").to_pylist()
+    assert len(rows) == 3600
+    for row in rows[::307]:
+        start = State.from_euler(theta=THETA, phi_dot=row["phi_dot"], psi_dot=row["psi_dot"])
+        before, after = Motion(TOP, start), Motion(TOP, hurry(start, FACTOR))
+        found = [row[f"{which}_{when}"] for when in ("before", "after") for which in SIDES]
+        # an angle near a pole is the square root of what is good to rounding
+        assert found == pytest.approx([*before.turning_angles, *after.turning_angles], abs=1e-7)
+
+
+@pytest.mark.parametrize("make", [map_spin, map_tilt])
+def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
+    found = make(201)
+    for k in range(0, 201, 10):
+        theta, psi_dot = (
+            (THETA, found.across[k]) if make is map_spin else (found.across[k], PSI_DOT)
+        )
+        rates = regular_precession_rates(TOP, theta=theta, psi_dot=psi_dot)
+        inside = [each for each in rates if found.phi_dot[0] < each < found.phi_dot[-1]]
+        changes = np.diff(np.sign(found.torque[:, k])) != 0
+        assert changes.sum() == len(inside)
+        for rate in inside:
+            row = np.searchsorted(found.phi_dot, rate) - 1
+            assert changes[row]
+
+
+def test_all_files_are_written_and_pictures_are_not_blank(written):
+    folder, printed = written
+    assert {file.name for file in folder.iterdir()} == FILES
+    for name in ("spin", "tilt"):
+        with Image.open(folder / f"perry_{name}.png") as picture:
+            assert len(picture.convert("RGB").getcolors(1 << 24)) > 500
+    assert printed.count("the rule holds on") == 2
+    assert f"rerun {folder / 'perry.rrd'}" in printed
+
+
+def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert write_maps(tmp_path / "file", 4) == 1
+    assert capsys.readouterr().err == f"top_report: {tmp_path / 'file'}: File exists\n"

@@ -1,0 +1,40 @@
+import pytest
+
+from symtop_ros.article import momentum
+from symtop_ros.article.motions import TOP, cusps, start
+from symtop_ros.physics import Friction, Motion, State
+
+RUBBING = Motion(TOP, start(0.0), Friction(axial=2e-6, transverse=1e-5))
+
+
+@pytest.mark.parametrize("name", ["L_z (along the axis)", "The energy E"])
+def test_friction_ends_the_constants(name):
+    assert momentum.is_constant(name, [cusps()]).holds
+    assert not momentum.is_constant(name, [cusps(), RUBBING]).holds
+
+
+def test_a_torque_of_another_kind_is_not_along_the_line_of_nodes():
+    claim = momentum.torque_is_along_the_line_of_nodes
+    assert claim(cusps()).holds
+    assert not claim(Motion(TOP, start(0.0), torque=(0.0, 0.0, 1e-4))).holds
+
+
+def test_under_friction_the_momentum_changes_by_more_than_gravity():
+    claim = momentum.momentum_changes_by_gravity
+    assert claim(cusps()).holds
+    assert not claim(RUBBING).holds
+
+
+def test_under_friction_the_articles_equations_do_not_hold():
+    assert momentum.equations_hold(cusps()).holds
+    assert not momentum.equations_hold(RUBBING).holds
+
+
+def test_an_attitude_that_does_not_turn_with_the_angular_velocity_is_detected(monkeypatch):
+    motion, at = cusps(), cusps().at
+    claim = momentum.attitude_turns_with_the_angular_velocity
+    assert claim(motion).holds
+    monkeypatch.setattr(
+        motion, "at", lambda t: State(at(t).orientation, at(t).angular_velocity + 1e-6)
+    )
+    assert not claim(motion).holds

@@ -1,0 +1,143 @@
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from PIL import Image
+from rerun.chunk import RrdReader
+
+from symtop_ros.article import retell as article
+from symtop_ros.article.claims import Claim
+from symtop_ros.article.figures import FIGURES, LOOKS
+from symtop_ros.article.recordings import MOTIONS, SCENES
+from symtop_ros.article.retell import check_claims, retell
+from symtop_ros.article.side_by_side import RATE, SPAN
+from symtop_ros.article.style import BLUE, GOLD, INK, RED
+from symtop_ros.playback.view import entities
+
+
+@pytest.fixture(scope="module")
+def claims():
+    return check_claims()
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, claims):
+    folder = tmp_path_factory.mktemp("retold") / "made" / "here"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(article, "check_claims", lambda: claims)
+        assert retell(folder) == 0
+    return folder
+
+
+@pytest.fixture
+def without_files(monkeypatch):
+    """Only claims.md is written."""
+    monkeypatch.setattr(article, "write_figures", lambda *_: None)
+    monkeypatch.setattr(article, "write_recordings", lambda _: None)
+
+
+def test_every_claim_holds(claims):
+    assert [claim for claim in claims if not claim.holds] == []
+    assert len(claims) == 45
+
+
+def test_every_claim_is_a_sentence_with_a_number_an_equation_and_a_tolerance(claims):
+    assert len({claim.sentence for claim in claims}) == len(claims)
+    for claim in claims:
+        assert claim.sentence.endswith(".")
+        assert re.search(r"\d", claim.measured)
+        assert "=" in claim.equation or "->" in claim.equation
+        assert re.match(
+            r"(none|\de-\d+( rad| rad/s| of the largest phi')?|\d.*): ", claim.tolerance
+        )
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_png_is_a_picture(folder, name):
+    with Image.open(folder / f"{name}.png") as picture:
+        pixels = np.asarray(picture.convert("RGB"))
+    assert pixels.shape[1] > 1000
+    assert len(np.unique(pixels @ np.array([1, 256, 65536]))) > 100  # colours
+    drawn = (pixels < 200).any(axis=2)
+    assert 0.01 < drawn.mean() < 0.3
+    edges = (drawn[0], drawn[-1], drawn[:, 0], drawn[:, -1])
+    assert not any(edge.any() for edge in edges)  # nothing is cut off
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_an_svg_is_a_drawing(folder, name):
+    root = ET.parse(folder / f"{name}.svg").getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert len(list(root.iter("{http://www.w3.org/2000/svg}path"))) > 10
+
+
+def test_colours_differ_in_grey():
+    assert min(np.diff(sorted(map(luminance, (INK, BLUE, RED, GOLD))))) > 20
+    assert len({dash for _, dash in LOOKS.values()}) == len(LOOKS)
+
+
+def luminance(color):
+    return np.dot([0.299, 0.587, 0.114], list(bytes.fromhex(color[1:])))
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_recording_has_the_axis_the_momentum_and_the_torque(folder, name):
+    rows = dict.fromkeys((entities.TRACE, entities.MOMENTUM, entities.TORQUE), 0)
+    for chunk in RrdReader(folder / f"{name}.rrd").stream():
+        if chunk.entity_path in rows and not chunk.is_static:
+            rows[chunk.entity_path] += chunk.to_record_batch().num_rows
+    assert all(count >= RATE * SPAN for count in rows.values()), rows
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_scene_has_the_body_the_trace_and_the_tilt_of_each_top(folder, name):
+    rows = dict.fromkeys(
+        path
+        for each in SCENES[name]()
+        for path in (f"/tops/{each.name}/top", f"/tops/{each.name}/trace", _curve(each))
+    )
+    for chunk in RrdReader(folder / f"{name}.rrd").stream():
+        if chunk.entity_path in rows and not chunk.is_static:
+            count = chunk.to_record_batch().num_rows
+            rows[chunk.entity_path] = (rows[chunk.entity_path] or 0) + count
+    assert all(count >= RATE * SPAN for count in rows.values()), rows
+
+
+def _curve(exhibit):
+    return f"/{exhibit.group}/{exhibit.name}"
+
+
+@pytest.mark.usefixtures("without_files")
+def test_the_claims_are_written_and_printed(tmp_path, capsys):
+    assert retell(tmp_path) == 0
+    assert capsys.readouterr().out.endswith("45 of 45 claims hold.\n")
+    assert (tmp_path / "claims.md").read_text().endswith("45 of 45 claims hold.\n")
+
+
+@pytest.mark.usefixtures("without_files")
+def test_a_claim_that_fails_is_an_exit_status(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(
+        article, "check_claims", lambda: [Claim("It is so.", "it is not", holds=False)]
+    )
+    assert retell(tmp_path) == 1
+    assert "FAIL It is so." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["file", "file/below"])
+def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, name):
+    (tmp_path / "file").write_text("in the way")
+    assert retell(tmp_path / name) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"top_report: {tmp_path}/file")
+
+
+def test_a_file_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(article, "write_figures", lambda *_: None)
+    monkeypatch.setattr(article, "check_claims", list)
+    first = next(iter(MOTIONS))
+    (tmp_path / f"{first}.rrd").mkdir()
+    assert retell(tmp_path) == 1
+    assert capsys.readouterr().err.splitlines() == [
+        f"top_report: {tmp_path / first}.rrd: Is a directory"
+    ]
