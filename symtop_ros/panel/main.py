@@ -1,0 +1,137 @@
+"""Entry point of `top_panel`: a page in the browser to play with a top."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import threading
+import webbrowser
+
+from symtop_ros.panel.page import Page
+from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES
+from symtop_ros.panel.source import LocalTop, Source
+from symtop_ros.simulation.presets import scene_names
+from symtop_ros.simulation.validation import one_line
+
+PORT = 8015
+SCENE = "hurry_slow"
+PERIOD = 0.2  # s between two looks for the end
+SPEED = 0.1  # of real time: nutation is too fast for the eye
+WARNING = (
+    "warning: anyone who can reach {host} may kick this top and change its parameters; "
+    "nothing is encrypted"
+)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Serve the page until interrupted; return the exit status."""
+    arguments = sys.argv[1:] if args is None else args
+    parser = _parser()
+    # The rest belongs to ROS (--ros-args ...), which only --node needs.
+    options, rest = parser.parse_known_args(arguments)
+    if rest and not (options.node and rest[0] == "--ros-args"):
+        parser.error(f"unrecognized arguments: {one_line(' '.join(rest), 200)}")
+    try:
+        ending = threading.Event()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: ending.set())
+        if options.node:
+            return _show_node(options, ["top_panel", *arguments], ending)
+        return _show(options, LocalTop(options.scene, SPEED), ending)
+    except ModuleNotFoundError as error:
+        text = f"{error.name} is missing: source a ROS 2, or pip install 'symtop_ros[ros]'"
+        print(f"top_panel: {text}", file=sys.stderr)
+        return 1
+    except Exception as error:
+        print(f"top_panel: {one_line(error) or type(error).__name__}", file=sys.stderr)
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="top_panel",
+        description="Play with a top on a page in the browser: a local one, or a running node.",
+    )
+    parser.add_argument(
+        "--scene", default=SCENE, choices=scene_names(), metavar="SCENE", help="scene to start with"
+    )
+    parser.add_argument(
+        "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"
+    )
+    parser.add_argument(
+        "--port", type=_port, default=PORT, help=f"port of the page (default {PORT}; 0: any)"
+    )
+    parser.add_argument(
+        "--host",
+        default=LOCAL_HOST,
+        help="address to listen on (default: this machine only); who can reach it may kick",
+    )
+    parser.add_argument("--no-browser", action="store_true", help="print the address only")
+    return parser
+
+
+def _port(text: str) -> int:
+    port = int(text)
+    if not 0 <= port < 2**16:
+        raise ValueError
+    return port
+
+
+def _show(options: argparse.Namespace, source: Source, ending: threading.Event) -> int:
+    """Serve the page of a top until `ending` is set."""
+    try:
+        page = Page(source, options.host, options.port)
+    except OSError as error:
+        source.close()
+        raise OSError(_explain(error, options)) from None
+    try:
+        if options.host not in LOCAL_NAMES:
+            print(f"top_panel: {WARNING.format(host=options.host)}", file=sys.stderr)
+        print(f"{source.name}: open {page.server.url} in a browser; Ctrl-C ends it", flush=True)
+        if not options.no_browser and _has_screen():
+            webbrowser.open(page.server.url)
+        # With a time-out, because on Windows a wait without one does not see Ctrl-C.
+        while not ending.wait(PERIOD):
+            pass
+    finally:
+        page.close()
+    return 0
+
+
+def _explain(error: OSError, options: argparse.Namespace) -> str:
+    reason = (os.strerror(error.errno) if error.errno else str(error)).lower()
+    return (
+        f"port must be free on an address of this machine, got {options.host} port {options.port} "
+        f"({reason}); use --port for another port"
+    )
+
+
+def _has_screen() -> bool:
+    """Return True if a browser can open a window; else some systems open one in the terminal."""
+    names = ("DISPLAY", "WAYLAND_DISPLAY")
+    return sys.platform in {"darwin", "win32"} or any(os.environ.get(name) for name in names)
+
+
+def _show_node(options: argparse.Namespace, arguments: list[str], ending: threading.Event) -> int:
+    """Serve the page of a running node."""
+    import rclpy
+    from rclpy.signals import SignalHandlerOptions
+
+    from symtop_ros.panel.node_source import NodeTop
+    from symtop_ros.shutdown import describe_failure
+
+    try:
+        # Without the handlers of rclpy, which would shut ROS down while the page still uses it.
+        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+        node = rclpy.create_node("top_panel", start_parameter_services=False)
+        return _show(options, NodeTop(node, options.node), ending)
+    except Exception as error:
+        raise RuntimeError(describe_failure(error)) from None
+    finally:
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

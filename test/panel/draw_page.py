@@ -1,0 +1,122 @@
+"""Draw the pictures of the page in docs/: PYTHONPATH=test python test/panel/draw_page.py."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from browser import running_browser
+
+from symtop_ros.panel.actions import Actions
+from symtop_ros.panel.page import Page
+from symtop_ros.panel.server import LOCAL_HOST
+from symtop_ros.panel.source import LocalTop
+
+DOCS = Path(__file__).parents[2] / "docs"
+NOTICE = ".mantine-Notification-closeButton"
+STEPS = 64  # of a nutation, so that the trace is smooth
+TIMEOUT = 60.0  # s
+
+
+class Picture(NamedTuple):
+    """A picture: file, size of the window, scene, what is done, and what is pressed."""
+
+    name: str
+    width: int
+    height: int
+    scene: str
+    act: Callable[[Actions], Any]
+    nutations: tuple[float, float]  # of the motion before and after the act
+    pressed: tuple[str, ...] = ()
+    tab: str = "Top"
+
+
+PICTURES = (
+    Picture("panel", 1280, 720, "hurry_slow", lambda actions: actions.hurry(1.4), (2.9, 2.5)),
+    Picture(
+        "panel_dark",
+        1280,
+        720,
+        "looping",
+        lambda actions: actions.push_tilt(-6.0),
+        (2.2, 2.4),
+        ("dark",),
+        "History",
+    ),
+    Picture(
+        "panel_tablet",
+        820,
+        1180,
+        "cusps",
+        lambda actions: actions.hurry(1.0),
+        (2.5, 0.0),
+        tab="Push",
+    ),
+)
+
+
+def main() -> None:
+    """Draw all pictures."""
+    for picture in PICTURES:
+        page = Page(LocalTop(picture.scene, factor=0.1), LOCAL_HOST, 0)
+        try:
+            with running_browser() as browser:
+                tab = browser.new_page(viewport={"width": picture.width, "height": picture.height})
+                draw(picture, page, tab)
+        finally:
+            page.close()
+
+
+def draw(picture: Picture, page: Page, tab: Any) -> None:
+    """Play what a picture shows, and save it."""
+    tab.goto(page.server.url)
+    tab.wait_for_selector(".panel-verdict", timeout=TIMEOUT * 1000)
+    tab.locator(NOTICE).first.click()
+    page.actions.request("pause", True)
+    page.actions.request("reset")
+    before, after = picture.nutations
+    move(page, before)
+    if after:
+        picture.act(page.actions)
+        move(page, after)
+    if picture.pressed:
+        tab.get_by_role("tab", name="View").click()
+        for label in picture.pressed:
+            tab.get_by_text(label, exact=True).click()
+    tab.get_by_role("tab", name=picture.tab).click()
+    tab.mouse.move(picture.width / 2, 5)
+    tab.wait_for_timeout(3000)  # the browser may be some frames behind
+    path = DOCS / f"{picture.name}.png"
+    tab.screenshot(path=path)
+    print(f"wrote docs/{path.name}")
+
+
+def move(page: Page, nutations: float) -> None:
+    """Let the paused top move in steps, each of which is drawn."""
+    wait_until_drawn(page)
+    period = page.run.motion.nutation_period if page.run.motion else 0.0
+    for _ in range(round(nutations * STEPS)):
+        page.actions.request("step", {"duration": period / STEPS})
+        wait_until_drawn(page)
+
+
+def wait_until_drawn(page: Page) -> None:
+    """Wait for a sample after the last event."""
+    deadline = time.monotonic() + TIMEOUT
+    frame = page.frames
+    while page.frames < frame + 2 or not is_drawn(page):
+        if time.monotonic() > deadline:
+            msg = "the page draws nothing"
+            raise TimeoutError(msg)
+        time.sleep(0.005)
+
+
+def is_drawn(page: Page) -> bool:
+    """Return True if a sample after the last event was drawn."""
+    return page.run.event is not None and page.run.stamp >= page.run.event.stamp
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,161 @@
+"""Connections that the server accepts, and those that it refuses."""
+
+import contextlib
+import gzip
+import http.client
+import socket
+import threading
+
+import pytest
+import viser
+import websockets
+from listening import tcp_addresses
+from panel.pages import open_pages
+from websockets.sync.client import connect
+
+from symtop_ros.panel.server import LOCAL_HOST, MARK, PageServer
+
+PROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
+
+
+@pytest.fixture(scope="module", name="started")
+def _started():
+    """A server, and the links that it was given."""
+    links = []
+    server = PageServer(LOCAL_HOST, 0, links.append)
+    yield server, links
+    server.stop()
+
+
+def address(server):
+    return server.url.removeprefix("http://")
+
+
+def ask(server, path="/", **headers):
+    """Status, headers and content of the answer to a request."""
+    connection = http.client.HTTPConnection(address(server), timeout=10)
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    connection.request("GET", path, headers={"Host": address(server), **named})
+    with contextlib.closing(connection):
+        answer = connection.getresponse()
+        return answer.status, dict(answer.getheaders()), answer.read()
+
+
+def refuses(server, origin, **headers):
+    """Return the status with which a WebSocket is refused; None if it is accepted."""
+    try:
+        with connect(
+            f"ws://{address(server)}",
+            origin=origin,
+            subprotocols=[PROTOCOL],
+            compression=None,
+            max_size=None,
+            additional_headers=headers or None,
+        ):
+            return None
+    except websockets.InvalidStatus as refusal:
+        return refusal.response.status_code
+
+
+def test_it_listens_on_this_machine_only(started):
+    server, _ = started
+    found = tcp_addresses(threading.main_thread().native_id)
+    assert {host for host, port in found if port == server.get_port()} == {LOCAL_HOST}
+
+
+def test_its_own_page_is_accepted(started):
+    server, _ = started
+    assert refuses(server, server.url) is None
+
+
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "http://evil.example",
+        "http://127.0.0.1:1",
+        "https://{address}",
+        "http://{address}.evil.example",
+        "http://localhost:{port}",  # the page was sent as 127.0.0.1: another origin
+        "null",
+        "",
+        None,
+    ],
+)
+def test_another_origin_is_refused(started, origin):
+    server, _ = started
+    text = origin and origin.format(address=address(server), port=server.get_port())
+    assert refuses(server, text) == 403
+
+
+def test_a_second_origin_does_not_help(started):
+    server, _ = started
+    assert refuses(server, "http://evil.example", Origin=server.url) == 403
+
+
+@pytest.mark.parametrize(
+    ("host", "status"),
+    [
+        ("evil.example", 403),  # a name that was made to point to this machine
+        ("evil.example:{port}", 403),
+        ("127.0.0.1.evil.example", 403),
+        ("[::1", 403),
+        ("", 403),
+        ("localhost:{port}", 200),
+        ("127.0.0.1:{port}", 200),
+        ("[::1]:{port}", 200),
+    ],
+)
+def test_the_host_must_be_an_address_of_this_server(started, host, status):
+    server, _ = started
+    assert ask(server, Host=host.format(port=server.get_port()))[0] == status
+
+
+def test_the_page_may_connect_to_nobody_else_and_stand_in_no_frame(started):
+    server, _ = started
+    status, headers, content = ask(server)
+    assert status == 200
+    policy = headers["Content-Security-Policy"]
+    assert f"connect-src 'self' ws://{address(server)} data: blob:;" in policy
+    assert "frame-ancestors 'none'" in policy
+    assert b"<title>Heavy symmetric top</title>" in content
+    assert MARK.encode() in content
+
+
+def test_compressed_and_plain_pages_are_the_same(started):
+    server, _ = started
+    _, headers, content = ask(server, "/index.html", Accept_Encoding="gzip")
+    assert headers["Content-Encoding"] == "gzip"
+    assert gzip.decompress(content) == ask(server, Accept_Encoding="identity")[2]
+
+
+def test_a_link_must_come_from_the_page(started):
+    server, links = started
+    assert ask(server, "/start?theta=0.5")[0] == 403
+    assert ask(server, "/start?theta=" + "0" * 3000, X_Top_Panel="start")[0] == 403
+    assert links == []
+    assert ask(server, "/start?theta=0.5&psi_dot=200", X_Top_Panel="start")[0] == 200
+    assert links == [{"theta": "0.5", "psi_dot": "200"}]
+
+
+@pytest.mark.parametrize("path", ["/assets/x.js", "/../secret", "/%2e%2e/secret", "/favicon.ico"])
+def test_there_is_nothing_else(started, path):
+    server, _ = started
+    assert ask(server, path)[0] == 404
+
+
+def test_a_port_that_is_taken_is_an_error_and_not_another_port():
+    with socket.create_server((LOCAL_HOST, 0)) as taken, pytest.raises(OSError, match="in use"):
+        PageServer(LOCAL_HOST, taken.getsockname()[1], lambda _: None)
+
+
+def test_a_page_cannot_ask_for_a_public_address(started):
+    server, _ = started
+    assert server.request_share_url() is None
+    assert server._share_tunnel is None
+
+
+def test_an_open_page_is_counted_while_it_is_open(started):
+    server, _ = started
+    server.gui.add_markdown("text")
+    with open_pages(server.url, 2, least=1):
+        assert len(server.get_clients()) == 2
