@@ -1,0 +1,292 @@
+"""Estimates of attitude and angular velocity: from topics of a log, or from CSV files."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.log.bag import Source
+from symtop_ros.log.reader import LogError
+from symtop_ros.simulation.validation import one_line
+from symtop_ros.wire.cdr import DecodeError, Reader
+from symtop_ros.wire.layout import NANOSECONDS, Doubles, Layout, Stamp, Text
+from symtop_ros.wire.messages import (
+    IMU,
+    ODOMETRY,
+    QUATERNION,
+    TRANSFORM,
+    Format,
+    decode_messages,
+    stamped,
+)
+
+Real = NDArray[np.float64]
+Stamps = NDArray[np.int64]
+CSV = ".csv"
+COLUMNS, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+MAX_STAMP = 2**62  # ns
+MAX_ESTIMATES = 20_000_000
+LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
+NORM_ROUNDING = 2.0**-50  # of a quaternion that is normalised
+NO_ORIENTATION = -1.0  # first covariance of an Imu that has none (sensor_msgs)
+TF_TYPE = TRANSFORM.type
+
+
+@dataclass(frozen=True, eq=False)
+class Estimates:
+    """Estimates at their own stamps.
+
+    Attributes
+    ----------
+    stamps : ndarray (n,) of int
+        In ns.
+    orientations : ndarray (n, 4)
+        Unit quaternions w, x, y, z, sensor frame to world.
+    angular_velocities : ndarray (n, 3) or None
+        In the sensor frame, in rad/s.
+    left_out : int
+        Messages without an attitude, or which could not be read.
+
+    Examples
+    --------
+    >>> estimates = Estimates.of([0, 5], [[2.0, 0, 0, 0], [0, 0, 0, 0]])
+    >>> estimates.orientations.tolist(), estimates.left_out
+    ([[1.0, 0.0, 0.0, 0.0]], 1)
+    """
+
+    stamps: Stamps
+    orientations: Real
+    angular_velocities: Real | None
+    left_out: int = 0
+
+    @classmethod
+    def of(
+        cls,
+        stamps: Sequence[int] | Stamps,
+        orientations: Sequence[Sequence[float]] | Real,
+        angular_velocities: Real | None = None,
+        left_out: int = 0,
+    ) -> Estimates:
+        """Return estimates in the order of their stamps; numbers that are no attitude are left out.
+
+        Parameters
+        ----------
+        stamps : (n,) of int
+            In ns.
+        orientations : array_like (n, 4)
+            Quaternions w, x, y, z; they are normalised.
+        angular_velocities : ndarray (n, 3), optional
+            In rad/s.
+        left_out : int
+            Messages that were left out before.
+        """
+        times = np.asarray(stamps, dtype=np.int64)
+        q = np.asarray(orientations, dtype=float).reshape(-1, 4)
+        with np.errstate(all="ignore"):
+            norms = np.linalg.norm(q, axis=1)
+            # A filter's quaternion of norm 2 is an attitude; zeros, the default of a message that
+            # was never filled, are none.
+            good = np.isfinite(norms) & (norms > LARGEST_NORM_ERROR)
+            if angular_velocities is not None:
+                good &= np.isfinite(angular_velocities).all(axis=1)
+        good &= (times >= 0) & (times < MAX_STAMP)
+        order = np.flatnonzero(good)[np.argsort(times[good], kind="stable")]
+        rates = None if angular_velocities is None else angular_velocities[order]
+        # Unit quaternions stay as they are: a division would add the rounding that is measured.
+        scale = np.where(np.abs(norms - 1) <= NORM_ROUNDING, 1.0, norms)[order, np.newaxis]
+        unit = q[order] / scale
+        return cls(times[order], unit, rates, left_out + int((~good).sum()))
+
+    def __len__(self) -> int:
+        """Return the number of estimates."""
+        return len(self.stamps)
+
+    def select(self, chosen: NDArray[np.bool_]) -> Estimates:
+        """Return the estimates for which `chosen` (n,) is True."""
+        rates = self.angular_velocities
+        return Estimates(
+            self.stamps[chosen],
+            self.orientations[chosen],
+            None if rates is None else rates[chosen],
+            self.left_out,
+        )
+
+
+TRANSFORM_STAMPED = Format(
+    "geometry_msgs/msg/TransformStamped",
+    lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(7)),
+    ODOMETRY.read_names,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A message type, and where its doubles hold x, y, z, w and the angular velocity."""
+
+    format: Format
+    quaternion: int
+    rates: int | None = None
+    covariance: int | None = None
+
+
+KINDS = {
+    kind.format.type: kind
+    for kind in (
+        Kind(QUATERNION, 0),
+        Kind(IMU, 0, rates=13, covariance=4),
+        Kind(stamped("geometry_msgs/msg/PoseStamped", 7), 3),
+        Kind(stamped("geometry_msgs/msg/PoseWithCovarianceStamped", 43), 3),
+        Kind(TRANSFORM_STAMPED, 3),
+        Kind(ODOMETRY, 3, rates=46),
+    )
+}
+
+
+def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = None) -> Estimates:
+    """Decode messages of one type.
+
+    Parameters
+    ----------
+    kind : str
+        Message type; one of `KINDS`, or tf2_msgs/msg/TFMessage.
+    messages : sequence of bytes
+    frame : str or None
+        Child frame of a transform, or of odometry; None for any.
+
+    Raises
+    ------
+    LogError
+        If the type has no attitude, or transforms are of several frames and none was named.
+
+    Examples
+    --------
+    >>> message = QUATERNION.layout("world").encode(7, [0.0, 0.0, 0.0, 1.0])
+    >>> decode_estimates("geometry_msgs/msg/QuaternionStamped", [message]).stamps.tolist()
+    [7]
+    """
+    if kind == TF_TYPE:
+        return _decode_transforms(messages, frame)
+    if kind not in KINDS:
+        known = ", ".join(name.rpartition("/")[2] for name in (*KINDS, TF_TYPE))
+        msg = f"topic must have a type with an attitude ({known}), got {one_line(kind)}"
+        raise LogError(msg)
+    entry = KINDS[kind]
+    parts, refused = decode_messages(entry.format, messages)
+    parts = [part for part in parts if frame is None or frame == part.names[-1]]
+    numbers = np.concatenate([part.numbers for part in parts] or [np.empty((0, 85))])
+    stamps = np.concatenate([part.stamps for part in parts] or [np.empty(0, dtype=np.int64)])
+    q = numbers[:, entry.quaternion : entry.quaternion + 4][:, [3, 0, 1, 2]].copy()
+    if entry.covariance is not None:
+        q[numbers[:, entry.covariance] == NO_ORIENTATION] = 0.0
+    rates = None if entry.rates is None else numbers[:, entry.rates : entry.rates + 3]
+    return Estimates.of(stamps, q, rates, len(refused))
+
+
+def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimates:
+    """Decode TFMessages, each with any number of transforms."""
+    found: dict[str, list[tuple[int, tuple[float, ...]]]] = {}
+    refused = 0
+    for data in messages:
+        try:
+            for child, stamp, q in _read_transforms(Reader(data)):
+                found.setdefault(child, []).append((stamp, q))
+        except DecodeError:
+            refused += 1
+    if frame is None and len(found) > 1:
+        msg = f"--frame must be one of {', '.join(sorted(found)[:20])}, got none"
+        raise LogError(msg)
+    chosen = found.get(frame, []) if frame else next(iter(found.values()), [])
+    return Estimates.of([stamp for stamp, _ in chosen], [q for _, q in chosen], None, refused)
+
+
+def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ...]]]:
+    for _ in range(reader.count()):
+        seconds, nanoseconds = reader.integer("i"), reader.integer()
+        reader.string()
+        child = reader.string()
+        reader.skip(8, 3)
+        x, y, z, w = (reader.number() for _ in range(4))
+        yield child, seconds * NANOSECONDS + nanoseconds, (w, x, y, z)
+
+
+def read_topic(source: Source, topic: str, frame: str | None = None) -> Estimates:
+    """Return the estimates on a topic of a log.
+
+    Raises
+    ------
+    LogError
+        If the log has no such topic, or its type has no attitude.
+    """
+    messages: list[bytes] = []
+    for chunk in source.chunks():
+        numbers = {n for n, channel in source.channels.items() if channel.topic == topic}
+        messages += [bytes(each.data) for each in chunk if each.channel_id in numbers]
+        if len(messages) > MAX_ESTIMATES:
+            msg = f"{topic} must have at most {MAX_ESTIMATES} messages, got more"
+            raise LogError(msg)
+    channels = [channel for channel in source.channels.values() if channel.topic == topic]
+    if not channels:
+        known = sorted({one_line(channel.topic) for channel in source.channels.values()})
+        msg = f"--topic must be one of {', '.join(known[:20]) or 'none'}, got {one_line(topic)}"
+        raise LogError(msg)
+    schema = source.schemas.get(channels[0].schema_id)
+    return decode_estimates(schema.name if schema else "unknown", messages, frame)
+
+
+def read_csv(path: Path) -> Estimates:
+    """Return the estimates of a CSV file.
+
+    Parameters
+    ----------
+    path : Path
+        With columns `stamp` (integers, ns) or `t` (s), `w`, `x`, `y`, `z`, and `wx`, `wy`, `wz` if
+        there are angular velocities.
+
+    Raises
+    ------
+    LogError
+        If the file cannot be read, lacks a column, or has a line that is not numbers.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return _read_rows(path, csv.DictReader(file))
+    except OSError as error:
+        msg = f"cannot open {path}: {error.strerror}"
+        raise LogError(msg) from None
+    except (csv.Error, UnicodeDecodeError, ValueError) as error:
+        if isinstance(error, LogError):
+            raise
+        msg = f"cannot read {path}: not a CSV file ({one_line(error)})"
+        raise LogError(msg) from None
+
+
+def _read_rows(path: Path, rows: csv.DictReader[str]) -> Estimates:
+    names = rows.fieldnames or ()
+    time = "stamp" if "stamp" in names else "t"
+    missing = [name for name in (time, *COLUMNS) if name not in names]
+    if missing:
+        msg = f"{path} must have the columns stamp (ns) or t (s), w, x, y, z; got no {missing[0]}"
+        raise LogError(msg)
+    to_ns: Callable[[str], int] = int if time == "stamp" else _to_nanoseconds
+    wanted = [*COLUMNS, *(RATES if set(RATES) <= set(names) else ())]
+    stamps, numbers = [], []
+    for line, row in enumerate(rows, start=2):
+        try:
+            stamps.append(min(max(to_ns(row[time]), -1), MAX_STAMP))
+            numbers.append([float(row[name]) for name in wanted])
+        except (TypeError, ValueError, InvalidOperation, OverflowError):
+            msg = f"line {line} of {path} must consist of numbers, got {one_line(dict(row))}"
+            raise LogError(msg) from None
+    table = np.array(numbers, dtype=float).reshape(-1, len(wanted))
+    return Estimates.of(stamps, table[:, :4], table[:, 4:] if len(wanted) > 4 else None)
+
+
+def _to_nanoseconds(text: str) -> int:
+    """Return a time in s as ns, without the rounding of a double."""
+    return int((Decimal(text) * NANOSECONDS).to_integral_value())

@@ -1,0 +1,147 @@
+"""`top_judge --live`: estimates on a topic, judged while the top runs."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+
+import numpy as np
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
+
+from symtop_ros.judge.compare import Errors, compare
+from symtop_ros.judge.estimates import decode_estimates
+from symtop_ros.judge.truth import Truth
+from symtop_ros.log.reader import LogError
+from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.simulation.events import decode_events
+from symtop_ros.simulation.topics import EVENTS, Topic
+from symtop_ros.simulation.validation import one_line
+
+PERIOD = 1.0  # s between two lines
+PATIENCE = 5.0  # s for the topic to be found
+LATCHED = QoSProfile(depth=EVENTS.depth, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+# Best effort hears every publisher. 2000 messages are a second of the fastest node.
+BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFORT)
+
+
+class Court:
+    """Subscriptions to the events of a top and to the estimates.
+
+    Parameters
+    ----------
+    node : Node
+        Node of this program.
+    top : str
+        Full name of the top.
+    topic, kind : str
+        Full name and type of the topic with the estimates.
+    frame : str or None
+        Child frame, for /tf.
+    """
+
+    def __init__(self, node: Node, top: str, topic: str, kind: str, frame: str | None) -> None:
+        self.truth = Truth()
+        self._kind, self._frame = kind, frame
+        self._new: list[bytes] = []
+        self._waiting: list[bytes] = []
+        node.create_subscription(
+            EVENTS.load_message_class(), EVENTS.resolve(top), self._hear, LATCHED, raw=True
+        )
+        message_class = Topic(topic, kind).load_message_class()
+        node.create_subscription(message_class, topic, self._new.append, BEST_EFFORT, raw=True)
+
+    def judge(self) -> Errors | None:
+        """Return the errors of the estimates of the second before the last; None without any.
+
+        They wait for a second because the event of a kick may arrive after the estimates of the
+        motion that follows from it.
+        """
+        due, self._waiting = self._waiting, self._new[:]
+        self._new.clear()
+        if not due or self.truth.begin is None:
+            return None
+        errors = compare(decode_estimates(self._kind, due, self._frame), self.truth)
+        return errors if len(errors.total) else None
+
+    def _hear(self, data: bytes) -> None:
+        for event in decode_events(data):
+            self.truth.add(event)
+
+
+def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
+    """Print a line each second; return 0, or 1 if the attitude was further off than allowed.
+
+    Parameters
+    ----------
+    options : Namespace
+        Those of `top_judge`: topic, node ("/top" by default), frame, seconds (until it is
+        interrupted by default), and max_error in rad.
+    arguments : list of str
+        Name of the program, and arguments for ROS.
+
+    Raises
+    ------
+    LogError
+        If nobody publishes the topic.
+    """
+    topic, seconds, limit = options.topic, options.seconds, options.max_error
+    worst = 0.0
+    try:
+        with ros_context(arguments) as listen:
+            node = rclpy.create_node("top_judge", start_parameter_services=False)
+            executor = SingleThreadedExecutor()
+            executor.add_node(node)
+            listen()
+            kind = _find_type(executor, node, topic)
+            court = Court(node, options.node or "/top", topic, kind, options.frame)
+            end = time.monotonic() + seconds if seconds else np.inf
+            while time.monotonic() < end:
+                _spin(executor, min(end, time.monotonic() + PERIOD))
+                errors = court.judge()
+                worst = max(worst, float(errors.total.max()) if errors else 0.0)
+                print(_format(errors, court.truth), flush=True)
+    except ExternalShutdownException:
+        pass
+    except LogError:
+        raise
+    except Exception as error:
+        print(f"top_judge: {describe_failure(error)}", file=sys.stderr)
+        return 1
+    if limit and worst > limit:
+        message = f"top_judge: the attitude was off by {worst:.3g} rad, limit {limit:g} rad"
+        print(message, file=sys.stderr)
+        return 1
+    return 0
+
+
+def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline:
+        found = dict(node.get_topic_names_and_types()).get(topic)
+        if found:
+            return str(found[0])
+        _spin(executor, time.monotonic() + 0.1)
+    msg = f"--topic must be a topic that is published, got {one_line(topic)}"
+    raise LogError(msg)
+
+
+def _spin(executor: SingleThreadedExecutor, until: float) -> None:
+    while (left := until - time.monotonic()) > 0:
+        executor.spin_once(timeout_sec=left)
+
+
+def _format(errors: Errors | None, truth: Truth) -> str:
+    if errors is None:
+        return "no estimates" if truth.begin is not None else "no events of the top"
+    rms = np.sqrt((errors.total**2).mean())
+    text = (
+        f"{len(errors.total)} estimates: attitude {rms:.2e} rad rms, "
+        f"{errors.total.max():.2e} at most, tilt {errors.tilt.max():.2e}"
+    )
+    if errors.rate is not None:
+        text += f", angular velocity {errors.rate.max():.2e} rad/s"
+    return text

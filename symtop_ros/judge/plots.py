@@ -1,0 +1,51 @@
+"""The plot of `top_judge`; needs Matplotlib."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from symtop_ros.article.style import BLUE, GOLD, INK, RED, new_figure, rows, write_figures
+from symtop_ros.judge.compare import Errors
+
+POINTS = 5000
+
+
+def write_plot(errors: Errors, folder: Path) -> None:
+    """Write judge.svg and judge.png into a folder: the errors against time."""
+    write_figures({"judge": lambda: draw(errors)}, folder)
+
+
+def draw(errors: Errors) -> Figure:
+    """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one.
+
+    Examples
+    --------
+    >>> some = np.array([1e-3, 2e-3])
+    >>> len(draw(Errors(np.array([0, 10**9]), some, some, some, some, 0)).axes)
+    2
+    """
+    figure = new_figure(3.6 if errors.rate is None else 4.8)
+    axes = rows(figure, 1 if errors.rate is None else 2)
+    step = max(1, len(errors.total) // POINTS)
+    t = errors.seconds[::step]
+    for values, color, label in (
+        (errors.total, INK, "attitude"),
+        (np.abs(errors.heading), BLUE, "heading"),
+        (errors.tilt, GOLD, "tilt"),
+    ):
+        axes[0].plot(t, _positive(values[::step]), color=color, label=label, linewidth=1.0)
+    axes[0].set(yscale="log", ylabel="error (rad)")
+    axes[0].legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    if errors.rate is not None:
+        axes[1].plot(t, _positive(errors.rate[::step]), color=RED, linewidth=1.0)
+        axes[1].set(yscale="log", ylabel=r"error of $\omega$ (rad/s)")
+    return figure
+
+
+def _positive(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return values for a logarithmic axis, on which an error of zero is not drawn."""
+    return np.where(values > 0, values, np.nan)

@@ -1,0 +1,1 @@
+"""The top as a model file for other engines."""

@@ -1,0 +1,186 @@
+"""A top and its start as URDF, SDF and MJCF, the files that other engines read.
+
+All of them hold the body that `physics.Body` chooses, with its doubles in full. Friction and
+applied torques are left out: no format has friction that differs along and across the axis.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
+from symtop_ros.simulation.urdf import describe_body, robot_description
+
+STEP = 1e-4  # s; at 200 rad/s a step of 0.02 rad
+
+
+def format_urdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
+    """Return the top as URDF: three revolute joints, since the format has no ball joint.
+
+    Parameters
+    ----------
+    top : Top
+    start : State
+        One state; URDF has no place for it but a comment.
+    gravity : float
+        In m/s^2.
+
+    Raises
+    ------
+    ValueError
+        If no body has the constants of the top.
+
+    Examples
+    --------
+    >>> top, start = Top(Ix=1.0, Iz=0.5, Mgl=1.0), State.from_euler(theta=0.5, psi_dot=2.0)
+    >>> print(format_urdf(top, start).splitlines()[4].strip()[:57])
+    position 0.0 0.5 0.0 rad, velocity 0.0 0.0 2.0 rad/s. The
+    """
+    Body.of(top, gravity)  # refused here: the drawing alone would do for rviz, but not for engines
+    angles, rates = start.euler_angles, start.euler_rates
+    text = robot_description(top, "world", "top", tf_moves_it=False, gravity=gravity)
+    first, _, rest = text.partition("\n")
+    return f"""{first}
+<!--
+     A heavy symmetric top with its pivot in the origin. URDF has no ball joint: three joints with
+     the axes z-x-z (precession, tilt, spin) take its place. Start of the motion, in this order:
+     position {angles.phi!r} {angles.theta!r} {angles.psi!r} rad, \
+velocity {rates.phi!r} {rates.theta!r} {rates.psi!r} rad/s. The chain has its pole where the
+     axis is vertical (tilt 0 or pi): a motion through it needs a ball joint.
+-->
+{rest}"""
+
+
+def format_sdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
+    """Return the top as an SDF world with a ball joint.
+
+    SDF places the body; no element of it gives a body its first angular velocity, which therefore
+    stands in a comment.
+
+    Parameters
+    ----------
+    top : Top
+    start : State
+        One state.
+    gravity : float
+        In m/s^2.
+
+    Raises
+    ------
+    ValueError
+        If no body has the constants of the top.
+
+    Examples
+    --------
+    >>> top, start = Top(Ix=1.0, Iz=0.5, Mgl=1.0), State.from_euler(theta=0.5, psi_dot=2.0)
+    >>> '<joint name="pivot" type="ball">' in format_sdf(top, start)
+    True
+    """
+    body = Body.of(top, gravity)
+    w, x, y, z = start.orientation.tolist()
+    world = _join(start.to_world(start.angular_velocity).tolist())
+    size = _size(body)
+    moments = f"<ixx>{body.Ix!r}</ixx><iyy>{body.Ix!r}</iyy><izz>{body.Iz!r}</izz>"
+    return f"""<?xml version="1.0"?>
+<!-- {describe_body(top, body)}
+     Start of the motion: angular velocity {world} rad/s (world frame). -->
+<sdf version="1.9">
+  <world name="symtop">
+    <gravity>0 0 {-gravity!r}</gravity>
+    <physics name="fine" type="ignored">
+      <max_step_size>{STEP!r}</max_step_size>
+    </physics>
+    <model name="top">
+      <pose rotation_format="quat_xyzw">0 0 0 {_join((x, y, z, w))}</pose>
+      <link name="top">
+        <inertial>
+          <pose>0 0 {body.arm!r} 0 0 0</pose>
+          <mass>{body.mass!r}</mass>
+          <inertia>{moments}<ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia>
+        </inertial>
+        <visual name="axis">
+          <pose>0 0 {math.copysign(size / 2, body.arm)!r} 0 0 0</pose>
+          <geometry><cylinder><radius>{0.04 * size!r}</radius>\
+<length>{size!r}</length></cylinder></geometry>
+        </visual>
+        <visual name="disc">
+          <pose>0 0 {body.arm!r} 0 0 0</pose>
+          <geometry><cylinder><radius>{0.4 * size!r}</radius>\
+<length>{0.1 * size!r}</length></cylinder></geometry>
+        </visual>
+      </link>
+      <joint name="pivot" type="ball">
+        <parent>world</parent>
+        <child>top</child>
+      </joint>
+    </model>
+  </world>
+</sdf>
+"""
+
+
+def format_mjcf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
+    """Return the top as MJCF with a ball joint; its start is the keyframe "start".
+
+    Parameters
+    ----------
+    top : Top
+    start : State
+        One state.
+    gravity : float
+        In m/s^2.
+
+    Raises
+    ------
+    ValueError
+        If no body has the constants of the top.
+
+    Examples
+    --------
+    >>> top, start = Top(Ix=1.0, Iz=0.5, Mgl=1.0), State.from_euler(theta=0.5, psi_dot=2.0)
+    >>> '<joint name="pivot" type="ball"/>' in format_mjcf(top, start)
+    True
+    """
+    body = Body.of(top, gravity)
+    size = _size(body)
+    end = math.copysign(size, body.arm)
+    disc = f"{0.4 * size!r} {0.05 * size!r}"
+    return f"""<!-- {describe_body(top, body)} -->
+<mujoco model="symtop">
+  <compiler angle="radian"/>
+  <option integrator="RK4" timestep="{STEP!r}" gravity="0 0 {-gravity!r}">
+    <flag contact="disable" constraint="disable"/>
+  </option>
+  <worldbody>
+    <light pos="0 0 {4 * size!r}" dir="0 0 -1"/>
+    <body name="top">
+      <joint name="pivot" type="ball"/>
+      <inertial pos="0 0 {body.arm!r}" mass="{body.mass!r}" \
+diaginertia="{body.Ix!r} {body.Ix!r} {body.Iz!r}"/>
+      <geom type="capsule" fromto="0 0 0 0 0 {end!r}" size="{0.04 * size!r}" mass="0"/>
+      <geom type="cylinder" pos="0 0 {body.arm!r}" size="{disc}" mass="0"/>
+    </body>
+  </worldbody>
+  <keyframe>
+    <key name="start" qpos="{_join(start.orientation.tolist())}" \
+qvel="{_join(start.angular_velocity.tolist())}"/>
+  </keyframe>
+</mujoco>
+"""
+
+
+FORMATS: dict[str, Callable[[Top, State, float], str]] = {
+    "urdf": format_urdf,
+    "sdf": format_sdf,
+    "mjcf": format_mjcf,
+}
+
+
+def _size(body: Body) -> float:
+    """Return the length of the drawn axis in m: beyond the centre of mass, and near the body."""
+    return max(abs(body.arm) / 0.6, 2 * math.sqrt(body.Ix / body.mass))
+
+
+def _join(numbers: Sequence[float]) -> str:
+    return " ".join(map(repr, numbers))

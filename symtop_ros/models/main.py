@@ -1,0 +1,62 @@
+"""Entry point of `top_model`: a top as URDF, SDF or MJCF."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from symtop_ros.models.formats import FORMATS
+from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.validation import RefusedError, number, one_line
+
+LARGEST_GRAVITY = 1e3  # m/s^2
+
+
+def main(args: list[str] | None = None) -> int:
+    """Write a model; return 0 (good), 1 (refused or failed) or 2 (usage)."""
+    options = _parser().parse_args(args)
+    try:
+        settings = Settings.from_scene(options.scene)
+        gravity = number("gravity", options.gravity, "m/s^2", 1e-3, LARGEST_GRAVITY)
+        start = initial_state(settings.top, settings.initial, {})
+        text = FORMATS[options.format](settings.top, start, gravity)
+        _write(text, options.output)
+    except (RefusedError, ValueError) as error:
+        print(f"top_model: {one_line(error)}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"top_model: {one_line(error.filename)}: {error.strerror}", file=sys.stderr)
+        return 1
+    for left_out in _list_left_out(settings):
+        print(f"top_model: left out: {left_out}", file=sys.stderr)
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="top_model", description="Write a top and its start as a model for other engines."
+    )
+    parser.add_argument("--format", choices=sorted(FORMATS), required=True)
+    parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
+    parser.add_argument(
+        "--gravity", default=STANDARD_GRAVITY, type=float, help="m/s^2, default 9.81"
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="default: standard output"
+    )
+    return parser
+
+
+def _write(text: str, path: Path | None) -> None:
+    if path:
+        path.write_text(text, encoding="utf-8")
+    else:
+        print(text, end="")
+
+
+def _list_left_out(settings: Settings) -> list[str]:
+    left = ["friction"] if settings.friction else []
+    return left + (["steady_torque"] if any(settings.steady_torque) else [])

@@ -1,0 +1,344 @@
+"""Score a trajectory against a problem of the test set. This file needs NumPy only.
+
+    python score.py                          # lists the problems
+    python score.py cusps trajectory.csv     # scores a trajectory
+
+A trajectory is a CSV file with the columns t, w, x, y, z, and wx, wy, wz if it has angular
+velocities, in any order; further columns and rows at other times are ignored.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FILE = Path(__file__).with_name("problems.json")
+QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is another error than that of a motion
+# A row belongs to a time if it is this close to it, relatively: a clock that adds up its steps.
+SAME_TIME = 1e-9
+LARGEST_FILE = 2**30  # bytes
+Real = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A motion to compute.
+
+    Attributes
+    ----------
+    facts : dict
+        The entry in problems.json; README.md explains it.
+
+    Examples
+    --------
+    >>> cusps = read_problems()["cusps"]
+    >>> cusps.facts["Mgl"], cusps.times.tolist()[-1]
+    (0.068, 10.0)
+    """
+
+    facts: dict[str, Any]
+
+    @property
+    def times(self) -> Real:
+        """Times of the exact states, (20,), in s."""
+        times: Real = np.array(self.facts["times"], dtype=np.float64)
+        return times
+
+    @cached_property
+    def _orientations(self) -> tuple[Real, Real]:
+        return _split(self.facts["orientations"])
+
+    @cached_property
+    def _angular_velocities(self) -> tuple[Real, Real]:
+        return _split(self.facts["angular_velocities"])
+
+    def format_json(self) -> str:
+        """Return the problem and its solution as JSON, with a line for each quantity.
+
+        Examples
+        --------
+        >>> print(read_problems()["cusps"].format_json().splitlines()[1])
+         "name": "cusps",
+        """
+        lines = [f' "{key}": {json.dumps(value)}' for key, value in self.facts.items()]
+        return "{\n" + ",\n".join(lines) + "\n}\n"
+
+    def score(self, orientations: ArrayLike, angular_velocities: ArrayLike | None = None) -> Score:
+        """Return the errors of states at the times of the problem.
+
+        Parameters
+        ----------
+        orientations : array_like (20, 4)
+            Quaternions w, x, y, z, body to world, of either sign; they are normalised.
+        angular_velocities : array_like (20, 3), optional
+            In the body frame, in rad/s.
+
+        Raises
+        ------
+        ValueError
+            If a shape does not fit, a number is not finite, or a norm is not near 1.
+
+        Examples
+        --------
+        >>> cusps = read_problems()["cusps"]
+        >>> rounded = [[float(c) for c in q] for q in cusps.facts["orientations"]]
+        >>> bool(cusps.score(rounded).angles.max() < 4.5e-16)
+        True
+        """
+        angles, _ = self.measure(_check("orientations", orientations, 4), range(20))
+        rates = None
+        if angular_velocities is not None:
+            omega = _check("angular_velocities", angular_velocities, 3)
+            high, low = self._angular_velocities
+            rates = np.linalg.norm((omega - high) - low, axis=1)
+        return Score(self, angles, rates)
+
+    def measure(self, orientations: ArrayLike, places: Sequence[int]) -> tuple[Real, Real]:
+        """Return the errors of attitudes at some of the times.
+
+        Parameters
+        ----------
+        orientations : array_like (n, 4)
+            Quaternions w, x, y, z of either sign; they are normalised.
+        places : sequence of int (n,)
+            Numbers of the times, from 0.
+
+        Returns
+        -------
+        angles : ndarray (n,)
+            In rad.
+        limits : ndarray (n,)
+            In units of what half an ulp of the inputs does.
+
+        Raises
+        ------
+        ValueError
+            If a norm is not near 1.
+        """
+        q = np.asarray(orientations, dtype=np.float64)
+        norms = np.linalg.norm(q, axis=1)
+        if np.abs(norms - 1).max() > LARGEST_NORM_ERROR:
+            worst = norms[np.abs(norms - 1).argmax()]
+            msg = f"orientations must be unit quaternions, got a norm of {worst:.6g}"
+            raise ValueError(msg)
+        q = q / norms[:, np.newaxis]
+        high, low = (part[list(places)] for part in self._orientations)
+        q = np.where((q * high).sum(axis=1, keepdims=True) < 0, -q, q)
+        angles = 2 * np.linalg.norm((q - high) - low, axis=1)
+        limits = np.array(self.facts["orientation_limits"], dtype=np.float64)
+        return angles, angles / limits[list(places)]
+
+
+@dataclass(frozen=True)
+class Score:
+    """Errors at the times of a problem.
+
+    Attributes
+    ----------
+    problem : Problem
+    angles : ndarray (20,)
+        Angle in rad of the rotation that would correct the attitude, 2 |q - q_exact|.
+    rates : ndarray (20,) or None
+        |omega - omega_exact| in rad/s.
+    """
+
+    problem: Problem
+    angles: Real
+    rates: Real | None
+
+    @property
+    def in_limits(self) -> Real:
+        """Errors of the attitude in units of what half an ulp of the inputs does to it, (20,)."""
+        limits = np.array(self.problem.facts["orientation_limits"], dtype=np.float64)
+        return np.asarray(self.angles / limits, dtype=np.float64)
+
+    def format(self) -> str:
+        """Return the score in a line.
+
+        Examples
+        --------
+        >>> cusps = read_problems()["cusps"]
+        >>> cusps.score([cusps.facts["orientation"]] * 20).format()[:50]
+        'cusps: attitude 2.0e+00 rad at most (mean 1.2e+00)'
+        """
+        text = (
+            f"{self.problem.facts['name']}: attitude {self.angles.max():.1e} rad at most "
+            f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits"
+        )
+        if self.rates is not None:
+            text += f"; angular velocity {self.rates.max():.1e} rad/s at most"
+        return text
+
+
+def read_problems(path: Path = FILE) -> dict[str, Problem]:
+    """Return the problems by their names.
+
+    Examples
+    --------
+    >>> len(read_problems())
+    60
+    """
+    facts = json.loads(path.read_text(encoding="utf-8"))
+    return {each["name"]: Problem(each) for each in facts["problems"]}
+
+
+def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
+    """Return the orientations (20, 4) and angular velocities (20, 3) of a CSV file.
+
+    Parameters
+    ----------
+    path : Path
+    problem : Problem
+        Gives the times; each must be in the file.
+
+    Raises
+    ------
+    ValueError
+        If a column, a time or a number is missing.
+    OSError
+        If the file cannot be read.
+    """
+    if path.stat().st_size > LARGEST_FILE:
+        msg = f"{path} must have at most {LARGEST_FILE} bytes, got {path.stat().st_size}"
+        raise ValueError(msg)
+    with path.open(encoding="utf-8", newline="") as file:
+        try:
+            rows = csv.DictReader(file)
+            names = [*QUATERNION, *(RATES if set(RATES) <= set(rows.fieldnames or ()) else ())]
+            missing = [name for name in ("t", *names) if name not in (rows.fieldnames or ())]
+            if missing:
+                msg = f"{path} must have the columns t, w, x, y, z, got no {missing[0]}"
+                raise ValueError(msg)
+            found = _pick(rows, problem.times, names)
+        except (csv.Error, UnicodeDecodeError) as error:
+            msg = f"{path} must be a CSV file, got {error}"
+            raise ValueError(msg) from None
+    return found[:, :4], found[:, 4:] if len(names) > 4 else None
+
+
+def _pick(rows: csv.DictReader[str], times: Real, names: Sequence[str]) -> Real:
+    """Return the numbers of the rows at the times."""
+    found = np.full((len(times), len(names)), np.nan)
+    for number, row in enumerate(rows, start=2):
+        try:
+            t = float(row["t"])
+            place = int(np.abs(times - t).argmin()) if math.isfinite(t) else 0
+            if abs(times[place] - t) <= SAME_TIME * times[place]:
+                found[place] = [float(row[name]) for name in names]
+        except (TypeError, ValueError):
+            msg = f"line {number} must consist of numbers, got {list(row.values())[:8]}"
+            raise ValueError(msg) from None
+    absent = times[np.isnan(found).any(axis=1)]
+    if absent.size:
+        msg = f"trajectory must have a state at each time, got none at {absent.tolist()[0]!r} s"
+        raise ValueError(msg)
+    return found
+
+
+def _check(name: str, values: ArrayLike, width: int) -> Real:
+    array = np.asarray(values, dtype=float)
+    if array.ndim != 2 or array.shape != (20, width):
+        msg = f"{name} must be of shape (20, {width}), got {array.shape}"
+        raise ValueError(msg)
+    if not np.isfinite(array).all():
+        msg = f"{name} must be finite numbers, got {array[~np.isfinite(array)][0]}"
+        raise ValueError(msg)
+    return array
+
+
+def _split(texts: Sequence[Sequence[str]]) -> tuple[Real, Real]:
+    """Return decimals of 30 digits as sums of two doubles.
+
+    One double is off by up to half an ulp, which is as large as the errors of the best programs.
+    """
+    high = np.array([[float(text) for text in row] for row in texts])
+    low = [
+        [float(Decimal(text) - Decimal(value)) for text, value in zip(row, values, strict=True)]
+        for row, values in zip(texts, high.tolist(), strict=True)
+    ]
+    return high, np.array(low)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """List the problems, or score a trajectory; return 0 (good) or 1 (failed)."""
+    parser = argparse.ArgumentParser(description="Score a trajectory against the test set.")
+    parser.add_argument("problem", nargs="?", help="name of a problem; default: list all")
+    parser.add_argument("trajectory", nargs="?", type=Path, help="CSV: t, w, x, y, z, wx, wy, wz")
+    options = parser.parse_args(args)
+    problems = read_problems()
+    try:
+        if not options.problem:
+            print(list_problems(problems))
+        else:
+            print(score_file(problems, options.problem, options.trajectory).format())
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"{error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def list_problems(problems: dict[str, Problem]) -> str:
+    """Return a table of the problems.
+
+    Examples
+    --------
+    >>> list_problems(read_problems()).splitlines()[11].split()[:4]
+    ['2', 'cusps', '10', 's']
+    """
+    lines = ["level  name              duration  what"]
+    for each in problems.values():
+        facts = each.facts
+        duration = f"{facts['times'][-1]:g} s"
+        lines.append(f"{facts['level']:5}  {facts['name']:18}{duration:>8}  {facts['what']}")
+    return "\n".join(lines)
+
+
+def score_file(problems: dict[str, Problem], name: str, path: Path | None) -> Score:
+    """Return the score of a CSV file.
+
+    Raises
+    ------
+    ValueError
+        If there is no such problem, no file is named, or the file is refused.
+    OSError
+        If the file cannot be read.
+    """
+    problem = find_problem(problems, name)
+    if path is None:
+        msg = f"trajectory must be a CSV file for {name}, got none"
+        raise ValueError(msg)
+    return problem.score(*read_trajectory(path, problem))
+
+
+def find_problem(problems: dict[str, Problem], name: str) -> Problem:
+    """Return a problem by its name.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    if name not in problems:
+        msg = f"problem must be one of {', '.join(problems)}, got {' '.join(name.split())[:60]}"
+        raise ValueError(msg)
+    return problems[name]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

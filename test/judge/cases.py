@@ -1,0 +1,95 @@
+"""Runs and estimates for the tests of `top_judge`: logs written without ROS."""
+
+import numpy as np
+from mcap.well_known import MessageEncoding
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.judge.estimates import KINDS, Estimates
+from symtop_ros.judge.truth import Truth
+from symtop_ros.physics import Motion, State, Top, hurry
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+
+SECOND = 1_000_000_000
+TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+START = State.from_euler(theta=0.5, psi_dot=200.0)
+KICK = 3_123_456_789  # ns
+
+
+def make_events():
+    """A start, a kick, a pause, and a run in slow motion."""
+    segment = Segment.begin(Motion(TOP, START), 0, 1.0)
+    events = [Event.of(0, "start", "", {}, START, segment)]
+    for name, stamp, change in (
+        ("kick", KICK, lambda s: s.restart(hurry(s.state_at(KICK), 1.4), KICK)),
+        ("pause", 5 * SECOND, lambda s: s.pause(5 * SECOND)),
+        ("resume", 6 * SECOND, lambda s: s.resume(6 * SECOND)),
+        ("pace", 7 * SECOND, lambda s: s.set_factor(0.1, 7 * SECOND)),
+    ):
+        before = segment.state_at(stamp)
+        segment = change(segment)
+        events.append(Event.of(stamp, name, "", {}, before, segment))
+    return events
+
+
+def make_estimates(truth, stamps, world=None, body=None, delay=0.0):
+    """Estimates that are turned and late."""
+    exact, rates, known = truth.states_at(stamps - round(delay * SECOND))
+    assert known.all()
+    q = Rotation.from_quat(exact[:, [1, 2, 3, 0]])
+    world, body = world or Rotation.identity(), body or Rotation.identity()
+    turned = (world * q * body).as_quat()[:, [3, 0, 1, 2]]
+    return Estimates.of(stamps, turned, body.inv().apply(rates))
+
+
+def truth_and_stamps(count=3000, seed=1):
+    stamps = np.sort(np.random.default_rng(seed).integers(SECOND, 9 * SECOND, count))
+    return Truth(make_events()), stamps
+
+
+def write_log(path, topics):
+    """Write a log with the events and, for each topic, its type and its messages (stamp, bytes)."""
+    from mcap.writer import Writer
+
+    messages = [
+        ("/top/events", "diagnostic_msgs/msg/DiagnosticArray", event.stamp, event.encode("world"))
+        for event in make_events()
+    ]
+    for name, (kind, content) in topics.items():
+        messages += [(name, kind, stamp, data) for stamp, data in content]
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start(profile="ros2")
+        channels = {}
+        for name, kind, *_ in messages:
+            if name not in channels:
+                schema = writer.register_schema(kind, "ros2msg", b"")
+                channels[name] = writer.register_channel(name, MessageEncoding.CDR, schema)
+        for name, _, stamp, data in sorted(messages, key=lambda each: each[2]):
+            writer.add_message(channels[name], stamp, data, stamp)
+        writer.finish()
+    return path
+
+
+def encode(kind, estimates):
+    """Messages of a type with the attitudes (and rates) of estimates."""
+    entry = KINDS[kind]
+    names = ("world", "sensor")[: 2 if "Transform" in kind or "Odometry" in kind else 1]
+    layout = entry.format.layout(*names)
+    width = {
+        "Imu": 37,
+        "PoseStamped": 7,
+        "QuaternionStamped": 4,
+        "PoseWithCovarianceStamped": 43,
+        "TransformStamped": 7,
+        "Odometry": 85,
+    }[kind.rpartition("/")[2]]
+    messages = []
+    for k, stamp in enumerate(estimates.stamps.tolist()):
+        numbers = [0.0] * width
+        w, x, y, z = estimates.orientations[k].tolist()
+        numbers[entry.quaternion : entry.quaternion + 4] = [x, y, z, w]
+        if entry.rates is not None:
+            numbers[entry.rates : entry.rates + 3] = estimates.angular_velocities[k].tolist()
+        messages.append((stamp, layout.encode(stamp, numbers)))
+    return kind, messages

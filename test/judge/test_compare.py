@@ -1,0 +1,97 @@
+"""Errors of estimates whose errors are known, and the rotations and delay behind them."""
+
+import math
+
+import numpy as np
+import pytest
+from judge.cases import SECOND, make_estimates, truth_and_stamps
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.judge.compare import compare, find_offset
+from symtop_ros.judge.estimates import Estimates
+
+EPS = 2.0**-52
+
+
+def test_exact_estimates_have_no_error_across_kicks_pauses_and_slow_motion():
+    truth, stamps = truth_and_stamps()
+    orientations, rates, _ = truth.states_at(stamps)
+    errors = compare(Estimates.of(stamps, orientations, rates), truth)
+    assert errors.total.max() == 0.0
+    assert errors.rate.max() == 0.0
+    assert errors.unknown == 0
+
+
+def test_stamps_before_the_run_are_unknown():
+    truth, _ = truth_and_stamps()
+    estimates = Estimates.of([0, 1], [[1.0, 0, 0, 0]] * 2)
+    later = make_estimates(truth, np.array([SECOND]))
+    moved = Estimates.of(estimates.stamps, estimates.orientations)
+    assert compare(moved, truth).unknown == 0
+    truth._events[0:1] = []  # the run begins with the kick
+    errors = compare(Estimates.of([5, later.stamps[0]], [[1.0, 0, 0, 0]] * 2), truth)
+    assert errors.unknown == 2
+
+
+@pytest.mark.parametrize("angle", [1e-12, 1e-3, 1.0, 3.1])
+def test_a_turned_world_is_split_into_tilt_and_heading(angle):
+    truth, stamps = truth_and_stamps(500)
+    turned = compare(make_estimates(truth, stamps, Rotation.from_rotvec([0, 0, angle])), truth)
+    # a rotation about the vertical is heading; products of quaternions round to some eps
+    assert turned.total == pytest.approx(np.full(500, angle), abs=8 * EPS)
+    assert np.abs(turned.heading) == pytest.approx(np.full(500, angle), abs=8 * EPS)
+    assert turned.tilt.max() < 8 * EPS
+    tilted = compare(make_estimates(truth, stamps, Rotation.from_rotvec([angle, 0, 0])), truth)
+    assert tilted.tilt == pytest.approx(np.full(500, angle), abs=8 * EPS)
+    # next to a tilt of pi the heading is what two small components say
+    assert np.abs(tilted.heading).max() < 8 * EPS / math.cos(angle / 2)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rotations_of_any_size_and_a_delay_are_found(seed):
+    random = np.random.default_rng(seed)
+    world, body = (Rotation.from_rotvec(random.normal(size=3)) for _ in range(2))
+    delay = random.uniform(-0.05, 0.05)
+    truth, stamps = truth_and_stamps(seed=seed)
+    estimates = make_estimates(truth, stamps, world, body, delay)
+    found = find_offset(estimates, truth)
+    # A spin is a delay and a rotation of the body at once; nutation, kick and pauses tell them
+    # apart. The stamps are whole nanoseconds, in which the top turns by 2e-7 rad.
+    assert found.delay == pytest.approx(delay, abs=1e-8)
+    errors = compare(estimates, truth, found)
+    assert errors.total.max() < 3e-6
+    assert errors.rate.max() < 1e-3
+    alone = find_offset(estimates, truth, rotations=False)
+    assert alone.angles == (0.0, 0.0)
+
+
+def test_without_an_offset_none_is_found():
+    truth, stamps = truth_and_stamps()
+    found = find_offset(make_estimates(truth, stamps), truth)
+    assert found.delay == 0.0
+    assert max(found.angles) < 8 * EPS
+
+
+def test_noise_is_measured_as_it_is():
+    truth, stamps = truth_and_stamps(4000)
+    random = np.random.default_rng(5)
+    exact, _, _ = truth.states_at(stamps)
+    noise = Rotation.from_rotvec(random.normal(scale=1e-3, size=(4000, 3)))
+    q = (Rotation.from_quat(exact[:, [1, 2, 3, 0]]) * noise).as_quat()[:, [3, 0, 1, 2]]
+    errors = compare(Estimates.of(stamps, q), truth)
+    rms = math.sqrt((errors.total**2).mean())
+    assert rms == pytest.approx(1e-3 * math.sqrt(3), rel=0.03)  # 12 000 numbers: 1 %, three sigma
+    assert errors.growth() == pytest.approx(np.full(10, rms), rel=0.2)
+    assert errors.rate is None
+
+
+def test_a_clock_that_jumps_back_replaces_what_it_repeats():
+    from judge.cases import make_events
+
+    from symtop_ros.judge.truth import Truth
+
+    events = make_events()
+    again = Truth([*events, events[0]])  # the whole run starts again at its first stamp
+    stamps = np.array([4 * SECOND])
+    first = Truth(events[:1]).states_at(stamps)[0]
+    assert (again.states_at(stamps)[0] == first).all()

@@ -1,0 +1,124 @@
+"""`top_judge` as its users call it."""
+
+import json
+import sqlite3
+
+import pytest
+from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.judge.main import main
+from symtop_ros.testset import score
+
+IMU = "sensor_msgs/msg/Imu"
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    truth, stamps = truth_and_stamps(2000)
+    turned = make_estimates(truth, stamps, Rotation.from_rotvec([0, 0, 0.3]), delay=0.004)
+    topics = {
+        "/imu/data": encode(IMU, make_estimates(truth, stamps)),
+        "/filter": encode(IMU, turned),
+        "/text": ("std_msgs/msg/String", [(5, b"\0\1\0\0\1\0\0\0\0")]),
+    }
+    return write_log(tmp_path_factory.mktemp("judge") / "run.mcap", topics)
+
+
+def test_exact_estimates_are_told_so(log, capsys):
+    assert main([str(log), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("/imu/data: 2000 estimates in ")
+    assert "\nbest explained by a delay of 0 ms" in out
+
+
+def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, capsys, tmp_path):
+    arguments = [str(log), "--topic", "/filter", "--max-error", "1e-3"]
+    assert main([*arguments, "-o", str(tmp_path / "new")]) == 1
+    assert "top_judge: the attitude is off by " in capsys.readouterr().err
+    facts = json.loads((tmp_path / "new" / "judge.json").read_text())
+    assert facts["found"]["delay"] == pytest.approx(0.004, abs=1e-8)
+    assert facts["found"]["world_offset"]["angle"] == pytest.approx(0.3, abs=1e-5)
+    assert facts["attitude"]["p100"] > 0.3
+    for suffix in ("svg", "png"):
+        assert (tmp_path / "new" / f"judge.{suffix}").stat().st_size > 1000
+    assert main([*arguments, "--remove", "offset", "--remove", "delay"]) == 0
+    assert "offset and delay removed" in capsys.readouterr().out
+
+
+def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
+    path = tmp_path / "mine.csv"
+    truth, stamps = truth_and_stamps(20)
+    exact, _, _ = truth.states_at(stamps)
+    rows = [
+        f"{s},{','.join(map(repr, q))}"
+        for s, q in zip(stamps.tolist(), exact.tolist(), strict=True)
+    ]
+    path.write_text("stamp,w,x,y,z\n" + "\n".join(rows) + "\n")
+    assert main([str(log), "--estimates", str(path), "--max-error", "1e-15"]) == 0
+    assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
+
+
+def test_a_bag_of_sqlite3_is_judged_too(log, tmp_path, capsys):
+    from symtop_ros.log.reader import McapFile
+
+    file, path = McapFile(log), tmp_path / "bag.db3"
+    messages = [each for chunk in file.chunks() for each in chunk]
+    with sqlite3.connect(path) as database:
+        database.execute("CREATE TABLE topics(id INTEGER, name, type, serialization_format)")
+        database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data)")
+        for number, channel in file.channels.items():
+            row = (number, channel.topic, file.schemas[channel.schema_id].name, "cdr")
+            database.execute("INSERT INTO topics VALUES (?, ?, ?, ?)", row)
+        for each in messages:
+            row = (each.channel_id, each.log_time, each.data)
+            database.execute(
+                "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)", row
+            )
+    assert main([str(path), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("--topic", "/nothing"), "--topic must be one of /filter, /imu/data, /text, /top/events"),
+        (("--topic", "/text"), "topic must have a type with an attitude"),
+        (("--topic", "/filter", "--node", "/other"), "no run of a top /other in "),
+        (("--estimates", "missing.csv"), "cannot open missing.csv: No such file"),
+        (("--estimates", "missing.mcap"), "--topic must name the estimates in missing.mcap"),
+    ],
+)
+def test_what_cannot_be_judged_is_one_line(log, arguments, reason, capsys):
+    assert main([str(log), *arguments]) == 1
+    err = capsys.readouterr().err
+    assert err.startswith(f"top_judge: {reason}")
+    assert err.count("\n") == 1
+
+
+def test_a_log_without_a_top_is_refused(tmp_path, capsys, log):
+    path = tmp_path / "empty.mcap"
+    path.write_bytes(log.read_bytes()[:8])
+    assert main([str(path), "--topic", "/imu/data"]) == 1
+    assert capsys.readouterr().err.startswith("top_judge: no run of a top in ")
+
+
+def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
+    assert main(["--testset"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 61
+    assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {
+        *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf"))
+    }
+    facts = json.loads((tmp_path / "cusps.json").read_text())
+    assert facts == score.read_problems()["cusps"].facts
+    path = tmp_path / "mine.csv"
+    rows = [
+        ",".join((repr(t), *q)) for t, q in zip(facts["times"], facts["orientations"], strict=True)
+    ]
+    path.write_text("t,w,x,y,z\n" + "\n".join(rows) + "\n")
+    capsys.readouterr()
+    assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
+    assert capsys.readouterr().out.startswith("cusps: attitude ")
+    assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
+    assert main(["--testset", "none", str(path)]) == 1
+    assert "top_judge: problem must be one of plane_pendulum, " in capsys.readouterr().err

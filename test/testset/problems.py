@@ -1,0 +1,202 @@
+"""The sixty problems of the test set: tops, starts and times, from easy to hard."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from symtop_ros.article.motions import FAST, SLOW, TOP
+from symtop_ros.physics import State, Top
+
+UNIT = Top(1.0, 0.5, 1.0)
+DISC = Top(0.0002, 0.00035, 0.05)
+CARDONA = Top(15.234375, 0.46875, 147.15)  # Brüls and Cardona 2010, about the pivot
+SMALL = Top(2.0e-12, 1.5e-12, 3.0e-9)
+LARGE = Top(3.0e6, 1.0e6, 4.0e7)
+UP, DOWN = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
+HALF = (0.5, 0.5, 0.5, 0.5)  # theta = pi/2, a unit quaternion without rounding
+COUNT = 20  # times of each problem
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A problem without its solution.
+
+    `level` is 1 (slow), 2 (an ordinary top), 3 (fast, or of an unusual shape), 4 (at the vertical)
+    or 5 (close to a separatrix, critical, or long); `has_period` is False if theta does not swing.
+    """
+
+    level: int
+    name: str
+    what: str
+    top: Top
+    start: State
+    duration: float  # s
+    has_period: bool = True
+
+    @property
+    def times(self) -> list[float]:
+        return [self.duration * k / COUNT for k in range(1, COUNT + 1)]
+
+
+def euler(theta, **others):
+    return State.from_euler(theta=theta, **others)
+
+
+def article(phi_dot):
+    return euler(0.5, phi_dot=phi_dot, psi_dot=200.0)
+
+
+def spinning(theta, factor):
+    """A start at rest that spins at a multiple of the critical spin."""
+    return euler(theta, psi_dot=TOP.critical_spin * factor)
+
+
+def pendulum(theta_dot):
+    return State(HALF, (-theta_dot, 0.0, 0.0))
+
+
+ROOT = math.sqrt(2.0)  # theta' of UNIT at theta = pi/2 from which the axis comes to rest on top
+
+SETTINGS = [
+    Setting(1, "plane_pendulum", "no spin, let go", UNIT, euler(1.0), 20),
+    Setting(1, "pendulum_hanging", "no spin, below the pivot", UNIT, euler(2.5, phi=0.3), 20),
+    Setting(1, "spherical_pendulum", "no spin", UNIT, euler(2.0, phi_dot=0.8), 20),
+    Setting(1, "hanging_top", "slow spin", UNIT, euler(2.8, psi_dot=3.0), 20),
+    Setting(1, "falling_top", "spins too slowly to stand", UNIT, euler(0.1, psi_dot=1.0), 20),
+    Setting(1, "sphere", "Iz = Ix", Top(1.0, 1.0, 1.0), euler(1.0, phi_dot=0.5, psi_dot=2.0), 20),
+    Setting(1, "free_rod", "no weight, Iz < Ix", Top(1.0, 0.5, 0.0), State(HALF, (0.5, 0, 2)), 20),
+    Setting(
+        1, "free_disc", "no weight, Iz = 2 Ix", Top(1.0, 2.0, 0.0), State(HALF, (0.5, 0, 2)), 20
+    ),
+    Setting(1, "light", "a weight of 1e-9 J", Top(1.0, 0.5, 1e-9), euler(1.0, psi_dot=2.0), 20),
+    Setting(
+        1, "below", "the same above and below", Top(1.0, 0.5, -1.0), euler(0.7, psi_dot=4.0), 20
+    ),
+    Setting(2, "cusps", "the article's top, let go", TOP, article(0.0), 10),
+    Setting(2, "slow_precession", "regular, slow root", TOP, article(SLOW), 10, False),
+    Setting(2, "fast_precession", "regular, fast root", TOP, article(FAST), 10, False),
+    Setting(2, "rising", "between both roots", TOP, article(20.0), 10),
+    Setting(2, "looping", "pushed backwards", TOP, article(-15.0), 10),
+    Setting(2, "hurried", "1.4 times the slow root", TOP, article(9.1), 10),
+    Setting(2, "very_hurried", "beyond the fast root", TOP, article(90.0), 10),
+    Setting(2, "nodding", "theta' at the start", TOP, euler(0.8, theta_dot=5.0, psi_dot=180.0), 10),
+    Setting(2, "low", "tilted below the pivot", TOP, euler(2.2, phi_dot=4.0, psi_dot=120.0), 10),
+    Setting(
+        2,
+        "heavy_top",
+        "Brüls and Cardona",
+        CARDONA,
+        euler(math.pi / 2, phi_dot=-4.61538, psi_dot=150.0),
+        10,
+    ),
+    Setting(3, "disc", "Iz > Ix", DISC, euler(0.6, phi_dot=2.0, psi_dot=120.0), 10),
+    Setting(3, "flat_disc", "Iz = 1.99 Ix", Top(1.0, 1.99, 2.0), euler(1.2, psi_dot=12.0), 10),
+    Setting(
+        3,
+        "perry_fails",
+        "Iz > Ix, hangs, spins back",
+        Top(0.0002, 0.00035, -0.05),
+        euler(0.5, phi_dot=1.2, psi_dot=-120.0),
+        10,
+    ),
+    Setting(3, "rod", "Iz = Ix/20", Top(1.0, 0.05, 1.0), euler(0.9, psi_dot=100.0), 10),
+    Setting(3, "needle", "Iz = Ix/1000", Top(1.0, 0.001, 1.0), euler(0.9, psi_dot=4000.0), 10),
+    Setting(3, "spin_1000", "1000 rad/s", TOP, euler(0.5, theta_dot=3.0, psi_dot=1e3), 10),
+    Setting(3, "spin_10000", "10 000 rad/s", TOP, euler(0.5, theta_dot=3.0, psi_dot=1e4), 2),
+    Setting(3, "tumbling", "faster across than along", TOP, euler(1.0, theta_dot=300.0), 5),
+    Setting(3, "small", "a mass of 0.15 mg", SMALL, euler(0.7, psi_dot=300.0), 10),
+    Setting(3, "large", "a mass of 13 000 t", LARGE, euler(0.7, phi_dot=0.2, psi_dot=30.0), 10),
+    Setting(4, "upper_pole", "passes upright", TOP, State(UP, (20.0, 0.0, 150.0)), 10),
+    Setting(4, "lower_pole", "passes hanging", TOP, State(DOWN, (20.0, 0.0, 150.0)), 10),
+    Setting(
+        4,
+        "upper_pole_near",
+        "misses upright by 1e-6",
+        TOP,
+        euler(1e-6, theta_dot=20.0, psi_dot=150.0),
+        10,
+    ),
+    Setting(
+        4,
+        "lower_pole_near",
+        "misses hanging by 1e-6",
+        TOP,
+        euler(math.pi - 1e-6, theta_dot=20.0, psi_dot=150.0),
+        10,
+    ),
+    Setting(4, "whirling", "a pendulum that goes over the top", UNIT, pendulum(3.0), 20, False),
+    Setting(
+        4, "sleeping", "upright, and nothing else", TOP, State(UP, (0.0, 0.0, 200.0)), 10, False
+    ),
+    Setting(4, "sleeping_1e-3", "a tilt of 1e-3", TOP, euler(1e-3, psi_dot=200.0), 10),
+    Setting(4, "sleeping_1e-9", "a tilt of 1e-9", TOP, euler(1e-9, psi_dot=200.0), 10),
+    Setting(
+        4, "hanging_1e-9", "a tilt of 1e-9 below", TOP, euler(math.pi - 1e-9, psi_dot=200.0), 10
+    ),
+    Setting(
+        4,
+        "pole_unit",
+        "passes upright, p_phi = p_psi",
+        Top(1.0, 0.5, 3.0),
+        State(HALF, (3.0, 2.0, 4.0)),
+        20,
+    ),
+    Setting(5, "waking_1e-3", "too slow to sleep, 1e-3", TOP, euler(1e-3, psi_dot=100.0), 5),
+    Setting(5, "waking_1e-6", "too slow to sleep, 1e-6", TOP, euler(1e-6, psi_dot=100.0), 5),
+    Setting(5, "waking_1e-12", "too slow to sleep, 1e-12", TOP, euler(1e-12, psi_dot=100.0), 5),
+    Setting(5, "critical", "critical spin", TOP, spinning(1e-3, 1.0), 10),
+    Setting(5, "above_critical", "1e-6 above", TOP, spinning(1e-3, 1 + 1e-6), 10),
+    Setting(5, "below_critical", "1e-6 below", TOP, spinning(1e-3, 1 - 1e-6), 10),
+    Setting(
+        5,
+        "separatrix",
+        "approaches upright for ever, exact in doubles",
+        Top(1.0, 0.5, 0.5),
+        State(HALF, (-1.0, 0.0, 0.0)),
+        10,
+        False,
+    ),
+    Setting(
+        5,
+        "separatrix_spinning",
+        "the same with spin, exact in doubles",
+        Top(1.0, 0.5, 0.625),
+        State(HALF, (-1.0, 0.5, 1.0)),
+        10,
+        False,
+    ),
+    Setting(5, "nearly_over", "1e-3 too slow for the top", UNIT, pendulum(ROOT * (1 - 1e-3)), 20),
+    Setting(5, "nearly_over_1e-9", "1e-9 too slow", UNIT, pendulum(ROOT * (1 - 1e-9)), 20),
+    Setting(5, "barely_over_1e-9", "1e-9 too fast", UNIT, pendulum(ROOT * (1 + 1e-9)), 20, False),
+    Setting(5, "balanced_1e-6", "a pendulum let go 1e-6 from the top", UNIT, euler(1e-6), 40),
+    Setting(
+        5,
+        "merging_roots",
+        "slow and fast root nearly equal",
+        TOP,
+        euler(
+            0.5,
+            phi_dot=27.5,
+            psi_dot=2.0
+            * math.sqrt((TOP.Ix - TOP.Iz) * TOP.Mgl * math.cos(0.5))
+            / TOP.Iz
+            * (1 + 1e-9),
+        ),
+        10,
+    ),
+    Setting(5, "nearly_regular", "1e-9 beside the slow root", TOP, article(SLOW * (1 + 1e-9)), 10),
+    Setting(5, "cusps_100", "the article's top, 100 s", TOP, article(0.0), 100),
+    Setting(5, "cusps_1000", "the article's top, 1000 s", TOP, article(0.0), 1000),
+    Setting(5, "cusps_100000", "the article's top, a day and more", TOP, article(0.0), 100000),
+    Setting(5, "looping_1000", "the article's top, 1000 s", TOP, article(-15.0), 1000),
+    Setting(5, "pendulum_10000", "no spin, 1000 swings and more", UNIT, euler(2.0), 10000),
+    Setting(
+        5,
+        "heavy_top_1000",
+        "Brüls and Cardona, 1000 s",
+        CARDONA,
+        euler(math.pi / 2, phi_dot=-4.61538, psi_dot=150.0),
+        1000,
+    ),
+]

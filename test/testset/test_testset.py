@@ -1,0 +1,155 @@
+"""The files of the test set: made again in part, checked by the package, and whole."""
+
+import csv
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from physics.exact_motion import DIGITS, Inputs, distance, exact_motion
+from physics.taylor_motion import TaylorMotion
+from testset.problems import COUNT, SETTINGS
+from testset.write_testset import FOLDER, describe, digits, tabulate
+
+from symtop_ros.models.formats import FORMATS
+from symtop_ros.physics import Motion, State, Top
+from symtop_ros.testset.score import main, read_problems
+
+FACTS = json.loads((FOLDER / "problems.json").read_text())
+PROBLEMS = {each["name"]: each for each in FACTS["problems"]}
+BY_SERIES = ("free_disc", "sphere", "pole_unit", "separatrix_spinning")  # slow tops: a second each
+
+
+def test_there_are_sixty_problems_of_five_levels_at_twenty_times():
+    assert list(PROBLEMS) == [setting.name for setting in SETTINGS]
+    assert len(PROBLEMS) == 60
+    assert {each["level"] for each in PROBLEMS.values()} == {1, 2, 3, 4, 5}
+    for each in PROBLEMS.values():
+        assert len(each["times"]) == len(each["orientations"]) == COUNT
+
+
+@pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
+def test_a_state_of_each_problem_is_made_again_to_the_digit(setting):
+    facts = PROBLEMS[setting.name]
+    k = sum(setting.name.encode()) % COUNT
+    inputs = Inputs.of(*setting.top.moments, facts["orientation"], facts["angular_velocity"])
+    q, omega = exact_motion(inputs, facts["times"][k])
+    assert digits(q) == facts["orientations"][k]
+    assert digits(omega) == facts["angular_velocities"][k]
+
+
+@pytest.mark.parametrize("name", BY_SERIES)
+def test_a_taylor_series_has_the_same_digits(name):
+    (setting,) = [each for each in SETTINGS if each.name == name]
+    facts = PROBLEMS[name]
+    series = TaylorMotion(setting.top.moments, facts["orientation"], facts["angular_velocity"], 60)
+    series.reach(facts["times"][5])
+    q, omega = series.state_at(facts["times"][5])
+    with mp.workdps(60):
+        stored = [mpf(c) for c in facts["orientations"][5]]
+        assert distance(q, stored) < mpf(10) ** -29
+        rates = [mpf(c) for c in facts["angular_velocities"][5]]
+        assert mp.norm([a - b for a, b in zip(omega, rates, strict=True)]) < mpf(10) ** -28
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
+def test_every_problem_is_made_again_to_the_digit(setting):
+    assert describe(setting) == PROBLEMS[setting.name]
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_the_closed_form_of_the_package_solves_it(name):
+    problem = read_problems()[name]
+    facts = problem.facts
+    top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
+    motion = Motion(top, State(facts["orientation"], facts["angular_velocity"]))
+    score = problem.score(*motion.at(facts["times"]))
+    # 5 eps as a distance of quaternions are 10 as an angle; 4.5 eps are the worst of the 1200.
+    assert score.angles.max() <= 10 * 2.0**-52
+    largest = np.linalg.norm(motion.at(facts["times"]).angular_velocity, axis=1).max()
+    assert score.rates.max() <= 5 * 2.0**-52 * max(largest, 1e-300)
+
+
+def test_quaternions_have_thirty_digits_of_a_unit():
+    with mp.workdps(DIGITS):
+        for each in PROBLEMS.values():
+            for q in each["orientations"]:
+                assert abs(mp.norm([mpf(c) for c in q]) - 1) < mpf(10) ** -29
+
+
+def test_the_tables_say_the_same():
+    for name, text in tabulate(FACTS["problems"]).items():
+        assert (FOLDER / name).read_text() == text
+    with (FOLDER / "states.csv").open() as file:
+        assert len(list(csv.reader(file))) == 1 + 60 * COUNT
+
+
+def test_checksums_are_those_of_all_files():
+    lines = (FOLDER / "SHA256SUMS").read_text().splitlines()
+    sums = dict(reversed(line.split("  ")) for line in lines)
+    for name, digest in sums.items():
+        assert hashlib.sha256((FOLDER / name).read_bytes()).hexdigest() == digest
+    data = {
+        path.name
+        for path in FOLDER.rglob("*.*")
+        if path.suffix in (".json", ".csv") or path.parent.name == "models"
+    }
+    assert {name.rpartition("/")[2] for name in sums} == data
+
+
+def test_every_problem_with_a_body_has_its_models():
+    for setting in SETTINGS:
+        for form, write in FORMATS.items():
+            path = FOLDER / "models" / f"{setting.name}.{form}"
+            assert path.read_text() == write(setting.top, setting.start, FACTS["gravity"])
+
+
+def test_the_scorer_needs_numpy_only(tmp_path):
+    for name in ("score.py", "problems.json"):
+        (tmp_path / name).write_bytes((FOLDER / name).read_bytes())
+    facts = PROBLEMS["plane_pendulum"]
+    rows = [
+        ",".join((repr(t), *q, *omega))
+        for t, q, omega in zip(
+            facts["times"], facts["orientations"], facts["angular_velocities"], strict=True
+        )
+    ]
+    (tmp_path / "mine.csv").write_text("t,w,x,y,z,wx,wy,wz\n" + "\n".join(rows) + "\n")
+    code = "import sys; sys.argv[0] = 'score'; import score; code = score.main(sys.argv[1:]); "
+    code += (
+        "assert not [m for m in sys.modules if m.startswith(('symtop', 'scipy'))]; sys.exit(code)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "plane_pendulum", "mine.csv"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={"PATH": ""},
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("plane_pendulum: attitude ")
+    assert "angular velocity" in done.stdout
+
+
+def test_the_example_of_the_readme_runs_and_is_scored_as_it_says(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("mujoco")
+    text = (FOLDER / "README.md").read_text()
+    code = text.partition("```python\n")[2].partition("```")[0]
+    answer = re.search("`(cusps: attitude .+)`", text)[1]
+    shutil.copytree(FOLDER, tmp_path / "set")
+    monkeypatch.chdir(tmp_path / "set")
+    # a quarter of the steps takes a quarter of the time, and leaves 256 times the error of RK4
+    exec(code.replace("2**14", "2**12"), {})
+    assert main(["cusps", "trajectory.csv"]) == 0
+    found, told = (
+        float(re.search(r"attitude (\S+) rad", each)[1])
+        for each in (capsys.readouterr().out, answer)
+    )
+    assert found == pytest.approx(256 * told, rel=0.3)
