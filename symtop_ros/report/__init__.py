@@ -1,1 +1,1 @@
-"""top_report: speed against error, measured in one run."""
+"""Speed against error: the package's engines compared with the integrators that are installed."""

@@ -1,52 +1,79 @@
+import dataclasses
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from symtop_ros.article import maps, retell
+from symtop_ros.report import benchmarks, measure
 from symtop_ros.report import main as report
-from symtop_ros.report.article import main as article
-from symtop_ros.report.perry import main as perry
-from symtop_ros.report.precision import chapters
-from symtop_ros.report.precision import main as precision
 
-ONE_EACH = {
-    "--full": (precision, "measure", "report", chapters.FULL),
-    "--article": (article, "retell", "report"),
-    "--map": (perry, "chart", "report", 1000),
+PARTS = {
+    (): (measure, "measure", "report", benchmarks.QUICK),
+    ("--full",): (measure, "measure", "report", benchmarks.FULL),
+    ("--docs", "docs"): (
+        measure,
+        "measure",
+        "report",
+        benchmarks.QUICK,
+        "top_report",
+        Path("docs"),
+    ),
+    ("--limit", "9"): (
+        *(measure, "measure", "report"),
+        *(dataclasses.replace(benchmarks.QUICK, limit=9.0), "top_report --limit 9"),
+    ),
+    ("--article",): (retell, "retell", "report"),
+    ("--map",): (maps, "write_maps", "report", 1000),
+    ("here", "--map", "--points", "9"): (maps, "write_maps", "here", 9),
 }
 
 
-@pytest.mark.parametrize("option", ONE_EACH)
-def test_an_option_chooses_what_is_done(option, monkeypatch):
-    module, name, folder, *rest = ONE_EACH[option]
+@pytest.mark.parametrize("words", PARTS, ids=" ".join)
+def test_an_option_chooses_the_part_that_runs(words, monkeypatch):
+    module, name, folder, *rest = PARTS[words]
     called = []
     monkeypatch.setattr(module, name, lambda *arguments: called.append(arguments) or 0)
-    assert report.main([option]) == 0
-    assert str(called[0][0]) == folder
-    assert list(called[0][1 : 1 + len(rest)]) == rest
+    assert report.main(list(words)) == 0
+    ((first, *others),) = called
+    assert str(first) == folder
+    assert others[: len(rest)] == rest
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
-        (["--map", "--points", "1"], "--points: got 1, allowed is 2 ... 4000"),
-        (["--map", "--points", "many"], "--points: got many, allowed is 2 ... 4000"),
-        (["--node", "--seconds", "0"], "--seconds: got 0, allowed is more than 0, up to 1e+06"),
-        (["--node", "--seconds", "nan"], "--seconds: got nan, allowed is more than 0"),
-        (["--node", "--map"], "not allowed with argument"),
+        (["--map", "--points", "1"], "--points: must be 2 to 4000, got 1"),
+        (["--map", "--points", "4001"], "--points: must be 2 to 4000, got 4001"),
+        (["--map", "--points", "many"], "--points: must be 2 to 4000, got many"),
+        (["--map", "--points", "9" * 5000], "--points: must be 2 to 4000, got 999"),
+        (["--limit", "0"], "--limit: must be above 0 and at most 3600 s, got 0"),
+        (["--limit", "nan"], "--limit: must be above 0 and at most 3600 s, got nan"),
+        (["--limit", "long"], "--limit: must be above 0 and at most 3600 s, got long"),
+        (["--docs", "nowhere"], "--docs: must be a folder next to a README.md, got nowhere"),
+        (["--article", "--map"], "not allowed with argument"),
     ],
 )
-def test_a_wrong_option_is_refused_as_usage(words, told, capsys):
+def test_a_wrong_option_is_refused_as_usage(words, message, capsys):
     with pytest.raises(SystemExit) as stopped:
         report.main(words)
     assert stopped.value.code == 2
-    assert told in capsys.readouterr().err
+    assert message in capsys.readouterr().err
+
+
+def test_an_interrupt_is_status_130(monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(retell, "retell", interrupt)
+    assert report.main(["--article"]) == 130
 
 
 @pytest.mark.parametrize(
     ("module", "option"), [("matplotlib", "--article"), ("rerun", "--map"), ("tqdm", "--full")]
 )
-def test_what_is_missing_is_named_with_the_extra_that_brings_it(module, option, tmp_path):
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(module, option, tmp_path):
     hidden = f"import sys; sys.modules[{module!r}] = None; "
     program = f"from symtop_ros.report.main import main; sys.exit(main([{option!r}]))"
     result = subprocess.run(

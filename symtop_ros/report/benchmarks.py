@@ -1,0 +1,364 @@
+"""The benchmarks of the report and their results, as plain data."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.report.footprint import Footprint, measure_footprint
+from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, prepare
+from symtop_ros.report.peers.peer import Arrays, Peer, Task, spread_times
+from symtop_ros.report.reference import EPS, Problem, Reference
+from symtop_ros.report.sweep import REPEATS, Curve, Point, sweep, time_median, time_reaching
+
+Real = NDArray[np.float64]
+SPAN = 10.0  # s
+CHECK = 2.0**-5  # s on which a peer's model must be right at its finest setting
+RIGHT = 1e-4  # rad; a weight that is one percent off makes 6e-4
+LARGEST_ERROR = 10 * EPS  # rad: an attitude is promised within 5 eps as a distance of quaternions
+LARGEST_SPLITTING_ERROR = 4 * EPS  # rad, in ten seconds of the article's top
+LARGEST_DRIVEN_ERROR = 2e-13  # rad, in the families of motions with friction or a torque
+LARGEST_PHASE = 1e5  # rad of turning that a peer is asked for in a hard case
+DRIVEN_RUNS = 3  # of which the shortest counts
+DRIVEN_PEER = "heyoka, quaternion"
+HARD_PEERS = ("SciPy DOP853, quaternion", "heyoka, quaternion")
+
+
+@dataclass(frozen=True)
+class Scope:
+    """The amount of work of a report.
+
+    Attributes
+    ----------
+    is_full : bool
+        True if every peer integrates every motion; else each says what it takes part in.
+    motions : int
+        Number of the article's seven motions, counted from the first.
+    limit : float
+        Seconds that one run of a peer may take.
+    growth_limit : float
+        The same for the growth of the error with time.
+    states : tuple of int
+        Numbers of states in an array.
+    hard_peers : tuple of str
+        Peers that try the hard cases.
+    driven : int
+        1 to try all motions with friction and torques, n to try each n-th.
+
+    Examples
+    --------
+    >>> QUICK.limit, FULL.limit
+    (4.0, 60.0)
+    """
+
+    is_full: bool
+    motions: int
+    limit: float
+    growth_limit: float
+    states: tuple[int, ...]
+    hard_peers: tuple[str, ...]
+    driven: int = 1
+
+    def includes(self, peer: Peer, number: int) -> bool:
+        """Return True if a peer integrates the article's motion of this number."""
+        return self.is_full or peer.quick == "every motion" or (number, peer.quick) == (0, FIRST)
+
+
+FIRST = "first motion"
+QUICK = Scope(False, 7, 4.0, 1.0, tuple(10**k for k in range(8)), HARD_PEERS[1:])
+FULL = Scope(True, 7, 60.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
+SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9)  # for tests
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Errors at the end (rad) and seconds of a peer, for motions of growing length (s)."""
+
+    peer: str
+    setting: float
+    times: tuple[float, ...]
+    errors: tuple[float, ...]
+    seconds: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class ArrayCost:
+    """Seconds for arrays of states over ten seconds, set-up included, by number of states."""
+
+    peer: str
+    numbers: tuple[int, ...]
+    seconds: tuple[float, ...]
+    error: float  # largest in rad, over `RECORDED` states
+
+
+@dataclass(frozen=True)
+class HardCase:
+    """Errors in rad in a hard case: the package's, and those of peers."""
+
+    family: str
+    small: float
+    limit: float
+    error: float
+    peers: dict[str, float]
+
+
+@dataclass(frozen=True)
+class DrivenCase:
+    """Errors in rad and times in s of a motion with friction or an applied torque, by peer."""
+
+    family: str
+    errors: dict[str, float]
+    seconds: dict[str, float]
+
+
+@dataclass
+class Results:
+    """All results, in the order in which they were measured.
+
+    Attributes
+    ----------
+    checks : dict
+        Largest error in rad of each peer's model at its finest setting, within `CHECK` s.
+    curves : list of Curve
+    growth : list of Growth
+    states : list of ArrayCost
+    hard : list of HardCase
+    driven : list of DrivenCase
+    footprint : Footprint or None
+    """
+
+    checks: dict[str, float] = field(default_factory=dict)
+    curves: list[Curve] = field(default_factory=list)
+    growth: list[Growth] = field(default_factory=list)
+    states: list[ArrayCost] = field(default_factory=list)
+    hard: list[HardCase] = field(default_factory=list)
+    driven: list[DrivenCase] = field(default_factory=list)
+    footprint: Footprint | None = None
+
+    @classmethod
+    def from_facts(cls, facts: dict[str, Any]) -> Results:
+        """Return the results that `dataclasses.asdict` turned into the values of a JSON file.
+
+        Examples
+        --------
+        >>> from dataclasses import asdict
+        >>> results = Results(hard=[HardCase("tilt", 0.1, 1e-12, 1e-16, {})])
+        >>> Results.from_facts(asdict(results)) == results
+        True
+        """
+        footprint = facts["footprint"]
+        return cls(
+            facts["checks"],
+            [_read_curve(each) for each in facts["curves"]],
+            [Growth(**_freeze(each)) for each in facts["growth"]],
+            [ArrayCost(**_freeze(each)) for each in facts["states"]],
+            [HardCase(**each) for each in facts["hard"]],
+            [DrivenCase(**each) for each in facts.get("driven", ())],
+            Footprint(**footprint) if footprint else None,
+        )
+
+    def find_curve(self, peer: str, motion: str) -> Curve:
+        """Return the curve of a peer for a motion.
+
+        Examples
+        --------
+        >>> curve = Curve("a peer", "cusps", 10.0, (), "finest")
+        >>> Results(curves=[curve]).find_curve("a peer", "cusps") is curve
+        True
+        """
+        return next(c for c in self.curves if (c.peer, c.motion) == (peer, motion))
+
+    def list_failures(self) -> list[str]:
+        """Return the errors of the package above the limit, and peers whose model is different.
+
+        Examples
+        --------
+        >>> Results(checks={"a peer": 0.5}).list_failures()
+        ['a peer: the model is a different top']
+        """
+        wrong = [name for name, error in self.checks.items() if error > RIGHT]
+        missed = [case for case in self.hard if case.error > LARGEST_ERROR]
+        return [
+            *(f"{name}: the model is a different top" for name in wrong),
+            *(f"{case.family}, {case.small:g}: error {case.error:.1e}" for case in missed),
+            *self._list_closed_form_failures(),
+            *self._list_splitting_failures(),
+        ]
+
+    def _list_closed_form_failures(self) -> Iterator[str]:
+        first = Reference.read().article[0]
+        points = [(c.motion, c.t, c.best.error) for c in self.curves if c.peer == CLOSED_FORM]
+        for each in self.growth:
+            if each.peer == CLOSED_FORM:
+                points += [(first.name, t, e) for t, e in zip(each.times, each.errors, strict=True)]
+                # A time that was not reached is a failure too.
+                points += [(first.name, t, inf) for t in first.times if t > max(each.times)]
+        for name, t, error in points:
+            if error > LARGEST_ERROR:
+                yield f"{name} at {t:g} s: error {error:.1e}"
+
+    def _list_splitting_failures(self) -> Iterator[str]:
+        for curve in self.curves:
+            if curve.peer == SPLITTING and curve.best.error > LARGEST_SPLITTING_ERROR:
+                yield f"{SPLITTING}: error {curve.best.error:.1e}"
+        for case in self.driven:
+            if case.errors[SPLITTING] > LARGEST_DRIVEN_ERROR:
+                yield f"{case.family}: error {case.errors[SPLITTING]:.1e}"
+
+
+def _read_curve(facts: dict[str, Any]) -> Curve:
+    return Curve(**{**facts, "points": tuple(Point(**each) for each in facts["points"])})
+
+
+def _freeze(facts: dict[str, Any]) -> dict[str, Any]:
+    """Return facts with tuples for lists."""
+    return {key: tuple(v) if isinstance(v, list) else v for key, v in facts.items()}
+
+
+Step = tuple[str, Callable[[], None]]  # text for a progress bar, and the work
+
+
+def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterator[Step]:
+    """Yield the steps of a report in their order; running a step adds to the results.
+
+    Parameters
+    ----------
+    scope : Scope
+    peers : sequence of Peer
+        Integrators to measure, the package's own engines among them.
+    results : Results
+        Filled by the steps.
+
+    Examples
+    --------
+    >>> from symtop_ros.report.peers import OWN
+    >>> next(list_steps(SMALL, OWN, Results()))[0]
+    'footprint'
+    """
+    reference = Reference.read()
+    first, with_friction = reference.article[0], reference.article[-1]
+    chosen = [peer for peer in peers if scope.includes(peer, 0)]
+    frictionless = [peer for peer in chosen if peer.friction != "only"]
+    yield "footprint", partial(_measure_footprint, scope, results)
+    for peer in frictionless:
+        yield f"{peer.name}: model", partial(_check, peer, first, results)
+    for number, problem in enumerate(reference.article[: scope.motions]):
+        for peer in frictionless:
+            if scope.includes(peer, number):
+                work = partial(_sweep, peer, problem, scope, results)
+                yield f"{peer.name}: {problem.name}", work
+    for peer in chosen:
+        if peer.friction != "no" and scope.includes(peer, 1):
+            work = partial(_sweep, peer, with_friction, scope, results)
+            yield f"{peer.name}: {with_friction.name}", work
+    for peer in frictionless:
+        if scope.includes(peer, 1):
+            yield f"{peer.name}: long times", partial(_lengthen, peer, first, scope, results)
+    for peer in frictionless:
+        if peer.prepare_arrays and scope.includes(peer, 1):
+            work = partial(_time_arrays, peer.name, peer.prepare_arrays, first, scope, results)
+            yield f"{peer.name}: arrays", work
+    tried = [peer for peer in peers if peer.name in scope.hard_peers]
+    for problem in reference.hard:
+        yield problem.name, partial(_try, problem, tried, results)
+    for problem in reference.driven[:: scope.driven]:
+        compared = [
+            *(peer for peer in peers if peer.name == SPLITTING),
+            *(peer for peer in tried if peer.name == DRIVEN_PEER),
+        ]
+        yield problem.name, partial(_drive, problem, compared, results)
+
+
+def _measure_footprint(scope: Scope, results: Results) -> None:
+    results.footprint = measure_footprint(scope.states[-1])
+
+
+def _check(peer: Peer, problem: Problem, results: Results) -> None:
+    record = peer.prepare(problem.task, peer.settings[-1]).record(CHECK)
+    results.checks[peer.name] = float(problem.errors(*record).max())
+
+
+def _sweep(peer: Peer, problem: Problem, scope: Scope, results: Results) -> None:
+    results.curves.append(sweep(peer, problem, SPAN, scope.limit))
+
+
+def _lengthen(peer: Peer, problem: Problem, scope: Scope, results: Results) -> None:
+    """Measure motions ten times as long each time, within the limit of time."""
+    best = results.find_curve(peer.name, problem.name).best
+    solution = peer.prepare(problem.task, best.setting)
+    times, errors, seconds = [], [], []
+    for t in (t for t in problem.times if t >= SPAN):
+        # Each peer fails in its own way if a motion is too long for it, so that no narrower
+        # exception is possible. The shorter motions are reported.
+        try:
+            errors.append(problem.error(t, solution.reach(t)))
+        except Exception:
+            break
+        times.append(t)
+        seconds.append(time_reaching(solution, t))
+        # The time of the closed form does not grow. Another program may take the processor in the
+        # middle of a measurement, and must not cut its curve short.
+        if peer.name != CLOSED_FORM and 10 * seconds[-1] > scope.growth_limit:
+            break
+    columns = (tuple(each) for each in (times, errors, seconds))
+    results.growth.append(Growth(peer.name, best.setting, *columns))
+
+
+def _time_arrays(
+    name: str,
+    prepare_arrays: Callable[[Task], Arrays],
+    problem: Problem,
+    scope: Scope,
+    results: Results,
+) -> None:
+    arrays, seconds = prepare_arrays(problem.task), []
+    times = spread_times(SPAN)
+    error = float(problem.errors(times, arrays(times)).max())
+    for number in scope.states:
+        times = np.linspace(0.0, SPAN, number + 1)[1:]
+        seconds.append(_time_array(arrays, times, scope.limit))
+    results.states.append(ArrayCost(name, scope.states, tuple(seconds), error))
+
+
+def _time_array(arrays: Arrays, times: Real, limit: float) -> float:
+    """Return the median seconds of several calls, or those of one if it is long."""
+    began = time.perf_counter()
+    arrays(times)
+    first = time.perf_counter() - began
+    return first if first > limit / REPEATS else time_median(lambda: arrays(times))
+
+
+def _try(problem: Problem, peers: Sequence[Peer], results: Results) -> None:
+    (t,) = problem.times
+    error, limit = problem.error(t, prepare(problem.task, 0.0).reach(t)), problem.limit(t)
+    errors: dict[str, float] = {}
+    for peer in peers:
+        if np.linalg.norm(problem.task.start.angular_velocity) * t < LARGEST_PHASE:
+            solution = peer.prepare(
+                problem.task, 2.0**-52 if "heyoka" in peer.name else peer.settings[-1]
+            )
+            errors[peer.name] = problem.error(t, solution.reach(t))
+    results.hard.append(HardCase(problem.name, problem.small or 0.0, limit, error, errors))
+
+
+def _drive(problem: Problem, peers: Sequence[Peer], results: Results) -> None:
+    """Measure a motion with friction or an applied torque, each peer at its default."""
+    errors: dict[str, float] = {}
+    seconds: dict[str, float] = {}
+    for peer in peers:
+        solution = peer.prepare(problem.task, 2.0**-52 if peer.name == DRIVEN_PEER else 0.0)
+        errors[peer.name] = max(problem.error(t, solution.reach(t)) for t in problem.times)
+        runs = []
+        for _ in range(DRIVEN_RUNS):
+            began = time.perf_counter()
+            solution.reach(problem.times[-1])
+            runs.append(time.perf_counter() - began)
+        seconds[peer.name] = min(runs)
+    results.driven.append(DrivenCase(problem.name, errors, seconds))

@@ -1,0 +1,331 @@
+"""The text of the report, in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from symtop_ros.report.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
+from symtop_ros.report.footprint import Footprint
+from symtop_ros.report.peers import CLOSED_FORM, SPLITTING
+from symtop_ros.report.reference import EPS, Problem
+from symtop_ros.report.sweep import Curve
+
+LEVELS = (1e-6, 1e-9, 1e-12)
+FRICTION = "cusps with friction"
+SUMMARY = (
+    CLOSED_FORM,
+    "heyoka, quaternion",
+    "heyoka, Euler angles, two constants",
+    "CyRK DOP853, Euler angles",
+    "SciPy DOP853, Euler angles",
+    "MuJoCo RK4",
+    "Drake RK5, quaternion",
+)
+ARRAY = 100_000  # states of the column on arrays
+
+
+@dataclass(frozen=True)
+class Environment:
+    """The command, the machine and the packages of a measurement.
+
+    Attributes
+    ----------
+    command, machine : str
+        Command to measure again; processor and system.
+    versions : dict
+        Versions of Python and of every package that was measured.
+    missing : list of str
+        Peers that are not installed.
+    limit : float
+        Seconds that one run of a peer could take.
+    """
+
+    command: str
+    machine: str
+    versions: dict[str, str]
+    missing: list[str]
+    limit: float
+
+
+def format_document(results: Results, problem: Problem, environment: Environment) -> str:
+    """Return the whole report; its first chapters are on the motion of `problem`."""
+    return f"# Speed against error\n\n{format_chapters(results, problem, environment)}\n"
+
+
+def format_chapters(results: Results, problem: Problem, environment: Environment) -> str:
+    """Return the report without its title."""
+    parts = [
+        _format_environment(environment),
+        _format_work(results, problem, environment.limit),
+        _format_other_motions(results, problem),
+        _format_friction(results),
+        _format_driven(results.driven),
+        _format_long_times(results, problem),
+        _format_arrays(results),
+        _format_hard_cases(results.hard),
+        _format_ahead(results),
+    ]
+    return "\n\n".join(part for part in parts if part)
+
+
+def format_summary(results: Results, problem: Problem) -> str:
+    """Return the table of the README: the best form of each program on the motion of `problem`."""
+    head = ["", "largest error, rad", "ms", f"ms for {LEVELS[1]:.0e}"]
+    rows = []
+    for name in SUMMARY:
+        curve = results.find_curve(name, problem.name)
+        cheapest = curve.find_cheapest(LEVELS[1])
+        cells = [f"{curve.best.error:.0e}", _ms(curve.best.seconds)]
+        rows.append([name, *cells, _ms(cheapest.seconds) if cheapest else "-"])
+    return format_table(head, rows)
+
+
+def format_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table; the first column is aligned left, the others right.
+
+    Examples
+    --------
+    >>> print(format_table(["", "ms"], [["closed form", "0.3"]]))
+    |  | ms |
+    | --- | --: |
+    | closed form | 0.3 |
+    """
+    lines = [_row(head), _row(["---", *["--:"] * (len(head) - 1)]), *map(_row, rows)]
+    return "\n".join(lines)
+
+
+def _row(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _format_environment(environment: Environment) -> str:
+    versions = ", ".join(f"{name} {version}" for name, version in environment.versions.items())
+    text = f"`{environment.command}` on {environment.machine}; {versions}."
+    if environment.missing:
+        text += f" Not installed: {', '.join(environment.missing)}."
+    return text + (
+        " An error is the angle in rad of the rotation that would correct the attitude, "
+        "2 |q - q_exact|. The exact motion is a Taylor integration of the equations of motion with "
+        "32 digits. A time is that of reaching the end once, without output on the way, the median "
+        "of repeated runs in one process; errors come from a separate run that is not timed. Times "
+        "include the set-up of the closed form, and exclude building, loading and compiling the "
+        "model of a peer."
+    )
+
+
+def _format_work(results: Results, problem: Problem, limit: float) -> str:
+    curves = [curve for curve in results.curves if curve.motion == problem.name]
+    ours = results.find_curve(CLOSED_FORM, problem.name).best
+    costs = {each.peer: each for each in results.states}
+    head = ["", "largest error", "mean error", "at times", "ms", "x ours"]
+    head += [f"ms for {level:.0e}" for level in LEVELS]
+    head += ["us a state, array", "to build, ms", "sweep ended at", "model"]
+    rows = [
+        [
+            *(curve.peer, *_format_best(curve, ours.seconds)),
+            _format_array_cost(costs.get(curve.peer)),
+            _ms(curve.best.preparing),
+            "" if len(curve.points) == 1 else curve.end,
+            f"{results.checks[curve.peer]:.0e}",
+        ]
+        for curve in curves
+    ]
+    return (
+        f"## The article's top, {problem.name}, {SPAN:g} s\n\n"
+        f"![work and precision](work_precision.svg)\n\n"
+        f"Each at its best setting within {limit:g} s of computing time for a run.\n\n"
+        f"{format_table(head, rows)}\n\n"
+        "Largest and mean error: over times in (0, T], as many as the table says; peers without "
+        "exact output between their steps are compared at the steps themselves. Sweep: tolerances "
+        "or steps are made finer until the error grows again (turning point), a run would exceed "
+        "the limit, or the program takes no finer one. "
+        f"Model: the error within {CHECK:g} s at the finest setting, which shows that it is the "
+        f"same top. Array: of {ARRAY:g} states in one call, set-up included. "
+        f"Rounding of the input changes the state at the end by {problem.limit(SPAN):.1e} rad."
+    )
+
+
+def _format_array_cost(cost: ArrayCost | None) -> str:
+    if not cost or ARRAY not in cost.numbers:
+        return "-"
+    return f"{cost.seconds[cost.numbers.index(ARRAY)] / ARRAY * 1e6:.3g}"
+
+
+def _format_best(curve: Curve, ours: float) -> list[str]:
+    """Return the best errors, their time, the ratio to ours (s), and the times for `LEVELS`."""
+    best = curve.best
+    cheapest = [curve.find_cheapest(level) for level in LEVELS]
+    return [
+        f"{best.error:.1e}",
+        f"{best.mean_error:.1e}",
+        f"{best.compared}",
+        _ms(best.seconds),
+        f"{best.seconds / ours:.3g}",
+        *(_ms(point.seconds) if point else "-" for point in cheapest),
+    ]
+
+
+def _ms(seconds: float) -> str:
+    return f"{seconds * 1e3:.3g}"
+
+
+def _format_other_motions(results: Results, problem: Problem) -> str:
+    """Return a table of the best error of each peer on each motion, with its time."""
+    others = [c for c in results.curves if c.motion not in (problem.name, FRICTION)]
+    names = list(dict.fromkeys(curve.motion for curve in others))
+    if not names:
+        return ""
+    peers = dict.fromkeys(curve.peer for curve in others)
+    best = {(c.peer, c.motion): f"{c.best.error:.0e} in {_ms(c.best.seconds)}" for c in others}
+    rows = [[peer, *(best[peer, name] for name in names)] for peer in peers]
+    return (
+        "## The article's other motions\n\n![speed against error, by motion](motions.svg)\n\n"
+        f"Largest error in {SPAN:g} s at the best setting, and its time in ms.\n\n"
+        f"{format_table(['', *names], rows)}"
+    )
+
+
+def _format_friction(results: Results) -> str:
+    curves = [curve for curve in results.curves if curve.motion == FRICTION]
+    ours = results.find_curve(SPLITTING, FRICTION).best
+    head = ["", "largest error", "mean error", "at times", "ms", "x ours"]
+    head += [f"ms for {level:.0e}" for level in LEVELS]
+    rows = [[curve.peer, *_format_best(curve, ours.seconds)] for curve in curves]
+    return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(head, rows)}"
+
+
+def _format_driven(cases: list[DrivenCase]) -> str:
+    """Return a table of the families: median and largest errors, and median times."""
+    if not cases:
+        return ""
+    peers = list(cases[0].errors)
+    labels = [peer.removeprefix("symtop_ros, ") for peer in peers]
+    head = ["family", "motions"]
+    for name in ("median error", "largest error", "median ms"):
+        head += [f"{name}, {label}" for label in labels]
+    rows = []
+    for family in dict.fromkeys(case.family for case in cases):
+        own = [case for case in cases if case.family == family]
+        errors = [[case.errors[peer] for case in own] for peer in peers]
+        seconds = [[case.seconds[peer] for case in own] for peer in peers]
+        cells = [f"{median(each):.1e}" for each in errors]
+        cells += [f"{max(each):.1e}" for each in errors]
+        cells += [_ms(median(each)) for each in seconds]
+        rows.append([family, f"{len(own)}", *cells])
+    return (
+        "## Friction and applied torques, by family\n\n"
+        "Random tops and starts, 20 swings long in most families; 1000 swings or 50 s of the "
+        "article's top in the family of tiny friction. The larger error of those at half the time "
+        f"and at the end, each at its default, set-up not included for peers.\n\n"
+        f"{format_table(head, rows)}"
+    )
+
+
+def _format_long_times(results: Results, problem: Problem) -> str:
+    times = [t for t in problem.times if t >= SPAN]
+    rows = []
+    for each in results.growth:
+        cells = [
+            f"{error:.0e} in {seconds:.2g} s"
+            for error, seconds in zip(each.errors, each.seconds, strict=True)
+        ]
+        rows.append([each.peer, *cells, *["-"] * (len(times) - len(cells))])
+    rows.append(["rounding of the input", *(f"{problem.limit(t):.0e}" for t in times)])
+    return (
+        "## Long times\n\n![growth of the errors](long_times.svg)\n\n"
+        "Each at its best setting for ten seconds, within a limit of computing time: the error at "
+        f"the end.\n\n{format_table(['', *(f'{t:g} s' for t in times)], rows)}"
+    )
+
+
+def _format_arrays(results: Results) -> str:
+    numbers = results.states[0].numbers
+    rows = [
+        [
+            each.peer,
+            f"{each.error:.0e}",
+            *(f"{s / n * 1e6:.3g}" for s, n in zip(each.seconds, numbers, strict=True)),
+        ]
+        for each in results.states
+    ]
+    return (
+        f"## Many states\n\n![cost of a state](arrays.svg)\n\nMicroseconds per state, by the "
+        f"number of states, spread evenly over {SPAN:g} s; set-up or integration included.\n\n"
+        f"{format_table(['', 'largest error', *(f'{n:g}' for n in numbers)], rows)}"
+        f"{_format_footprint(results.footprint)}"
+    )
+
+
+def _format_footprint(footprint: Footprint | None) -> str:
+    if not footprint:
+        return ""
+    return (
+        f"\n\n`import symtop_ros.physics` takes {footprint.import_seconds * 1e3:.0f} ms in a fresh "
+        f"process, of which NumPy and scipy.special take {footprint.libraries_seconds * 1e3:.0f} "
+        f"ms. {footprint.states:g} states need {footprint.peak_bytes / 2**20:.0f} MiB at most, "
+        f"{footprint.peak_bytes / footprint.states:.0f} bytes a state, of which 56 are the state."
+    )
+
+
+def _format_ahead(results: Results) -> str:
+    """Return every case of this report in which a peer is faster, or more exact."""
+    lines = [line for curve in results.curves for line in _list_ahead(results, curve)]
+    ours = next(each for each in results.states if each.peer == CLOSED_FORM)
+    for each in results.states:
+        numbers = [
+            f"{n:g}"
+            for n, own, other in zip(ours.numbers, ours.seconds, each.seconds, strict=True)
+            if other < own
+        ]
+        if numbers:
+            lines.append(f"- Arrays of {', '.join(numbers)} states: {each.peer} is faster.")
+    text = "\n".join(lines) or "- None."
+    return f"## Where a peer is ahead\n\nEvery case of this report.\n\n{text}"
+
+
+def _list_ahead(results: Results, curve: Curve) -> Iterator[str]:
+    own = SPLITTING if curve.motion == FRICTION else CLOSED_FORM
+    ours = results.find_curve(own, curve.motion).best
+    if curve.peer == own:
+        return
+    faster = [point for point in curve.points if point.seconds < ours.seconds]
+    if faster:
+        best = min(faster, key=lambda point: point.error)
+        yield (
+            f"- {curve.motion}: {curve.peer} reaches {best.error:.1e} rad in {_ms(best.seconds)} "
+            f"ms, {own.removeprefix('symtop_ros, ')} {ours.error:.1e} in {_ms(ours.seconds)} ms."
+        )
+    if curve.best.error < ours.error and curve.best not in faster:
+        yield (
+            f"- {curve.motion}: {curve.peer} is more exact, {curve.best.error:.1e} against "
+            f"{ours.error:.1e} rad, in {_ms(curve.best.seconds)} ms."
+        )
+
+
+def _format_hard_cases(cases: list[HardCase]) -> str:
+    peers = list(dict.fromkeys(name for case in cases for name in case.peers))
+    rows = []
+    for family in dict.fromkeys(case.family for case in cases):
+        own = [case for case in cases if case.family == family]
+        lowest, highest = min(case.small for case in own), max(case.small for case in own)
+        rows.append([family, f"{highest:.0e} ... {lowest:.0e}", *_format_errors(own, peers)])
+    head = ["family", "from ... to", "rounding of the input, eps", "closed form, eps"]
+    head += [f"{peer}, eps" for peer in peers]
+    return (
+        "## Hard cases\n\n![hard cases, step by step](hard_cases.svg)\n\n"
+        "Each family approaches its singular case by a factor of 100 per step, and ends with the "
+        f"case itself. The largest errors in eps = {EPS:.1e} rad; a dash if a peer would take too "
+        f"long.\n\n{format_table(head, rows)}"
+    )
+
+
+def _format_errors(cases: list[HardCase], peers: list[str]) -> list[str]:
+    """Return the largest limit, our largest error, and that of each peer, in eps."""
+    largest = [max(case.limit for case in cases), max(case.error for case in cases)]
+    cells = [f"{each / EPS:.2g}" for each in largest]
+    for peer in peers:
+        known = [case.peers[peer] for case in cases if peer in case.peers]
+        cells.append(f"{max(known) / EPS:.2g}" if known else "-")
+    return cells

@@ -1,0 +1,245 @@
+"""Attitude filters fed with the noisy sensor of the top: which of them survive a fast spin.
+
+The filters are those of the package `ahrs`, as their authors made them, with default gains. They
+start from the exact attitude, so that nothing but the motion and the noise is judged.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from tqdm import tqdm
+
+from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
+from symtop_ros.judge.compare import NONE, Errors, compare, invert
+from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.truth import Truth
+from symtop_ros.physics import Motion
+from symtop_ros.report.document import format_table
+from symtop_ros.report.publish import write_figures as publish_figures
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
+from symtop_ros.wire.layout import NANOSECONDS
+
+Real = NDArray[np.float64]
+RATE, SPAN = 1000, 20  # Hz, s
+GRAVITY = 9.81
+SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
+MOUNTS = {  # m, in the body frame
+    "in the pivot": (0.0, 0.0, 0.0),
+    "1 cm along the axis": (0.0, 0.0, 0.01),
+    "1 cm beside the axis": (0.01, 0.0, 0.0),
+}
+# Densities and random walks of a good consumer sensor (Bosch BMI088, with walks from its bias
+# stability): rad/s/sqrt(Hz), rad/s^2/sqrt(Hz), m/s^2/sqrt(Hz), m/s^3/sqrt(Hz).
+NOISE = (2.4e-4, 1e-5, 1.7e-3, 1e-4)
+FILTERS = ("AngularRate", "Complementary", "Madgwick", "Mahony", "AQUA", "EKF", "UKF")
+SHOWN = ("Madgwick", "Mahony", "EKF", "AngularRate")  # in the plot
+PLOTTED = ("cusps", "in the pivot")
+SECTION, PLOT = "filters", "filters"
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A filter on a scene with a place of the sensor.
+
+    Attributes
+    ----------
+    filter, scene, mount : str
+    tilt, attitude : float
+        Root mean squares of the errors in the second half of the run, in rad.
+    """
+
+    filter: str
+    scene: str
+    mount: str
+    tilt: float
+    attitude: float
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Measurements of a sensor on a top, and the exact motion of the sensor.
+
+    Attributes
+    ----------
+    stamps : ndarray (n,) of int
+        In ns.
+    orientations, rates, forces : ndarray (n, 4), (n, 3), (n, 3)
+        Exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific force.
+    truth : Truth
+    """
+
+    stamps: NDArray[np.int64]
+    orientations: Real
+    rates: Real
+    forces: Real
+    truth: Truth
+
+
+def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> Recording:
+    """Return what a sensor at a place on the top of a scene measures.
+
+    Examples
+    --------
+    >>> recording = record("cusps", (0.0, 0.0, 0.0))
+    >>> recording.rates.shape, bool(abs(recording.forces).max() < 11)
+    ((20000, 3), True)
+    """
+    settings = Settings.from_scene(scene)
+    start = initial_state(settings.top, settings.initial, {})
+    imu = Imu(place, (0.0, 0.0, 0.0, 1.0), *NOISE, seed=seed, rate=float(RATE))
+    motion = Motion(settings.top, start)
+    segment = Segment.begin(motion, 0, 1.0, Rig(GRAVITY, imu))
+    stamps = np.arange(RATE * SPAN) * (NANOSECONDS // RATE)
+    numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, stamps))
+    truth = Truth([Event.of(0, "start", "", {}, start, segment)])
+    q = numbers[:, [3, 0, 1, 2]]
+    return Recording(stamps, q, numbers[:, 13:16], numbers[:, 25:28], truth)
+
+
+def run_filter(name: str, recording: Recording) -> Errors:
+    """Return the errors of a filter.
+
+    The authors of filters do not agree whether a quaternion turns the sensor or the world. Both
+    are tried, and the better one counts.
+    """
+    found = [_run(name, recording, turn) for turn in (lambda q: q, invert)]
+    return min(found, key=lambda errors: float(np.median(errors.total)))
+
+
+def _run(name: str, recording: Recording, turn: Callable[[Real], Real]) -> Errors:
+    import ahrs
+
+    options: dict[str, Any] = {"gyr": recording.rates, "frequency": float(RATE)}
+    if name != "AngularRate":
+        options["acc"] = recording.forces
+    if name == "Complementary":
+        options["w0"] = _roll_pitch_yaw(recording.orientations[0])
+    else:
+        options["q0"] = turn(recording.orientations[0])
+    with np.errstate(all="ignore"):
+        q = np.asarray(getattr(ahrs.filters, name)(**options).Q, dtype=float)
+    q = np.nan_to_num(turn(q))
+    q[np.linalg.norm(q, axis=1) < 0.5] = (1.0, 0.0, 0.0, 0.0)  # a filter that has broken down
+    return compare(Estimates.of(recording.stamps, q), recording.truth, NONE)
+
+
+def _roll_pitch_yaw(q: Real) -> Real:
+    w, x, y, z = q.tolist()
+    return np.array(
+        [
+            math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+            math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x)))),
+            math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+        ]
+    )
+
+
+def judge_filters(folder: Path, docs: Path | None = None) -> int:
+    """Write filters.md, filters.json and a plot; return the exit status.
+
+    It needs the package `ahrs`, of the extra `peers`.
+
+    Parameters
+    ----------
+    folder : Path
+        Created if it does not exist.
+    docs : Path or None
+        Folder of the documentation, into which tables and plot are written as well.
+
+    Returns
+    -------
+    int
+        0; 1 if a file cannot be written.
+    """
+    trials: list[Trial] = []
+    curves: dict[str, Errors] = {}
+    work = [(scene, mount) for mount in MOUNTS for scene in SCENES]
+    with tqdm(work, unit="", leave=False, disable=None) as progress:
+        for scene, mount in progress:
+            recording = record(scene, MOUNTS[mount])
+            for name in FILTERS:
+                progress.set_description(f"{name}: {scene}, {mount}"[:60])
+                errors = run_filter(name, recording)
+                trials.append(_summarize(name, scene, mount, errors))
+                if (scene, mount) == PLOTTED and name in SHOWN:
+                    curves[name] = errors
+    facts = {"trials": [asdict(trial) for trial in trials]}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "filters.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+        (folder / "filters.md").write_text(format_trials(facts) + "\n", encoding="utf-8")
+        for place in filter(None, (folder, docs)):
+            write_figures({PLOT: lambda: draw(curves)}, place)
+        if docs:
+            (docs / f"{PLOT}.png").unlink()
+            publish_figures({"filters": facts}, {SECTION: format_trials(facts)}, docs)
+    except OSError as error:
+        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
+        return 1
+    print(f"{folder / 'filters.md'}, filters.json and a plot")
+    return 0
+
+
+def _summarize(name: str, scene: str, mount: str, errors: Errors) -> Trial:
+    half = len(errors.total) // 2
+    rms = [float(np.sqrt((each[half:] ** 2).mean())) for each in (errors.tilt, errors.total)]
+    return Trial(name, scene, mount, *rms)
+
+
+def format_trials(facts: dict[str, Any]) -> str:
+    """Return a table for each place of the sensor.
+
+    Examples
+    --------
+    >>> trial = asdict(Trial("EKF", "cusps", "in the pivot", 0.01, 0.5))
+    >>> print(format_trials({"trials": [trial]}).splitlines()[4])
+    | EKF | 0.01 / 0.5 |
+    """
+    trials = [Trial(**each) for each in facts["trials"]]
+    parts = []
+    for mount in dict.fromkeys(trial.mount for trial in trials):
+        own = {(t.filter, t.scene): t for t in trials if t.mount == mount}
+        scenes = list(dict.fromkeys(scene for _, scene in own))
+        table = [
+            [name, *(f"{own[name, s].tilt:.1g} / {own[name, s].attitude:.1g}" for s in scenes)]
+            for name in dict.fromkeys(name for name, _ in own)
+        ]
+        head = ["tilt / attitude, rad", *scenes]
+        parts.append(f"Sensor {mount}:\n\n{format_table(head, table)}")
+    return "\n\n".join(parts)
+
+
+def draw(curves: dict[str, Errors]) -> Figure:
+    """Draw the tilt error of some filters against time.
+
+    Examples
+    --------
+    >>> some = np.array([1e-3, 2e-3])
+    >>> errors = Errors(np.array([0, 10**9]), some, some, some, None, 0)
+    >>> len(draw({"EKF": errors}).axes)
+    1
+    """
+    figure = new_figure(3.2)
+    (axes,) = rows(figure, 1)
+    for color, (name, errors) in zip((INK, BLUE, RED, GOLD, GREY), curves.items(), strict=False):
+        step = max(1, len(errors.tilt) // 2000)
+        t = errors.seconds[::step]
+        axes.plot(t, np.maximum(errors.tilt[::step], 1e-6), color=color, label=name, linewidth=1.0)
+    axes.set(yscale="log", ylabel="tilt error (rad)")
+    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    return figure

@@ -1,0 +1,102 @@
+"""The measurement behind `top_report`: runs the benchmarks, and writes tables and plots."""
+
+from __future__ import annotations
+
+import json
+import platform
+import sys
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from tqdm import tqdm
+
+from symtop_ros.report.benchmarks import Results, Scope, list_steps
+from symtop_ros.report.document import Environment, format_document
+from symtop_ros.report.peers import installed
+from symtop_ros.report.peers.peer import Peer
+from symtop_ros.report.plots import write_plots
+from symtop_ros.report.publish import collect_facts, publish
+from symtop_ros.report.reference import Reference
+
+PACKAGES = (
+    *("numpy", "scipy", "heyoka", "CyRK", "mujoco", "drake", "pin", "exudyn", "diffrax", "jax"),
+    "symtop_ros",
+)
+
+
+def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
+    """Write report.md, report.json and the plots; return the exit status.
+
+    Parameters
+    ----------
+    folder : Path
+        Created if it does not exist; files of the same names are replaced.
+    scope : Scope
+        `QUICK`, `FULL` or `SMALL`.
+    command : str
+        Command to measure again, for the report.
+    docs : Path or None
+        Folder of the documentation, into which tables and plots are written as well.
+
+    Returns
+    -------
+    int
+        0; 1 if a file cannot be written, or an error of the package is larger than promised.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        peers, missing = installed()
+        versions = _find_versions()
+        environment = Environment(command, find_machine(), versions, missing, scope.limit)
+        results = _run(scope, peers)
+        _write(folder, results, environment)
+        if docs:
+            publish(folder, docs)
+    except OSError as error:
+        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
+        return 1
+    print(f"{folder / 'report.md'}, report.json and plots")
+    failures = results.list_failures()
+    for failure in failures:
+        print(f"top_report: above the limit: {failure}", file=sys.stderr)
+    return 1 if failures else 0
+
+
+def _run(scope: Scope, peers: Sequence[Peer]) -> Results:
+    results = Results()
+    steps = list(list_steps(scope, peers, results))
+    with tqdm(steps, unit="", leave=False, disable=None) as progress:  # on a terminal only
+        for name, step in progress:
+            progress.set_description(f"{name:40.40}")
+            step()
+    return results
+
+
+def _write(folder: Path, results: Results, environment: Environment) -> None:
+    problem = Reference.read().article[0]
+    text = format_document(results, problem, environment)
+    (folder / "report.md").write_text(text, encoding="utf-8")
+    facts = json.dumps(collect_facts(results, environment), indent=1)
+    (folder / "report.json").write_text(facts + "\n", encoding="utf-8")
+    write_plots(results, problem, folder)
+
+
+def find_machine() -> str:
+    """Return the name of the processor, and the system."""
+    names = [platform.processor(), platform.machine()]
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.is_file():
+        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
+        names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return f"{next(filter(None, names), 'an unnamed processor')}, {platform.system()}"
+
+
+def _find_versions() -> dict[str, str]:
+    versions = {"Python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            versions[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return versions

@@ -1,0 +1,251 @@
+"""A peer, the task that it is given, and the equations of motion for general integrators.
+
+The equations are in plain floats: with so few numbers, arrays would only slow SciPy down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import cos, sin
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.physics import Friction, State, Top
+
+Real = NDArray[np.float64]
+Vector = tuple[float, float, float]
+Solve = Callable[[float], Real]  # t in s -> orientation (w, x, y, z), from the start each time
+Record = Callable[[float], tuple[Real, Real]]  # t -> times (n,) in (0, t], orientations (n, 4)
+Arrays = Callable[[Real], Real]  # times (n,) in s -> orientations (n, 4)
+NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
+# solve_ivp takes no relative tolerance below 100 eps, the last one here.
+TOLERANCES = (*(10.0**-k for k in (4, 6, 8, 9, 10, 11, 12, 13)), 100 * 2.0**-52)
+# Times at which errors are taken, evenly in (0, T]. For T = 10 s they are multiples of 2^-10 s:
+# exact doubles, as are steps of powers of two, so that no error comes from the times.
+RECORDED = 10_240
+OWN_STEPS = 1000  # at most, of an integrator that has no exact output between its steps
+
+
+@dataclass(frozen=True)
+class Task:
+    """A top that starts moving at t = 0; its numbers are taken as exact.
+
+    Examples
+    --------
+    >>> Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.5)).friction == NO_FRICTION
+    True
+    """
+
+    top: Top
+    start: State
+    friction: Friction = NO_FRICTION
+    torque: Vector = NO_TORQUE  # applied, in the world frame, N m
+
+
+class Solution(NamedTuple):
+    """A model that is built, and what it computes from the start, anew each time.
+
+    Attributes
+    ----------
+    reach : callable
+        Returns the orientation at a time in s, and stores nothing on the way: this is timed.
+    record : callable
+        Returns times in (0, t] and the orientations there, with the same steps: errors are taken
+        from it, and it is not timed.
+    """
+
+    reach: Solve
+    record: Record
+
+
+@dataclass(frozen=True)
+class Peer:
+    """An integrator with one method.
+
+    Attributes
+    ----------
+    name : str
+        As in tables and plots.
+    settings : tuple of float
+        Tolerances, or steps in s, from coarse to fine; the package's own engines have one.
+    prepare : callable
+        Builds a `Solution` for a task and a setting, with all compiling and loading.
+    friction : {"no", "also", "only"}
+        Friction along and across the axis: not modelled, modelled, or the only use of the peer.
+    prepare_arrays : callable or None
+        Builds a model, at the best setting, that computes the states at many times at once.
+    quick : {"every motion", "first motion", "no"}
+        Part in the quick report, which must not take long: the best form of each program is in it.
+
+    Examples
+    --------
+    >>> from symtop_ros.report.peers import prepare
+    >>> peer = Peer("closed form", (0.0,), prepare)
+    >>> task = Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.0, psi_dot=2.0))
+    >>> peer.prepare(task, peer.settings[0]).reach(0.0)
+    array([1., 0., 0., 0.])
+    """
+
+    name: str
+    settings: tuple[float, ...]
+    prepare: Callable[[Task, float], Solution]
+    friction: Literal["no", "also", "only"] = "no"
+    prepare_arrays: Callable[[Task], Arrays] | None = None
+    quick: Literal["every motion", "first motion", "no"] = "no"
+
+
+def spread_times(t: float) -> Real:
+    """Return `RECORDED` times, evenly in (0, t] (s).
+
+    Examples
+    --------
+    >>> spread_times(10.0)[:2]
+    array([0.00097656, 0.00195312])
+    """
+    return np.asarray(np.arange(1, RECORDED + 1) * (t / RECORDED))
+
+
+def list_strides(t: float, step: float) -> list[int]:
+    """Return how many steps (of s) to make before each state that is recorded up to t (s).
+
+    Examples
+    --------
+    >>> list_strides(1.0, 0.25)
+    [1, 1, 1, 1]
+    >>> len(list_strides(10.0, 2.0**-14)), list_strides(10.0, 2.0**-14)[0]
+    (10240, 16)
+    """
+    steps = count_steps(t, step)
+    stride = max(1, steps // RECORDED)
+    return [stride] * (steps // stride)
+
+
+def time_strides(t: float, step: float) -> Real:
+    """Return the times in s of the states that are recorded.
+
+    Examples
+    --------
+    >>> time_strides(1.0, 0.25)
+    array([0.25, 0.5 , 0.75, 1.  ])
+    """
+    return np.cumsum(list_strides(t, step)) * step
+
+
+def choose_steps(number: int) -> slice:
+    """Return a choice of at most 1000 of a number of an integrator's own steps.
+
+    Examples
+    --------
+    >>> len(range(2500)[choose_steps(2500)])
+    834
+    """
+    return slice(None, None, -(-number // OWN_STEPS))
+
+
+def from_euler_angles(angles: Real) -> Real:
+    """Return quaternions (n, 4) from phi, theta, psi (n, 3) in rad.
+
+    Examples
+    --------
+    >>> from_euler_angles(np.array([[0.0, 0.0, 0.0]]))
+    array([[1., 0., 0., 0.]])
+    """
+    phi, theta, psi = angles.T
+    A = np.cos(theta / 2) * np.exp(0.5j * (phi + psi))
+    B = np.sin(theta / 2) * np.exp(0.5j * (phi - psi))
+    return np.stack([A.real, B.real, B.imag, A.imag], axis=1)
+
+
+def normalize(orientations: Real) -> Real:
+    """Return quaternions (..., 4) of norm 1.
+
+    Examples
+    --------
+    >>> normalize(np.array([0.0, 3.0, 0.0, 4.0]))
+    array([0. , 0.6, 0. , 0.8])
+    """
+    return np.asarray(orientations / np.linalg.norm(orientations, axis=-1, keepdims=True))
+
+
+def count_steps(t: float, step: float) -> int:
+    """Return the number of steps of this size (s) to t (s), which must be a multiple of it.
+
+    Examples
+    --------
+    >>> count_steps(0.3, 0.1)
+    3
+    """
+    return round(t / step)
+
+
+def initial_values(task: Task) -> list[float]:
+    """Return orientation (w, x, y, z) and body angular velocity (rad/s) at the start.
+
+    Examples
+    --------
+    >>> initial_values(Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.0, psi_dot=2.0)))
+    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]
+    """
+    return [*task.start.orientation.tolist(), *task.start.angular_velocity.tolist()]
+
+
+def body_rates(task: Task, t: float, y: Any) -> list[Any]:
+    """Return q' = q omega/2 and Euler's equations for y = (w, x, y, z, wx, wy, wz).
+
+    With friction -axial wz on the axis and -transverse (wx, wy) across it, and with the applied
+    torque. Only sums and products are used, so that the numbers may also be symbolic expressions.
+
+    Examples
+    --------
+    >>> task = Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.0, psi_dot=2.0))
+    >>> body_rates(task, 0.0, initial_values(task))[3]
+    1.0
+    """
+    Ix, Iz, Mgl = task.top.moments
+    axial, transverse = task.friction.axial, task.friction.transverse
+    w, x, y_, z, wx, wy, wz = y.tolist() if hasattr(y, "tolist") else y
+    gx, gy = 2 * (x * z - w * y_), 2 * (y_ * z + w * x)
+    tx, ty, tz = _to_body(task.torque, w, x, y_, z) if any(task.torque) else NO_TORQUE
+    return [
+        (-x * wx - y_ * wy - z * wz) / 2,
+        (w * wx + y_ * wz - z * wy) / 2,
+        (w * wy - x * wz + z * wx) / 2,
+        (w * wz + x * wy - y_ * wx) / 2,
+        ((Ix - Iz) * wy * wz + Mgl * gy - transverse * wx + tx) / Ix,
+        ((Iz - Ix) * wz * wx - Mgl * gx - transverse * wy + ty) / Ix,
+        (tz - axial * wz) / Iz,
+    ]
+
+
+def _to_body(torque: Vector, w: Any, x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
+    """Return a vector of the world frame in the body frame: rows of the transposed rotation."""
+    a, b, c = torque
+    return (
+        (1 - 2 * (y * y + z * z)) * a + 2 * (x * y + w * z) * b + 2 * (x * z - w * y) * c,
+        2 * (x * y - w * z) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z + w * x) * c,
+        2 * (x * z + w * y) * a + 2 * (y * z - w * x) * b + (1 - 2 * (x * x + y * y)) * c,
+    )
+
+
+def euler_rates(task: Task, t: float, y: Any, *, sin: Any = sin, cos: Any = cos) -> list[Any]:
+    """Return the article's three equations for y = (phi, theta, psi, phi', theta', psi').
+
+    With the functions sin and cos of another package the numbers may be symbolic expressions.
+
+    Examples
+    --------
+    >>> task = Task(Top(Ix=1.0, Iz=0.5, Mgl=2.0), State.from_euler(theta=1.0))
+    >>> print(f"{euler_rates(task, 0.0, np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0]))[4]:.3f}")
+    1.683
+    """
+    Ix, Iz, Mgl = task.top.moments
+    _, theta, _, phi_dot, theta_dot, psi_dot = y.tolist() if hasattr(y, "tolist") else y
+    c, s = cos(theta), sin(theta)
+    gyration = Iz * psi_dot + (Iz - 2 * Ix) * phi_dot * c
+    phi_ddot = theta_dot / (Ix * s) * gyration
+    theta_ddot = s / Ix * ((Ix - Iz) * phi_dot**2 * c - Iz * phi_dot * psi_dot + Mgl)
+    psi_ddot = theta_dot * phi_dot * s - phi_ddot * c
+    return [phi_dot, theta_dot, psi_dot, phi_ddot, theta_ddot, psi_ddot]

@@ -1,1 +1,0 @@
-"""Perry's map: where hurrying the precession raises the top, over whole ranges of tops."""

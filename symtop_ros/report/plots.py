@@ -1,0 +1,171 @@
+"""The report's plots, as SVG and PNG."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from symtop_ros.article.style import GREY, INK, RED, new_figure, write_figures
+from symtop_ros.report.benchmarks import SPAN, HardCase, Results
+from symtop_ros.report.peers import CLOSED_FORM
+from symtop_ros.report.reference import EPS, Problem
+from symtop_ros.report.sweep import Curve
+
+PACKAGES = {  # colours that differ in grey, and markers that differ without any
+    "symtop_ros": (RED, "*"),
+    "SciPy": ("#1f5f9e", "o"),
+    "heyoka": ("#20242c", "D"),
+    "CyRK": ("#d07020", "h"),
+    "MuJoCo": ("#8a5fb0", "s"),
+    "Drake": ("#2f8f6b", "^"),
+    "Pinocchio": ("#7a4a21", "P"),
+    "EXUDYN": ("#b0a030", "v"),
+    "diffrax": ("#e58fb0", "X"),
+}
+NAMES = ("work_precision", "motions", "long_times", "arrays", "hard_cases")
+DASHES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 2)))
+SMALLEST = EPS / 4  # at which errors of zero are drawn
+ERROR = "largest error of the attitude (rad)"
+Looks = dict[str, dict[str, Any]]
+
+
+def write_plots(results: Results, problem: Problem, folder: Path) -> None:
+    """Write every plot as SVG and PNG."""
+    names = list(dict.fromkeys([*(c.peer for c in results.curves), *results.checks]))
+    looks = _choose_looks(names)
+    drawings: tuple[Callable[[], Figure], ...] = (
+        lambda: draw_work_precision(results, problem, looks),
+        lambda: draw_motions(results, looks),
+        lambda: draw_long_times(results, problem, looks),
+        lambda: draw_arrays(results, looks),
+        lambda: draw_hard_cases(results.hard),
+    )
+    write_figures(dict(zip(NAMES, drawings, strict=True)), folder)
+
+
+def _choose_looks(names: Iterable[str]) -> Looks:
+    """Give each package a colour and a marker, and each of its methods a dash."""
+    looks: Looks = {}
+    used: dict[str, int] = {}
+    for name in names:
+        package = name.replace(",", "").split()[0]
+        color, marker = PACKAGES[package]
+        dash = DASHES[used.get(package, 0) % len(DASHES)]
+        used[package] = used.get(package, 0) + 1
+        big = 14 if package == "symtop_ros" else 4.5
+        looks[name] = {"color": color, "marker": marker, "ls": dash, "ms": big, "label": name}
+    return looks
+
+
+def draw_work_precision(results: Results, problem: Problem, looks: Looks) -> Figure:
+    """Draw error against seconds per simulated second."""
+    figure = new_figure(4.6, width=8.2)
+    axes = figure.subplots()
+    curves = [curve for curve in results.curves if curve.motion == problem.name]
+    _draw_curves(axes, curves, looks)
+    _mark_limit(axes, problem.limit(SPAN))
+    axes.set_ylabel(ERROR)
+    axes.set_title(f"the article's top, {problem.name}, after {SPAN:g} s", loc="left")
+    figure.legend(loc="outside right upper", fontsize=8)
+    return figure
+
+
+def _draw_curves(axes: Axes, curves: Iterable[Curve], looks: Looks) -> None:
+    for curve in curves:
+        seconds = [point.seconds / curve.t for point in curve.points]
+        errors = [max(point.error, SMALLEST) for point in curve.points]
+        axes.loglog(seconds, errors, **{**looks[curve.peer], "lw": 1.2})
+    axes.set_xlabel("seconds per simulated second")
+
+
+def _mark_limit(axes: Axes, limit: float) -> None:
+    axes.axhline(limit, color=GREY, lw=1, ls=(0, (6, 3)))
+    text = "what rounding of the input changes"
+    axes.annotate(text, (0.99, limit), (0, 3), ("axes fraction", "data"), "offset points",
+                  ha="right", fontsize=8, color=GREY)  # fmt: skip
+
+
+def draw_motions(results: Results, looks: Looks) -> Figure:
+    """Draw error against seconds for every motion that was measured."""
+    names = list(dict.fromkeys(curve.motion for curve in results.curves))
+    rows = -(-len(names) // 4)
+    figure = new_figure(2.6 * rows, width=10)
+    grid = figure.subplots(
+        rows, min(4, len(names)), squeeze=False, sharex=True, sharey=True
+    ).ravel()
+    for axes, name in zip(grid, names, strict=False):
+        _draw_curves(axes, [c for c in results.curves if c.motion == name], looks)
+        axes.set_title(name, loc="left")
+    for axes in grid[len(names) :]:
+        axes.remove()
+    figure.supylabel("error (rad)", fontsize=10)
+    return figure
+
+
+def draw_long_times(results: Results, problem: Problem, looks: Looks) -> Figure:
+    """Draw the growth of the errors with time."""
+    figure = new_figure(4.2, width=8.2)
+    axes = figure.subplots()
+    for each in results.growth:
+        errors = np.maximum(each.errors, SMALLEST)
+        axes.loglog(each.times, errors, **{**looks[each.peer], "lw": 1.2})
+    times = [t for t in problem.times if t >= SPAN]
+    limits = [problem.limit(t) for t in times]
+    axes.loglog(times, limits, color=GREY, lw=1, ls=(0, (6, 3)), label="rounding of the input")
+    axes.set_xlabel("simulated time (s)")
+    axes.set_ylabel("error of the attitude at the end (rad)")
+    axes.set_title("each at its best setting for ten seconds", loc="left")
+    figure.legend(loc="outside right upper", fontsize=8)
+    return figure
+
+
+def draw_arrays(results: Results, looks: Looks) -> Figure:
+    """Draw the cost of a state against the number of states."""
+    figure = new_figure(3.4, width=8.2)
+    axes = figure.subplots()
+    for each in results.states:
+        cost = np.array(each.seconds) / np.array(each.numbers) * 1e6
+        axes.loglog(each.numbers, cost, **{**looks[each.peer], "lw": 1.2})
+    axes.set_xlabel(f"number of states within {SPAN:g} s")
+    axes.set_ylabel("us per state, set-up included")
+    figure.legend(loc="outside right upper", fontsize=8)
+    return figure
+
+
+def draw_hard_cases(cases: list[HardCase]) -> Figure:
+    """Draw the errors of each family against the distance from its singular case."""
+    families = list(dict.fromkeys(case.family for case in cases))
+    rows = -(-len(families) // 4)
+    figure = new_figure(2.1 * rows, width=10)
+    grid = figure.subplots(rows, 4, squeeze=False, sharey=True).ravel()
+    for axes, family in zip(grid, families, strict=False):
+        _draw_family(axes, [case for case in cases if case.family == family])
+    for axes in grid[len(families) :]:
+        axes.remove()
+    figure.supylabel("error (rad)", fontsize=10)
+    handles, labels = grid[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
+    return figure
+
+
+def _draw_family(axes: Axes, cases: list[HardCase]) -> None:
+    """Draw one family; the singular case itself is at the left end."""
+    smallest = min(case.small for case in cases if case.small)
+    near = [case.small or smallest / 100 for case in cases]
+    red, star = PACKAGES["symtop_ros"]
+    errors = [max(case.error, SMALLEST) for case in cases]
+    axes.loglog(near, errors, star, color=red, ms=8, label=CLOSED_FORM)
+    for name in dict.fromkeys(name for case in cases for name in case.peers):
+        color, marker = PACKAGES[name.replace(",", "").split()[0]]
+        points = [
+            (x, case.peers[name]) for x, case in zip(near, cases, strict=True) if name in case.peers
+        ]
+        axes.loglog(*np.array(points).T, marker, color=color, ms=4, label=name)
+    limits = [case.limit for case in cases]
+    axes.loglog(near, limits, color=INK, lw=1, ls="--", label="rounding of the input")
+    axes.set_title(cases[0].family, loc="left", fontsize=8.5)

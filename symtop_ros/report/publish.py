@@ -1,0 +1,133 @@
+"""The figures of the documentation: one file, from which every table in it is written.
+
+A table stands between two comments that name it, `<!-- figures: NAME -->` and
+`<!-- end of figures -->`. The text around it is written by hand.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from symtop_ros.report.benchmarks import Results
+from symtop_ros.report.document import Environment, format_chapters, format_summary
+from symtop_ros.report.plots import NAMES
+from symtop_ros.report.reference import Reference
+
+FIGURES = "figures.json"
+END = "<!-- end of figures -->"
+
+
+def collect_facts(results: Results, environment: Environment) -> dict[str, Any]:
+    """Return everything that was measured, as values of a JSON file.
+
+    Examples
+    --------
+    >>> environment = Environment("top_report", "a machine", {}, [], 4.0)
+    >>> read_facts(collect_facts(Results(), environment)) == (Results(), environment)
+    True
+    """
+    return {"environment": asdict(environment), "results": asdict(results)}
+
+
+def read_facts(facts: dict[str, Any]) -> tuple[Results, Environment]:
+    """Return what `collect_facts` has turned into values of a JSON file.
+
+    Examples
+    --------
+    >>> environment = Environment("top_report", "a machine", {}, [], 4.0)
+    >>> read_facts(collect_facts(Results(), environment))[1].machine
+    'a machine'
+    """
+    return Results.from_facts(facts["results"]), Environment(**facts["environment"])
+
+
+def format_sections(facts: dict[str, Any]) -> dict[str, str]:
+    """Return the text of each section by its name.
+
+    Parameters
+    ----------
+    facts : dict
+        As returned by `collect_facts`.
+
+    Returns
+    -------
+    dict
+        "chapters" (docs/accuracy.md) and "summary" (README.md).
+    """
+    results, environment = read_facts(facts)
+    problem = Reference.read().article[0]
+    return {
+        "chapters": format_chapters(results, problem, environment),
+        "summary": format_summary(results, problem),
+    }
+
+
+def find_section(text: str, name: str) -> str | None:
+    r"""Return what a text has between the comments of a section, or None.
+
+    Examples
+    --------
+    >>> find_section(f"a <!-- figures: summary -->\n\nb\n\n{END} c", "summary")
+    'b'
+    """
+    _, begin, rest = text.partition(f"<!-- figures: {name} -->")
+    return rest.partition(END)[0].strip() if begin else None
+
+
+def replace_section(text: str, name: str, content: str) -> str:
+    """Return a text with a section replaced; unchanged if it has no such section.
+
+    Examples
+    --------
+    >>> text = f"<!-- figures: summary -->{END}"
+    >>> find_section(replace_section(text, "summary", "new"), "summary")
+    'new'
+    """
+    head, begin, rest = text.partition(f"<!-- figures: {name} -->")
+    if not begin:
+        return text
+    return f"{head}{begin}\n{content}\n{END}{rest.partition(END)[2]}"
+
+
+def publish(folder: Path, docs: Path) -> None:
+    """Write figures, tables and plots of a report into the documentation.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the report.
+    docs : Path
+        Of the documentation: its pages and the README.md above it are updated.
+    """
+    facts = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    write_figures(facts, format_sections(facts), docs)
+    for name in NAMES:
+        shutil.copy(folder / f"{name}.svg", docs)
+
+
+def write_figures(facts: dict[str, Any], sections: dict[str, str], docs: Path) -> None:
+    """Write figures into the documentation; those of other commands stay.
+
+    Parameters
+    ----------
+    facts : dict
+        Values of a JSON file, by names that belong to one command.
+    sections : dict of str
+        Text of each section by its name, as in `replace_section`.
+    docs : Path
+        Of the documentation: its pages and the README.md above it are updated.
+    """
+    path = docs / FIGURES
+    others = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    text = json.dumps({**others, **facts}, indent=1) + "\n"
+    path.write_text(text, encoding="utf-8")
+    for page in (*docs.glob("*.md"), docs.parent / "README.md"):
+        before = after = page.read_text(encoding="utf-8")
+        for name, content in sections.items():
+            after = replace_section(after, name, content)
+        if after != before:
+            page.write_text(after, encoding="utf-8")

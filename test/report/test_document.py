@@ -1,0 +1,49 @@
+from symtop_ros.report.benchmarks import ArrayCost, Results
+from symtop_ros.report.document import _format_ahead, _format_other_motions, format_table
+from symtop_ros.report.peers import CLOSED_FORM
+from symtop_ros.report.reference import Reference
+from symtop_ros.report.sweep import Curve, Point
+
+
+def curve(peer, motion):
+    return Curve(peer, motion, 10.0, (Point(0.0, 1e-9, 1e-9, 9, 1e-3, 0.0),), "finest")
+
+
+def test_a_table_has_as_many_cells_in_each_row():
+    lines = format_table(["", "a"], [["b", "1"], ["c", "2"]]).splitlines()
+    assert lines == ["|  | a |", "| --- | --: |", "| b | 1 |", "| c | 2 |"]
+
+
+def test_the_table_of_other_motions_has_a_row_for_each_peer():
+    problem = Reference.read().article[0]
+    curves = [curve(peer, name) for name in ("looping", "sleeping") for peer in ("a", "b")]
+    text = _format_other_motions(Results(curves=[curve("a", problem.name), *curves]), problem)
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert rows[0] == "|  | looping | sleeping |"
+    assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
+
+
+def test_every_case_in_which_a_peer_is_ahead_is_named():
+    def swept(peer, *points):
+        return Curve(
+            peer, "cusps", 10.0, tuple(Point(1.0, e, e, 9, s, 0.0) for e, s in points), "finest"
+        )
+
+    results = Results(
+        curves=[
+            swept(CLOSED_FORM, (1e-15, 3e-4)),
+            swept("fast", (1e-3, 1e-5), (1e-9, 1e-4), (1e-12, 1e-3)),
+            swept("exact", (1e-17, 1.0)),
+            swept("behind", (1e-12, 1.0)),
+        ],
+        states=[
+            ArrayCost(CLOSED_FORM, (1, 10), (1.0, 2.0), 1e-15),
+            ArrayCost("dense", (1, 10), (2.0, 1.0), 1e-14),
+        ],
+    )
+    lines = [line for line in _format_ahead(results).splitlines() if line.startswith("-")]
+    assert lines == [
+        "- cusps: fast reaches 1.0e-09 rad in 0.1 ms, closed form 1.0e-15 in 0.3 ms.",
+        "- cusps: exact is more exact, 1.0e-17 against 1.0e-15 rad, in 1e+03 ms.",
+        "- Arrays of 10 states: dense is faster.",
+    ]

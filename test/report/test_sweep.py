@@ -1,0 +1,57 @@
+import time
+
+import numpy as np
+import pytest
+
+from symtop_ros.report.peers.peer import Peer, Solution
+from symtop_ros.report.reference import Reference
+from symtop_ros.report.sweep import Curve, Point, sweep
+
+PROBLEM = Reference.read().article[0]
+
+
+def make_peer(errors, seconds):
+    """Return a peer with a given error (rad) and given seconds for each setting, from 1 down."""
+    settings = [10.0**-k for k in range(len(errors))]
+    high, low = PROBLEM._motion.at([1.0])
+
+    def prepare(task, setting):
+        number = settings.index(setting)
+        # turned about x by an angle: q times (1, angle/2, 0, 0)
+        w, x, y, z = (high + low)[0]
+        half = errors[number] / 2
+        turned = np.array([[w - half * x, x + half * w, y + half * z, z - half * y]])
+        return Solution(lambda t: time.sleep(seconds[number]), lambda t: (np.array([1.0]), turned))
+
+    return Peer("a peer", tuple(settings), prepare)
+
+
+def test_the_cheapest_point_is_the_fastest_that_is_good_enough():
+    points = tuple(
+        Point(setting, error, error, 9, seconds, 0.0)
+        for setting, error, seconds in ((1.0, 1e-3, 1.0), (0.1, 1e-7, 3.0), (0.01, 1e-8, 2.0))
+    )
+    curve = Curve("a peer", "cusps", 10.0, points, "finest")
+    assert curve.find_cheapest(1e-6).seconds == 2.0
+    assert curve.find_cheapest(1e-9) is None
+    assert curve.best.setting == 0.01
+
+
+def test_a_sweep_ends_before_a_run_that_is_expected_to_exceed_the_limit():
+    # 10 and 30 ms: 90 ms are expected next
+    curve = sweep(make_peer([1e-2, 1e-4, 1e-6], [0.01, 0.03, 9.0]), PROBLEM, 1.0, limit=0.06)
+    assert (len(curve.points), curve.end) == (2, "time limit")
+    assert curve.points[1].seconds >= 0.03
+    # a product of doubles, and the error of the turn itself: angle^2/4
+    assert [point.error for point in curve.points] == pytest.approx([1e-2, 1e-4], rel=1e-4)
+
+
+def test_a_sweep_ends_when_two_settings_in_a_row_are_no_better():
+    curve = sweep(make_peer([1e-2, 1e-6, 2e-6, 3e-6, 1e-9], [0.0] * 5), PROBLEM, 1.0, limit=1.0)
+    assert (len(curve.points), curve.end) == (4, "turning point")
+    assert curve.best.setting == 0.1
+
+
+def test_a_sweep_through_all_settings_ends_at_the_finest():
+    curve = sweep(make_peer([1e-2, 1e-6, 2e-6], [0.0] * 3), PROBLEM, 1.0, limit=1.0)
+    assert (len(curve.points), curve.end) == (3, "finest")
