@@ -1,62 +1,135 @@
-# Everything happens in an environment of its own, .venv; nothing else on the machine is touched.
+# Everything is installed into .venv; the rest of the machine is unchanged.
 PYTHON ?= python3
 VENV := .venv
+NUMPY1 := .venv/numpy1
+KILTED := .venv/kilted
 BIN := $(VENV)/bin
-CALM := test/physics test/report/article test/report/perry test/report/precision
+# Tests that need no running node. They run in a second process with low priority.
+PLAIN := test/physics test/wire test/report test/models test/testset
+# These run as on a machine without ROS and Rerun.
+WITHOUT_ROS := test/simulation test/log test/panel
+WITH_ROS := test/log/test_definitions.py test/panel/test_node_source.py
+# These run with NumPy 1.26 and without Rerun, as with the ROS 2 Jazzy of Ubuntu 24.04.
+WITH_NUMPY1 := test/client test/node/test_services.py test/node/test_recording.py
+TOOLS := pytest hypothesis mpmath rosbags coverage
+REALTIME := test/node test/panel test/system test/load
+MARKERS := not realtime and not long
 
-# Nothing here is meant for the network, and a ROS or another environment that is active stays out.
+# Nothing is sent to the network, and an active ROS or other environment is not used.
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
-.PHONY: help demo test test-calm test-rest lint report clean
+.PHONY: help demo panel test test-plain test-rest test-numpy1 test-realtime test-long test-kilted lint docs matrix report stress soak node-cost clean
 
-help:  ## this list
-	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 10
+help:  ## show this list
+	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
 
-demo: $(VENV)/ros  ## a top on cusps, its precession hurried through the service, and the replay
+demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 	@$(BIN)/python -m symtop_ros.demo
 
-test: lint $(VENV)/vulkan  ## style, types and all tests, and what they cover
+panel: $(VENV)/panel  ## a page in the browser to play with a top; needs no ROS
+	@$(BIN)/top_panel
+
+test: lint $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types, all tests and their coverage (8 minutes)
 	@$(BIN)/coverage erase
-	@$(MAKE) --no-print-directory -j2 test-calm test-rest
+	@$(MAKE) --no-print-directory -j2 test-plain test-rest
+	@$(MAKE) --no-print-directory test-realtime
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
 
-test-calm:  # they need a core and no ROS, and give way to what is about time
-	@nice -n 19 $(BIN)/coverage run -m pytest -q $(CALM)
+test-plain:
+	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" $(PLAIN) $(WITH_ROS)
+	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" -p without_ros $(WITHOUT_ROS)
 
-test-rest:
-	@$(BIN)/coverage run -m pytest $(addprefix --ignore=,$(CALM))
+test-rest: test-numpy1
+	@$(BIN)/coverage run -m pytest -m "$(MARKERS)" test $(addprefix --ignore=,$(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
+	@$(BIN)/coverage run -m pytest -q --doctest-modules --ignore-glob='*/*_peer.py' symtop_ros
+
+test-numpy1: $(NUMPY1)/test
+	@$(NUMPY1)/bin/coverage run -m pytest -q -m "$(MARKERS)" $(WITH_NUMPY1)
+
+test-realtime:  # alone: these tests measure time
+	@$(BIN)/coverage run -m pytest -m "realtime and not long" $(REALTIME)
+
+test-long: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium test-kilted matrix  ## trials that take longer (two hours), and the matrix
+	@$(BIN)/python -m pytest -m long test
+
+matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
+	@$(BIN)/python test/matrix.py
+
+test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
+	@$(KILTED)/bin/python -m pytest -q -m "$(MARKERS)" --ignore=test/log/test_definitions.py \
+	  test/node test/client test/log test/simulation/test_simulation.py
 
 lint: $(VENV)/test
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
 	@$(BIN)/mypy
 
-report: $(VENV)/report  ## speed against error on this machine, two minutes; plots in report/
+docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warnings are errors
+	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
+	@echo "wrote site/README.html"
+
+report: $(VENV)/report  ## speed against error on this machine (3 minutes); plots in report/
 	@$(BIN)/top_report
 
-clean:  ## remove the environment and what was built
-	rm -rf $(VENV) build install log *.egg-info
+stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
+	@$(BIN)/python test/load/stress.py
+
+soak: $(VENV)/report  ## the node for an hour with requests at random, its logs checked
+	@$(BIN)/python test/load/soak.py
+
+node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9 minutes)
+	@$(BIN)/python test/load/node_cost.py
+
+clean:  ## remove the environment and everything that was built
+	rm -rf $(VENV) site build install log *.egg-info
 
 $(VENV)/ros: setup.py $(VENV)/bin/python
 	@echo "Setting up .venv: ROS 2, NumPy, SciPy and Rerun (about 1 GB, once) ..."
 	$(BIN)/python -m pip install --editable '.[ros,playback]'
 	@touch $@
 
+$(VENV)/panel: setup.py $(VENV)/bin/python
+	@echo "Setting up .venv: the page of top_panel (about 300 MB, once) ..."
+	$(BIN)/python -m pip install --editable '.[panel]'
+	@touch $@
+
 $(VENV)/report: setup.py $(VENV)/ros
-	@echo "Setting up .venv: plots, and the peers to measure (about 2 GB, once) ..."
+	@echo "Setting up .venv: plots, and the programs to compare with (about 2 GB, once) ..."
 	$(BIN)/python -m pip install --editable '.[ros,playback,report,peers]'
 	@touch $@
 
 $(VENV)/test: setup.py $(VENV)/ros
-	@echo "Setting up .venv: what the tests need (once) ..."
-	$(BIN)/python -m pip install --editable '.[ros,playback,report,test,lint]'
+	@echo "Setting up .venv: test tools (once) ..."
+	$(BIN)/python -m pip install --editable '.[ros,playback,panel,report,test,lint,docs]'
+	@touch $@
+
+$(VENV)/docs: setup.py $(VENV)/ros
+	@echo "Setting up .venv: Sphinx (once) ..."
+	$(BIN)/python -m pip install --editable '.[ros,playback,panel,docs]'
+	@touch $@
+
+$(NUMPY1)/test: setup.py $(VENV)/bin/python
+	@echo "Setting up $(NUMPY1): ROS 2 Jazzy and NumPy 1.26 (about 300 MB, once) ..."
+	@$(PYTHON) -m venv $(NUMPY1)
+	$(NUMPY1)/bin/python -m pip install --editable '.[jazzy]' 'numpy<2' $(TOOLS)
+	@touch $@
+
+$(KILTED)/test: setup.py $(VENV)/bin/python
+	@echo "Setting up $(KILTED): ROS 2 Kilted (about 300 MB, once) ..."
+	@$(PYTHON) -m venv $(KILTED)
+	$(KILTED)/bin/python -m pip install --editable '.[kilted]' $(TOOLS)
 	@touch $@
 
 $(VENV)/vulkan: test/get_vulkan.sh $(VENV)/bin/python
 	@echo "Setting up .venv: a software Vulkan driver, for pictures without a screen (once) ..."
 	@sh test/get_vulkan.sh $@
+	@touch $@
+
+$(VENV)/chromium: test/get_chromium.sh $(VENV)/bin/python
+	@echo "Setting up .venv: a browser, for the tests of the page (once) ..."
+	@sh test/get_chromium.sh $@
 	@touch $@
 
 $(VENV)/bin/python:

@@ -9,81 +9,117 @@ from setuptools import find_packages, setup
 NAME = "symtop_ros"
 VERSION = re.search(r'__version__ = "(.+)"', Path(NAME, "__init__.py").read_text())[1]
 
-# ROS 2 itself, for machines without one. Never a requirement: beside a ROS from apt these would
-# be a second ROS. Kilted's wheels, with Fast DDS as the middleware.
-ROS = [
-    "ros-rclpy[fastrtps]",
-    "ros-kilted-rclpy>=9.1",
-    "ros-kilted-rmw-fastrtps-cpp>=9.3",  # the middleware that rclpy loads
-    "ros-kilted-geometry-msgs>=5.5",
-    "ros-kilted-sensor-msgs>=5.5",
-    "ros-kilted-std-msgs>=5.5",
-    "ros-kilted-diagnostic-msgs>=5.5",
-    "ros-kilted-std-srvs>=5.5",
-    "mcap>=1.5",  # what runs are recorded with; 1.5 flushes chunks
-]
-# Logs in 3D. Needs no ROS, and NumPy 2: beside a ROS from apt, an environment of its own.
+# ROS 2 from PyPI, with Fast DDS, for machines without one. It is an extra, never a requirement: on
+# a machine with a ROS from apt it would be a second one. The two distributions exclude each other.
+MESSAGES = ("geometry", "sensor", "std", "diagnostic", "visualization", "nav")
+
+
+def ros(distro: str, rclpy: str, rmw: str, messages: str) -> list[str]:
+    """Return the wheels of a distribution, given the versions of its packages."""
+    return [
+        f"ros-rclpy[fastrtps]{rclpy}",
+        f"ros-{distro}-rclpy{rclpy}",
+        f"ros-{distro}-rmw-fastrtps-cpp{rmw}",
+        *(f"ros-{distro}-{name}-msgs{messages}" for name in MESSAGES),
+        f"ros-{distro}-std-srvs{messages}",
+        "mcap>=1.5",  # logs; from 1.5 on the writer can flush a chunk
+    ]
+
+
+KILTED = ros("kilted", ">=9.1,<10", ">=9.3,<10", ">=5.5,<6")
+JAZZY = ros("jazzy", ">=7.1,<8", ">=8.4,<9", ">=5.3,<5.5")  # the LTS
+# Logs in 3D. Needs no ROS. Rerun needs NumPy 2, which a ROS from apt does not have: there, install
+# this extra into another environment.
 PLAYBACK = [
     "mcap>=1.5",
     "rerun-sdk>=0.41",
 ]
-# What top_report draws.
+# The page of top_panel, and the logs that it records. Needs no ROS.
+PANEL = [
+    "mcap>=1.5",
+    "viser>=1.1",  # 3D and controls in the browser; 1.1 has panels that can be docked
+]
+# Figures and tables of top_report.
 REPORT = [
     "matplotlib>=3.8",
-    "pyarrow>=14",  # tables in Parquet
+    "pyarrow>=14",  # Parquet tables
     "rerun-sdk>=0.41",
-    "tqdm>=4.60",  # how far it has got
+    "tqdm>=4.60",  # progress bars
 ]
-# What top_report measures beside SciPy, each where it is installed.
+# Programs that top_report compares with, if they are installed.
 PEERS = [
     "heyoka>=7",
+    "cyrk>=0.20",
     "mujoco>=3.3",
     "drake>=1.40",
     "pin>=3.4",
     "exudyn>=1.13",
     "diffrax>=0.7",
+    "ahrs>=0.4",  # attitude filters
 ]
 TEST = [
     "pytest>=8",
-    "coverage>=7.10",  # 7.10 measures programs that tests start
-    "hypothesis>=6.100",  # random tops, and the worst of them again
+    "coverage>=7.10",  # 7.10 can measure programs that tests start
+    "hypothesis>=6.100",  # random tops and requests
     "rosbags>=0.10",  # an independent reader of logs
-    "pillow>=10",  # rendered scenes are looked at
-    "mpmath>=1.3",  # the reference: elliptic functions to any number of digits
+    "pillow>=10",  # rendered scenes are compared
+    "playwright>=1.40",  # drives a browser that is installed
+    "mpmath>=1.3",  # reference motions with any number of digits
+    "gmpy2>=2.1",  # mpmath uses it, and takes a quarter less time
+    "mujoco>=3.3",  # reads the MJCF of the top
+    "pin>=3.4",  # reads its URDF
+    "ahrs>=0.4",  # filters that are fed with its sensor
+]
+# The HTML site of `make docs`.
+DOCS = [
+    "sphinx>=8",
+    "myst-parser>=4",  # Markdown
+    "numpydoc>=1.8",
+    "furo>=2024.8",  # theme
+    "sphinx-mathjax-offline>=0.0.2",  # MathJax, so that the pages need no network
 ]
 LINT = [
     "mypy>=1.11",
     "ruff>=0.6",
-    "scipy-stubs>=1.14",  # SciPy has no types of its own
-    "colcon-common-extensions>=0.3",  # a test builds the package as a workspace would
+    "scipy-stubs>=1.14",  # types for SciPy
+    "colcon-common-extensions>=0.3",  # a test builds the package in a workspace
 ]
 
 setup(
     name=NAME,
     version=VERSION,
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
-    package_data={NAME: ["py.typed", "report/precision/reference.json"]},
+    package_data={
+        NAME: ["py.typed", "log/definitions.json", "panel/page.js", "report/reference.json"],
+        f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),
-        # scenes; a policy for SROS2, and profiles for Fast DDS
-        (f"share/{NAME}/config", sorted(glob("config/*.yaml") + glob("config/*.xml"))),
-        # where `ros2 run` looks; pip puts console scripts into bin only
+        # scenes, the SROS2 policy, profiles for Fast DDS, layouts of viewers
+        (f"share/{NAME}/config", sorted(glob("config/*.*"))),
+        (f"share/{NAME}/launch", sorted(glob("launch/*.launch.py"))),
+        # `ros2 run` looks here; pip installs console scripts into bin only
         (f"lib/{NAME}", sorted(glob("resource/top_*"))),
     ],
     zip_safe=False,
     python_requires=">=3.10",
     install_requires=[
-        "numpy>=1.24",  # arrays; any NumPy that a supported ROS 2 brings
-        "scipy>=1.8",  # Carlson's elliptic integral R_F came with 1.8
+        "numpy>=1.24",  # any NumPy of a supported ROS 2
+        "scipy>=1.8",  # 1.8 has Carlson's elliptic integral R_F
+        "pyyaml>=5.4",  # scene files
     ],
     extras_require={
-        "ros": ROS,
+        "ros": JAZZY,
+        "kilted": KILTED,
+        "jazzy": JAZZY,
         "playback": PLAYBACK,
+        "panel": PANEL,
         "report": REPORT,
         "peers": PEERS,
         "test": TEST,
         "lint": LINT,
+        "docs": DOCS,
     },
     entry_points={
         "console_scripts": [
@@ -91,7 +127,10 @@ setup(
             f"top_ctl = {NAME}.programs:top_ctl",
             f"top_replay = {NAME}.programs:top_replay",
             f"top_live = {NAME}.programs:top_live",
+            f"top_panel = {NAME}.programs:top_panel",
             f"top_report = {NAME}.programs:top_report",
+            f"top_judge = {NAME}.programs:top_judge",
+            f"top_model = {NAME}.programs:top_model",
         ]
     },
     author="The symtop_ros authors",

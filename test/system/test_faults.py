@@ -10,20 +10,22 @@ import time
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from domains import claim_domain
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
+from node.running_top import facts
 from programs import command, environment, run, running_node
 from sensor_msgs.msg import JointState
 
-pytestmark = pytest.mark.untraced
+pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 
-DOMAIN = 94
+DOMAIN = claim_domain()
 MS = 1_000_000
-NAMED_TOO = "another node is named /top, and requests reach any of them: give this one"
+DUPLICATE = "another node has the name /top, and a request reaches any of them: rename this one"
 
 
 def pace_of(message):
-    return {pair.key: pair.value for pair in message.status[1].values}
+    return facts(message, "top: pace")
 
 
 def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(tmp_path):
@@ -74,7 +76,7 @@ def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
         for node in nodes:
             stack.callback(node.kill)
         lines = [
-            next(each for each in iter(node.stderr.readline, "") if NAMED_TOO in each)
+            next(each for each in iter(node.stderr.readline, "") if DUPLICATE in each)
             for node in nodes
         ]
         result = run("top_ctl", "hurry", domain=DOMAIN)
@@ -82,6 +84,6 @@ def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
             node.terminate()
         rest = [node.communicate(timeout=20)[1] for node in nodes]
     assert all("--ros-args -r __node:=NAME or -r __ns:=/NAME" in line for line in lines)
-    assert not any(NAMED_TOO in each for each in rest)
+    assert not any(DUPLICATE in each for each in rest)
     assert (result.returncode, result.stderr) == (0, "")
     assert len(result.stdout.splitlines()) == 1

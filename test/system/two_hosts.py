@@ -1,4 +1,4 @@
-"""Two hosts on one machine: each with a network and a shared memory of its own, and a cable.
+"""Two hosts on one machine, each with its network and shared memory, joined by a cable.
 
 The cable ends in TAP devices and runs through this process, which loses, delays and reorders
 frames as `tc ... netem` would, where the kernel has no netem as well.
@@ -45,7 +45,7 @@ def why_not() -> str:
 
 @dataclass(frozen=True)
 class Weather:
-    """What a cable does to frames, in each direction.
+    """Loss, delay and reordering of frames in each direction.
 
     `delay` and `jitter` are in seconds; a share `loss` is lost, and a share `reorder` overtakes
     the others for not being delayed at all.
@@ -83,7 +83,7 @@ class Host:
         return self._keeper.pid
 
     def words(self, *command: str) -> list[str]:
-        """The words of a command as it is run on this host."""
+        """Return the command line that runs a command on this host."""
         return [
             "nsenter",
             f"--target={self.pid}",

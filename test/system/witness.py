@@ -24,8 +24,10 @@ from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import Header
 
-from symtop_ros.live.feed import DEPTH, LATCHED, TYPES
+from symtop_ros.live.feed import DEPTH, LATCHED
+from symtop_ros.simulation.topics import STATE_TOPICS
 
+TYPES = {name: topic.load_message_class() for name, topic in STATE_TOPICS.items() if name != "tf"}
 SECOND = 1_000_000_000
 PERIOD = SECOND // 200  # of the samples of a top
 KICK = Parameter("precession_rate", value=9.0).to_parameter_msg()
@@ -70,7 +72,7 @@ class Witness:
         self._client = node.create_client(SetParametersAtomically, "/top/kick")
 
     def report(self) -> dict[str, Any]:
-        """What has come so far, by topic."""
+        """Return statistics of the received samples by topic."""
         samples = {name: each.report() for name, each in self._samples.items() if each.stamps}
         return {"samples": samples, "events": self._events}
 

@@ -1,0 +1,21 @@
+#!/bin/sh
+# A Chromium for the tests of the page, unpacked into a folder of its own: nothing is installed.
+# Without one, or apt, those tests are skipped and say so.
+set -u
+folder=$1
+mkdir -p "$folder" && cd "$folder" || exit 0
+if command -v chromium > /dev/null || command -v chromium-browser > /dev/null; then
+  exit 0
+fi
+if ! command -v apt-get > /dev/null || ! command -v dpkg > /dev/null; then
+  echo "no apt here: the page is tested only where Chromium is installed"
+  exit 0
+fi
+missing=$(apt-get install --simulate --no-install-recommends chromium 2> /dev/null |
+  sed -n 's/^Inst \([^ ]*\) .*/\1/p')
+apt-get download chromium $missing > download.log 2>&1 ||
+  echo "no Chromium could be fetched ($folder/download.log): the page is not tested in a browser"
+for package in *.deb; do
+  [ -e "$package" ] && dpkg -x "$package" . && rm "$package"
+done
+exit 0

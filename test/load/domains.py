@@ -1,0 +1,45 @@
+"""ROS domains for tests: each is held by one process at a time, also among several test runs."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import tempfile
+from pathlib import Path
+from typing import IO
+
+# Domain 0 is the user's, `make demo` takes 60 to 89, and beyond 101 the ports of a domain reach
+# those that Linux hands out to other programs.
+DOMAINS = (*range(1, 60), *range(90, 102))
+FOLDER = Path(tempfile.gettempdir(), "symtop_ros_domains")
+_held: dict[int, IO[str]] = {}
+_next = os.getpid()  # a released domain is used again as late as possible
+
+
+def claim_domain() -> int:
+    """Return a domain that no other process holds; it is held until the process ends."""
+    global _next  # noqa: PLW0603
+    FOLDER.mkdir(exist_ok=True)
+    for _ in DOMAINS:
+        _next += 1
+        number = DOMAINS[_next % len(DOMAINS)]
+        if number not in _held and (file := _lock(number)):
+            _held[number] = file
+            return number
+    msg = f"all {len(DOMAINS)} domains are held"
+    raise RuntimeError(msg)
+
+
+def release_domain(number: int) -> None:
+    """Let others claim a domain again."""
+    _held.pop(number).close()
+
+
+def _lock(number: int) -> IO[str] | None:
+    file = (FOLDER / str(number)).open("w")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        file.close()
+        return None
+    return file

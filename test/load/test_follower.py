@@ -1,0 +1,80 @@
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from follower import Follower
+from geometry_msgs.msg import QuaternionStamped
+from processes import domain
+
+RATE = 100.0  # Hz
+
+
+class StandIn:
+    """Publishes what a top would, when it is asked to."""
+
+    def __init__(self, context):
+        self.node = rclpy.create_node("stand_in", context=context)
+        self.orientation = self.node.create_publisher(QuaternionStamped, "/top/orientation", 1000)
+        self.diagnostics = self.node.create_publisher(DiagnosticArray, "/diagnostics", 100)
+
+    def sample(self, *ticks):
+        for tick in ticks:
+            message = QuaternionStamped()
+            message.header.stamp.sec, message.header.stamp.nanosec = 1, tick * 10_000_000
+            self.orientation.publish(message)
+
+    def report(self, name, missed):
+        values = {"name": name, "missed": str(missed), "energy.balance": "-1e-15"}
+        pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
+        self.diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(values=pairs)]))
+
+
+@pytest.fixture
+def top():
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain())
+    yield StandIn(context)
+    rclpy.shutdown(context=context)
+
+
+@pytest.fixture
+def follower(top):
+    follower = Follower(RATE)
+    matched = (top.orientation, top.diagnostics)
+    assert follower.connection.spin_until(
+        lambda: all(each.get_subscription_count() for each in matched), 20.0
+    )
+    top.sample(0)
+    top.report("/top", missed=3)  # before the count begins
+    follower.begin()
+    yield follower
+    follower.close()
+
+
+def wait(follower, done):
+    assert follower.connection.spin_until(done, 20.0)
+
+
+def test_samples_that_the_node_reports_as_missed_are_not_lost(top, follower):
+    top.sample(1, 2, 4, 7)  # 3, 5 and 6 are absent
+    wait(follower, lambda: follower.samples == 4)
+    top.report("/top", missed=5)
+    wait(follower, lambda: follower.missed == 2)
+    assert follower.lost == 1
+    assert follower.balance == 1e-15
+
+
+def test_a_gap_counts_as_lost_only_with_the_diagnostics_that_come_after_it(top, follower):
+    top.sample(1, 4)
+    wait(follower, lambda: follower.samples == 2)
+    assert follower.lost == 0
+    top.report("/top", missed=3)
+    wait(follower, lambda: follower.lost == 2)
+
+
+def test_diagnostics_of_another_top_are_ignored(top, follower):
+    top.sample(1, 4)
+    wait(follower, lambda: follower.samples == 2)
+    top.report("/top2/top", missed=100)
+    top.report("/top", missed=4)
+    wait(follower, lambda: follower.missed == 1)
+    assert follower.lost == 1

@@ -1,0 +1,66 @@
+import json
+from pathlib import Path
+
+import node_cost
+import numpy as np
+import pytest
+from listener import Traffic
+
+from symtop_ros.report.publish import FIGURES, find_section
+
+pytestmark = pytest.mark.untraced
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.long
+def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, tmp_path):
+    monkeypatch.setattr(node_cost, "COST_RATES", (1000.0,))
+    monkeypatch.setattr(node_cost, "RATES", (500.0,))
+    monkeypatch.setattr(node_cost, "KICKS", 10)
+    docs = tmp_path / "docs"
+    docs.mkdir()
+    (tmp_path / "README.md").write_text("<!-- figures: node summary --><!-- end of figures -->")
+    assert node_cost.main(["--seconds", "1", "--runs", "1", "--docs", str(docs)]) == 0
+    facts = json.loads((docs / FIGURES).read_text())["node"]
+    assert facts["count"] == 1
+    cpu = facts["runs"][f"1000 Hz: {node_cost.CPU}"]
+    assert set(cpu) == {"top_node", "top_node, recording", "bare rclpy", "prepared bytes"}
+    assert all(0 < value < 200 for values in cpu.values() for value in values)
+    assert all(0 < value < 1e4 for (value,) in facts["runs"][f"1000 Hz: {node_cost.KICK}"].values())
+    sections = node_cost.format_sections(facts)
+    assert sections["node cost"] in capsys.readouterr().out
+    readme = (tmp_path / "README.md").read_text()
+    assert find_section(readme, "node summary") == sections["node summary"]
+
+
+@pytest.mark.parametrize(
+    ("page", "name"), [("README.md", "node summary"), ("docs/reliability.md", "node cost")]
+)
+def test_no_figure_of_the_node_is_stale(page, name):
+    facts = json.loads((ROOT / "docs" / FIGURES).read_text())["node"]
+    section = node_cost.format_sections(facts)[name]
+    assert find_section((ROOT / page).read_text(), name) == section
+
+
+def test_late_samples_and_jitter_are_counted_from_the_time_of_publishing():
+    sent = np.array([0.0, 0.010, 0.020, 0.0305, 0.0605, 0.070])
+    figures = node_cost.summarize(Traffic(sent, 1.0, messages=30, cpu=0.003), 100.0, 0.07)
+    assert figures[node_cost.LATE_SAMPLES] == pytest.approx(100 / 5)
+    assert figures[node_cost.JITTER] == pytest.approx(20.0, rel=0.05)  # ms; p99 of five gaps
+    assert figures[node_cost.CPU] == pytest.approx(100 * 0.003 / 0.07)
+
+
+def test_lost_samples_are_late():
+    sent = np.arange(100) * 0.01
+    figures = node_cost.summarize(Traffic(sent, 0.75, messages=100, cpu=0.0), 100.0, 1.0)
+    assert figures[node_cost.LATE_SAMPLES] == pytest.approx(25.0)
+
+
+@pytest.mark.parametrize("runs", ["0", "-1", "1.5", "many"])
+def test_a_number_of_runs_that_is_none_is_refused_as_usage(runs, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        node_cost.main([f"--runs={runs}"])
+    assert stopped.value.code == 2
+    message = f"--runs: must be a whole number above 0, got '{runs}'"
+    assert message in capsys.readouterr().err

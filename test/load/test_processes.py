@@ -1,0 +1,56 @@
+import subprocess
+import time
+
+import processes
+import pytest
+import usage
+
+from symtop_ros.client.connection import UnreachableError
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "nan", "inf", "1e7", "soon"])
+def test_seconds_out_of_range_are_refused_as_usage(text, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        processes.run_program("load.py", "", 1.0, lambda _: True, [f"--seconds={text}"])
+    assert stopped.value.code == 2
+    message = f"--seconds: must be more than 0 and at most 1e+06 s, got '{text}'"
+    assert message in capsys.readouterr().err
+
+
+def test_the_status_says_if_the_figures_are_good():
+    assert (
+        processes.run_program("load.py", "", 1.0, lambda options: options.seconds == 1.0, []) == 0
+    )
+    assert processes.run_program("load.py", "", 1.0, lambda _: False, []) == 1
+
+
+def test_a_node_that_does_not_answer_is_one_line(capsys):
+    def run(_):
+        raise UnreachableError("no sample from /top within 30 s")
+
+    assert processes.run_program("load.py", "", 1.0, run, []) == 1
+    assert capsys.readouterr().err == "load.py: no sample from /top within 30 s\n"
+
+
+def test_an_interrupt_is_status_130():
+    def run(_):
+        raise KeyboardInterrupt
+
+    assert processes.run_program("load.py", "", 1.0, run, []) == 130
+
+
+def test_the_resources_of_a_process_are_measured():
+    with subprocess.Popen(["sleep", "30"]) as process:
+        time.sleep(0.1)
+        assert 0 <= usage.cpu_seconds(process.pid) < 0.1
+        assert 0.1 < usage.memory(process.pid) < 100
+        assert usage.descriptors(process.pid) >= 3
+        process.terminate()
+
+
+@pytest.mark.parametrize("name", ["stress.py", "soak.py", "node_cost.py"])
+def test_a_load_program_explains_itself(name):
+    command = processes.script(name, "--help")
+    result = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert f"usage: {name}" in result.stdout
+    assert "--seconds" in result.stdout

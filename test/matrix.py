@@ -1,0 +1,139 @@
+"""Try the node in each supported combination of ROS 2, Python and NumPy; print a table.
+
+python test/matrix.py [--folder .venv/matrix]: each cell gets a separate environment, in which it
+installs the package and runs TESTS. The table is for docs/ros.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).parents[1]
+TESTS = ("test/node/test_services.py", "test/client/test_main.py", "test/log/test_check.py")
+DISTRIBUTIONS = {
+    "jazzy": ("3.10", "3.11", "3.12", "3.13"),
+    "kilted": ("3.10", "3.11", "3.12", "3.13", "3.14"),
+}
+NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
+PACKAGES = ("numpy", "scipy", "ros-rclpy")
+# An active environment, and that of ROS wheels, would reach into the cell.
+FOREIGN = ("PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
+TIMEOUT = 900  # s for an installation, or for the tests
+HEAD = "| ROS 2 | Python | NumPy | SciPy | rclpy | result |\n|---|---|---|---|---|---|"
+
+
+class Cell(NamedTuple):
+    """A combination: name of the distribution, versions of Python and of NumPy."""
+
+    distribution: str
+    python: str
+    numpy: str
+
+
+def cells() -> Iterator[Cell]:
+    """Yield all combinations. NumPy 1 has no wheels from Python 3.13 on."""
+    for distribution, pythons in DISTRIBUTIONS.items():
+        for python in pythons:
+            for numpy in NUMPYS:
+                if numpy != "1" or python in ("3.10", "3.11", "3.12"):
+                    yield Cell(distribution, python, numpy)
+
+
+def find_python(version: str) -> str | None:
+    """Return an interpreter of a version: on PATH, or of pyenv."""
+    installed = sorted(Path.home().glob(f".pyenv/versions/{version}.*/bin/python"))
+    return str(installed[-1]) if installed else shutil.which(f"python{version}")
+
+
+def try_cell(cell: Cell, folder: Path) -> str:
+    """Try a combination and return its row of the table."""
+    python = find_python(cell.python)
+    if python is None:
+        return row(cell, {}, "not tried: no such Python on this machine")
+    environment = folder / "-".join(cell)
+    shutil.rmtree(environment, ignore_errors=True)
+    try:
+        run(python, "-m", "venv", environment)
+        inside = environment / "bin" / "python"
+        wanted = [f".[{cell.distribution}]", NUMPYS[cell.numpy], "pytest", "coverage"]
+        installed = run(inside, "-m", "pip", "install", "--quiet", "--prefer-binary", *wanted)
+        if installed.returncode:
+            return row(cell, {}, f"cannot be installed: {last_line(installed.stderr)}")
+        versions = versions_of(inside)
+        tested = run(inside, "-m", "pytest", "-q", "-m", "not realtime and not long", *TESTS)
+        result = last_line(tested.stdout).strip("= ")
+        return row(cell, versions, re.sub(r", \d+ (deselected|warnings?)", "", result))
+    except subprocess.TimeoutExpired:
+        return row(cell, {}, f"ended after {TIMEOUT} s")
+    finally:
+        shutil.rmtree(environment, ignore_errors=True)
+
+
+def run(*command: object) -> subprocess.CompletedProcess[str]:
+    """Run a command in the root of the repository, without the environment of another Python."""
+    environment = {name: text for name, text in os.environ.items() if name not in FOREIGN}
+    return subprocess.run(
+        [str(word) for word in command],
+        cwd=ROOT,
+        env={**environment, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=TIMEOUT,
+    )
+
+
+def versions_of(python: Path) -> dict[str, str]:
+    """Return the versions of Python and of PACKAGES in an environment."""
+    code = (
+        "import sys, platform; from importlib.metadata import version; "
+        "print(platform.python_version(), *map(version, sys.argv[1:]))"
+    )
+    words = run(python, "-c", code, *PACKAGES).stdout.split()
+    return dict(zip(("python", *PACKAGES), words, strict=False))
+
+
+def last_line(text: str) -> str:
+    """Return the last line of a text, without times, or "nothing"."""
+    lines = text.strip().splitlines() or ["nothing"]
+    return re.sub(r" in \d.*", "", lines[-1])[:100]
+
+
+def row(cell: Cell, versions: dict[str, str], result: str) -> str:
+    """Return a row of the table."""
+    known = [versions.get(name, "") for name in PACKAGES[1:]]
+    shown = versions.get("python", cell.python), versions.get("numpy", cell.numpy)
+    return f"| {' | '.join([cell.distribution.capitalize(), *shown, *known, result])} |"
+
+
+def is_good(line: str) -> bool:
+    """Return True for the row of a cell that passed, or that could not be tried here."""
+    result = line.split("|")[-2]
+    return "not tried" in result or ("passed" in result and not re.search("failed|error", result))
+
+
+def main(args: list[str] | None = None) -> int:
+    """Try all cells; return 1 if one of those that were tried did not pass."""
+    parser = argparse.ArgumentParser(prog="matrix.py", description=str(__doc__))
+    parser.add_argument("--folder", type=Path, default=ROOT / ".venv" / "matrix")
+    options = parser.parse_args(args)
+    print(f"Tried on {datetime.now(timezone.utc):%Y-%m-%d}:\n\n{HEAD}", flush=True)
+    good = True
+    for cell in cells():
+        found = try_cell(cell, options.folder.absolute())
+        print(found, flush=True)
+        good = good and is_good(found)
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
