@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.physics import State, Top, motion, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 
 TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 SLOW = regular_precession_rates(TOP, theta=0.5, psi_dot=200.0)[0]
@@ -16,7 +16,7 @@ SIZE, SCALE = 220, 125  # points; points per unit of the sphere, seen from above
 
 
 def polyline(points: NDArray[np.float64], style: str) -> str:
-    """Draw a curve (n, 3) on the sphere as it is seen from above."""
+    """Draw a curve (n, 3) on the sphere, seen from above."""
     x, y = SIZE / 2 + SCALE * points[:, 0], SIZE / 2 - SCALE * points[:, 1]
     path = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))
     return f'<polyline points="{path}" fill="none" {style}/>'
@@ -30,7 +30,7 @@ def circle(theta: float) -> NDArray[np.float64]:
 
 def panel(name: str, phi_dot: float) -> str:
     """One start: turning circles, and the trace of the axis."""
-    path = motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot))
+    path = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot))
     trace = path.at(np.linspace(0.0, 0.95, 1500)).to_world(np.array([0.0, 0.0, 1.0]))
     circles = "".join(
         polyline(circle(theta), 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
@@ -42,7 +42,7 @@ def panel(name: str, phi_dot: float) -> str:
 
 
 def main() -> None:
-    """Write the picture beside this file."""
+    """Write the picture next to this file."""
     panels = "".join(
         f'<g transform="translate({i * SIZE},0)">{panel(name, rate)}</g>'
         for i, (name, rate) in enumerate(STARTS.items())

@@ -1,0 +1,68 @@
+"""Settings of the HTML site, which `make docs` builds from the root of the repository."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+
+from symtop_ros import __version__
+
+ROOT = Path(__file__).parents[2]
+FOLDER_LINK = re.compile(r"\[([^\]]+)\]\(([^)#:]+)\)")
+
+project = "symtop_ros"
+author = "The symtop_ros authors"
+copyright = "2026 The symtop_ros authors"  # noqa: A001
+version = release = __version__
+
+extensions = [
+    "myst_parser",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",  # the pages need no network
+]
+root_doc = "docs/site/index"
+include_patterns = ["*.md", "docs/*.md", "docs/site/*.md", "symtop_ros/testset/*.md"]
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 3
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the docstrings have the types
+numpydoc_show_class_members = False
+html_theme = "furo"
+html_title = f"symtop_ros {release}"
+
+
+def _unlink_folders(_: Sphinx, page: str, source: list[str]) -> None:
+    """Show links to folders and dotfiles of the repository as text: they have no page."""
+    here = (ROOT / page).parent
+
+    def replace(link: re.Match[str]) -> str:
+        return f"`{link[2]}`" if (here / link[2]).is_dir() else link[0]
+
+    source[0] = FOLDER_LINK.sub(replace, source[0])
+
+
+def _escape_bars(*arguments: Any) -> None:
+    """Keep |x| an absolute value: reStructuredText would look for a substitution named x."""
+    lines: list[str] = arguments[-1]
+    lines[:] = [
+        line if line.lstrip().startswith((">>>", "...")) else line.replace("|", r"\|")
+        for line in lines
+    ]
+
+
+def _skip_aliases(*arguments: Any) -> bool | None:
+    """Leave out the fields of named tuples, which the section Attributes describes."""
+    member = arguments[3]
+    return True if (member.__doc__ or "").startswith("Alias for field") else None
+
+
+def setup(app: Sphinx) -> None:
+    """Connect what this file adds to Sphinx."""
+    app.connect("source-read", _unlink_folders)
+    app.connect("autodoc-process-docstring", _escape_bars)
+    app.connect("autodoc-skip-member", _skip_aliases)
