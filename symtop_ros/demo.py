@@ -1,7 +1,8 @@
-"""The demonstration behind `make demo`: a top on cusps, a hurried precession, and its replay."""
+"""The demonstration behind `make demo`: a top on cusps, hurried by its service, and its replay."""
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -11,51 +12,59 @@ import rclpy
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
-from symtop_ros.node.scene import scene_folder
+from symtop_ros.distribution import use_profile
+from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
-from symtop_ros.playback.mcap_file import LogError, McapFile
 from symtop_ros.playback.replay import replay
-from symtop_ros.playback.top_log import TopLog
-from symtop_ros.report.processes import NODE, domain
 
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"
-WATCHED = 1.5  # s before and after the kick: nine nutations of this scene
+NODE = "import sys; from symtop_ros.programs import top_node; sys.exit(top_node())"
+SAMPLES = 300  # before and after the kick: 1.5 s, nine nutations of this scene
 
 
 def main() -> int:
     """Run the demonstration; return the exit status."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    # which alone leaves ports open to hosts that name this one as a peer
-    os.environ.setdefault("FASTDDS_DEFAULT_PROFILES_FILE", str(scene_folder() / PROFILE))
-    os.environ["ROS_DOMAIN_ID"] = str(domain())
-    print(f"starting top_node on the scene {SCENE!r} ...", flush=True)
+    # The discovery range alone leaves ports open to hosts that name this one as a peer.
+    use_profile(PROFILE)
+    # A separate domain, so that the demonstration does not reach a top that is already running.
+    os.environ["ROS_DOMAIN_ID"] = str(60 + os.getpid() % 30)
+    print(f"starting top_node with the scene {SCENE!r} ...", flush=True)
     options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "--log-level", "warn"]
     node = subprocess.Popen([sys.executable, "-c", NODE, "--ros-args", *options])
+    rclpy.init()
     try:
-        with rclpy.init():
-            log = _show(Connection(rclpy.create_node("demo"), timeout=20.0))
+        log = _show(Connection(rclpy.create_node("demo"), timeout=20.0))
     except UnreachableError as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
     finally:
+        rclpy.try_shutdown()
         node.terminate()
         node.wait(timeout=10)
     return _replay(log)
 
 
 def _show(top: Connection) -> Path:
-    """Hurry the top, and return the log of it."""
+    """Hurry the top at a lowest point, and return the log of the run.
+
+    The motion is paused and stepped, so that the kick comes at the same instant of the motion, and
+    the same samples follow, in each run.
+    """
     thetas: list[float] = []
+    top.subscribe(JointState, "euler_angles", lambda message: thetas.append(message.position[1]))
+    top.switch("pause", True)
     top.trigger("reset")
-    top.follow(JointState, "euler_angles", lambda message: thetas.append(message.position[1]))
-    top.spin_until(lambda: bool(thetas), 5.0)
-    print(f"let go at rest:    {_range(top, thetas)}")
-    print("asked, as it turns at the bottom: ~/hurry_precession (phi' times 1.4)")
-    top.spin_until(lambda: thetas[-1] > max(thetas) - 1e-3, 1.0)
-    _, verdict = top.trigger("hurry_precession")
-    print(f"the verdict said:  {verdict}")
-    print(f"the top then went: {_range(top, thetas)}")
+    print(f"let go at rest:       {_watch(top, thetas)}")
+    top.trigger("reset")
+    state = json.loads(top.trigger("get_state")[1])
+    top.set("step", {"duration": state["nutation_period"] / 2})
+    print("at its lowest point:  ~/hurry_precession multiplies phi' by 1.4")
+    _, answer = top.trigger("hurry_precession")
+    print(f"the answer:           {answer}")
+    print(f"the motion after it:  {_watch(top, thetas)}")
     _, answer = top.switch("record", False)
     return Path(answer.removeprefix("recorded to "))
 
@@ -67,8 +76,8 @@ def _replay(log: Path) -> int:
     except LogError as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
-    print(f"the log:           {log}")
-    print(f"the replay:        {recording}")
+    print(f"the log:              {log}")
+    print(f"the replay:           {recording}")
     if viewer.has_screen():
         print("the viewer is open; closing it ends the demonstration", flush=True)
         viewer.show(recording, web=False)
@@ -76,11 +85,16 @@ def _replay(log: Path) -> int:
     return 0
 
 
-def _range(top: Connection, thetas: list[float]) -> str:
-    """Watch the tilt for a while."""
+def _watch(top: Connection, thetas: list[float]) -> str:
+    """Resume the paused motion, pause it after some samples and return the range of the tilt."""
+    resting = json.loads(top.trigger("get_state")[1])["euler_angles"]["theta"]
+    top.spin_until(lambda: thetas[-1:] == [resting], 5.0)
     thetas.clear()
-    top.spin_until(lambda: False, WATCHED)
-    return f"theta {min(thetas):.3f} .. {max(thetas):.3f} rad in {len(thetas)} samples"
+    top.switch("pause", False)
+    top.spin_until(lambda: len(thetas) - thetas.count(resting) >= SAMPLES, 10.0)
+    top.switch("pause", True)
+    moving = [resting, *(theta for theta in thetas if theta != resting)][: SAMPLES + 1]
+    return f"theta {min(moving):.3f} to {max(moving):.3f} rad in {SAMPLES} samples"
 
 
 if __name__ == "__main__":

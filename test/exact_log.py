@@ -1,23 +1,23 @@
-"""A log computed again from its events."""
+"""Comparison of a log with the run computed again from its events."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from symtop_ros.playback.check import check
-from symtop_ros.playback.mcap_file import McapFile
-from symtop_ros.playback.top_log import TopLog
+from symtop_ros.log.check import check_log
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
 
 STATES = ("orientation", "angular_velocity", "angular_momentum", "torque", "euler_angles", "tf")
 
 
 def assert_exact(path: Path) -> int:
-    """Every sample is the one that its event says, to the last bit; return how many are complete.
+    """Assert that each sample agrees with its event to the last bit; return the number of samples.
 
-    All are in a log that was ended; where it was cut, the last one may not be.
+    The last sample of a log that was not finished may be incomplete.
     """
     log = TopLog(McapFile(path))
-    deviations = check(log)
+    deviations = check_log(log)
     assert set(deviations) == set(STATES)
     for each in deviations.values():
         assert (each.largest, each.unchecked, each.unreached) == (0.0, 0, 0)

@@ -19,7 +19,7 @@ import atheris
 with atheris.instrument_imports(include=["symtop_ros", "mcap"]):
     from log_files import Run
 
-    from symtop_ros.playback import mcap_file
+    from symtop_ros.log import reader
     from symtop_ros.playback.main import main
 
 SMALL = Run(seconds=0.1, rate=50.0)
@@ -30,13 +30,13 @@ def chunked(data):
     """A log whose only chunk holds the data, so that no CRC is in the way."""
     head = CHUNK.pack(0, 1, len(data), zlib.crc32(data)) + struct.pack("<I", 0)
     body = head + struct.pack("<Q", len(data)) + data
-    return mcap_file.MAGIC + mcap_file.START.pack(6, len(body)) + body
+    return reader.MAGIC + reader.RECORD_START.pack(6, len(body)) + body
 
 
 def read(data):
     with tempfile.TemporaryDirectory(dir="/dev/shm") as folder:
         path = Path(folder, "log.mcap")
-        path.write_bytes(chunked(data[1:]) if data[:1] == b"c" else mcap_file.MAGIC + data[1:])
+        path.write_bytes(chunked(data[1:]) if data[:1] == b"c" else reader.MAGIC + data[1:])
         for way in (["--check"], ["--repair", f"{folder}/whole.mcap"]):
             told = io.StringIO()
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(told):
@@ -48,15 +48,15 @@ def read(data):
 def seeds(folder):
     """Begin with a log, whole and as the records of a chunk."""
     with tempfile.TemporaryDirectory() as logs:
-        file = mcap_file.McapFile(SMALL.write(Path(logs)))
+        file = reader.McapFile(SMALL.write(Path(logs)))
         whole = file.path.read_bytes()
-        (folder / "whole").write_bytes(b"w" + whole[len(mcap_file.MAGIC) :])
+        (folder / "whole").write_bytes(b"w" + whole[len(reader.MAGIC) :])
         with file.path.open("rb") as stream:
-            stream.seek(len(mcap_file.MAGIC))
+            stream.seek(len(reader.MAGIC))
             chunks = [record.data for record in file._records(stream) if record.opcode == 6]
         for number, data in enumerate(chunks):
-            chunk = mcap_file.Chunk.read(mcap_file._stream(data))
-            (folder / f"chunk{number}").write_bytes(b"c" + mcap_file._unpacked(chunk))
+            chunk = reader.Chunk.read(reader._stream(data))
+            (folder / f"chunk{number}").write_bytes(b"c" + reader._decompress(chunk))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Which addresses processes listen on, as the kernel tells it."""
+"""Addresses that processes listen on, from /proc."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def _rows(name: str) -> Iterator[tuple[str, int, str, str]]:
 
 
 def _readable(address: str) -> str:
-    """An address as it is written; the kernel shows words in its own order of bytes."""
+    """The usual notation of an address; the kernel writes words in native byte order."""
     words = [int(address[i : i + 8], 16) for i in range(0, len(address), 8)]
     family = socket.AF_INET if len(words) == 1 else socket.AF_INET6
     return socket.inet_ntop(family, struct.pack(f"={len(words)}I", *words))

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rerun_cli
+from endings import bound
 from PIL import Image
 from rerun.experimental import ViewerClient
 
@@ -54,7 +55,7 @@ def running_viewer(*files: Path, port: int | None = None) -> Iterator[tuple[View
     program = Path(rerun_cli.__file__).parent / "rerun"
     options = ["--bind", viewer.HOST, "--port", str(port), "--headless", "--window-size", SIZE]
     process = subprocess.Popen(
-        [program, *options, *map(str, files)],
+        bound([str(program), *options, *map(str, files)]),
         env=_environment(),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -89,7 +90,7 @@ def views(client: ViewerClient, count: int) -> dict[str, Any]:
 
 
 def view_named(client: ViewerClient, name: str) -> Any:
-    """A view, as soon as it is there: at first the viewer shows a layout of its own."""
+    """Wait for a view by its name: the viewer starts with a default layout."""
     deadline = time.monotonic() + TIMEOUT
     while True:
         found = {each.name: each for each in client.get_state().views}
@@ -99,8 +100,20 @@ def view_named(client: ViewerClient, name: str) -> Any:
         time.sleep(0.1)
 
 
+def pause_at(client: ViewerClient, timeline: str, **time_of: Any) -> None:
+    """Pause at a time, as soon as the viewer has read so much that the timeline exists."""
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        try:
+            client.set_time(timeline, play_state="paused", **time_of)
+            return
+        except ConnectionError:
+            assert time.monotonic() < deadline, f"no timeline {timeline}"
+            time.sleep(0.1)
+
+
 def picture(client: ViewerClient, view: Any = None) -> np.ndarray:
-    """What is drawn, (height, width, 3), when it does not change any more."""
+    """Return the picture (height, width, 3) when it no longer changes."""
     deadline = time.monotonic() + TIMEOUT
     before = None
     while (shot := _shot(client, view)) is None or shot != before:

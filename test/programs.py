@@ -1,4 +1,4 @@
-"""The installed programs as processes, in a domain of their own."""
+"""The installed programs as processes in a given ROS domain."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from endings import bound
+
 RESOURCE = Path(__file__).parents[1] / "resource"
 
 
 def command(name: str, *arguments: str) -> list[str]:
     """Command line of a program, with the Python of the tests."""
-    return [sys.executable, str(RESOURCE / name), *arguments]
+    return bound([sys.executable, str(RESOURCE / name), *arguments])
 
 
 def environment(domain: int) -> dict[str, str]:

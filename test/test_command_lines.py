@@ -1,22 +1,29 @@
-"""Command lines that are none: status 1 and a line, or status 2 and the usage; no traceback."""
+"""Invalid command lines: status 1 and a line, or status 2 and the usage; no traceback."""
 
 import pytest
+from domains import claim_domain
 from odd_values import CONTROL, assert_one_sentence
 from programs import run as run_program
 
 from symtop_ros.client import main as client
+from symtop_ros.judge import main as judge
 from symtop_ros.live import main as live
+from symtop_ros.models import main as models
+from symtop_ros.panel import main as panel
 from symtop_ros.playback import main as playback
 from symtop_ros.report import main as report
 
-DOMAIN = 95
+DOMAIN = claim_domain()
 LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 MAINS = {
     "top_ctl": client.main,
     "top_live": live.main,
+    "top_panel": panel.main,
     "top_replay": playback.main,
     "top_report": report.main,
+    "top_model": models.main,
+    "top_judge": judge.main,
 }
 FAILED = [
     ("top_ctl", "--ros-args", "-p", "bad"),
@@ -26,15 +33,36 @@ FAILED = [
     ("top_ctl", "--node", BYTES, "hurry"),
     ("top_ctl", "--node", "", "hurry"),
     ("top_ctl", "kick", f"{BYTES}=1"),
-    ("top_ctl", "--node", "/nobody", "--timeout", "1e-9", "kick", f"{CONTROL}={CONTROL}"),
-    ("top_ctl", "--node", "/nobody", "--timeout", "1e-9", "kick", "angular_impulse=nan,inf,1e999"),
+    ("top_ctl", "--node", "/missing", "--timeout", "1e-9", "kick", f"{CONTROL}={CONTROL}"),
+    ("top_ctl", "--node", "/missing", "--timeout", "1e-9", "kick", "angular_impulse=nan,inf,1e999"),
     ("top_live", "--ros-args", "-p", "bad"),
     ("top_live", "--ros-args", "--remap"),
     ("top_live", "--node", BYTES),
+    ("top_panel", "--host", "192.0.2.1", "--port", "0"),  # TEST-NET: of no machine
+    ("top_panel", "--host", CONTROL, "--port", "0"),
+    ("top_panel", "--node", "/top", "--ros-args", "-p", "bad"),
+    ("top_panel", "--node", BYTES),
     ("top_replay", CONTROL),
     ("top_replay", LONG, "--check"),
     ("top_replay", "/dev/null", "--repair", "/dev/null/x"),
     ("top_replay", BYTES),
+    ("top_replay", "a", "b"),
+    ("top_replay", "a", "b", "--repair", "c.mcap"),
+    ("top_judge", CONTROL, "--topic", CONTROL),
+    ("top_judge", LONG, "--topic", LONG),
+    ("top_judge", BYTES, "--topic", BYTES),
+    ("top_judge", "/dev/null", "--estimates", "/dev/null/x.csv"),
+    ("top_judge", "--testset", CONTROL, "x.csv"),
+    ("top_judge", "--testset", "cusps", LONG),
+    ("top_judge", "--testset", "cusps", BYTES),
+    ("top_judge", "--testset", "cusps", "-o", "/dev/null/x"),
+    ("top_judge", "--live", "--topic", "/x", "--ros-args", "-p", "bad"),
+    ("top_model", "--format", "urdf", "--scene", CONTROL),
+    ("top_model", "--format", "sdf", "--scene", LONG),
+    ("top_model", "--format", "mjcf", "--scene", BYTES),
+    ("top_model", "--format", "urdf", "--gravity", "1e999"),
+    ("top_model", "--format", "urdf", "-o", LONG),
+    ("top_model", "--format", "urdf", "-o", "a\0b"),
 ]
 MISUSED = [
     ("top_ctl", "kick", CONTROL),
@@ -50,12 +78,22 @@ UNREADABLE = [
     ("top_live", "--port", "65536"),
     ("top_live", "--port", "-1"),
     ("top_live", "--port", "9" * 5000),
+    ("top_panel", "--port", "65536"),
+    ("top_panel", "--port", CONTROL),
+    ("top_panel", "--scene", CONTROL),
+    ("top_panel", "--no-such-option"),
+    ("top_panel", "--node", "/top", "--no-such-option"),
     ("top_replay",),
-    ("top_replay", "a", "b"),
-    ("top_report", "--node", "--seconds", "inf"),
-    ("top_report", "--node", "--seconds", "nan"),
+    ("top_replay", "a", "--save"),
     ("top_report", "--map", "--points", "1000000"),
     ("top_report", "--points", CONTROL),
+    ("top_model",),
+    ("top_judge",),
+    ("top_judge", "a", "--topic", "b", "--max-error", "nan"),
+    ("top_judge", "a", "--topic", "b", "--remove", CONTROL),
+    ("top_judge", "--live"),
+    ("top_judge", "a", "--topic", "b", "--ros-args"),
+    ("top_model", "--format", CONTROL),
 ]
 
 

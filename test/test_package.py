@@ -1,4 +1,4 @@
-"""What colcon and pip install is what `ros2 run` looks for."""
+"""colcon and pip install the files that `ros2 run` looks for."""
 
 import os
 import shutil
@@ -10,8 +10,18 @@ import pytest
 
 from symtop_ros import __version__
 
+pytestmark = pytest.mark.untraced
 ROOT = Path(__file__).parents[1]
-PARTS = ("symtop_ros", "config", "resource", "setup.py", "setup.cfg", "package.xml", "README.md")
+PARTS = (
+    "symtop_ros",
+    "config",
+    "launch",
+    "resource",
+    "setup.py",
+    "setup.cfg",
+    "package.xml",
+    "README.md",
+)
 CONFIG = sorted(path.name for path in (ROOT / "config").iterdir())
 
 
@@ -30,9 +40,22 @@ def assert_tree(prefix, programs):
     """Package marker, configuration, package.xml and programs are where ROS 2 looks for them."""
     assert (prefix / "share/ament_index/resource_index/packages/symtop_ros").is_file()
     assert (prefix / "share/symtop_ros/package.xml").is_file()
+    assert (prefix / "share/symtop_ros/launch/top.launch.py").is_file()
     installed = (prefix / "share/symtop_ros/config").iterdir()
     assert sorted(path.name for path in installed) == CONFIG
-    for name in ("top_node", "top_ctl", "top_replay", "top_live", "top_report"):
+    (package,) = prefix.glob("lib/python*/site-packages/symtop_ros")
+    for name in ("py.typed", "log/definitions.json", "panel/page.js", "report/reference.json"):
+        assert (package / name).is_file()
+    for name in (
+        "top_node",
+        "top_ctl",
+        "top_replay",
+        "top_live",
+        "top_panel",
+        "top_report",
+        "top_model",
+        "top_judge",
+    ):
         assert os.access(programs / name, os.X_OK)
 
 
@@ -59,7 +82,7 @@ def test_colcon_build_installs_what_ros2_run_looks_for(sources):
 
 
 def test_pip_installs_the_same_tree(sources, tmp_path):
-    # --ignore-installed: what is installed here already stays as it is
+    # --ignore-installed leaves the installed version in place
     options = ["--no-deps", "--ignore-installed", "--quiet", "--prefix", str(tmp_path)]
     subprocess.run(
         [sys.executable, "-m", "pip", "install", *options, str(sources)], check=True, timeout=300

@@ -1,4 +1,5 @@
 import builtins
+import os
 import signal
 import sys
 
@@ -8,8 +9,10 @@ from symtop_ros import programs
 
 
 @pytest.fixture(autouse=True)
-def _signals_as_before():
+def _signals_and_environment_as_before(monkeypatch):
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    monkeypatch.setenv(programs.TRANSPORTS, "")
+    monkeypatch.setattr(programs, "_leave", lambda status: status)
     yield
     for number, handler in before.items():
         signal.signal(number, handler)
@@ -25,6 +28,7 @@ ROS = "source a ROS 2, or pip install 'symtop_ros[ros]'"
         (programs.top_ctl, "rclpy", ROS),
         (programs.top_live, "rclpy", ROS),
         (programs.top_live, "rerun", "pip install 'symtop_ros[playback]'"),
+        (programs.top_panel, "viser", "pip install 'symtop_ros[panel]'"),
         (programs.top_replay, "mcap", "pip install mcap"),
     ],
 )
@@ -42,3 +46,22 @@ def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, c
     monkeypatch.setattr(builtins, "__import__", without)
     assert program() == 1
     assert f"{missing} is missing: {remedy}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("chosen", "transports"),
+    [
+        ({}, "UDPv4"),
+        ({programs.TRANSPORTS: "DEFAULT"}, "DEFAULT"),
+        ({"FASTDDS_DEFAULT_PROFILES_FILE": "mine.xml"}, ""),
+        ({"FASTRTPS_DEFAULT_PROFILES_FILE": "mine.xml"}, ""),
+    ],
+)
+def test_top_ctl_uses_udp_unless_the_user_has_chosen(chosen, transports, monkeypatch):
+    monkeypatch.setattr(programs, "_run", lambda *_: 0)
+    for name in ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in chosen.items():
+        monkeypatch.setenv(name, value)
+    assert programs.top_ctl() == 0
+    assert os.environ[programs.TRANSPORTS] == transports

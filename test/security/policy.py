@@ -1,4 +1,4 @@
-"""What nodes use of ROS: as the policy for SROS2 allows it, and as the graph shows it."""
+"""Topics and services of nodes: allowed by the SROS2 policy, and used in the graph."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ class Uses:
 
 
 def allowed() -> dict[str, Uses]:
-    """What the policy allows, by enclave."""
+    """Topics and services that the policy allows, by enclave."""
     enclaves = ElementTree.parse(POLICY).getroot().iterfind("enclaves/enclave")
     return {each.attrib["path"]: _allowed(each) for each in enclaves}
 
 
 def used(node: Node, name: str, as_name: str | None = None) -> Uses:
-    """What the graph, seen from a node, shows of the node of another name.
+    """Topics and services that the graph shows for the node `name`.
 
-    Names in the namespace of that node can be given another one.
+    Names in its private namespace are returned for the node name `as_name`.
     """
     looks = (
         node.get_publisher_names_and_types_by_node,

@@ -4,16 +4,20 @@ import contextlib
 import socket
 import subprocess
 
+import pytest
+from domains import claim_domain
 from node.listener import Listener
 from node.running_top import RunningTop
-from programs import command, environment
+from panel.pages import open_pages
+from programs import command, environment, running_node
 from rclpy.node import NodeNameNonExistentError
 from security.policy import Uses, allowed, used
 
-from symtop_ros.node.outputs import TFMessage
 from symtop_ros.playback import viewer
+from symtop_ros.simulation.topics import STATE_TOPICS
 
-DOMAIN = 95
+pytestmark = pytest.mark.untraced
+DOMAIN = claim_domain()
 COMMANDS = {
     "start": ("start", "theta=0.5"),
     "kick": ("kick", "precession_rate=9"),
@@ -45,7 +49,7 @@ def processes(*commands):
 
 
 def watched(names, as_name, until):
-    """What nodes use together, as soon as it is all that is expected, or after a time-out."""
+    """Return the union for all nodes when it equals `until`, or after a time-out."""
     seen = Uses()
 
     def all_seen():
@@ -61,9 +65,15 @@ def watched(names, as_name, until):
 
 
 def test_the_policy_allows_top_node_what_it_uses():
-    seen = Uses(publish=frozenset({"/tf"}) if TFMessage is None else frozenset())
-    for parameters in ({"publish_clock": True}, {"use_sim_time": True}):
-        run = RunningTop(**parameters)
+    seen = Uses(
+        publish=frozenset({"/tf", "/tf_static"})
+        if STATE_TOPICS["tf"].load_message_class() is None
+        else frozenset()
+    )
+    sensors = {"imu__enabled": True, "odometry__enabled": True}
+    shown = {"publish_clock": True, "publish_markers": True, **sensors}
+    for parameters in (shown, {"use_sim_time": True}):
+        run = RunningTop(realtime=True, **parameters)
         try:
             seen |= used(run.user, "top")
         finally:
@@ -89,8 +99,24 @@ def test_the_policy_allows_top_live_what_it_uses():
             assert watched(["top_live"], "top_live", expected) == expected
 
 
-def test_only_top_ctl_may_ask_the_top_for_anything():
+def test_the_policy_allows_top_judge_what_it_uses():
+    expected = allowed()["/top/top_judge"]
+    words = command("top_judge", "--live", "--topic", "/top/imu")
+    with running_node(DOMAIN, "imu.enabled:=true"), processes(words):
+        assert watched(["top_judge"], "top_judge", expected) == expected
+
+
+def test_the_policy_allows_top_panel_what_it_uses():
+    """It takes samples while a page is open only."""
+    expected, port = allowed()["/top/top_panel"], viewer.free_port()
+    words = command("top_panel", "--node", "/top", "--port", str(port), "--no-browser")
+    with processes(words), open_pages(f"http://{viewer.HOST}:{port}", least=1):
+        assert watched(["top_panel"], "top_panel", expected) == expected
+
+
+def test_only_two_programs_may_ask_the_top_for_anything():
     policy = allowed()
-    assert {path for path, uses in policy.items() if uses.request} == {"/top/top_ctl"}
+    asking = {path for path, uses in policy.items() if uses.request}
+    assert asking == {"/top/top_ctl", "/top/top_panel"}
     torque = "/top/applied_torque"
-    assert not any(torque in uses.publish for uses in policy.values())
+    assert {path for path, uses in policy.items() if torque in uses.publish} == {"/top/top_panel"}

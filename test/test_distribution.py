@@ -1,0 +1,44 @@
+import pytest
+
+from symtop_ros import distribution
+from symtop_ros.distribution import VARIABLES, distribution_name, use_profile
+
+
+@pytest.fixture(autouse=True)
+def _own_environment(monkeypatch):
+    for name in (*VARIABLES, "ROS_DISTRO"):
+        monkeypatch.setenv(name, "")
+
+
+@pytest.mark.parametrize(
+    ("version", "name", "variable"),
+    [
+        ("3.3.16", "humble", "FASTRTPS_DEFAULT_PROFILES_FILE"),
+        ("7.1.6", "jazzy", "FASTRTPS_DEFAULT_PROFILES_FILE"),
+        ("9.1.2", "kilted", "FASTDDS_DEFAULT_PROFILES_FILE"),
+        ("99.0.0", "", "FASTDDS_DEFAULT_PROFILES_FILE"),
+    ],
+)
+def test_the_version_of_rclpy_tells_the_distribution(version, name, variable, monkeypatch):
+    monkeypatch.setattr(distribution.metadata, "version", lambda _: version)
+    assert distribution_name() == name
+    use_profile("fastdds_discovery.xml")
+    chosen = {each: distribution.os.environ[each] for each in VARIABLES}
+    assert chosen.pop(variable).endswith("config/fastdds_discovery.xml")
+    assert set(chosen.values()) == {""}
+
+
+def test_the_installed_distribution_is_known():
+    assert distribution_name() in distribution.NAMES.values()
+
+
+def test_a_sourced_ros_names_itself(monkeypatch):
+    monkeypatch.setenv("ROS_DISTRO", "rolling")
+    assert distribution_name() == "rolling"
+
+
+@pytest.mark.parametrize("variable", VARIABLES)
+def test_a_profile_of_the_user_is_kept(variable, monkeypatch):
+    monkeypatch.setenv(variable, "mine.xml")
+    use_profile("fastdds_discovery.xml")
+    assert sorted(distribution.os.environ[each] for each in VARIABLES) == ["", "mine.xml"]

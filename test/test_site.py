@@ -1,0 +1,59 @@
+"""The HTML site builds without a warning, is complete, and needs no network."""
+
+import inspect
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from symtop_ros import physics
+
+pytestmark = pytest.mark.untraced
+ROOT = Path(__file__).parents[1]
+LOADED = re.compile(r'<(?:script|img|link)[^>]*(?:src|href)="([^"]+)"')
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", "docs/site"]
+    built = subprocess.run(
+        [*command, "-d", folder / "doctrees", "-b", "html", ".", folder / "html"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert (built.returncode, built.stderr) == (0, "")
+    return folder / "html"
+
+
+def test_each_document_has_a_page(site):
+    for document in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]:
+        assert (site / document.relative_to(ROOT)).with_suffix(".html").is_file()
+
+
+def test_pages_load_nothing_from_a_network(site):
+    for page in site.rglob("*.html"):
+        for address in LOADED.findall(page.read_text()):
+            assert "//" not in address, (page, address)
+            assert (page.parent / address.partition("?")[0].partition("#")[0]).exists(), address
+
+
+def test_formulas_are_left_to_mathjax(site):
+    page = (site / "docs" / "derivation.html").read_text()
+    assert "mathjax" in page
+    assert page.count('class="math notranslate') > 100
+    assert "$$" not in page
+
+
+def test_each_public_name_of_the_library_is_described(site):
+    page = (site / "docs" / "site" / "api.html").read_text()
+    described = (inspect.isclass, inspect.isroutine)  # constants and names of types have no text
+    names = [each for each in physics.__all__ if any(f(getattr(physics, each)) for f in described)]
+    assert len(names) > 20
+    for name in names:
+        assert f'id="symtop_ros.physics.{name}"' in page
