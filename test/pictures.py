@@ -24,7 +24,7 @@ from rerun.experimental import ViewerClient
 from symtop_ros.playback import viewer
 
 DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one
-TIMEOUT = 30.0
+TIMEOUT = 60.0
 SIZE = "1600x900"
 
 

@@ -12,6 +12,8 @@ from pathlib import Path
 from endings import bound
 
 RESOURCE = Path(__file__).parents[1] / "resource"
+# Options of top_ctl: a node that is starting on a loaded machine may take longer than 5 s.
+PATIENT = "--timeout", "60"
 
 
 def command(name: str, *arguments: str) -> list[str]:
@@ -48,4 +50,4 @@ def running_node(
         yield node
     finally:
         node.terminate()
-        node.wait(timeout=20)
+        node.wait(timeout=60)

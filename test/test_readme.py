@@ -17,7 +17,7 @@ from domains import claim_domain
 from geometry_msgs.msg import WrenchStamped
 from log_files import Run
 from node.listener import Listener
-from programs import command, run, running_node
+from programs import PATIENT, command, run, running_node
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParametersAtomically
 from std_srvs.srv import SetBool, Trigger
@@ -56,7 +56,7 @@ def node():
 @pytest.mark.usefixtures("node")
 @pytest.mark.parametrize("words", COMMANDS)
 def test_a_command_of_the_readme_is_granted(words):
-    result = run("top_ctl", *words.split(), domain=DOMAIN)
+    result = run("top_ctl", *PATIENT, *words.split(), domain=DOMAIN)
     assert result.returncode == 0, result.stderr
     if words == "hurry":
         told = " ".join(result.stdout.split())
@@ -133,10 +133,10 @@ def test_a_replay_of_the_readme_works(words, tmp_path):
 
 def page(address):
     """Content of a page, when somebody serves it."""
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 60
     while True:
         try:
-            with urllib.request.urlopen(address, timeout=20) as answer:
+            with urllib.request.urlopen(address, timeout=60) as answer:
                 return answer.read().decode()
         except urllib.error.URLError:
             assert time.monotonic() < deadline

@@ -9,10 +9,10 @@ import time
 
 import pytest
 from domains import claim_domain
-from programs import command, environment, run, running_node
+from programs import PATIENT, command, environment, run, running_node
 
 DOMAIN = claim_domain()
-TIMEOUT = 20.0
+TIMEOUT = 60.0
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -27,7 +27,7 @@ class Terminal:
     def __init__(self, *words):
         self._descriptor, inner = pty.openpty()
         self.process = subprocess.Popen(
-            command("top_ctl", *words),
+            command("top_ctl", *PATIENT, *words),
             stdin=inner,
             stdout=inner,
             stderr=inner,

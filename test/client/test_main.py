@@ -2,13 +2,14 @@
 
 import json
 import os
+import signal
 import subprocess
 import time
 
 import pytest
 from domains import claim_domain
 from node.listener import Listener
-from programs import command, environment, run, running_node
+from programs import PATIENT, command, environment, run, running_node
 
 from symtop_ros.programs import BROKEN_PIPE
 
@@ -16,7 +17,7 @@ DOMAIN = claim_domain()
 
 
 def ctl(*arguments):
-    return run("top_ctl", *arguments, domain=DOMAIN)
+    return run("top_ctl", *PATIENT, *arguments, domain=DOMAIN)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -75,13 +76,14 @@ def test_watch_shows_the_motion():
 
 def test_the_others_know_at_once_that_it_is_gone():
     """Else they would send to it until its lease ends, 20 s later."""
-    words = command("top_ctl", "watch", "--seconds", "1")
+    words = command("top_ctl", "watch")
     with (
         Listener(DOMAIN) as listener,
         subprocess.Popen(words, stdout=subprocess.DEVNULL, env=environment(DOMAIN)) as watching,
     ):
         listener.spin_until(lambda: "top_ctl" in listener.node.get_node_names())
-        assert watching.wait(timeout=20) == 0
+        watching.send_signal(signal.SIGINT)
+        assert watching.wait(timeout=60) == 0
         ended = time.monotonic()
         listener.spin_until(lambda: "top_ctl" not in listener.node.get_node_names())
         assert time.monotonic() - ended < 10  # half of the lease

@@ -6,14 +6,14 @@ import time
 import pytest
 from domains import claim_domain
 from pictures import running_viewer, views
-from programs import command, environment, run, running_node
+from programs import PATIENT, command, environment, run, running_node
 
 from symtop_ros.live import main as module
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
 
 DOMAIN = claim_domain()
-TIMEOUT = 30.0
+TIMEOUT = 60.0
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def live():
             yield process, client, port
         finally:
             process.terminate()
-            process.wait(timeout=20)
+            process.wait(timeout=60)
 
 
 def moving(client):
@@ -55,7 +55,7 @@ def test_the_scene_follows_a_node_and_finds_it_again(live):
     for scene in ("cusps", "looping"):
         with running_node(DOMAIN, f"scene:={scene}"):
             moving(client)
-            assert run("top_ctl", "hurry", domain=DOMAIN).returncode == 0
+            assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
             assert all(not each.reports for each in views(client, 13).values())
 
 
@@ -64,7 +64,7 @@ def test_a_viewer_that_was_closed_is_found_again():
     port = viewer.free_port()
     gyro = ("--node", "/gyro")
     with running_node(DOMAIN, "scene:=cusps", name="gyro"):
-        assert run("top_ctl", *gyro, "hurry", domain=DOMAIN).returncode == 0
+        assert run("top_ctl", *PATIENT, *gyro, "hurry", domain=DOMAIN).returncode == 0
         with running_viewer(port=port) as (client, _):
             process = subprocess.Popen(
                 command("top_live", *gyro, "--port", str(port)),
@@ -82,7 +82,7 @@ def test_a_viewer_that_was_closed_is_found_again():
                 moving(client)
         finally:
             process.terminate()
-            said, _ = process.communicate(timeout=20)
+            said, _ = process.communicate(timeout=60)
         assert said.count(f"showing the top in the viewer on port {port}\n") == 2
 
 

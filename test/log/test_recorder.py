@@ -14,7 +14,7 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.log.recorder import Limits, Recorder
 from symtop_ros.simulation.topics import Topic
 
-TIMEOUT = 10.0
+TIMEOUT = 60.0
 LATCHED = Topic("/latched", "std_msgs/msg/String", latched=True)
 PLAIN = Topic("/plain", "std_msgs/msg/String")
 

@@ -23,7 +23,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-TIMEOUT = 20.0  # s of real time; ends a test that hangs, and is never waited for
+TIMEOUT = 60.0  # s of real time; ends a test that hangs, and is never waited for
 TURN = 0.002  # s of real time between two advances of the simulated clock, at least
 STEP = 5_000_000  # ns; an advance of the simulated clock
 

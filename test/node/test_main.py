@@ -56,7 +56,7 @@ def test_a_signal_ends_it_cleanly(ending):
         while "scene cusps" not in node.stderr.readline():
             assert node.poll() is None
         node.send_signal(ending)
-        _, rest = node.communicate(timeout=20)
+        _, rest = node.communicate(timeout=60)
     finally:
         node.kill()
     assert node.returncode == 0

@@ -88,7 +88,7 @@ def test_tf_is_published_with_the_quaternion_of_the_topic_and_the_type_of_the_lo
         )
     finally:
         node.terminate()
-        node.wait(timeout=20)
+        node.wait(timeout=60)
     assert heard.returncode == 0, heard.stderr
     found = json.loads(heard.stdout)
     assert len(found["equal"]) >= 50

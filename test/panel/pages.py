@@ -18,7 +18,7 @@ import websockets
 from programs import command
 from viser import _messages
 
-TIMEOUT = 20.0
+TIMEOUT = 60.0
 CAMERA = _messages.ViewerCameraMessage(
     wxyz=(1.0, 0.0, 0.0, 0.0),
     position=(2.0, -2.0, 1.0),

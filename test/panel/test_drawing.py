@@ -13,7 +13,7 @@ from symtop_ros.panel.source import LocalTop
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.sensor import Imu, Rig
 
-TIMEOUT = 20.0
+TIMEOUT = 60.0
 
 
 @pytest.fixture(scope="module", name="page")

@@ -13,7 +13,7 @@ from programs import RESOURCE
 from symtop_ros.panel import main as module
 from symtop_ros.panel.server import LOCAL_HOST
 
-TIMEOUT = 30.0
+TIMEOUT = 60.0
 
 
 @pytest.fixture(autouse=True)

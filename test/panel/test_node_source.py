@@ -15,7 +15,7 @@ from symtop_ros.panel.node_source import SILENCE, NodeTop
 from symtop_ros.panel.run import Run
 from symtop_ros.panel.source import LocalTop
 
-TIMEOUT = 20.0
+TIMEOUT = 60.0
 # When an event took effect depends on the clock; what happened does not.
 OF_THE_CLOCK = ("motion.stamp",)
 

@@ -20,7 +20,7 @@ from symtop_ros.panel.scene import ORANGE
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 
-TIMEOUT = 25.0  # s; ends a test that hangs, and is never waited for
+TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
 SIZE = {"width": 960, "height": 560}  # software renders slowly
 # Says of a software renderer, which tests have and users need not have.
 NOTICE = ".mantine-Notification-closeButton"

@@ -14,7 +14,7 @@ from domains import claim_domain
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import facts
-from programs import command, environment, run, running_node
+from programs import PATIENT, command, environment, run, running_node
 from sensor_msgs.msg import JointState
 
 pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
@@ -79,10 +79,10 @@ def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
             next(each for each in iter(node.stderr.readline, "") if DUPLICATE in each)
             for node in nodes
         ]
-        result = run("top_ctl", "hurry", domain=DOMAIN)
+        result = run("top_ctl", *PATIENT, "hurry", domain=DOMAIN)
         for node in nodes:
             node.terminate()
-        rest = [node.communicate(timeout=20)[1] for node in nodes]
+        rest = [node.communicate(timeout=60)[1] for node in nodes]
     assert all("--ros-args -r __node:=NAME or -r __ns:=/NAME" in line for line in lines)
     assert not any(DUPLICATE in each for each in rest)
     assert (result.returncode, result.stderr) == (0, "")

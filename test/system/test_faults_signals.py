@@ -23,7 +23,7 @@ from symtop_ros.playback import viewer
 pytestmark = pytest.mark.untraced
 
 DOMAIN = claim_domain()
-TIMEOUT = 20.0
+TIMEOUT = 60.0
 SILENT = {-signal.SIGINT, -signal.SIGTERM}  # ended before there was anything to put in order
 RECORDING = ("publish_rate:=1000", "record.enabled:=true")
 SECONDS, ATTEMPTS = 1.0, 3
