@@ -1,7 +1,8 @@
-"""top_node at 1000 Hz for hours: it records with friction, splits its logs and is kicked at random.
+"""top_node for hours: it records, splits its logs and is kicked at random.
 
 Every finished log is computed again from its events, as `top_replay --check` does, and deleted.
-`make soak`, or `python test/load/soak.py --seconds 3600`.
+`make soak` runs an hour with friction at 1000 Hz; several can run side by side, for example
+`python test/load/soak.py --scene cusps --rate 200`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,6 @@ from follower import Follower, request
 from processes import program, run_program, running, top_node
 from usage import descriptors, memory
 
-RATE = 1000.0  # Hz
 LOG_DURATION = 20.0  # s
 LINE_INTERVAL = 10.0  # s; the pools of the middleware and the allocator are filled after one
 LONGEST_PAUSE = 1.0  # s between two requests
@@ -99,16 +99,16 @@ def format_row(reading: Reading) -> str:
     )
 
 
-def soak(seconds: float) -> Iterator[Reading]:
+def soak(seconds: float, scene: str, rate: float) -> Iterator[Reading]:
     """Yield the counts every ten seconds, and at the end, after the check of the last log."""
     with tempfile.TemporaryDirectory() as folder:
         logs = Logs(Path(folder))
         command = top_node(
-            *("scene:=friction", f"publish_rate:={RATE}", "record.enabled:=true"),
+            *(f"scene:={scene}", f"publish_rate:={rate}", "record.enabled:=true"),
             *(f"record.directory:={folder}", f"record.max_duration:={LOG_DURATION}"),
         )
         with running(command) as node:
-            user = User()
+            user = User(rate)
             try:
                 for reading in _readings(user, node.pid, seconds):
                     logs.check_finished()
@@ -139,8 +139,8 @@ def _readings(user: User, pid: int, seconds: float) -> Iterator[Reading]:
 class User(Follower):
     """A follower that also makes requests at random."""
 
-    def __init__(self) -> None:
-        super().__init__(RATE)
+    def __init__(self, rate: float) -> None:
+        super().__init__(rate)
         self._random = random.Random(1)
         self._requests = 0
 
@@ -214,15 +214,20 @@ def main(args: list[str] | None = None) -> int:
 
     def run(options: argparse.Namespace) -> bool:
         print(HEAD)
-        for reading in soak(options.seconds):
+        for reading in soak(options.seconds, options.scene, options.rate):
             print(format_row(reading), flush=True)
         return reading.good
 
     description = (
-        "top_node at 1000 Hz with friction, recording, kicked at random. "
+        "top_node, recording, kicked at random. "
         "Exit status 1 if a sample was lost or a log was wrong."
     )
-    return run_program("soak.py", description, 3600.0, run, args)
+    return run_program("soak.py", description, 3600.0, run, args, _add_options)
+
+
+def _add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--scene", default="friction", help="default: %(default)s")
+    parser.add_argument("--rate", type=float, default=1000.0, help="in Hz; default: %(default)g")
 
 
 if __name__ == "__main__":

@@ -39,10 +39,7 @@ def top():
 @pytest.fixture
 def follower(top):
     follower = Follower(RATE)
-    matched = (top.orientation, top.diagnostics)
-    assert follower.connection.spin_until(
-        lambda: all(each.get_subscription_count() for each in matched), 20.0
-    )
+    wait(follower, lambda: all(count() for count in matches(top, follower)))
     top.sample(0)
     top.report("/top", missed=3)  # before the count begins
     follower.begin()
@@ -51,7 +48,15 @@ def follower(top):
 
 
 def wait(follower, done):
-    assert follower.connection.spin_until(done, 20.0)
+    assert follower.connection.spin_until(done, 60.0)
+
+
+def matches(top, follower):
+    """Counts of both sides; a message that is sent before they know each other is lost."""
+    yield top.orientation.get_subscription_count
+    yield top.diagnostics.get_subscription_count
+    for each in follower.node.subscriptions:
+        yield each.get_publisher_count
 
 
 def test_samples_that_the_node_reports_as_missed_are_not_lost(top, follower):

@@ -35,9 +35,9 @@ def test_at_full_rate_nothing_is_lost_and_every_log_is_what_its_events_say():
 
 
 def test_a_line_comes_in_time_and_a_log_is_checked_as_soon_as_it_is_finished(monkeypatch, capsys):
-    for name, value in {"RATE": 200.0, "LOG_DURATION": 1.5, "LINE_INTERVAL": 1.0}.items():
+    for name, value in {"LOG_DURATION": 1.5, "LINE_INTERVAL": 1.0}.items():
         monkeypatch.setattr(soak, name, value)
-    assert soak.main(["--seconds", "5"]) == 0
+    assert soak.main(["--seconds", "5", "--scene", "cusps", "--rate", "200"]) == 0
     head, *rows = capsys.readouterr().out.splitlines()
     assert head == soak.HEAD
     logs = [int(line.split()[-3]) for line in rows]

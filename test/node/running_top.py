@@ -95,6 +95,25 @@ class RunningTop:
         self.user.create_subscription(kind, topic, messages.append, qos, raw=raw)
         return messages
 
+    def publisher(self, kind: Any, topic: str) -> Any:
+        """Create a publisher to the top and wait until messages arrive."""
+        publisher = self.user.create_publisher(kind, topic, 10)
+        self.match(publisher)
+        return publisher
+
+    def match(self, publisher: Any) -> None:
+        """Wait until publisher and top know each other: an earlier message would be lost."""
+        self.spin_until(
+            lambda: (
+                publisher.get_subscription_count()
+                and any(
+                    each.get_publisher_count()
+                    for each in self.top.subscriptions
+                    if each.topic_name == publisher.topic_name
+                )
+            )
+        )
+
     def set(self, service: str, **values: Any) -> tuple[bool, str]:
         return self.connection.set(service, values)
 

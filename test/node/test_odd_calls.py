@@ -49,9 +49,8 @@ class Watched(RunningTop):
     def __init__(self, **options):
         super().__init__(**options)
         self.samples = self.collect(QuaternionStamped, "/top/orientation")
-        self.hand = self.user.create_publisher(WrenchStamped, "/top/applied_torque", 10)
-        self.spin_until(lambda: self.samples and self.hand.get_subscription_count())
-        self.spin_until(lambda: self.top.count_publishers("/top/applied_torque"))
+        self.hand = self.publisher(WrenchStamped, "/top/applied_torque")
+        self.spin_until(lambda: self.samples)
 
     def ask(self, service, messages):
         """Sentences of the answer, with whether they grant."""

@@ -100,9 +100,7 @@ def test_a_force_in_an_applied_torque_is_refused(start_top, capfd):
 
     run = start_top()
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    publisher = run.user.create_publisher(WrenchStamped, "/top/applied_torque", 10)
-    run.spin_until(lambda: publisher.get_subscription_count() > 0)
-    run.spin_until(lambda: run.top.count_publishers("/top/applied_torque") > 0)
+    publisher = run.publisher(WrenchStamped, "/top/applied_torque")
     wrong, right = WrenchStamped(), WrenchStamped()
     wrong.wrench.force.x, wrong.wrench.torque.z = 1.0, 1e-4
     right.wrench.torque.z = 2e-4

@@ -25,8 +25,7 @@ class SimulatedClock:
     def __init__(self, run):
         self.run = run
         run.freeze()
-        self.publisher = run.user.create_publisher(Clock, "/clock", 10)
-        run.spin_until(lambda: self.publisher.get_subscription_count() > 0)
+        self.publisher = run.publisher(Clock, "/clock")
 
     def set_to(self, stamp):
         seconds, nanoseconds = divmod(stamp, 1_000_000_000)
@@ -142,6 +141,7 @@ def test_simulated_time_switched_on_and_off_while_recording_leaves_the_log_exact
         granted, answer = run.connection.set("set_parameters_atomically", {"use_sim_time": True})
         assert granted, answer
         clock = clock or SimulatedClock(run)
+        run.match(clock.publisher)  # it subscribes anew
         clock.run_from(begin * MS, 20)
         assert run.trigger("hurry_precession")[0]
         run.spin_until(

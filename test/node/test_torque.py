@@ -30,10 +30,7 @@ class Hand:
 
     def __init__(self, run):
         self.run = run
-        self.publisher = run.user.create_publisher(WrenchStamped, "/top/applied_torque", 10)
-        # The subscription is best effort: a message before both sides are matched would be lost.
-        run.spin_until(lambda: self.publisher.get_subscription_count() > 0)
-        run.spin_until(lambda: run.top.count_publishers("/top/applied_torque") > 0)
+        self.publisher = run.publisher(WrenchStamped, "/top/applied_torque")
 
     def push(self, x=0.0, y=0.0, z=0.0, frame="world"):
         message = WrenchStamped()
