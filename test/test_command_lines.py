@@ -16,6 +16,7 @@ from symtop_ros.report import main as report
 DOMAIN = claim_domain()
 LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
+HEAD = "/**:\n  ros__parameters:\n"
 MAINS = {
     "top_ctl": client.main,
     "top_live": live.main,
@@ -134,20 +135,28 @@ def test_help_is_status_0(name, capsys):
     assert capsys.readouterr().out.startswith(f"usage: {name}")
 
 
-def test_parameter_files_that_are_none_end_the_node_with_one_line(tmp_path):
+@pytest.mark.parametrize(
+    "content",
+    [
+        HEAD + "    a: &a 1.0\n    top: {Ix: *a}\n",
+        HEAD + "    initial: {orientation: 5}\n",
+        *(
+            pytest.param(content, marks=pytest.mark.long)
+            for content in (
+                HEAD + "    x: " + "[" * 10_000,
+                HEAD + "    initial: {orientation: [1.0, a]}\n",
+                "\0\1\2",
+            )
+        ),
+    ],
+    ids=range(5),
+)
+def test_a_parameter_file_that_is_none_ends_the_node_with_one_line(content, tmp_path):
     path = tmp_path / "odd.yaml"
-    head = "/**:\n  ros__parameters:\n"
-    for content in (
-        head + "    a: &a 1.0\n    top: {Ix: *a}\n",
-        head + "    x: " + "[" * 10_000,
-        head + "    initial: {orientation: [1.0, a]}\n",
-        head + "    initial: {orientation: 5}\n",
-        "\0\1\2",
-    ):
-        path.write_text(content)
-        result = run_program("top_node", "--ros-args", "--params-file", str(path), domain=DOMAIN)
-        assert result.returncode == 1
-        told = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
-        assert len(told) == 1
-        assert_one_sentence(told[0])
-        assert "Traceback" not in result.stderr
+    path.write_text(content)
+    result = run_program("top_node", "--ros-args", "--params-file", str(path), domain=DOMAIN)
+    assert result.returncode == 1
+    told = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
+    assert len(told) == 1
+    assert_one_sentence(told[0])
+    assert "Traceback" not in result.stderr

@@ -78,5 +78,8 @@ def write_figures(figures: Mapping[str, Callable[[], Figure]], folder: Path) -> 
     with rc_context(SETTINGS):
         for name, draw in figures.items():
             figure = draw()
+            # One layout serves both files; it takes longer than all else that is drawn.
+            figure.draw_without_rendering()
+            figure.set_layout_engine("none")
             figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
             figure.savefig(folder / f"{name}.png", dpi=RESOLUTION)

@@ -67,7 +67,7 @@ def test_a_flipped_bit_costs_a_chunk_at_most_and_is_never_taken_for_a_number(goo
     whole = good.read_bytes()
     rng = random.Random(5)
     incomplete = 0
-    for _ in range(300):
+    for _ in range(150):
         damaged = bytearray(whole)
         damaged[rng.randrange(8, len(damaged))] ^= 1 << rng.randrange(8)
         path = tmp_path / "damaged.mcap"
@@ -78,7 +78,7 @@ def test_a_flipped_bit_costs_a_chunk_at_most_and_is_never_taken_for_a_number(goo
         if len(messages) < len(RUN.messages):
             incomplete += 1
             assert file.problems
-    assert incomplete > 100
+    assert incomplete > 50
 
 
 def test_a_damaged_chunk_is_told_with_its_times_and_the_count_of_its_messages(good, tmp_path):

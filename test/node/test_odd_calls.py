@@ -103,7 +103,7 @@ def run(tmp_path_factory):
     running.close()
 
 
-@pytest.mark.parametrize("examples", trials(50, 150))
+@pytest.mark.parametrize("examples", trials(25, 150))
 def test_any_named_values_are_answered_in_a_sentence_and_the_node_keeps_running(run, examples):
     @deterministic(examples)
     @given(calls=st.lists(CALLS, min_size=1, max_size=2))

@@ -278,9 +278,10 @@ def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
 
 
 @pytest.mark.realtime
-def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path):
+@pytest.mark.parametrize("attempts", [3, pytest.param(10, marks=pytest.mark.long)])
+def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attempts):
     rng = random.Random(3)
-    for attempt in range(5):
+    for attempt in range(attempts):
         folder = tmp_path / str(attempt)
         folder.mkdir()
         node, path = started(folder)

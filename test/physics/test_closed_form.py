@@ -42,7 +42,7 @@ def test_there_are_27_reference_motions():
 
 
 @pytest.mark.parametrize("family", ["any", "weak gravity", "fast", "critical", "pendulum"])
-@pytest.mark.parametrize("seed", seeds(15, 40))
+@pytest.mark.parametrize("seed", seeds(8, 40))
 def test_a_random_top_is_met_to_rounding(family, seed):
     case = random_case(seed, family)
     state = Motion(case.top, case.start).at(case.t)
@@ -57,7 +57,7 @@ FAMILIES = ["any", "weak gravity", "fast", "critical", "pendulum", "from below"]
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize("seed", seeds(4, 20))
+@pytest.mark.parametrize("seed", seeds(2, 20))
 def test_rates_of_a_random_top_are_met_to_the_limit_of_its_inputs(family, seed):
     case = random_case(seed + 100, family)
     state = Motion(case.top, case.start).at(case.t)

@@ -21,11 +21,12 @@ BOTH_POLES = pytest.mark.parametrize("pole", [UPRIGHT, HANGING], ids=["upright",
 def powers(first, last):
     """Parameter `small`: every third power from 10**-first to 10**-last, and 0.
 
-    Every other of the powers is for the long trials.
+    Two of three powers are for the long trials.
     """
     steps = [10.0**-k for k in range(first, last + 1, 3)]
-    rarely = [pytest.param(small, marks=pytest.mark.long) for small in steps[1::2]]
-    return pytest.mark.parametrize("small", [*steps[::2], *rarely, 0.0])
+    rarely = [small for k, small in enumerate(steps) if k % 3]
+    long = [pytest.param(small, marks=pytest.mark.long) for small in rarely]
+    return pytest.mark.parametrize("small", [*steps[::3], *long, 0.0])
 
 
 def assert_met(top, start, *times):

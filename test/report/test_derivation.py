@@ -53,7 +53,7 @@ def test_the_articles_motions_have_the_digits_of_other_methods(data):
         assert distance(derive(top, start, t)[0], exact) < 1e-24  # 25 digits are stored
 
 
-@pytest.mark.parametrize("number", range(0, len(STORED["hard"]), 4))
+@pytest.mark.parametrize("number", range(0, len(STORED["hard"]), 8))
 def test_hard_cases_have_the_digits_of_other_methods(number):
     data, problem = STORED["hard"][number], REFERENCE.hard[number]
     (t,) = problem.times

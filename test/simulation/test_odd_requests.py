@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import SIZES, VALUES, assert_one_sentence, deterministic
+from odd_values import SIZES, VALUES, assert_one_sentence, deterministic, trials
 
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
 from symtop_ros.simulation import initial, kick
@@ -76,36 +76,44 @@ def refusal(call, *arguments):
     return None
 
 
-@deterministic(1000)
-@given(st.dictionaries(st.sampled_from(list(PARAMETERS)), VALUES, max_size=4))
-def test_parameters_of_any_value_are_taken_or_refused_in_one_sentence(changes):
-    refusal(Settings.from_values, changes)
+@pytest.mark.parametrize("examples", trials(300, 1000))
+def test_parameters_of_any_value_are_taken_or_refused_in_one_sentence(examples):
+    @deterministic(examples)
+    @given(st.dictionaries(st.sampled_from(list(PARAMETERS)), VALUES, max_size=4))
+    def check(changes):
+        refusal(Settings.from_values, changes)
+
+    check()
 
 
-@deterministic(400)
-@given(TOPS, TORQUES, STARTS, KICKS, st.sampled_from([0.0, 1e-3, 1.0, 1e9]))
-def test_a_granted_request_gives_a_sound_motion_with_a_verdict(top, torques, asked, kicked, t):
-    try:
-        settings = Settings.from_values({**top, **torques})
-        start = initial_state(settings.top, settings.initial, asked)
-    except RefusedError as refused:
-        assert_one_sentence(str(refused))
-        return
-    motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
-    assert_one_sentence(str(perrys_rule(motion.top, start)))
-    segment = Segment(motion, 0, to_nanoseconds(motion.reach(t, 100)), 1.0, running=False)
-    state = segment.state_at(0)
-    for topic in STATE_TOPICS.values():
-        assert np.isfinite(topic.compute(Samples(segment, 0, state))).all()
-    json.loads(json.dumps(summarize_state(segment, 0), allow_nan=False))
-    again = Event.of(0, "start", "", asked, start, segment).segment()
-    assert (again.motion.start, again.elapsed) == (motion.start, segment.elapsed)
-    try:
-        after, hold = plan_kick(motion, state, kicked)
-    except RefusedError as refused:
-        assert_one_sentence(str(refused))
-    else:
-        assert_one_sentence(kick_verdict(after, state, hold))
+@pytest.mark.parametrize("examples", trials(150, 400))
+def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
+    @deterministic(examples)
+    @given(TOPS, TORQUES, STARTS, KICKS, st.sampled_from([0.0, 1e-3, 1.0, 1e9]))
+    def check(top, torques, asked, kicked, t):
+        try:
+            settings = Settings.from_values({**top, **torques})
+            start = initial_state(settings.top, settings.initial, asked)
+        except RefusedError as refused:
+            assert_one_sentence(str(refused))
+            return
+        motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
+        assert_one_sentence(str(perrys_rule(motion.top, start)))
+        segment = Segment(motion, 0, to_nanoseconds(motion.reach(t, 100)), 1.0, running=False)
+        state = segment.state_at(0)
+        for topic in STATE_TOPICS.values():
+            assert np.isfinite(topic.compute(Samples(segment, 0, state))).all()
+        json.loads(json.dumps(summarize_state(segment, 0), allow_nan=False))
+        again = Event.of(0, "start", "", asked, start, segment).segment()
+        assert (again.motion.start, again.elapsed) == (motion.start, segment.elapsed)
+        try:
+            after, hold = plan_kick(motion, state, kicked)
+        except RefusedError as refused:
+            assert_one_sentence(str(refused))
+        else:
+            assert_one_sentence(kick_verdict(after, state, hold))
+
+    check()
 
 
 @pytest.mark.parametrize("value", [5, 0, True, 1.5, None, "", "abc", b"abc"])

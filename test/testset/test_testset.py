@@ -33,8 +33,8 @@ def test_there_are_sixty_problems_of_five_levels_at_twenty_times():
         assert len(each["times"]) == len(each["orientations"]) == COUNT
 
 
-@pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
-def test_a_state_of_each_problem_is_made_again_to_the_digit(setting):
+@pytest.mark.parametrize("setting", SETTINGS[::2], ids=lambda each: each.name)
+def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
     facts = PROBLEMS[setting.name]
     k = sum(setting.name.encode()) % COUNT
     inputs = Inputs.of(*setting.top.moments, facts["orientation"], facts["angular_velocity"])

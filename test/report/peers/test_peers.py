@@ -10,10 +10,13 @@ from symtop_ros.report.reference import EPS, Reference
 
 CUSPS, *_, RUBBING = Reference.read().article
 PEERS, MISSING = installed()
+FEW = 500
 
 
 def find_error(peer, problem, t, setting):
-    return problem.errors(*peer.prepare(problem.task, setting).record(t)).max()
+    times, orientations = peer.prepare(problem.task, setting).record(t)
+    some = slice(None, None, 1 + len(times) // FEW)  # the exact motion costs a millisecond each
+    return problem.errors(times[some], orientations[some]).max()
 
 
 @pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.name)
