@@ -14,6 +14,8 @@ from endings import bound
 RESOURCE = Path(__file__).parents[1] / "resource"
 # Options of top_ctl: a node that is starting on a loaded machine may take longer than 5 s.
 PATIENT = "--timeout", "60"
+# Fast DDS 3 has renamed an element.
+LOSSY_PROFILES = {"jazzy": "fastdds_lossy.xml", "kilted": "fastdds_lossy_kilted.xml"}
 
 
 def command(name: str, *arguments: str) -> list[str]:

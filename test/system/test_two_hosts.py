@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 from endings import bound
-from programs import command
+from programs import LOSSY_PROFILES, command
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 
-from symtop_ros.distribution import VARIABLES
+from symtop_ros.distribution import VARIABLES, distribution_name
 
 pytestmark = [
     pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}"),
@@ -24,7 +24,7 @@ WITNESS = Path(__file__).with_name("witness.py")
 RANGE, PEERS = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS"
 SETTINGS = (RANGE, PEERS, *VARIABLES)
 LOOPBACK = dict.fromkeys(VARIABLES, str(CONFIG / "fastdds_loopback.xml"))
-LOSSY = dict.fromkeys(VARIABLES, str(CONFIG / "fastdds_lossy.xml"))
+LOSSY = dict.fromkeys(VARIABLES, str(CONFIG / LOSSY_PROFILES[distribution_name()]))
 LOCAL, OFF, TO_THE_TOP = {RANGE: "LOCALHOST"}, {RANGE: "OFF"}, {PEERS: ADDRESSES[0]}
 # of the top, of the one who asks, and whether the top is found
 DISCOVERIES = [

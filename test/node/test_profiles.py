@@ -1,0 +1,38 @@
+"""The profiles of config/ are understood by the Fast DDS of this ROS 2."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+from domains import claim_domain
+from programs import LOSSY_PROFILES
+
+from symtop_ros.distribution import VARIABLES, distribution_name
+from symtop_ros.simulation.presets import config_folder
+
+NODE = "import rclpy; rclpy.init(); rclpy.create_node('profiled'); rclpy.shutdown()"
+LOSSY = LOSSY_PROFILES[distribution_name()]
+
+
+def said_with(profile):
+    """What a node says that starts with a profile."""
+    environment = {
+        **os.environ,
+        **dict.fromkeys(VARIABLES, str(config_folder() / profile)),
+        "ROS_DOMAIN_ID": str(claim_domain()),
+    }
+    result = subprocess.run(
+        [sys.executable, "-c", NODE], env=environment, capture_output=True, text=True, check=True
+    )
+    return result.stdout + result.stderr
+
+
+@pytest.mark.parametrize("profile", ["fastdds_discovery.xml", "fastdds_loopback.xml", LOSSY])
+def test_a_profile_is_read_without_a_complaint(profile):
+    assert "XMLPARSER" not in said_with(profile)
+
+
+def test_one_that_is_not_understood_is_complained_of():
+    (other,) = set(LOSSY_PROFILES.values()) - {LOSSY}
+    assert "XMLPARSER" in said_with(other)
