@@ -27,12 +27,12 @@ def assert_exact(path: Path) -> int:
     return min(counts)
 
 
-def stamps_of(path: Path) -> list[int]:
-    """Log times of the orientations, in the order of the file."""
+def stamps_of(path: Path, topic: str = "/orientation") -> list[int]:
+    """Log times of a topic, in the order of the file."""
     file = McapFile(path)
     return [
         message.log_time
         for chunk in file.chunks()
         for message in chunk
-        if file.channels[message.channel_id].topic.endswith("/orientation")
+        if file.channels[message.channel_id].topic.endswith(topic)
     ]
