@@ -19,7 +19,6 @@ from symtop_ros.client.arguments import parse_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.live import main as live
 
-pytestmark = pytest.mark.untraced
 ROOT = Path(__file__).parents[1]
 LESSON = (ROOT / "docs/lesson.md").read_text(encoding="utf-8")
 DOMAIN = claim_domain()
