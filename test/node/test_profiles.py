@@ -11,16 +11,17 @@ from programs import LOSSY_PROFILES
 from symtop_ros.distribution import VARIABLES, distribution_name
 from symtop_ros.simulation.presets import config_folder
 
+DOMAIN = claim_domain()
 NODE = "import rclpy; rclpy.init(); rclpy.create_node('profiled'); rclpy.shutdown()"
 LOSSY = LOSSY_PROFILES[distribution_name()]
 
 
 def said_with(profile):
-    """What a node says that starts with a profile."""
+    """Start a node with a profile; return what it prints."""
     environment = {
         **os.environ,
         **dict.fromkeys(VARIABLES, str(config_folder() / profile)),
-        "ROS_DOMAIN_ID": str(claim_domain()),
+        "ROS_DOMAIN_ID": str(DOMAIN),
     }
     result = subprocess.run(
         [sys.executable, "-c", NODE], env=environment, capture_output=True, text=True, check=True
