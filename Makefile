@@ -4,7 +4,8 @@ VENV := .venv
 NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
-# Tests that need no running node. They run in a second process with low priority.
+# `make test` runs three of these groups at a time. Those that need no node have a low priority.
+NODES := test/node test/system test/load
 PLAIN := test/physics test/wire test/report test/models test/testset
 # These run as on a machine without ROS and Rerun.
 WITHOUT_ROS := test/simulation test/log test/panel
@@ -19,7 +20,7 @@ MARKERS := not realtime and not long
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
-.PHONY: help demo panel test test-plain test-rest test-numpy1 test-realtime test-long test-kilted lint docs matrix report stress soak node-cost clean
+.PHONY: help demo panel test test-nodes test-rest test-plain test-without-ros test-examples test-realtime test-long test-kilted lint style types docs matrix report stress soak node-cost clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -30,23 +31,29 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## a page in the browser to play with a top; needs no ROS
 	@$(BIN)/top_panel
 
-test: lint $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types, all tests and their coverage (8 minutes)
+test: style $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types, all tests and their coverage (8 minutes)
 	@$(BIN)/coverage erase
-	@$(MAKE) --no-print-directory -j2 test-plain test-rest
+	@$(MAKE) --no-print-directory -j3 test-nodes test-rest test-plain test-without-ros test-examples types
 	@$(MAKE) --no-print-directory test-realtime
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
 
+test-nodes: $(NUMPY1)/test
+	@$(NUMPY1)/bin/coverage run -m pytest -q -m "$(MARKERS)" $(WITH_NUMPY1)
+	@$(BIN)/coverage run -m pytest -q -m "$(MARKERS)" $(NODES) $(addprefix --ignore=,$(WITH_NUMPY1))
+
+test-rest:
+	@$(BIN)/coverage run -m pytest -q -m "$(MARKERS)" test \
+	  $(addprefix --ignore=,$(NODES) $(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
+
 test-plain:
 	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" $(PLAIN) $(WITH_ROS)
+
+test-without-ros:
 	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" -p without_ros $(WITHOUT_ROS)
 
-test-rest: test-numpy1
-	@$(BIN)/coverage run -m pytest -m "$(MARKERS)" test $(addprefix --ignore=,$(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
-	@$(BIN)/coverage run -m pytest -q --doctest-modules --ignore-glob='*/*_peer.py' symtop_ros
-
-test-numpy1: $(NUMPY1)/test
-	@$(NUMPY1)/bin/coverage run -m pytest -q -m "$(MARKERS)" $(WITH_NUMPY1)
+test-examples:
+	@nice -n 19 $(BIN)/coverage run -m pytest -q --doctest-modules --ignore-glob='*/*_peer.py' symtop_ros
 
 test-realtime:  # alone: these tests measure time
 	@$(BIN)/coverage run -m pytest -m "realtime and not long" $(REALTIME)
@@ -61,9 +68,13 @@ test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
 	@$(KILTED)/bin/python -m pytest -q -m "$(MARKERS)" --ignore=test/log/test_definitions.py \
 	  test/node test/client test/log test/simulation/test_simulation.py
 
-lint: $(VENV)/test
+lint: style types
+
+style: $(VENV)/test
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+
+types: $(VENV)/test
 	@$(BIN)/mypy
 
 docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warnings are errors

@@ -46,8 +46,8 @@ def test_frames_leave_nothing_behind():
             counts = []
             for k in range(4):
                 for _ in range(LISTED // 2):  # from then on no entry of the history is new
-                    page.actions.hurry(1.4)
                     page.actions.start({"theta": 0.3 + 0.1 * k})
+                    page.actions.hurry(1.4)  # last, so that the ghost moves in all frames below
                 frame = page.frames
                 deadline = time.monotonic() + 60
                 while page.frames < frame + 30:

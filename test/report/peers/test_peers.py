@@ -11,6 +11,12 @@ from symtop_ros.report.reference import EPS, Reference
 CUSPS, *_, RUBBING = Reference.read().article
 PEERS, MISSING = installed()
 FEW = 500
+# Radau is implicit and Pinocchio is stepped from Python: their finest settings take seconds.
+SLOW = ("SciPy Radau", "Pinocchio")
+AT_THEIR_FINEST = [
+    pytest.param(peer, marks=pytest.mark.long if peer.name.startswith(SLOW) else (), id=peer.name)
+    for peer in PEERS
+]
 
 
 def find_error(peer, problem, t, setting):
@@ -19,13 +25,13 @@ def find_error(peer, problem, t, setting):
     return problem.errors(times[some], orientations[some]).max()
 
 
-@pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.name)
+@pytest.mark.parametrize("peer", AT_THEIR_FINEST)
 def test_a_peer_is_right_at_its_finest_setting(peer):
     problem = RUBBING if peer.friction == "only" else CUSPS
     assert find_error(peer, problem, CHECK, peer.settings[-1]) < RIGHT
 
 
-@pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.name)
+@pytest.mark.parametrize("peer", AT_THEIR_FINEST)
 def test_a_peer_with_friction_has_the_same_friction(peer):
     if peer.friction == "no":
         pytest.skip("its model has no friction")
