@@ -4,9 +4,9 @@ VENV := .venv
 NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
-# `make test` runs three of these groups at a time. Those that need no node have a low priority.
+# `make test` runs three groups of tests at a time. Those that need no node have a low priority.
 NODES := test/node test/system test/load
-PLAIN := test/physics test/wire test/report test/models test/testset
+PLAIN := test/report test/wire test/models test/testset
 # These run as on a machine without ROS and Rerun.
 WITHOUT_ROS := test/simulation test/log test/panel
 WITH_ROS := test/log/test_definitions.py test/panel/test_node_source.py
@@ -20,7 +20,7 @@ MARKERS := not realtime and not long
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
-.PHONY: help demo panel test test-nodes test-rest test-plain test-without-ros test-examples test-realtime test-long test-kilted lint style types docs matrix report stress soak node-cost clean
+.PHONY: help demo panel test test-nodes test-rest test-plain test-physics test-without-ros test-examples test-realtime test-long test-kilted lint style types docs matrix report stress soak node-cost clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -33,7 +33,7 @@ panel: $(VENV)/panel  ## a page in the browser to play with a top; needs no ROS
 
 test: style $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types, all tests and their coverage (8 minutes)
 	@$(BIN)/coverage erase
-	@$(MAKE) --no-print-directory -j3 test-nodes test-rest test-plain test-without-ros test-examples types
+	@$(MAKE) --no-print-directory -j3 test-nodes test-rest test-plain test-physics test-without-ros test-examples types
 	@$(MAKE) --no-print-directory test-realtime
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
@@ -44,10 +44,13 @@ test-nodes: $(NUMPY1)/test
 
 test-rest:
 	@$(BIN)/coverage run -m pytest -q -m "$(MARKERS)" test \
-	  $(addprefix --ignore=,$(NODES) $(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
+	  $(addprefix --ignore=,$(NODES) test/physics $(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
 
 test-plain:
 	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" $(PLAIN) $(WITH_ROS)
+
+test-physics:
+	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" test/physics
 
 test-without-ros:
 	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" -p without_ros $(WITHOUT_ROS)

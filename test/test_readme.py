@@ -24,6 +24,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.report import main as report
 
+pytestmark = pytest.mark.untraced
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
 DOMAIN = claim_domain()

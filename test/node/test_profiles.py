@@ -11,6 +11,7 @@ from programs import LOSSY_PROFILES
 from symtop_ros.distribution import VARIABLES, distribution_name
 from symtop_ros.simulation.presets import config_folder
 
+pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 NODE = "import rclpy; rclpy.init(); rclpy.create_node('profiled'); rclpy.shutdown()"
 LOSSY = LOSSY_PROFILES[distribution_name()]

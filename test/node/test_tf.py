@@ -15,6 +15,7 @@ from programs import command, environment
 
 from symtop_ros.log.definitions import load_definition
 
+pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 BUILD = Path(__file__).parents[1] / "build_tf2_msgs.py"
 LISTEN = """

@@ -14,6 +14,7 @@ from rclpy.parameter import Parameter
 
 from symtop_ros.playback import viewer
 
+pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 PROGRAMS = (
     ("top_node",),
