@@ -15,6 +15,7 @@ WITH_NUMPY1 := test/client test/node/test_services.py test/node/test_recording.p
 TOOLS := pytest hypothesis mpmath rosbags coverage
 REALTIME := test/node test/panel test/system test/load
 MARKERS := not realtime and not long
+TRACED := coverage run -m pytest -q -m "$(MARKERS)"
 
 # Nothing is sent to the network, and an active ROS or other environment is not used.
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
@@ -39,21 +40,20 @@ test: style $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types, all
 	@$(BIN)/coverage report --skip-covered
 
 test-nodes: $(NUMPY1)/test
-	@$(NUMPY1)/bin/coverage run -m pytest -q -m "$(MARKERS)" $(WITH_NUMPY1)
-	@$(BIN)/coverage run -m pytest -q -m "$(MARKERS)" $(NODES) $(addprefix --ignore=,$(WITH_NUMPY1))
+	@$(NUMPY1)/bin/$(TRACED) $(WITH_NUMPY1)
+	@$(BIN)/$(TRACED) $(NODES) $(addprefix --ignore=,$(WITH_NUMPY1))
 
 test-rest:
-	@$(BIN)/coverage run -m pytest -q -m "$(MARKERS)" test \
-	  $(addprefix --ignore=,$(NODES) test/physics $(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
+	@$(BIN)/$(TRACED) test $(addprefix --ignore=,$(NODES) test/physics $(PLAIN) $(WITHOUT_ROS) $(WITH_NUMPY1))
 
 test-plain:
-	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" $(PLAIN) $(WITH_ROS)
+	@nice -n 19 $(BIN)/$(TRACED) $(PLAIN) $(WITH_ROS)
 
 test-physics:
-	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" test/physics
+	@nice -n 19 $(BIN)/$(TRACED) test/physics
 
 test-without-ros:
-	@nice -n 19 $(BIN)/coverage run -m pytest -q -m "$(MARKERS)" -p without_ros $(WITHOUT_ROS)
+	@nice -n 19 $(BIN)/$(TRACED) -p without_ros $(WITHOUT_ROS)
 
 test-examples:
 	@nice -n 19 $(BIN)/coverage run -m pytest -q --doctest-modules --ignore-glob='*/*_peer.py' symtop_ros

@@ -155,7 +155,7 @@ def _watched(browser, tmp_path_factory):
         patch.chdir(folder)
         page = SeenPage(LocalTop("hurry_slow", factor=0.1), LOCAL_HOST, 0)
         try:
-            page.actions.request("pause", True)  # software takes long for pictures that move
+            page.actions.request("pause", True)  # software renders a moving top slowly
             watched = Watched(browser, page)
             watched.until(
                 lambda: "theta=0.3" in str(watched.run.event and watched.run.event.values)
