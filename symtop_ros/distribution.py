@@ -14,13 +14,7 @@ VARIABLES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 
 
 def distribution_name() -> str:
-    """Return the name of the installed distribution; empty if it is not known.
-
-    Examples
-    --------
-    >>> distribution_name() in ("", *NAMES.values(), os.environ.get("ROS_DISTRO"))
-    True
-    """
+    """Return the name of the installed distribution; empty if it is not known."""
     return os.environ.get("ROS_DISTRO") or NAMES.get(_rclpy_major(), "")
 
 

@@ -26,11 +26,6 @@ def describe_failure(error: Exception) -> str:
 
     With SROS2 most errors at the start come from the middleware, whose text does not say what is
     wrong with the keys.
-
-    Examples
-    --------
-    >>> describe_failure(RuntimeError("rcl node's context is invalid,\n at node.c:91"))
-    "rcl node's context is invalid, at node.c:91"
     """
     text = one_line(error) or type(error).__name__
     if os.environ.get("ROS_SECURITY_ENABLE") != "true":
@@ -48,16 +43,6 @@ def ros_context(arguments: list[str]) -> Iterator[Callable[[], None]]:
 
     Yields a function `listen`. Signals are only noted until it is called, because a node that is
     being created when ROS shuts down fails in many ways.
-
-    Parameters
-    ----------
-    arguments : list of str
-        The command line with its ROS arguments.
-
-    Raises
-    ------
-    ExternalShutdownException
-        In place of any exception that is raised after ROS was shut down.
     """
     noted: list[int] = []
 

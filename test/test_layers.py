@@ -11,7 +11,8 @@ NUMERICAL = {"numpy", "scipy"}
 MCAP = {"mcap", "lz4", "zstandard"}
 RERUN = {"rerun", "rerun_cli"}
 PEERS = {"CyRK", "ahrs", "diffrax", "exudyn", "heyoka", "jax", "mujoco", "pinocchio", "pydrake"}
-TOP = {"__init__", "demo", "distribution", "programs", "shutdown"}  # files of the package itself
+# Files of the package itself.
+TOP = {"__init__", "arrays", "demo", "distribution", "programs", "shutdown"}
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
@@ -59,7 +60,10 @@ ARROWS = {
 
 
 def imports(folder):
-    """Top-level packages that the files of a folder import, own folders by their names."""
+    """Top-level packages that the files of a folder import, own folders by their names.
+
+    Every folder may use the types in `arrays`.
+    """
     own, others = set(), set()
     for path in sorted((PACKAGE / folder).rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text())):
@@ -74,7 +78,7 @@ def imports(folder):
                     own.add(rest.partition(".")[0] or "__init__")
                 elif package not in sys.stdlib_module_names:
                     others.add(package)
-    return own - {folder}, others
+    return own - {folder, "arrays"}, others
 
 
 @pytest.mark.parametrize("folder", ARROWS)

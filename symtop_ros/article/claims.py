@@ -11,32 +11,13 @@ WIDTH = 96  # characters in a line
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A sentence that can be checked.
+    """A sentence that can be checked."""
 
-    Attributes
-    ----------
-    sentence : str
-        The claim.
-    measured : str
-        The measured values with units.
-    holds : bool
-        True if the measurement confirms the sentence.
-    equation : str
-        The equation behind the sentence, in the symbols of the article.
-    tolerance : str
-        The bound on the measured values, with its reason.
-
-    Examples
-    --------
-    >>> Claim("The period is about 0.16 s.", "0.1607 s", holds=True).verdict
-    'pass'
-    """
-
-    sentence: str
-    measured: str
-    holds: bool
-    equation: str = ""
-    tolerance: str = ""
+    sentence: str  # the claim
+    measured: str  # the measured values with units
+    holds: bool  # true if the measurement confirms the sentence
+    equation: str = ""  # the equation behind the sentence, in the symbols of the article
+    tolerance: str = ""  # the bound on the measured values, with its reason
 
     @property
     def verdict(self) -> str:
@@ -45,16 +26,7 @@ class Claim:
 
 
 def table(claims: Sequence[Claim]) -> str:
-    """Return the claims as text for a terminal: sentence, equation, measurement, tolerance.
-
-    Examples
-    --------
-    >>> print(table([Claim("The period is about 0.16 s.", "0.1607 s", holds=True)]))
-     1  pass The period is about 0.16 s.
-               0.1607 s
-    <BLANKLINE>
-    1 of 1 claims hold.
-    """
+    """Return the claims as text for a terminal: sentence, equation, measurement, tolerance."""
     blocks = []
     for number, claim in enumerate(claims, start=1):
         lines = wrap(claim.sentence, WIDTH - 9)
@@ -67,18 +39,7 @@ def table(claims: Sequence[Claim]) -> str:
 
 
 def markdown(claims: Sequence[Claim]) -> str:
-    """Return the claims as a Markdown table.
-
-    Examples
-    --------
-    >>> print(markdown([Claim("The period is about 0.16 s.", "0.1607 s", holds=True)]))
-    | | claim | equation | measured | tolerance | |
-    |--:|---|---|---|---|---|
-    | 1 | The period is about 0.16 s. |  | 0.1607 s |  | pass |
-    <BLANKLINE>
-    1 of 1 claims hold.
-    <BLANKLINE>
-    """
+    """Return the claims as a Markdown table."""
     rows = [
         f"| {number} | {' | '.join(map(_cell, _texts(claim)))} | {claim.verdict} |"
         for number, claim in enumerate(claims, start=1)
@@ -88,13 +49,7 @@ def markdown(claims: Sequence[Claim]) -> str:
 
 
 def summarize(claims: Sequence[Claim]) -> str:
-    """Return the number of claims that hold, as a sentence.
-
-    Examples
-    --------
-    >>> summarize([Claim("The top rises.", "it falls", holds=False)])
-    '0 of 1 claims hold.'
-    """
+    """Return the number of claims that hold, as a sentence."""
     return f"{sum(claim.holds for claim in claims)} of {len(claims)} claims hold."
 
 

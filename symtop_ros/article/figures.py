@@ -7,7 +7,6 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from symtop_ros.article.kinds import DISC
 from symtop_ros.article.motions import (
@@ -36,7 +35,6 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 
-Real = NDArray[np.float64]
 TIMES = np.linspace(0.0, 0.5, 2001)  # s; three nutations of cusps
 PHI_DOTS = np.linspace(-8.0, 85.0, 400)  # rad/s
 LOOKS = {"falls": (RED, "--"), "stays": (INK, "-"), "rises": (BLUE, "-.")}

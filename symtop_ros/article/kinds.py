@@ -7,7 +7,6 @@ and the second of these is known from the constants of motion alone.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.motions import (
@@ -30,7 +29,6 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 
-Real = NDArray[np.float64]
 DISC = Top(HANGING_DISC.Ix, HANGING_DISC.Iz, -HANGING_DISC.Mgl)  # upright
 LYING = np.pi - 0.5  # rad, below the horizontal
 SAME_RATE = 1e-12  # rad/s; phi' of regular precession at the far turning angle. Measured: 3e-14
@@ -41,14 +39,7 @@ STEP_SHARE = 0.002  # of a nutation: its phase changes by 0.013 rad in a step
 
 
 def claims_on_kinds(top: Top) -> list[Claim]:
-    """Return the claims on the six kinds, on equal starts, and on parabolas that open downwards.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> [claim.verdict for claim in claims_on_kinds(TOP)]
-    ['pass', 'pass', 'pass', 'pass', 'pass', 'pass']
-    """
+    """Return the claims on the six kinds, on equal starts, and on parabolas that open downwards."""
     return [
         six_rates_have_kinds(top),
         accelerations_do_not_decide(top, 0.0),
@@ -60,14 +51,7 @@ def claims_on_kinds(top: Top) -> list[Claim]:
 
 
 def six_rates_have_kinds(top: Top) -> Claim:
-    """Check the kind of each of the six motions by phi' at both turning angles.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> six_rates_have_kinds(TOP).holds
-    True
-    """
+    """Check the kind of each of the six motions by phi' at both turning angles."""
     words, agrees = [], []
     for rate in RATES:
         motion = Motion(top, start(rate.phi_dot))
@@ -91,12 +75,6 @@ def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
     """Check that two starts have the same three accelerations and different kinds.
 
     The parabola of theta'' takes each value at two rates, which have the sum of its roots.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> accelerations_do_not_decide(TOP, 0.0).holds
-    True
     """
     partner = SLOW + FAST - phi_dot
     motions = [Motion(top, start(rate)) for rate in (phi_dot, partner)]
@@ -117,14 +95,7 @@ def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
 
 
 def constants_decide(top: Top) -> Claim:
-    """Check that the effective potential alone gives the turning angles that the motion has.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> constants_decide(TOP).holds
-    True
-    """
+    """Check that the effective potential alone gives the turning angles that the motion has."""
     offs, words = [], []
     for rate in (0.0, SLOW + FAST):
         motion = Motion(top, start(rate))
@@ -144,13 +115,7 @@ def constants_decide(top: Top) -> Claim:
 
 
 def parabola_opens_downward(name: str, top: Top, theta: float) -> Claim:
-    """Check the sign rule of the roots, and rising and falling, for (Ix - Iz) cos(theta) < 0.
-
-    Examples
-    --------
-    >>> parabola_opens_downward("a disc", DISC, THETA).holds
-    True
-    """
+    """Check the sign rule of the roots, and rising and falling, for (Ix - Iz) cos(theta) < 0."""
     sentence = (
         f"For (Ix - Iz) cos(theta) < 0 the parabola opens downward: for Mgl > 0 the roots have "
         f"opposite signs, and the top falls between them and rises outside ({name})."

@@ -17,7 +17,6 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from PIL import Image
 
 from symtop_ros.article.motions import HANGING_DISC, PSI_DOT, THETA, TOP, Run, precession_period
@@ -33,7 +32,6 @@ from symtop_ros.physics import (
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.settings import InitialConditions
 
-Real = NDArray[np.float64]
 KICK = 0.4  # s
 TRACE, TURNS = 1.0, 2.0  # s, and turns of the precession: whichever is shorter is drawn
 SPAN = 0.8  # s of the plots
@@ -51,35 +49,14 @@ Draw = Callable[[Axes, dict[str, Run]], None]
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of the lesson.
+    """One step of the lesson."""
 
-    Attributes
-    ----------
-    title : str
-        As in the headline of the step.
-    commands : tuple of str
-        As one types them.
-    draw : callable
-        Draws the right half of the picture.
-
-    Examples
-    --------
-    >>> STEPS[0].title
-    'Let go at rest'
-    """
-
-    title: str
-    commands: tuple[str, ...]
-    draw: Draw
+    title: str  # as in the headline of the step
+    commands: tuple[str, ...]  # as one types them
+    draw: Draw  # draws the right half of the picture
 
     def runs(self) -> dict[str, Run]:
-        """Return the runs of the step by their labels.
-
-        Examples
-        --------
-        >>> list(STEPS[7].runs())
-        ['hurried', 'not kicked']
-        """
+        """Return the runs of the step by their labels."""
         runs: dict[str, Run] = {}
         for command in self.commands:
             _follow(shlex.split(command), runs)
@@ -106,13 +83,7 @@ def _follow(words: list[str], runs: dict[str, Run]) -> None:
 
 
 def draw_step(step: Step) -> Figure:
-    """Draw a step: the end of the axis from above, and what the step is about.
-
-    Examples
-    --------
-    >>> len(draw_step(STEPS[0]).axes)
-    2
-    """
+    """Draw a step: the end of the axis from above, and what the step is about."""
     figure = new_figure(2.9)
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
     runs = step.runs()
@@ -267,13 +238,7 @@ STEPS = (
 
 
 def write_lesson(folder: Path) -> int:
-    """Write the pictures step_01.png to step_10.png; return the exit status.
-
-    Parameters
-    ----------
-    folder : Path
-        Created if it does not exist; files of the same names are replaced.
-    """
+    """Write the pictures step_01.png to step_10.png; return the exit status."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for number, step in enumerate(STEPS, start=1):
@@ -286,13 +251,7 @@ def write_lesson(folder: Path) -> int:
 
 
 def save_step(step: Step, file: Path) -> None:
-    """Draw a step into a PNG with a palette, which has a third of the size.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Draw a step into a PNG with a palette, which has a third of the size."""
     memory = io.BytesIO()
     with rc_context(SETTINGS):
         draw_step(step).savefig(memory, dpi=RESOLUTION)

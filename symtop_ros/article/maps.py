@@ -21,8 +21,8 @@ import rerun as rr
 import rerun.blueprint as rrb
 from matplotlib import colormaps
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.article.motions import PSI_DOT, THETA, TOP
 from symtop_ros.article.rates import FACTOR
 from symtop_ros.physics import HurryEffect, compare_hurried, theta_torque
@@ -32,46 +32,24 @@ PSI_DOTS = (-400.0, 400.0)  # rad/s
 THETAS = (0.02, np.pi - 0.02)  # rad; on the vertical itself phi' is undefined
 RELIEF_POINTS = 250  # along a side of a relief, at most
 COLOR_LIMIT = 0.3  # rad at which the colours end
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class PerryMap:
-    """One map: a grid of n precession rates and m spin rates or tilts.
+    """One map: a grid of n precession rates and m spin rates or tilts."""
 
-    Attributes
-    ----------
-    name : str
-        "spin" or "tilt", in the names of its files.
-    title, label : str
-        The quantity that is held, and the label of the horizontal axis.
-    across : ndarray (m,)
-        Values along the horizontal axis: psi' in rad/s, or theta in rad.
-    phi_dot : ndarray (n,)
-        Precession rates before the kick, along the vertical axis, in rad/s.
-    effect : HurryEffect
-        Effect of the kick, (n, m).
-    torque : ndarray (n, m)
-        Ix theta''/sin(theta) before the kick in N m: zero on the curves of regular precession.
-    """
-
-    name: str
-    title: str
-    label: str
-    across: Real
-    phi_dot: Real
-    effect: HurryEffect
+    name: str  # "spin" or "tilt", in the names of its files
+    title: str  # the quantity that is held, and the label of the horizontal axis
+    label: str  # the quantity that is held, and the label of the horizontal axis
+    across: Real  # values along the horizontal axis: psi' in rad/s, or theta in rad
+    phi_dot: Real  # precession rates before the kick, along the vertical axis, in rad/s
+    effect: HurryEffect  # effect of the kick, (n, m)
+    # Ix theta''/sin(theta) before the kick in N m: zero on the curves of regular precession
     torque: Real
 
 
 def map_spin(points: int) -> PerryMap:
-    """Return the map of points x points over psi' and phi', at the article's tilt.
-
-    Examples
-    --------
-    >>> map_spin(3).across
-    array([-400.,    0.,  400.])
-    """
+    """Return the map of points x points over psi' and phi', at the article's tilt."""
     phi_dot, psi_dot = np.linspace(*PHI_DOTS, points), np.linspace(*PSI_DOTS, points)
     grid = THETA, phi_dot[:, np.newaxis], psi_dot
     effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
@@ -80,13 +58,7 @@ def map_spin(points: int) -> PerryMap:
 
 
 def map_tilt(points: int) -> PerryMap:
-    """Return the map of points x points over theta and phi', at the article's spin.
-
-    Examples
-    --------
-    >>> map_tilt(3).phi_dot
-    array([-60.,  30., 120.])
-    """
+    """Return the map of points x points over theta and phi', at the article's spin."""
     phi_dot, theta = np.linspace(*PHI_DOTS, points), np.linspace(*THETAS, points)
     grid = theta, phi_dot[:, np.newaxis], PSI_DOT
     effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)

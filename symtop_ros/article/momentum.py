@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.motions import (
     Slope,
@@ -19,7 +19,6 @@ from symtop_ros.article.motions import (
 )
 from symtop_ros.physics import Motion, State, Top
 
-Real = NDArray[np.float64]
 SPAN = 10.0  # s
 TIMES = np.linspace(0.0, SPAN, 10_001)
 AXIS, UP = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, 1.0])  # in the body, in the world
@@ -46,23 +45,12 @@ def axial_momentum(top: Top, state: State) -> Any:
 
     `Top.axial_momentum` is Iz omega_z, a constant of the closed form by construction. Computed
     from the attitude as here, it can fail.
-
-    Examples
-    --------
-    >>> print(f"{axial_momentum(cusps().top, cusps().start):.5f} N m s")
-    0.01144 N m s
     """
     return (top.angular_momentum(state) * state.to_world(AXIS)).sum(axis=-1)
 
 
 def vertical_momentum(top: Top, state: State) -> Any:
-    """Return L_z' (...) in N m s: the component of L along the vertical.
-
-    Examples
-    --------
-    >>> print(f"{vertical_momentum(cusps().top, cusps().start):.5f} N m s")
-    0.01004 N m s
-    """
+    """Return L_z' (...) in N m s: the component of L along the vertical."""
     return top.angular_momentum(state) @ UP
 
 
@@ -80,13 +68,7 @@ CONSTANTS: dict[str, tuple[Callable[[Top, State], Any], str]] = {
 
 
 def is_constant(name: str, motions: Sequence[Motion]) -> Claim:
-    """Check one of the `CONSTANTS` over ten seconds of each motion.
-
-    Examples
-    --------
-    >>> is_constant("The energy E", [cusps()]).holds
-    True
-    """
+    """Check one of the `CONSTANTS` over ten seconds of each motion."""
     drifts, (compute, equation) = [], CONSTANTS[name]
     for motion in motions:
         values = compute(motion.top, motion.at(TIMES))
@@ -101,13 +83,7 @@ def is_constant(name: str, motions: Sequence[Motion]) -> Claim:
 
 
 def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
-    """Check that the torque has no component along the axis or the vertical.
-
-    Examples
-    --------
-    >>> torque_is_along_the_line_of_nodes(cusps()).holds
-    True
-    """
+    """Check that the torque has no component along the axis or the vertical."""
     states = motion.at(TIMES)
     torque, phi = motion.total_torque(states), states.euler_angles.phi
     nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
@@ -128,13 +104,7 @@ def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
 
 
 def momentum_changes_by_gravity(motion: Motion) -> Claim:
-    """Check that dL/dt in the world frame is gravity's torque.
-
-    Examples
-    --------
-    >>> momentum_changes_by_gravity(cusps()).holds
-    True
-    """
+    """Check that dL/dt in the world frame is gravity's torque."""
     times = TIMES[::10]
     found = slope(lambda t: motion.top.angular_momentum(motion.at(t)), times)
     sentence = f"dL/dt is gravity's torque and nothing else ({motion.kind})."
@@ -144,13 +114,7 @@ def momentum_changes_by_gravity(motion: Motion) -> Claim:
 
 
 def equations_hold(motion: Motion) -> Claim:
-    """Check that phi'', theta'' and psi'' of the motion obey the article's equations.
-
-    Examples
-    --------
-    >>> equations_hold(cusps()).holds
-    True
-    """
+    """Check that phi'', theta'' and psi'' of the motion obey the article's equations."""
     times = TIMES[::10]
     found = slope(lambda t: np.stack(motion.at(t).euler_rates, axis=-1), times)
     sentence = f"phi'', theta'' and psi'' obey the article's three equations ({motion.kind})."
@@ -179,13 +143,7 @@ def _compare(
 
 
 def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
-    """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude.
-
-    Examples
-    --------
-    >>> attitude_turns_with_the_angular_velocity(cusps()).holds
-    True
-    """
+    """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude."""
     times = TIMES[::10]
     found = slope(lambda t: motion.at(t).orientation, times)
     q, omega = motion.at(times)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics import (
     Direction,
     Motion,
@@ -22,7 +22,6 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 
-Real = NDArray[np.float64]
 TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 THETA, PSI_DOT = 0.5, 200.0  # rad, rad/s
 PRINTED_ROOTS = ("6.50", "69.8")  # rad/s, with the digits that the article gives
@@ -38,26 +37,11 @@ STEP = 5e-4  # s; the article's top turns by a tenth of a radian in this time
 
 @dataclass(frozen=True, slots=True)
 class Rate:
-    """One of the six precession rates that the article compares.
+    """One of the six precession rates that the article compares."""
 
-    Attributes
-    ----------
-    phi_dot : float
-        Precession rate at the start in rad/s.
-    place : str
-        Position relative to the two roots of regular precession, in words.
-    direction : {"rises", "falls", "stays"}
-        The article's statement on the top.
-
-    Examples
-    --------
-    >>> RATES[0].direction
-    'falls'
-    """
-
-    phi_dot: float
-    place: str
-    direction: Direction
+    phi_dot: float  # precession rate at the start in rad/s
+    place: str  # position relative to the two roots of regular precession, in words
+    direction: Direction  # the article's statement on the top
 
 
 RATES = (
@@ -72,29 +56,12 @@ RATES = (
 
 @dataclass(frozen=True, slots=True)
 class HurryCase:
-    """A regular precession that is hurried, to test Perry's rule.
+    """A regular precession that is hurried, to test Perry's rule."""
 
-    Attributes
-    ----------
-    psi_dot : float
-        Spin rate in rad/s.
-    root : int
-        Root of regular precession before the kick: 0 for the slow one, 1 for the fast one.
-    place : str
-        The case in words.
-    direction : {"rises", "falls"}
-        The article's statement on the hurried top.
-
-    Examples
-    --------
-    >>> FAST_ROOT_HURRIED.direction
-    'falls'
-    """
-
-    psi_dot: float
-    root: int
-    place: str
-    direction: Direction
+    psi_dot: float  # spin rate in rad/s
+    root: int  # root of regular precession before the kick: 0 for the slow one, 1 for the fast one
+    place: str  # the case in words
+    direction: Direction  # the article's statement on the hurried top
 
 
 SLOW_ROOT_HURRIED = HurryCase(PSI_DOT, 0, "at the slow root", "rises")
@@ -106,20 +73,9 @@ DISC_HURRIED = HurryCase(
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A motion that may be kicked: motions, each from its begin to that of the next.
+    """A motion that may be kicked: motions, each from its begin to that of the next."""
 
-    Attributes
-    ----------
-    pieces : tuple of (float, Motion)
-        The time in s at which each motion begins, ascending from 0, and the motion from there.
-
-    Examples
-    --------
-    >>> run = Run.of(regular()).kick(0.5, lambda state: state)
-    >>> [begin for begin, _ in run.pieces]
-    [0.0, 0.5]
-    """
-
+    # the time in s at which each motion begins, ascending from 0, and the motion from there
     pieces: tuple[tuple[float, Motion], ...]
 
     @classmethod
@@ -147,57 +103,27 @@ class Run:
 
 
 def start(phi_dot: float, psi_dot: float = PSI_DOT) -> State:
-    """Return the start with theta = 0.5 rad, theta' = 0 and these rates in rad/s.
-
-    Examples
-    --------
-    >>> start(phi_dot=9.0).euler_rates.phi
-    9.0
-    """
+    """Return the start with theta = 0.5 rad, theta' = 0 and these rates in rad/s."""
     return State.from_euler(theta=THETA, phi_dot=phi_dot, psi_dot=psi_dot)
 
 
 def cusps(top: Top = TOP) -> Motion:
-    """Return the motion of a top whose axis is released at rest.
-
-    Examples
-    --------
-    >>> cusps().kind
-    'cusps'
-    """
+    """Return the motion of a top whose axis is released at rest."""
     return Motion(top, start(0.0))
 
 
 def regular(top: Top = TOP) -> Motion:
-    """Return the motion that starts at the slow root of the article's top, where it is regular.
-
-    Examples
-    --------
-    >>> regular().kind
-    'regular'
-    """
+    """Return the motion that starts at the slow root of the article's top, where it is regular."""
     return Motion(top, start(SLOW))
 
 
 def seven_motions(top: Top = TOP) -> list[Motion]:
-    """Return the motions of the six rates, then cusps.
-
-    Examples
-    --------
-    >>> len(seven_motions())
-    7
-    """
+    """Return the motions of the six rates, then cusps."""
     return [*(Motion(top, start(rate.phi_dot)) for rate in RATES), cusps(top)]
 
 
 def precession_period(motion: Motion) -> float:
-    """Return the time in s of one turn of the precession.
-
-    Examples
-    --------
-    >>> print(f"{precession_period(regular()):.3f} s")
-    0.967 s
-    """
+    """Return the time in s of one turn of the precession."""
     return float(2 * np.pi / abs(motion.mean_precession_rate))
 
 
@@ -205,11 +131,6 @@ def accelerations(top: Top, states: State) -> Real:
     """Return phi'', theta'', psi'' (n, 3) in rad/s^2 of n states by the article's equations.
 
     The equations divide by sin(theta), so the states must not be on the vertical.
-
-    Examples
-    --------
-    >>> accelerations(TOP, cusps().at([0.01, 0.02])).shape
-    (2, 3)
     """
     theta = states.euler_angles.theta
     phi_dot, theta_dot, psi_dot = states.euler_rates
@@ -220,43 +141,14 @@ def accelerations(top: Top, states: State) -> Real:
 
 
 class Slope(NamedTuple):
-    """Numerical derivatives.
+    """Numerical derivatives."""
 
-    Attributes
-    ----------
-    values : ndarray (n, ...)
-        Derivatives at n times, in units of the function per s.
-    error : float
-        Largest change of the values when the step is doubled.
-
-    Examples
-    --------
-    >>> slope(np.square, np.array([3.0])).values.round(9)
-    array([6.])
-    """
-
-    values: Real
-    error: float
+    values: Real  # derivatives at n times, in units of the function per s
+    error: float  # largest change of the values when the step is doubled
 
 
 def slope(function: Callable[[Real], Real], times: Real, step: float = STEP) -> Slope:
-    """Differentiate a function by central differences of order 8.
-
-    Parameters
-    ----------
-    function : callable
-        Takes times (n,) in s, returns values (n, ...).
-    times : ndarray (n,)
-        In s.
-    step : float
-        In s.
-
-    Examples
-    --------
-    >>> found = slope(np.sin, np.array([0.0, 0.1]))
-    >>> bool(abs(found.values - np.cos([0.0, 0.1])).max() < 1e-10)
-    True
-    """
+    """Differentiate a function by central differences of order 8."""
     fine, coarse = _difference(function, times, step), _difference(function, times, 2 * step)
     return Slope(fine, float(np.abs(coarse - fine).max()))
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.signal import find_peaks
 
+from symtop_ros.arrays import Real
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.motions import (
     PSI_DOT,
@@ -24,7 +24,6 @@ from symtop_ros.article.motions import (
 )
 from symtop_ros.physics import EffectivePotential, Motion, Top
 
-Real = NDArray[np.float64]
 SPAN = 10.0  # s
 DENSE_TIMES = np.linspace(0.0, SPAN, 20_001)  # two hundred in a nutation
 ROUNDING = 1e-9  # of the values; a swing below it counts as zero
@@ -36,14 +35,7 @@ MIRRORED = 1e-14  # relative; mean rates of a motion and its mirror image. Measu
 
 
 def claims_on_nutation(top: Top) -> list[Claim]:
-    """Return the claims on what changes with the nutation.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> [claim.verdict for claim in claims_on_nutation(TOP)]
-    ['pass', 'pass', 'pass', 'pass', 'pass', 'pass', 'pass', 'pass']
-    """
+    """Return the claims on what changes with the nutation."""
     nutating = [Motion(top, start(rate.phi_dot)) for rate in RATES if rate.direction != "stays"]
     return [
         momentum_swings_with_the_tilt([*nutating, cusps(top)]),
@@ -58,37 +50,19 @@ def claims_on_nutation(top: Top) -> list[Claim]:
 
 
 def horizontal_square(motion: Motion, times: Real) -> Real:
-    """Return L^2 - L_z'^2 (n,) in (N m s)^2, as a sum of squares, so that nothing cancels.
-
-    Examples
-    --------
-    >>> horizontal_square(regular(), np.array([0.0, 0.1])).shape
-    (2,)
-    """
+    """Return L^2 - L_z'^2 (n,) in (N m s)^2, as a sum of squares, so that nothing cancels."""
     horizontal = motion.top.angular_momentum(motion.at(times))[:, :2]
     return np.asarray((horizontal**2).sum(axis=1))
 
 
 def count_maxima(values: Real) -> int:
-    """Count the maxima that stand out by half of the whole swing, and from rounding.
-
-    Examples
-    --------
-    >>> count_maxima(np.cos(np.linspace(0.1, 22.0, 500)))
-    3
-    """
+    """Count the maxima that stand out by half of the whole swing, and from rounding."""
     swing, size = float(np.ptp(values)), float(np.abs(values).max())
     return len(find_peaks(values, prominence=max(swing / 2, ROUNDING * size))[0])
 
 
 def momentum_swings_with_the_tilt(motions: Sequence[Motion]) -> Claim:
-    """Check that the squared horizontal part of L has as many maxima as theta.
-
-    Examples
-    --------
-    >>> momentum_swings_with_the_tilt([cusps()]).holds
-    True
-    """
+    """Check that the squared horizontal part of L has as many maxima as theta."""
     tilts = [np.asarray(motion.at(DENSE_TIMES).euler_angles.theta) for motion in motions]
     nutations = [count_maxima(theta) for theta in tilts]
     swings = [count_maxima(horizontal_square(motion, DENSE_TIMES)) for motion in motions]
@@ -103,13 +77,7 @@ def momentum_swings_with_the_tilt(motions: Sequence[Motion]) -> Claim:
 
 
 def precession_stops_at_the_cusps(motion: Motion) -> Claim:
-    """Check that the precession rate vanishes at the smallest theta, and nowhere else.
-
-    Examples
-    --------
-    >>> precession_stops_at_the_cusps(cusps()).holds
-    True
-    """
+    """Check that the precession rate vanishes at the smallest theta, and nowhere else."""
     sentence = "At cusps phi' vanishes exactly where theta is smallest, and nowhere else."
     times = times_of_smallest_tilt(motion)
     if len(times) < 2:
@@ -131,13 +99,7 @@ def precession_stops_at_the_cusps(motion: Motion) -> Claim:
 
 
 def times_of_smallest_tilt(motion: Motion) -> Real:
-    """Return the times (n,) in s within ten seconds at which theta' rises through zero.
-
-    Examples
-    --------
-    >>> len(times_of_smallest_tilt(cusps()))
-    62
-    """
+    """Return the times (n,) in s within ten seconds at which theta' rises through zero."""
     # The start is left out: cusps start at a minimum, where the sign of theta' is rounding.
     times = DENSE_TIMES[1:]
     rates = np.asarray(motion.at(times).euler_rates.theta)
@@ -156,13 +118,7 @@ def _between(times: Real) -> Real:
 
 
 def fall_is_fastest_at_zero_acceleration(motion: Motion) -> Claim:
-    """Check that theta'' vanishes when theta' is largest, later or earlier than a quarter period.
-
-    Examples
-    --------
-    >>> fall_is_fastest_at_zero_acceleration(cusps()).holds
-    True
-    """
+    """Check that theta'' vanishes when theta' is largest, off the quarter period."""
     period = motion.nutation_period
     # The first quarter contains the sign change: theta'' > 0 at the start, < 0 at half a period.
     zero = brentq(lambda t: _theta_acceleration(motion, t), 0.01 * period, 0.49 * period)
@@ -186,13 +142,7 @@ def _theta_acceleration(motion: Motion, time: float) -> float:
 
 
 def precession_is_fastest_when_lowest(motion: Motion) -> Claim:
-    """Check that phi' and theta are both largest after half a nutation.
-
-    Examples
-    --------
-    >>> precession_is_fastest_when_lowest(cusps()).holds
-    True
-    """
+    """Check that phi' and theta are both largest after half a nutation."""
     times = np.linspace(0.0, motion.nutation_period, 2001)
     states = motion.at(times)
     theta, phi_dot = states.euler_angles.theta, states.euler_rates.phi
@@ -207,13 +157,7 @@ def precession_is_fastest_when_lowest(motion: Motion) -> Claim:
 
 
 def spin_falls_with_the_axis(motion: Motion) -> Claim:
-    """Check that psi' falls as theta grows, although L_z is constant.
-
-    Examples
-    --------
-    >>> spin_falls_with_the_axis(cusps()).holds
-    True
-    """
+    """Check that psi' falls as theta grows, although L_z is constant."""
     states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
     theta, psi_dot = states.euler_angles.theta, states.euler_rates.psi
     omega_z = float(motion.start.angular_velocity[2])
@@ -231,14 +175,7 @@ def spin_falls_with_the_axis(motion: Motion) -> Claim:
 
 
 def spin_decides_the_direction(top: Top) -> Claim:
-    """Check that a top released with psi' < 0 precesses backwards, as a mirror image.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> spin_decides_the_direction(TOP).holds
-    True
-    """
+    """Check that a top released with psi' < 0 precesses backwards, as a mirror image."""
     forward, backward = cusps(top), Motion(top, start(0.0, -PSI_DOT))
     rates = forward.mean_precession_rate, backward.mean_precession_rate
     off = abs(sum(rates)) / abs(rates[0])
@@ -253,13 +190,7 @@ def spin_decides_the_direction(top: Top) -> Claim:
 
 
 def momentum_does_not_close(nodding: Motion, steady: Motion) -> Claim:
-    """Check that the horizontal part of L returns after a turn only in regular precession.
-
-    Examples
-    --------
-    >>> momentum_does_not_close(cusps(), regular()).holds
-    True
-    """
+    """Check that the horizontal part of L returns after a turn only in regular precession."""
     gaps, counts = [], []
     for motion in (nodding, steady):
         turn = precession_period(motion)
@@ -278,14 +209,7 @@ def momentum_does_not_close(nodding: Motion, steady: Motion) -> Claim:
 
 
 def momentum_is_smallest_when_highest(top: Top) -> Claim:
-    """Check that L^2 is smallest where theta is smallest, and largest there for Mgl < 0.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> momentum_is_smallest_when_highest(TOP).holds
-    True
-    """
+    """Check that L^2 is smallest where theta is smallest, and largest there for Mgl < 0."""
     offs, extremes = [], []
     for each in (top, Top(top.Ix, top.Iz, -top.Mgl)):
         motion = cusps(each)

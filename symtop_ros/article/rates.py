@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.motions import (
     DISC_HURRIED,
@@ -32,7 +32,6 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 
-Real = NDArray[np.float64]
 STILL = 1e-3  # rad; a root printed with three digits moves the top by less
 FITTED = 1e-9  # of the largest theta''; differences and the fit are good to 1e-11
 FACTOR = 1.4  # by which the precession is hurried
@@ -44,14 +43,7 @@ SIGNS = f"none: signs; below {ROUNDING:g} of the largest term, or {ROUNDING:g} r
 
 
 def claims_on_rates(top: Top) -> list[Claim]:
-    """Return the claims on regular precession, rising and falling, and Perry's rule.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> len(claims_on_rates(TOP))
-    12
-    """
+    """Return the claims on regular precession, rising and falling, and Perry's rule."""
     return [
         roots_are_as_printed(top),
         printed_roots_keep_the_tilt(top),
@@ -65,33 +57,13 @@ def claims_on_rates(top: Top) -> list[Claim]:
 
 @dataclass(frozen=True, slots=True)
 class Departure:
-    """The direction in which a top leaves a start with theta' = 0, found in three ways.
+    """The direction in which a top leaves a start with theta' = 0, found in three ways."""
 
-    Attributes
-    ----------
-    acceleration : float
-        theta'' at the start in rad/s^2, by the article's equation.
-    rounding : float
-        Largest |theta''| in rad/s^2 that rounding can make of zero.
-    after : float
-        A fiftieth of the nutation period in s.
-    moved : float
-        Change of theta in that time in rad, by the motion.
-    turning : (float, float)
-        Smallest and largest theta minus theta at the start, in rad.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import cusps
-    >>> Departure.of(cusps()).directions
-    ('falls', 'falls', 'falls')
-    """
-
-    acceleration: float
-    rounding: float
-    after: float
-    moved: float
-    turning: tuple[float, float]
+    acceleration: float  # theta'' at the start in rad/s^2, by the article's equation
+    rounding: float  # largest |theta''| in rad/s^2 that rounding can make of zero
+    after: float  # a fiftieth of the nutation period in s
+    moved: float  # change of theta in that time in rad, by the motion
+    turning: tuple[float, float]  # smallest and largest theta minus theta at the start, in rad
 
     @classmethod
     def of(cls, motion: Motion) -> Departure:
@@ -137,14 +109,7 @@ def _direction(change: float, rounding: float) -> Direction:
 
 
 def roots_are_as_printed(top: Top) -> Claim:
-    """Check the rates of regular precession to the digits that the article prints.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> roots_are_as_printed(TOP).measured
-    'roots 6.497145 and 69.824931 rad/s'
-    """
+    """Check the rates of regular precession to the digits that the article prints."""
     roots = _roots(top)
     digits = [len(printed.partition(".")[2]) for printed in PRINTED_ROOTS]
     rounded = [f"{root:.{n}f}" for root, n in zip(roots, digits, strict=False)]
@@ -159,14 +124,7 @@ def roots_are_as_printed(top: Top) -> Claim:
 
 
 def printed_roots_keep_the_tilt(top: Top) -> Claim:
-    """Check that the article's digits are enough to see no nutation.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> printed_roots_keep_the_tilt(TOP).holds
-    True
-    """
+    """Check that the article's digits are enough to see no nutation."""
     widths = []
     for printed in PRINTED_ROOTS:
         low, high = Motion(top, start(float(printed))).turning_angles
@@ -181,14 +139,7 @@ def printed_roots_keep_the_tilt(top: Top) -> Claim:
 
 
 def rate_decides(top: Top, rate: Rate) -> Claim:
-    """Check the article's statement on one of the six rates, by the equation and by the motion.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> rate_decides(TOP, RATES[0]).sentence
-    "With phi'(0) = 3 rad/s, below the slow root, the top falls."
-    """
+    """Check the article's statement on one of the six rates, by the equation and by the motion."""
     departure = Departure.of(Motion(top, start(rate.phi_dot)))
     return Claim(
         f"With phi'(0) = {rate.phi_dot:.4g} rad/s, {rate.place}, the top {rate.direction}.",
@@ -200,14 +151,7 @@ def rate_decides(top: Top, rate: Rate) -> Claim:
 
 
 def acceleration_is_a_parabola(top: Top) -> Claim:
-    """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> acceleration_is_a_parabola(TOP).holds
-    True
-    """
+    """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots."""
     measured = measured_accelerations(top, PARABOLA)
     parabola = np.polynomial.Polynomial.fit(PARABOLA, measured, 2)
     off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
@@ -226,14 +170,7 @@ def acceleration_is_a_parabola(top: Top) -> Claim:
 
 
 def measured_accelerations(top: Top, phi_dots: Real) -> Real:
-    """Return theta'' (n,) in rad/s^2 at the start of n motions, by differentiating theta'.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> measured_accelerations(TOP, np.array([3.0])).round(1)
-    array([73.7])
-    """
+    """Return theta'' (n,) in rad/s^2 at the start of n motions, by differentiating theta'."""
     return np.array([_acceleration(Motion(top, start(rate))) for rate in phi_dots.tolist()])
 
 
@@ -243,14 +180,7 @@ def _acceleration(motion: Motion) -> float:
 
 
 def hurrying_decides(top: Top, case: HurryCase) -> Claim:
-    """Check what a hurried regular precession does, and that `perrys_rule` agrees.
-
-    Examples
-    --------
-    >>> from symtop_ros.article.motions import TOP
-    >>> hurrying_decides(TOP, FAST_ROOT_HURRIED).holds
-    True
-    """
+    """Check what a hurried regular precession does, and that `perrys_rule` agrees."""
     holds = case.direction == "rises"
     sentence = (
         f'Perry\'s rule "hurry on the precession, and the body rises" '

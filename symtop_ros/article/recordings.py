@@ -39,13 +39,7 @@ SCENES = {"six_rates": six_rates, "kicked": kicked_and_not_kicked}
 
 
 def write_recordings(folder: Path) -> None:
-    """Write each of the `MOTIONS` and the `SCENES` as a Rerun recording NAME.rrd.
-
-    Raises
-    ------
-    OSError
-        If a file cannot be written.
-    """
+    """Write each of the `MOTIONS` and the `SCENES` as a Rerun recording NAME.rrd."""
     top = regular().top
     for name, (state, options) in MOTIONS.items():
         _record(Motion(top, state), options, folder / f"{name}.rrd")

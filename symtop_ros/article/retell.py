@@ -20,18 +20,7 @@ from symtop_ros.physics import Top
 
 
 def retell(folder: Path) -> int:
-    """Write figures, recordings and claims.md; print the claims.
-
-    Parameters
-    ----------
-    folder : Path
-        Created if it does not exist; files of the same names are replaced.
-
-    Returns
-    -------
-    int
-        Exit status: 0 if all claims hold, 1 if one does not or a file cannot be written.
-    """
+    """Write figures, recordings and claims.md; print the claims."""
     try:
         claims = _write(folder)
     except OSError as error:

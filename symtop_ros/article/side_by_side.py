@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
-from numpy.typing import NDArray
 
 from symtop_ros.article.motions import (
     DISC_HURRIED,
@@ -36,7 +35,6 @@ from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace, create_stand, parallel, turning_circles
 
-Real = NDArray[np.float64]
 APPLICATION = "symtop_ros"
 RATE, SPAN = 500, 3.0  # Hz, s
 KICK = 0.5  # s; time at which the kicked tops are kicked
@@ -49,44 +47,18 @@ EYE, TARGET = (0.0, -4.7, 3.2), (0.0, -0.15, 0.38)
 
 @dataclass(frozen=True, slots=True)
 class Exhibit:
-    """One top of the scene.
+    """One top of the scene."""
 
-    Attributes
-    ----------
-    name : str
-        Of its entities: letters, digits and underscores.
-    label : str
-        Shown above it, and for its curve.
-    group : str
-        Of the plot that its curve is in; a name of an entity too.
-    place : (float, float)
-        x and y of its pivot in scene units.
-    color : (int, int, int)
-        Of its trace and its curve.
-    run : Run
-
-    Examples
-    --------
-    >>> six_rates()[0].name
-    'rate_1'
-    """
-
-    name: str
-    label: str
-    group: str
-    place: tuple[float, float]
-    color: tuple[int, int, int]
+    name: str  # of its entities: letters, digits and underscores
+    label: str  # shown above it, and for its curve
+    group: str  # of the plot that its curve is in; a name of an entity too
+    place: tuple[float, float]  # x and y of its pivot in scene units
+    color: tuple[int, int, int]  # of its trace and its curve
     run: Run
 
 
 def six_rates(top: Top = TOP) -> list[Exhibit]:
-    """Return the six rates: three about the slow root in front, three about the fast one behind.
-
-    Examples
-    --------
-    >>> [exhibit.label for exhibit in six_rates()][:2]
-    ['3 rad/s: falls', '6.5 rad/s: stays']
-    """
+    """Return the six rates: three about the slow root in front, three about the fast one behind."""
     return [
         Exhibit(
             name=f"rate_{k + 1}",
@@ -101,13 +73,7 @@ def six_rates(top: Top = TOP) -> list[Exhibit]:
 
 
 def kicked_and_not_kicked() -> list[Exhibit]:
-    """Return three regular precessions twice: hurried after half a second, and not.
-
-    Examples
-    --------
-    >>> [exhibit.label for exhibit in kicked_and_not_kicked()][:2]
-    ['not kicked', 'slow root, hurried: rises']
-    """
+    """Return three regular precessions twice: hurried after half a second, and not."""
     cases = {
         "slow_root": (TOP, SLOW_ROOT_HURRIED),
         "fast_root": (TOP, FAST_ROOT_HURRIED),
@@ -129,13 +95,7 @@ def kicked_and_not_kicked() -> list[Exhibit]:
 
 
 def write_scene(exhibits: Sequence[Exhibit], file: Path) -> None:
-    """Write a scene as a Rerun recording.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
-    """
+    """Write a scene as a Rerun recording."""
     # Rerun only warns about a file that it cannot write, so that opening it comes first.
     file.open("wb").close()
     recording = rr.RecordingStream(APPLICATION, recording_id=file.stem)

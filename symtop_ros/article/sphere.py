@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.article.motions import precession_period
 from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion
 
-Real = NDArray[np.float64]
 Axes3D = Any  # matplotlib has no types for its 3D axes
 ELEVATION, AZIMUTH = 34.0, -52.0  # degrees, of the line of sight
 UP, AROUND_UP = np.radians(ELEVATION), np.radians(AZIMUTH)

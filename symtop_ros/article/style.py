@@ -62,19 +62,7 @@ def rows(figure: Figure, count: int) -> list[Axes]:
 
 
 def write_figures(figures: Mapping[str, Callable[[], Figure]], folder: Path) -> None:
-    """Draw figures and write each as NAME.svg and NAME.png.
-
-    Parameters
-    ----------
-    figures : mapping of str to callable
-        Name of the files, and the function that draws the figure.
-    folder : Path
-
-    Raises
-    ------
-    OSError
-        If a file cannot be written.
-    """
+    """Draw figures and write each as NAME.svg and NAME.png."""
     with rc_context(SETTINGS):
         for name, draw in figures.items():
             figure = draw()

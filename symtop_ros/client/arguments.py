@@ -15,20 +15,7 @@ class UsageError(ValueError):
 
 
 def parse_values(words: Iterable[str]) -> dict[str, Any]:
-    """Parse words name=value: numbers become doubles, `a,b,c` and `[a, b, c]` lists, others text.
-
-    Raises
-    ------
-    UsageError
-        If a word has no `=`, or a name is repeated.
-
-    Examples
-    --------
-    >>> parse_values(["precession_rate=9", "hold=spin_momentum"])
-    {'precession_rate': 9.0, 'hold': 'spin_momentum'}
-    >>> parse_values(["angular_impulse=0,0,1e-4"])
-    {'angular_impulse': [0.0, 0.0, 0.0001]}
-    """
+    """Parse words name=value into doubles, lists (`a,b,c` or `[a, b, c]`) and text."""
     values: dict[str, Any] = {}
     for word in words:
         name, equals, text = word.partition("=")

@@ -22,17 +22,7 @@ class UnreachableError(Exception):
 
 
 class Connection:
-    """Connection to one top.
-
-    Parameters
-    ----------
-    node : Node
-        Node of the caller; it is spun while a method waits.
-    name : str
-        Full name of the top, such as "/top".
-    timeout : float
-        Seconds to wait until the top is found, and for each answer.
-    """
+    """Connection to one top."""
 
     def __init__(self, node: Node, name: str = "/top", timeout: float = 5.0) -> None:
         self.node = node

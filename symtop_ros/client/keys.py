@@ -25,13 +25,7 @@ QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
 
 
 def follow_keys(top: Connection) -> None:
-    """Send a request for each key that is pressed, and print the answers, until q or Ctrl-C.
-
-    Raises
-    ------
-    ValueError
-        If the standard input is not a terminal.
-    """
+    """Send a request for each key that is pressed, and print the answers, until q or Ctrl-C."""
     if not sys.stdin.isatty():
         msg = "standard input must be a terminal for keys, got a file or a pipe"
         raise ValueError(msg)

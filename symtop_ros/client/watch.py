@@ -15,16 +15,7 @@ UPDATE_PERIOD = 0.1  # s
 
 
 def watch(connection: Connection, seconds: float, timeout: float) -> None:
-    """Show tilt, precession and spin in one line of a terminal, updated 10 times a second.
-
-    Parameters
-    ----------
-    connection : Connection
-    seconds : float
-        Duration from the first sample on; infinite: until interrupted.
-    timeout : float
-        Seconds to wait for a sample.
-    """
+    """Show tilt, precession and spin in one line of a terminal, updated 10 times a second."""
     latest: list[Any] = []
 
     def take(message: JointState) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion
 
-Real = NDArray[np.float64]
 WIDTH, HEIGHT = 2.0, 1.0  # of the box in scene units; y points down
 TILTS = np.linspace(1e-4, np.pi - 1e-4, 4001)
 # The height above the energy line up to which the curve is drawn: in depths of the well, and at
@@ -19,18 +18,12 @@ ABOVE, LEAST = 1.0, 0.02
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """A box of the scene that shows a range of x and of y.
+    """A box of the scene that shows a range of x and of y."""
 
-    Attributes
-    ----------
-    left, right, bottom, top : float
-        Range of the data.
-    """
-
-    left: float
-    right: float
-    bottom: float
-    top: float
+    left: float  # range of the data
+    right: float  # range of the data
+    bottom: float  # range of the data
+    top: float  # range of the data
 
     def place(self, x: Real | float, y: Real | float) -> Real:
         """Return points (n, 2) of the scene; what lies outside is moved to the edge."""

@@ -17,38 +17,14 @@ MOST_STEPS = 3000  # of an integration, for one batch; a log may ask for years
 
 
 class Ghost:
-    """The motion without the last kick.
-
-    Attributes
-    ----------
-    segment : Segment or None
-        The run without the last kick; None before the first kick and after a restart.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import State, Top, hurry
-    >>> motion = Motion(Top(Ix=2.0, Iz=1.0, Mgl=1.0), State.from_euler(theta=0.5, phi_dot=1.0))
-    >>> before = Segment.begin(motion, stamp=0, factor=1.0)
-    >>> after = before.restart(hurry(before.state_at(0), factor=1.4), stamp=0)
-    >>> ghost = Ghost()
-    >>> ghost.follow("kick", before, after)
-    >>> ghost.segment is before
-    True
-    """
+    """The motion without the last kick."""
 
     def __init__(self) -> None:
+        # the run without the last kick; None before the first kick and after a restart
         self.segment: Segment | None = None
 
     def follow(self, name: str, before: Segment | None, after: Segment) -> None:
-        """Take over what an event changes.
-
-        Parameters
-        ----------
-        name : str
-            Name of the event.
-        before, after : Segment
-            The run before and after it.
-        """
+        """Take over what an event changes."""
         if name in RESTARTS or before is None:
             self.segment = None
         elif name == "kick":

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
+from symtop_ros.arrays import Real
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.sensor import multiply
 from symtop_ros.wire.layout import NANOSECONDS
 
-Real = NDArray[np.float64]
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 SAMPLES = 500  # estimates that a fit of offset and delay takes, spread over the run
 MAX_DELAY = 0.1  # s
@@ -34,24 +34,11 @@ WINDOWS = 10  # of the run, for the growth of the error
 
 @dataclass(frozen=True, eq=False)
 class Offset:
-    """A constant rotation of the world and one of the body, and a delay.
+    """A constant rotation of the world and one of the body, and a delay."""
 
-    Attributes
-    ----------
-    world, body : ndarray (4,)
-        Quaternions w, x, y, z.
-    delay : float
-        Time in s by which the estimates are late.
-
-    Examples
-    --------
-    >>> Offset(IDENTITY, IDENTITY, 0.002).angles
-    (0.0, 0.0)
-    """
-
-    world: Real
-    body: Real
-    delay: float = 0.0
+    world: Real  # quaternions w, x, y, z
+    body: Real  # quaternions w, x, y, z
+    delay: float = 0.0  # time in s by which the estimates are late
 
     @property
     def angles(self) -> tuple[float, float]:
@@ -64,28 +51,16 @@ NONE = Offset(IDENTITY, IDENTITY)
 
 @dataclass(frozen=True, eq=False)
 class Errors:
-    """Errors of estimates at their stamps.
+    """Errors of estimates at their stamps."""
 
-    Attributes
-    ----------
-    stamps : ndarray (n,) of int
-        In ns.
-    total : ndarray (n,)
-        Angle of the rotation that would correct the attitude, in rad.
-    tilt, heading : ndarray (n,)
-        Its parts: by how much the vertical is wrong, and the turn about it (swing and twist).
-    rate : ndarray (n,) or None
-        |omega_est - omega| in rad/s.
-    unknown : int
-        Estimates at stamps of which the exact motion is not known.
-    """
-
-    stamps: NDArray[np.int64]
-    total: Real
+    stamps: NDArray[np.int64]  # in ns
+    total: Real  # angle of the rotation that would correct the attitude, in rad
+    # its parts: by how much the vertical is wrong, and the turn about it (swing and twist)
     tilt: Real
+    # its parts: by how much the vertical is wrong, and the turn about it (swing and twist)
     heading: Real
-    rate: Real | None
-    unknown: int
+    rate: Real | None  # |omega_est - omega| in rad/s
+    unknown: int  # estimates at stamps of which the exact motion is not known
 
     @property
     def seconds(self) -> Real:
@@ -93,14 +68,7 @@ class Errors:
         return (self.stamps - self.stamps[:1]) / NANOSECONDS
 
     def growth(self) -> Real:
-        """Return the root mean square of the error in each tenth of the run, (10,), in rad.
-
-        Examples
-        --------
-        >>> ramp = np.arange(10) * 1.0
-        >>> Errors(np.arange(10), ramp, ramp, ramp, None, 0).growth().tolist()
-        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]
-        """
+        """Return the root mean square of the error in each tenth of the run, (10,), in rad."""
         span = max(int(self.stamps[-1] - self.stamps[0]), 1)
         tenths = (self.stamps - self.stamps[0]) * WINDOWS // (span + 1)
         sums = np.bincount(tenths, self.total**2, WINDOWS)
@@ -110,20 +78,7 @@ class Errors:
 
 
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:
-    """Return the errors of estimates after an offset and a delay are taken away.
-
-    Parameters
-    ----------
-    estimates : Estimates
-    truth : Truth
-    offset : Offset
-        Rotations and delay that are taken away.
-
-    Examples
-    --------
-    >>> compare(Estimates.of([], []), Truth()).total.tolist()
-    []
-    """
+    """Return the errors of estimates after an offset and a delay are taken away."""
     stamps = estimates.stamps - round(offset.delay * NANOSECONDS)
     exact, rates, known = truth.states_at(stamps)
     chosen, exact, rates = estimates.select(known), exact[known], rates[known]
@@ -149,13 +104,6 @@ def find_offset(
 
     For each delay the rotations follow by least squares (Kabsch 1976, in four dimensions). All
     delays up to 0.1 s are tried, since a spinning top repeats itself with each turn.
-
-    Parameters
-    ----------
-    estimates : Estimates
-    truth : Truth
-    rotations, delay : bool
-        False: not fitted, and zero.
     """
     every = max(1, len(estimates) // SAMPLES)
     some = estimates.select(np.arange(len(estimates)) % every == 0)
@@ -236,13 +184,7 @@ def _to_quaternion(rotation: Rotation) -> Real:
 
 
 def invert(q: Real) -> Real:
-    """Return the inverse rotations, (..., 4).
-
-    Examples
-    --------
-    >>> invert(np.array([1.0, 2, 3, 4])).tolist()
-    [1.0, -2.0, -3.0, -4.0]
-    """
+    """Return the inverse rotations, (..., 4)."""
     return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.bag import Source
 from symtop_ros.log.reader import LogError
 from symtop_ros.simulation.validation import one_line
@@ -26,8 +27,6 @@ from symtop_ros.wire.messages import (
     stamped,
 )
 
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 CSV = ".csv"
 COLUMNS, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
 MAX_STAMP = 2**62  # ns
@@ -40,30 +39,12 @@ TF_TYPE = TRANSFORM.type
 
 @dataclass(frozen=True, eq=False)
 class Estimates:
-    """Estimates at their own stamps.
+    """Estimates at their own stamps."""
 
-    Attributes
-    ----------
-    stamps : ndarray (n,) of int
-        In ns.
-    orientations : ndarray (n, 4)
-        Unit quaternions w, x, y, z, sensor frame to world.
-    angular_velocities : ndarray (n, 3) or None
-        In the sensor frame, in rad/s.
-    left_out : int
-        Messages without an attitude, or which could not be read.
-
-    Examples
-    --------
-    >>> estimates = Estimates.of([0, 5], [[2.0, 0, 0, 0], [0, 0, 0, 0]])
-    >>> estimates.orientations.tolist(), estimates.left_out
-    ([[1.0, 0.0, 0.0, 0.0]], 1)
-    """
-
-    stamps: Stamps
-    orientations: Real
-    angular_velocities: Real | None
-    left_out: int = 0
+    stamps: Stamps  # in ns
+    orientations: Real  # unit quaternions w, x, y, z, sensor frame to world
+    angular_velocities: Real | None  # in the sensor frame, in rad/s
+    left_out: int = 0  # messages without an attitude, or which could not be read
 
     @classmethod
     def of(
@@ -73,19 +54,7 @@ class Estimates:
         angular_velocities: Real | None = None,
         left_out: int = 0,
     ) -> Estimates:
-        """Return estimates in the order of their stamps; numbers that are no attitude are left out.
-
-        Parameters
-        ----------
-        stamps : (n,) of int
-            In ns.
-        orientations : array_like (n, 4)
-            Quaternions w, x, y, z; they are normalised.
-        angular_velocities : ndarray (n, 3), optional
-            In rad/s.
-        left_out : int
-            Messages that were left out before.
-        """
+        """Return estimates sorted by stamp, without numbers that are no attitude."""
         times = np.asarray(stamps, dtype=np.int64)
         q = np.asarray(orientations, dtype=float).reshape(-1, 4)
         with np.errstate(all="ignore"):
@@ -149,27 +118,7 @@ KINDS = {
 
 
 def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = None) -> Estimates:
-    """Decode messages of one type.
-
-    Parameters
-    ----------
-    kind : str
-        Message type; one of `KINDS`, or tf2_msgs/msg/TFMessage.
-    messages : sequence of bytes
-    frame : str or None
-        Child frame of a transform, or of odometry; None for any.
-
-    Raises
-    ------
-    LogError
-        If the type has no attitude, or transforms are of several frames and none was named.
-
-    Examples
-    --------
-    >>> message = QUATERNION.layout("world").encode(7, [0.0, 0.0, 0.0, 1.0])
-    >>> decode_estimates("geometry_msgs/msg/QuaternionStamped", [message]).stamps.tolist()
-    [7]
-    """
+    """Decode messages of one type."""
     if kind == TF_TYPE:
         return _decode_transforms(messages, frame)
     if kind not in KINDS:
@@ -216,13 +165,7 @@ def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ..
 
 
 def read_topic(source: Source, topic: str, frame: str | None = None) -> Estimates:
-    """Return the estimates on a topic of a log.
-
-    Raises
-    ------
-    LogError
-        If the log has no such topic, or its type has no attitude.
-    """
+    """Return the estimates on a topic of a log."""
     messages: list[bytes] = []
     for chunk in source.chunks():
         numbers = {n for n, channel in source.channels.items() if channel.topic == topic}
@@ -240,19 +183,7 @@ def read_topic(source: Source, topic: str, frame: str | None = None) -> Estimate
 
 
 def read_csv(path: Path) -> Estimates:
-    """Return the estimates of a CSV file.
-
-    Parameters
-    ----------
-    path : Path
-        With columns `stamp` (integers, ns) or `t` (s), `w`, `x`, `y`, `z`, and `wx`, `wy`, `wz` if
-        there are angular velocities.
-
-    Raises
-    ------
-    LogError
-        If the file cannot be read, lacks a column, or has a line that is not numbers.
-    """
+    """Return the estimates of a CSV file."""
     try:
         with path.open(encoding="utf-8", newline="") as file:
             return _read_rows(path, csv.DictReader(file))

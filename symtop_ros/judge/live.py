@@ -29,19 +29,7 @@ BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFOR
 
 
 class Court:
-    """Subscriptions to the events of a top and to the estimates.
-
-    Parameters
-    ----------
-    node : Node
-        Node of this program.
-    top : str
-        Full name of the top.
-    topic, kind : str
-        Full name and type of the topic with the estimates.
-    frame : str or None
-        Child frame, for /tf.
-    """
+    """Subscriptions to the events of a top and to the estimates."""
 
     def __init__(self, node: Node, top: str, topic: str, kind: str, frame: str | None) -> None:
         self.truth = Truth()
@@ -73,21 +61,7 @@ class Court:
 
 
 def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Print a line each second; return 0, or 1 if the attitude was further off than allowed.
-
-    Parameters
-    ----------
-    options : Namespace
-        Those of `top_judge`: topic, node ("/top" by default), frame, seconds (until it is
-        interrupted by default), and max_error in rad.
-    arguments : list of str
-        Name of the program, and arguments for ROS.
-
-    Raises
-    ------
-    LogError
-        If nobody publishes the topic.
-    """
+    """Print a line each second; return 0, or 1 if the attitude was further off than allowed."""
     topic, seconds, limit = options.topic, options.seconds, options.max_error
     worst = 0.0
     try:

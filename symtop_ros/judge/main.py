@@ -141,22 +141,7 @@ def _write(verdict: Verdict, folder: Path) -> None:
 def judge(
     estimates: Estimates, truth: Truth, source: str, removed: tuple[str, ...] = ()
 ) -> Verdict:
-    """Return the verdict on estimates.
-
-    Parameters
-    ----------
-    estimates : Estimates
-    truth : Truth
-    source : str
-        Name of the estimates, for the text.
-    removed : tuple of str
-        "offset" and "delay" are taken away.
-
-    Raises
-    ------
-    LogError
-        If there is no estimate within the run.
-    """
+    """Return the verdict on estimates."""
     found = find_offset(estimates, truth)
     taken = NONE
     if set(removed) == set(REMOVABLE):

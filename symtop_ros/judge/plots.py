@@ -20,14 +20,7 @@ def write_plot(errors: Errors, folder: Path) -> None:
 
 
 def draw(errors: Errors) -> Figure:
-    """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one.
-
-    Examples
-    --------
-    >>> some = np.array([1e-3, 2e-3])
-    >>> len(draw(Errors(np.array([0, 10**9]), some, some, some, some, 0)).axes)
-    2
-    """
+    """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one."""
     figure = new_figure(3.6 if errors.rate is None else 4.8)
     axes = rows(figure, 1 if errors.rate is None else 2)
     step = max(1, len(errors.total) // POINTS)

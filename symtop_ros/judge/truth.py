@@ -7,14 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.check import StepLimit
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 
 
 class Truth:
@@ -23,21 +21,6 @@ class Truth:
     Each stamp belongs to the last event up to it, so that kicks, pauses and changes of the
     real-time factor are followed at their very instants. If the clock of the run jumped back, the
     later run replaces what it repeats.
-
-    Parameters
-    ----------
-    events : sequence of Event
-        In the order of the run.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import Motion, State, Top
-    >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 2)))
-    >>> begin = Segment.begin(motion, stamp=0, factor=1.0)
-    >>> truth = Truth([Event.of(0, "start", "", {}, motion.start, begin)])
-    >>> orientations, _, known = truth.states_at(np.array([-1, 500_000_000]))
-    >>> known.tolist(), orientations[1].round(6).tolist()
-    ([False, True], [0.877583, 0.0, 0.0, 0.479426])
     """
 
     def __init__(self, events: Sequence[Event] = ()) -> None:
@@ -60,23 +43,7 @@ class Truth:
         return self._events[0].stamp if self._events else None
 
     def states_at(self, stamps: Stamps) -> tuple[Real, Real, NDArray[np.bool_]]:
-        """Return the exact states at stamps in ns, and where they are known.
-
-        Parameters
-        ----------
-        stamps : ndarray (n,) of int
-            In ns, in any order.
-
-        Returns
-        -------
-        orientations : ndarray (n, 4)
-            Quaternions w, x, y, z, body to world.
-        angular_velocities : ndarray (n, 3)
-            In the body frame, in rad/s.
-        known : ndarray (n,) of bool
-            False before the first event, and where a motion with friction or an applied torque is
-            too long or too fast to be integrated.
-        """
+        """Return the exact states at stamps in ns, and where they are known."""
         orientations, rates = np.zeros((len(stamps), 4)), np.zeros((len(stamps), 3))
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)
@@ -99,13 +66,7 @@ class Truth:
 
 
 def read_truth(log: TopLog) -> Truth:
-    """Return the exact motion of the run in a log.
-
-    Raises
-    ------
-    LogError
-        If the log has no event that describes a motion.
-    """
+    """Return the exact motion of the run in a log."""
     truth = Truth([event for batch in log.batches() for _, event in batch.events])
     if truth.begin is None:
         msg = f"{log.file.path} must have the events of a top (~/events), got none"

@@ -13,27 +13,13 @@ from symtop_ros.judge.compare import PERCENTILES, Errors, Offset
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """Errors of the estimates of one source.
+    """Errors of the estimates of one source."""
 
-    Attributes
-    ----------
-    source : str
-        Topic or file.
-    errors : Errors
-        After what was removed.
-    found : Offset
-        The constant rotations and the delay that explain most of the errors.
-    removed : tuple of str
-        "offset" and "delay", if they were taken away.
-    left_out : int
-        Messages without a readable attitude.
-    """
-
-    source: str
-    errors: Errors
-    found: Offset
-    removed: tuple[str, ...]
-    left_out: int
+    source: str  # topic or file
+    errors: Errors  # after what was removed
+    found: Offset  # the constant rotations and the delay that explain most of the errors
+    removed: tuple[str, ...]  # "offset" and "delay", if they were taken away
+    left_out: int  # messages without a readable attitude
 
     @property
     def largest(self) -> float:
@@ -107,13 +93,7 @@ class Verdict:
 
 
 def summarize(values: NDArray[np.float64]) -> dict[str, float]:
-    """Return root mean square, mean and percentiles.
-
-    Examples
-    --------
-    >>> summarize(np.array([3.0, 4.0, 5.0]))["p50"]
-    4.0
-    """
+    """Return root mean square, mean and percentiles."""
     marks = np.percentile(values, PERCENTILES).tolist()
     return {
         "rms": float(np.sqrt((values**2).mean())),

@@ -24,15 +24,6 @@ class Feed:
     """Subscriptions to one top. They find the node again after it was restarted.
 
     Messages may arrive in another thread than that of the caller.
-
-    Parameters
-    ----------
-    node : Node
-        Node of the caller.
-    name : str
-        Full name of the top, such as "/top".
-    topics : collection of str
-        Topics of the samples to subscribe to; the events are always received.
     """
 
     def __init__(self, node: Node, name: str, topics: Collection[str] = DRAWN) -> None:

@@ -47,21 +47,7 @@ class Source(Protocol):
 
 
 def open_run(paths: Sequence[Path]) -> Source:
-    """Open files and rosbag2 folders as one run; their order does not matter.
-
-    Raises
-    ------
-    LogError
-        If one of them cannot be opened, or is not a log.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     open_run([Path(folder)])  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-    symtop_ros.log.reader.LogError: cannot open ...: no .mcap or .db3 file in it
-    """
+    """Open files and rosbag2 folders as one run; their order does not matter."""
     files = [file for path in paths for file in _files_of(path)]
     if len(files) > MAX_FILES:
         msg = f"a run must have at most {MAX_FILES} files, got {len(files)}"
@@ -87,14 +73,7 @@ def _open(path: Path) -> Source:
 
 
 class SeveralFiles:
-    """Several logs, read one after the other in the order of their first messages.
-
-    Parameters
-    ----------
-    path : Path
-        Stands for all of them in messages and names.
-    sources : sequence of Source
-    """
+    """Several logs, read one after the other in the order of their first messages."""
 
     def __init__(self, path: Path, sources: Sequence[Source]) -> None:
         self.path = path
@@ -146,18 +125,7 @@ def _begin(source: Source) -> tuple[int, str]:
 
 
 class SqliteBag:
-    """A bag of rosbag2's sqlite3 storage, read with the attributes of an `McapFile`.
-
-    Parameters
-    ----------
-    path : Path
-        A .db3 file.
-
-    Raises
-    ------
-    LogError
-        If it cannot be opened, or is not such a bag.
-    """
+    """A bag of rosbag2's sqlite3 storage, read with the attributes of an `McapFile`."""
 
     def __init__(self, path: Path) -> None:
         self.path, self.offset = path, 0

@@ -18,21 +18,11 @@ TF = "tf"
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Samples of one topic.
+    """Samples of one topic."""
 
-    Attributes
-    ----------
-    stamps : ndarray (n,)
-        In ns.
-    numbers : ndarray (n, width)
-        The doubles of the messages, as in `simulation.topics`.
-    places : ndarray (n,)
-        Their places among the messages of the batch.
-    """
-
-    stamps: NDArray[np.int64]
-    numbers: NDArray[np.float64]
-    places: NDArray[np.int64]
+    stamps: NDArray[np.int64]  # in ns
+    numbers: NDArray[np.float64]  # the doubles of the messages, as in `simulation.topics`
+    places: NDArray[np.int64]  # their places among the messages of the batch
 
     def select(self, chosen: NDArray[np.bool_]) -> Columns:
         """Return the samples for which `chosen` (n,) is True."""
@@ -41,17 +31,10 @@ class Columns:
 
 @dataclass(frozen=True)
 class Batch:
-    """Consecutive messages.
+    """Consecutive messages."""
 
-    Attributes
-    ----------
-    columns : dict of str to Columns
-        By the names of the topics.
-    events : list of (int, Event)
-        With their places among the messages of the batch.
-    """
-
-    columns: dict[str, Columns] = field(default_factory=dict)
+    columns: dict[str, Columns] = field(default_factory=dict)  # by the names of the topics
+    # with their places among the messages of the batch
     events: list[tuple[int, Event]] = field(default_factory=list)
 
     def stretches(self) -> Iterator[tuple[Event | None, dict[str, Columns]]]:
@@ -85,15 +68,10 @@ class Batch:
 
 
 class BatchReader:
-    """Decodes messages into batches.
-
-    Attributes
-    ----------
-    unreadable : dict of str to str
-        Reason why messages of a topic could not be decoded, by the name of the topic.
-    """
+    """Decodes messages into batches."""
 
     def __init__(self) -> None:
+        # reason why messages of a topic could not be decoded, by the name of the topic
         self.unreadable: dict[str, str] = {}
         self._frame: str | None = None  # child frame of the top on /tf
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Motion
 from symtop_ros.simulation.segment import RoundedSegment, Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 from symtop_ros.wire.messages import IMU_WIDTH, ODOMETRY_WIDTH
-
-Real = NDArray[np.float64]
 
 # On the machine that recorded, all differences are 0. Sine and arctangent of another machine may
 # differ in the last place, and a motion next to the separatrix amplifies that: the largest
@@ -38,26 +36,13 @@ BOUNDARIES = {IMU_WIDTH: (4, 13, 16, 25, 28), ODOMETRY_WIDTH: (3, 7, 43, 46, 49)
 
 @dataclass
 class Deviation:
-    """Difference between the samples of one topic and their computed values.
+    """Difference between the samples of one topic and their computed values."""
 
-    Attributes
-    ----------
-    samples : int
-        Number of samples that were compared.
-    largest : float
-        Largest absolute difference.
-    relative : float
-        Largest difference divided by the size of the quantity.
-    unchecked : int
-        Samples before the first event.
-    unreached : int
-        Samples of a motion that is too fast or too long to be integrated for a check.
-    """
-
-    samples: int = 0
-    largest: float = 0.0
-    relative: float = 0.0
-    unchecked: int = 0
+    samples: int = 0  # number of samples that were compared
+    largest: float = 0.0  # largest absolute difference
+    relative: float = 0.0  # largest difference divided by the size of the quantity
+    unchecked: int = 0  # samples before the first event
+    # samples of a motion that is too fast or too long to be integrated for a check
     unreached: int = 0
 
     @property
@@ -82,13 +67,7 @@ def _largest(numbers: Real) -> float:
 
 
 class StepLimit:
-    """Limits the integration steps that are spent on one log.
-
-    Parameters
-    ----------
-    spare : int
-        Steps beyond those that the number of samples explains.
-    """
+    """Limits the integration steps that are spent on one log."""
 
     def __init__(self, spare: int = SPARE_STEPS) -> None:
         self._spare = spare

@@ -13,36 +13,15 @@ from typing import NamedTuple
 
 
 class Definition(NamedTuple):
-    """Definition of a message type.
+    """Definition of a message type."""
 
-    Attributes
-    ----------
-    type : str
-        Name, such as "std_msgs/msg/String".
-    text : str
-        The .msg text, followed by those of all dependencies in the form of rosbag2.
-    type_hash : str
-        Hash of the type description (REP-2016), "RIHS01_...".
-    """
-
-    type: str
-    text: str
-    type_hash: str
+    type: str  # name, such as "std_msgs/msg/String"
+    text: str  # the .msg text, followed by those of all dependencies in the form of rosbag2
+    type_hash: str  # hash of the type description (REP-2016), "RIHS01_..."
 
 
 def load_definition(name: str) -> Definition:
-    """Return the definition of a logged type.
-
-    Raises
-    ------
-    KeyError
-        If no topic has that type.
-
-    Examples
-    --------
-    >>> load_definition("std_msgs/msg/String").type_hash[:10]
-    'RIHS01_df6'
-    """
+    """Return the definition of a logged type."""
     entry = _load()[name]
     return Definition(name, entry["text"], entry["hash"])
 

@@ -71,58 +71,31 @@ class Contents(NamedTuple):
 
 
 def list_problems(problems: Sequence[str]) -> list[str]:
-    """Return the first problems, each in one line, and the number of the others.
-
-    Examples
-    --------
-    >>> list_problems(["a chunk is damaged"] * 22)[-2:]
-    ['a chunk is damaged', '2 more problems']
-    """
+    """Return the first problems, each in one line, and the number of the others."""
     more = len(problems) - MAX_PROBLEMS
     rest = [f"{more} more problems"] if more > 0 else []
     return [one_line(each) for each in problems[:MAX_PROBLEMS]] + rest
 
 
 class McapFile:
-    """A log on disk.
-
-    Parameters
-    ----------
-    path : Path
-
-    Attributes
-    ----------
-    profile : str
-        "ros2" for logs of ROS 2.
-    schemas, channels : dict
-        By their ids. These and the following are complete when all chunks are read.
-    metadata : dict
-        Metadata records by name.
-    problems : list of str
-        Everything that is missing or damaged.
-    size, offset : int
-        Bytes of the file, and bytes that were read.
-
-    Raises
-    ------
-    LogError
-        If the file cannot be opened or is not an MCAP file.
-    """
+    """A log on disk."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.profile = ""
+        self.profile = ""  # "ros2" for logs of ROS 2
+        # by their ids. These and the following are complete when all chunks are read
         self.schemas: dict[int, Schema] = {}
+        # by their ids. These and the following are complete when all chunks are read
         self.channels: dict[int, Channel] = {}
-        self.metadata: dict[str, dict[str, str]] = {}
-        self.problems: list[str] = []
-        self.offset = 0
+        self.metadata: dict[str, dict[str, str]] = {}  # metadata records by name
+        self.problems: list[str] = []  # everything that is missing or damaged
+        self.offset = 0  # bytes of the file, and bytes that were read
         self._span: tuple[int, int] | None = None  # log times of the first and latest message
         self._chunk_offsets: list[int] = []
         self._described = 0  # bytes of all descriptions, about
         try:
             with path.open("rb") as file:
-                self.size = file.seek(0, 2)
+                self.size = file.seek(0, 2)  # bytes of the file, and bytes that were read
                 file.seek(0)
                 if file.read(len(MAGIC)) != MAGIC:
                     msg = f"cannot open {path}: not an MCAP file"
@@ -133,13 +106,7 @@ class McapFile:
             raise LogError(msg) from None
 
     def chunks(self) -> Iterator[list[Message]]:
-        """Yield messages in the order of the file, those of a chunk together.
-
-        Raises
-        ------
-        LogError
-            If reading fails, or if the file has more descriptions than any log.
-        """
+        """Yield messages in the order of the file, those of a chunk together."""
         try:
             yield from self._read_chunks()
         except OSError as error:
@@ -319,13 +286,7 @@ def _chunk_of(record: Record) -> list[Chunk]:
 
 
 def _contents(record: Record) -> Contents:
-    """Return the contents of a record that is sound as a whole.
-
-    Raises
-    ------
-    Exception
-        Of many types, if it is damaged.
-    """
+    """Return the contents of a record that is sound as a whole."""
     if record.opcode != Opcode.CHUNK:
         return _parse(record.data, [(record.opcode, 0, len(record.data))], PARSED)
     chunk = Chunk.read(_stream(record.data))
@@ -341,13 +302,7 @@ def _contents(record: Record) -> Contents:
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """The records of a chunk as opcode, begin and end, found anew in each iteration.
-
-    Raises
-    ------
-    ValueError, struct.error
-        During the iteration, if a record is cut or invalid.
-    """
+    """The records of a chunk as opcode, begin and end, found anew in each iteration."""
 
     data: bytes
 

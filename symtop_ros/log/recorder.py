@@ -26,23 +26,10 @@ Queued = tuple[int, int, bytes]  # channel, stamp in ns, message
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of one file; the recording then continues in a new one. 0: no limit.
+    """Limits of one file; the recording then continues in a new one. 0: no limit."""
 
-    Attributes
-    ----------
-    size : float
-        In bytes.
-    duration : float
-        In s, between the stamps of its messages.
-
-    Examples
-    --------
-    >>> Limits(duration=600.0)
-    Limits(size=0.0, duration=600.0)
-    """
-
-    size: float = 0.0
-    duration: float = 0.0
+    size: float = 0.0  # in bytes
+    duration: float = 0.0  # in s, between the stamps of its messages
 
     def are_reached(self, file: LogFile) -> bool:
         """Return True if a file has reached a limit."""
@@ -50,34 +37,12 @@ class Limits:
 
 
 def describe_error(error: Exception) -> str:
-    """Return the text of an error without its number and path.
-
-    Examples
-    --------
-    >>> describe_error(OSError(28, "No space left on device", "/logs/top.mcap"))
-    'No space left on device'
-    """
+    """Return the text of an error without its number and path."""
     return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
 
 
 class Recorder:
-    """Writes messages to files in a thread.
-
-    Parameters
-    ----------
-    directory : Path
-        Folder of the files.
-    limits : Limits
-
-    Attributes
-    ----------
-    limits : Limits
-        May be changed at any time.
-    dropped : int
-        Messages that did not fit into the queue since the recording began.
-    failure : str
-        Reason why the last recording ended by itself; empty if it did not.
-    """
+    """Writes messages to files in a thread."""
 
     def __init__(self, directory: Path, limits: Limits) -> None:
         self._directory, self.limits = directory, limits
@@ -87,8 +52,8 @@ class Recorder:
         self._held: list[Queued] | None = None
         self._thread: threading.Thread | None = None
         self._ending = threading.Event()
-        self.dropped = 0
-        self.failure = ""
+        self.dropped = 0  # messages that did not fit into the queue since the recording began
+        self.failure = ""  # reason why the last recording ended by itself; empty if it did not
 
     def add_channel(self, name: str, topic: Topic) -> int:
         """Add a topic before the first recording; return the index of its channel."""
@@ -106,18 +71,7 @@ class Recorder:
         return self._file.path if self.running else None
 
     def start(self, metadata: Mapping[str, str]) -> Path:
-        """Begin a recording and return the path of its first file.
-
-        Parameters
-        ----------
-        metadata : mapping of str to str
-            Written to each file.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be created.
-        """
+        """Begin a recording and return the path of its first file."""
         self.stop()
         latched = dict(self._latched)
         self._file = LogFile(self._directory, self._channels, metadata, latched)

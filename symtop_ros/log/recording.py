@@ -19,17 +19,7 @@ def limits_of(settings: RecordSettings) -> Limits:
 
 
 class Recording:
-    """Begins and ends recordings of a simulation.
-
-    Parameters
-    ----------
-    recorder : Recorder
-    simulation : Simulation
-    environment : mapping of str to str
-        Metadata of each file besides version, parameters and clocks: scene, middleware, ...
-    report : callable
-        Called with a sentence and True for an error, False for information.
-    """
+    """Begins and ends recordings of a simulation."""
 
     def __init__(
         self,
@@ -43,13 +33,7 @@ class Recording:
         self._failure_reported = False
 
     def begin(self) -> Path:
-        """Begin a recording and return the path of its file.
-
-        Raises
-        ------
-        RefusedError
-            If the file cannot be created.
-        """
+        """Begin a recording and return the path of its file."""
         try:
             path = self._recorder.start(self._metadata())
         except OSError as error:
@@ -61,13 +45,7 @@ class Recording:
         return path
 
     def switch(self, on: bool) -> str:
-        """Begin or end a recording; return the answer.
-
-        Raises
-        ------
-        RefusedError
-            If the file cannot be created, or not be finished.
-        """
+        """Begin or end a recording; return the answer."""
         self.report_failure()
         path = self._recorder.path
         if on == bool(path):

@@ -12,19 +12,7 @@ from symtop_ros.log.reader import LogError, McapFile
 
 
 def repair(file: McapFile, target: Path) -> int:
-    """Write the readable messages with new indexes and checksums; return their number.
-
-    Parameters
-    ----------
-    file : McapFile
-    target : Path
-        Must not exist.
-
-    Raises
-    ------
-    LogError
-        If the target exists or cannot be written.
-    """
+    """Write the readable messages with new indexes and checksums; return their number."""
     try:
         with target.open("xb") as stream, _remove_on_failure(target):
             writer = Writer(stream, compression=CompressionType.ZSTD)

@@ -21,39 +21,19 @@ TYPES = {topic.name: topic.type for topic in (EVENTS, *SAMPLE_TOPICS.values())}
 
 
 class TopLog:
-    """The run of one top.
-
-    Parameters
-    ----------
-    file : Source
-        A file, or several as one.
-    node : str or None
-        Full name of the node; None for "/top", or else for the first name in the alphabet.
-
-    Attributes
-    ----------
-    topics : dict of str to str
-        Full names of the topics that were found, by their names in `simulation.topics`.
-    others : set of str
-        Full names of other nodes with tops in the file.
-    """
+    """The run of one top."""
 
     def __init__(self, file: Source, node: str | None = None) -> None:
         self.file, self.node = file, node
         self._asked = f" {node}" if node else ""
+        # full names of the topics that were found, by their names in `simulation.topics`
         self.topics: dict[str, str] = {}
-        self.others: set[str] = set()
+        self.others: set[str] = set()  # full names of other nodes with tops in the file
         self._names: dict[int, str] = {}  # name of the topic by channel, "" for others
         self._reader = BatchReader()
 
     def batches(self) -> Iterator[Batch]:
-        """Yield the run from its begin to its end.
-
-        Raises
-        ------
-        LogError
-            At the end, if the file has no topic of a top.
-        """
+        """Yield the run from its begin to its end."""
         if self.node is None:
             self.node = self._find_node()
         for messages in self._runs():

@@ -27,51 +27,14 @@ ENDING = "symtop_ros.end"  # name of the metadata record written at the end
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """A topic of the log.
+    """A topic of the log."""
 
-    Attributes
-    ----------
-    name : str
-        Full name of the topic.
-    topic : Topic
-        Its type and quality of service.
-    """
-
-    name: str
-    topic: Topic
+    name: str  # full name of the topic
+    topic: Topic  # its type and quality of service
 
 
 class LogFile:
-    """An open log.
-
-    Parameters
-    ----------
-    directory : Path
-        Created if it is missing.
-    channels : iterable of Channel
-    metadata : mapping of str to str
-        Written at the start of the file.
-    head : mapping of int to bytes
-        The current latched messages by the indices of their channels; they precede all others.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be created.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from symtop_ros.simulation.topics import DESCRIPTION
-    >>> from symtop_ros.wire.cdr import encode_string
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     channels = [Channel("/robot_description", DESCRIPTION)]
-    ...     log = LogFile(Path(folder), channels, metadata={}, head={})
-    ...     log.write(0, 1_000_000_000, encode_string("<robot/>"))
-    ...     log.finish({"dropped": "0"})
-    ...     log.path.suffix
-    '.mcap'
-    """
+    """An open log."""
 
     def __init__(
         self,
@@ -113,11 +76,6 @@ class LogFile:
         """Close the chunk and hand everything to the operating system.
 
         A process that is killed afterwards loses nothing of it.
-
-        Raises
-        ------
-        OSError
-            If the disk is full or the file was removed.
         """
         self._writer.flush()  # type: ignore[no-untyped-call]
         if not self._exists():

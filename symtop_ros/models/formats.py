@@ -16,27 +16,7 @@ STEP = 1e-4  # s; at 200 rad/s a step of 0.02 rad
 
 
 def format_urdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
-    """Return the top as URDF: three revolute joints, since the format has no ball joint.
-
-    Parameters
-    ----------
-    top : Top
-    start : State
-        One state; URDF has no place for it but a comment.
-    gravity : float
-        In m/s^2.
-
-    Raises
-    ------
-    ValueError
-        If no body has the constants of the top.
-
-    Examples
-    --------
-    >>> top, start = Top(Ix=1.0, Iz=0.5, Mgl=1.0), State.from_euler(theta=0.5, psi_dot=2.0)
-    >>> print(format_urdf(top, start).splitlines()[4].strip()[:57])
-    position 0.0 0.5 0.0 rad, velocity 0.0 0.0 2.0 rad/s. The
-    """
+    """Return the top as URDF: three revolute joints, since the format has no ball joint."""
     Body.of(top, gravity)  # refused here: the drawing alone would do for rviz, but not for engines
     angles, rates = start.euler_angles, start.euler_rates
     text = robot_description(top, "world", "top", tf_moves_it=False, gravity=gravity)
@@ -57,25 +37,6 @@ def format_sdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str
 
     SDF places the body; no element of it gives a body its first angular velocity, which therefore
     stands in a comment.
-
-    Parameters
-    ----------
-    top : Top
-    start : State
-        One state.
-    gravity : float
-        In m/s^2.
-
-    Raises
-    ------
-    ValueError
-        If no body has the constants of the top.
-
-    Examples
-    --------
-    >>> top, start = Top(Ix=1.0, Iz=0.5, Mgl=1.0), State.from_euler(theta=0.5, psi_dot=2.0)
-    >>> '<joint name="pivot" type="ball">' in format_sdf(top, start)
-    True
     """
     body = Body.of(top, gravity)
     w, x, y, z = start.orientation.tolist()
@@ -121,27 +82,7 @@ def format_sdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str
 
 
 def format_mjcf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
-    """Return the top as MJCF with a ball joint; its start is the keyframe "start".
-
-    Parameters
-    ----------
-    top : Top
-    start : State
-        One state.
-    gravity : float
-        In m/s^2.
-
-    Raises
-    ------
-    ValueError
-        If no body has the constants of the top.
-
-    Examples
-    --------
-    >>> top, start = Top(Ix=1.0, Iz=0.5, Mgl=1.0), State.from_euler(theta=0.5, psi_dot=2.0)
-    >>> '<joint name="pivot" type="ball"/>' in format_mjcf(top, start)
-    True
-    """
+    """Return the top as MJCF with a ball joint; its start is the keyframe "start"."""
     body = Body.of(top, gravity)
     size = _size(body)
     end = math.copysign(size, body.arm)

@@ -18,19 +18,7 @@ MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very 
 
 
 class DuplicateNodes:
-    """Counts the other nodes that have the name of this node.
-
-    Parameters
-    ----------
-    node : Node
-
-    Attributes
-    ----------
-    name : str
-        Full name of the node.
-    count : int
-        Other nodes of this name at the last count.
-    """
+    """Counts the other nodes that have the name of this node."""
 
     def __init__(self, node: Node) -> None:
         self._node, self.name, self.count = node, node.get_fully_qualified_name(), 0

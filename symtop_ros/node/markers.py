@@ -40,14 +40,7 @@ MISSING = (
 
 
 class Markers:
-    """The topic `~/markers`.
-
-    Parameters
-    ----------
-    node : Node
-    frame : str
-        The world frame.
-    """
+    """The topic `~/markers`."""
 
     def __init__(self, node: Node, frame: str) -> None:
         self._frame = frame

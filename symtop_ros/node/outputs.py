@@ -35,33 +35,19 @@ from symtop_ros.wire.messages import Transform
 
 
 class Output:
-    """One topic: its publisher and its channel in the log.
-
-    Parameters
-    ----------
-    node : Node
-    recorder : Recorder
-    topic : Topic
-
-    Attributes
-    ----------
-    channel : int
-        Index of its channel in the log.
-    is_installed : bool
-        False if its message type is not installed: then it is only logged.
-    enabled : bool
-        Set to False to log the topic without publishing it.
-    """
+    """One topic: its publisher and its channel in the log."""
 
     def __init__(self, node: Node, recorder: Recorder, topic: Topic) -> None:
         message_class = topic.load_message_class()
+        # false if its message type is not installed: then it is only logged
         self.is_installed = message_class is not None
         self._publisher = _create_publisher(node, topic, message_class) if message_class else None
         self._context = node.context
         self._latched = topic.latched
         self._recorder = recorder
+        # index of its channel in the log
         self.channel = recorder.add_channel(node.resolve_topic_name(topic.ros_name), topic)
-        self.enabled = True
+        self.enabled = True  # set to False to log the topic without publishing it
 
     @property
     def is_needed(self) -> bool:
@@ -87,14 +73,7 @@ class Output:
 
 
 class Outputs:
-    """All topics of the node; the sink of its simulation.
-
-    Parameters
-    ----------
-    node : Node
-    recorder : Recorder
-    settings : Settings
-    """
+    """All topics of the node; the sink of its simulation."""
 
     def __init__(self, node: Node, recorder: Recorder, settings: Settings) -> None:
         self._node, self._recorder = node, recorder

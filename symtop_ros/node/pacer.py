@@ -15,15 +15,7 @@ MIN_PAUSE = 5e-5
 
 
 class Pacer:
-    """Calls `tick` repeatedly in a thread.
-
-    Parameters
-    ----------
-    tick : callable
-        Returns the seconds until its next call; None to wait for `wake`.
-    fail : callable
-        Called with an exception that `tick` raised; `tick` is not called again.
-    """
+    """Calls `tick` repeatedly in a thread."""
 
     def __init__(self, tick: Callable[[], float | None], fail: Callable[[Exception], None]) -> None:
         self._tick, self._fail = tick, fail

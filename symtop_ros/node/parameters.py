@@ -21,13 +21,7 @@ GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
 
 
 def declare_parameters(node: Node) -> Settings:
-    """Declare all parameters with the defaults of the scene; return their values.
-
-    Raises
-    ------
-    RefusedError
-        If a value, the scene or its file is not valid.
-    """
+    """Declare all parameters with the defaults of the scene; return their values."""
     name: object = node.declare_parameter(
         "scene",
         DEFAULT_SCENE,
@@ -50,13 +44,7 @@ def declare_parameters(node: Node) -> Settings:
 
 
 def _default_frame(namespace: str) -> str:
-    """Return the frame of the top, which differs between namespaces: /tf is shared by all.
-
-    Examples
-    --------
-    >>> _default_frame("/"), _default_frame("/a")
-    ('top', 'a/top')
-    """
+    """Return the frame of the top, which differs between namespaces: /tf is shared by all."""
     return f"{namespace}/{PARAMETERS['top_frame'].default}".lstrip("/")
 
 

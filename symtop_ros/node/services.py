@@ -57,13 +57,7 @@ def fill_response(response: Any, granted: bool, answer: str) -> Any:
 
 
 def read_values(parameters: Iterable[ParameterMessage]) -> dict[str, Any]:
-    """Return the values of a request by name.
-
-    Raises
-    ------
-    RefusedError
-        If a name is repeated, a value is missing, or a type is unknown.
-    """
+    """Return the values of a request by name."""
     parameters = tuple(parameters)
     refuse_unknown_types(parameters)
     values: dict[str, Any] = {}

@@ -56,25 +56,13 @@ class TopNode(Node):
     """A heavy symmetric top in real time; the README lists topics, services and parameters.
 
     Ticks run in a thread of the pacer, requests and timers in the executor's.
-
-    Parameters
-    ----------
-    **options
-        Options of `rclpy.node.Node`.
-
-    Attributes
-    ----------
-    simulation : Simulation
-    recording : Recording
-    failure : Exception or None
-        The exception that ended the ticks.
     """
 
     def __init__(self, **options: Any) -> None:
         super().__init__("top", **options)
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
-        self.failure: Exception | None = None
+        self.failure: Exception | None = None  # the exception that ended the ticks
         self._create_simulation(settings)
         for name, (kind, act) in service_table(Requests(self.simulation), self.recording).items():
             self.create_service(kind, f"~/{name}", self._handler(name, act))

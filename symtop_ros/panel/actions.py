@@ -10,8 +10,8 @@ from typing import Any
 from urllib.parse import urlencode
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.panel.run import Run
 from symtop_ros.panel.source import Argument, Source
 from symtop_ros.physics import Top
@@ -21,7 +21,6 @@ from symtop_ros.simulation.presets import load_scene
 from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.validation import RefusedError, number, refuse
 
-Real = NDArray[np.float64]
 SCENE_PARAMETERS = ("top.", "initial.", "friction.", "steady_torque", "hurry_factor")
 TOP_PARAMETERS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 LINKED = {name.rpartition(".")[2]: name for name in TOP_PARAMETERS}  # names in a link
@@ -36,31 +35,11 @@ LONGEST_STEP = 0.05  # s of the motion; a nutation may be infinite
 
 
 class Actions:
-    """Requests to a top, with an answer that the page shows.
-
-    Parameters
-    ----------
-    source : Source
-    run : Run
-
-    Attributes
-    ----------
-    message : str
-        Reason of the last refusal, or another sentence for the user; empty after a success.
-
-    Examples
-    --------
-    >>> from symtop_ros.panel.source import LocalTop
-    >>> top, run = LocalTop("hurry_slow", factor=0.1), Run()
-    >>> actions = Actions(top, run)
-    >>> actions.start({"theta": 4.0})
-    >>> actions.message
-    'theta must be 0 to 3.14159 rad, got 4.0'
-    >>> top.close()
-    """
+    """Requests to a top, with an answer that the page shows."""
 
     def __init__(self, source: Source, run: Run) -> None:
         self._source, self._run = source, run
+        # reason of the last refusal, or another sentence for the user; empty after a success
         self.message = ""
         self._latest: dict[str, int] = {}
         self._lock = threading.Lock()
@@ -188,15 +167,7 @@ class Actions:
         return self.set_parameters(values)
 
     def last_of(self, kind: str, act: Callable[[], None], wait: Callable[[float], Any]) -> None:
-        """Carry out the last of several acts of one kind: a slider that moves sends many.
-
-        Parameters
-        ----------
-        kind : str
-        act : callable
-        wait : callable
-            Waits for a time in s.
-        """
+        """Carry out the last of several acts of one kind: a slider that moves sends many."""
         with self._lock:
             ticket = self._latest[kind] = self._latest.get(kind, 0) + 1
         wait(0.12)
@@ -208,30 +179,13 @@ def impulse_of_pull(top: Top, axis: Real, end: Real) -> Real:
     """Return the angular impulse (3,) in N m s, world frame, of a pull at the end of the axle.
 
     It is axis x pull, as of a force at that end, times a size that suits the top.
-
-    Examples
-    --------
-    >>> top = Top(Ix=4.0, Iz=1.0, Mgl=1.0)
-    >>> impulse_of_pull(top, np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 1.0])).tolist()
-    [0.0, 1.0, 0.0]
     """
     rate = math.sqrt(abs(top.Mgl) / top.Ix) or 1.0
     return np.asarray(PULL * top.Ix * rate * np.cross(axis, end - axis))
 
 
 def read_link(texts: Mapping[str, str]) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return parameters of the top and initial conditions of a link.
-
-    Raises
-    ------
-    RefusedError
-        If a name is unknown, or a value is no number.
-
-    Examples
-    --------
-    >>> read_link({"theta": "0.5", "Mgl": "0.05", "scene": "cusps"})
-    ({'top.Mgl': 0.05}, {'theta': 0.5})
-    """
+    """Return parameters of the top and initial conditions of a link."""
     top: dict[str, float] = {}
     initial: dict[str, Any] = {}
     for name, text in texts.items():
@@ -251,11 +205,6 @@ def write_link(run: Run) -> str:
     """Return the query of a link that starts the motion of the last event; empty without one.
 
     Its numbers have six digits: a link is typed and read by people.
-
-    Examples
-    --------
-    >>> write_link(Run())
-    ''
     """
     if run.event is None or run.motion is None:
         return ""

@@ -6,7 +6,6 @@ import math
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 from viser import ClientHandle, GuiHtmlHandle, GuiUplotHandle, ViserServer, uplot
 
 from symtop_ros.drawing import chart as box
@@ -14,7 +13,6 @@ from symtop_ros.drawing.chart import TILTS, Chart, frame_potential
 from symtop_ros.panel.run import SERIES, Run
 from symtop_ros.physics import EffectivePotential, Motion, perrys_rule
 
-Real = NDArray[np.float64]
 WIDTH = 316  # px
 POINTS = 320  # of a plotted series
 PLOTTED = {"theta": "tilt theta (rad)", "phi_dot": "phi' (rad/s)", "psi_dot": "psi' (rad/s)"}
@@ -26,12 +24,7 @@ NAMES = {"energy": "E", "L_z": "L<sub>z</sub>", "L_z'": "L<sub>z'</sub>"}
 
 
 class Charts:
-    """The panel on the right of the page.
-
-    Parameters
-    ----------
-    server : ViserServer
-    """
+    """The panel on the right of the page."""
 
     def __init__(self, server: ViserServer) -> None:
         panel = server.gui.add_panel()
@@ -76,13 +69,7 @@ class Charts:
 
 
 class PotentialChart:
-    """U_eff(theta), the energy line, the allowed angles, and the state as a dot.
-
-    Parameters
-    ----------
-    html : GuiHtmlHandle
-        The element that shows the chart.
-    """
+    """U_eff(theta), the energy line, the allowed angles, and the state as a dot."""
 
     def __init__(self, html: GuiHtmlHandle) -> None:
         self._html = html

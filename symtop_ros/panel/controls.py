@@ -69,15 +69,7 @@ NUMBERS = {  # label and step of each parameter of the top
 
 
 class Controls:
-    """The panel on the left of the page.
-
-    Parameters
-    ----------
-    server : ViserServer
-    actions : Actions
-    run : Run
-    scene : Scene
-    """
+    """The panel on the left of the page."""
 
     def __init__(self, server: ViserServer, actions: Actions, run: Run, scene: Scene) -> None:
         self._gui, self._actions, self._run, self._scene = server.gui, actions, run, scene

@@ -18,11 +18,11 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 from std_srvs.srv import SetBool, Trigger
 
+from symtop_ros.arrays import Vector
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.live.feed import DEPTH, Feed
 from symtop_ros.log.batch import Batch
 from symtop_ros.panel.source import DRAWN, Answer, Argument
-from symtop_ros.simulation.settings import Vector
 from symtop_ros.simulation.topics import STATE_TOPICS
 
 SERVICES = {
@@ -69,15 +69,7 @@ class SharedConnection(Connection):
 
 
 class NodeTop:
-    """A running node; see `Source` for the methods.
-
-    Parameters
-    ----------
-    node : Node
-        Node of the page. It is spun in a thread of this class.
-    name : str
-        Full name of the top, such as "/top".
-    """
+    """A running node; see `Source` for the methods."""
 
     def __init__(self, node: Node, name: str) -> None:
         self._connection = SharedConnection(node, name, TIMEOUT)

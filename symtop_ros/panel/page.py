@@ -6,9 +6,9 @@ import threading
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 from viser import CameraHandle, ClientHandle, IcosphereHandle, SceneNodeDragEvent
 
+from symtop_ros.arrays import Real
 from symtop_ros.panel.actions import Actions
 from symtop_ros.panel.charts import WIDTH, Charts
 from symtop_ros.panel.controls import Controls
@@ -19,7 +19,6 @@ from symtop_ros.panel.source import Source
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.validation import one_line
 
-Real = NDArray[np.float64]
 RATE, CROWDED_RATE = 60.0, 40.0  # frames per second
 CROWD = 4  # pages above which fewer frames are drawn: each page is sent its own copy
 CHART_EVERY, TEXT_EVERY = 6, 15  # frames
@@ -29,19 +28,7 @@ UNWATCHED = 0.5  # s between two looks at the events of a top without pages
 
 
 class Page:
-    """One top on a server. Any number of browsers may show it, each with its own camera.
-
-    Parameters
-    ----------
-    source : Source
-    host : str
-    port : int
-
-    Raises
-    ------
-    OSError
-        If the port is taken.
-    """
+    """One top on a server. Any number of browsers may show it, each with its own camera."""
 
     def __init__(self, source: Source, host: str, port: int) -> None:
         self.source, self.run = source, Run()

@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.drawing.ghost import Ghost
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.panel.source import DRAWN
@@ -17,7 +17,6 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.summary import constants_of_motion
 
-Real = NDArray[np.float64]
 SERIES = ("theta", "phi_dot", "psi_dot", "energy", "L_z", "L_z'")
 UNITS = ("rad", "rad/s", "rad/s", "J", "N m s", "N m s")
 ROWS = 20_000  # samples in the series at least: 100 s of the clock at 200 Hz
@@ -31,52 +30,21 @@ REPEATED = ("start", "reset", "parameters", "torque")  # of several in a row the
 
 
 class Run:
-    """State of the page, from the events and samples of a run.
-
-    Attributes
-    ----------
-    segment : Segment or None
-        The motion of the last event, None before the first one.
-    event : Event or None
-        The last event.
-    verdict : str
-        Effect of the last start, kick or change, in a sentence.
-    ghost : Ghost
-        The run without its last kick.
-    history : deque of Event
-        Starts, kicks and changes, the newest last.
-    state : State or None
-        The state of the last sample.
-    stamp : int
-        Its stamp in ns.
-    axes : ndarray (TRACE + 1, 3)
-        Points of the trace in scene units, the newest last.
-    is_recording : bool
-        True while a log is written.
-    window : float
-        Time (s of the motion) that the plots show.
-
-    Examples
-    --------
-    >>> from symtop_ros.panel.source import LocalTop
-    >>> top, run = LocalTop("cusps", factor=0.1), Run()
-    >>> [event.name for event in run.follow(top.batch())]
-    ['start']
-    >>> run.motion.kind
-    'cusps'
-    >>> top.close()
-    """
+    """State of the page, from the events and samples of a run."""
 
     def __init__(self) -> None:
+        # the motion of the last event, None before the first one
         self.segment: Segment | None = None
-        self.event: Event | None = None
-        self.verdict = ""
-        self.ghost = Ghost()
+        self.event: Event | None = None  # the last event
+        self.verdict = ""  # effect of the last start, kick or change, in a sentence
+        self.ghost = Ghost()  # the run without its last kick
+        # starts, kicks and changes, the newest last
         self.history: deque[Event] = deque(maxlen=HISTORY)
-        self.state: State | None = None
-        self.stamp = 0
-        self.is_recording = False
-        self.window = 1.0
+        self.state: State | None = None  # the state of the last sample
+        self.stamp = 0  # its stamp in ns
+        self.is_recording = False  # true while a log is written
+        self.window = 1.0  # time (s of the motion) that the plots show
+        # points of the trace in scene units, the newest last
         self.axes: Real = np.zeros((TRACE + 1, 3))
         self._rows: Real = np.empty((2 * ROWS, 1 + len(SERIES)))
         self._count = 0  # of the rows in use

@@ -16,12 +16,12 @@ from viser import (
     ViserServer,
 )
 
+from symtop_ros.arrays import Real
 from symtop_ros.drawing.mesh import create_body, create_lathe
 from symtop_ros.panel.run import TRACE, Run
 from symtop_ros.physics import State, Top, specific_force
 from symtop_ros.simulation.segment import Segment
 
-Real = NDArray[np.float64]
 Color = tuple[int, int, int]
 # Colours that are visible on white and on black, also for colour-blind people.
 BLUE, GREEN, RED = (10, 70, 190), (0, 115, 75), (190, 20, 40)
@@ -46,23 +46,11 @@ LAYERS = (
 
 
 class Scene:
-    """The top, its arrows and lines, and the ghost.
-
-    Parameters
-    ----------
-    server : ViserServer
-
-    Attributes
-    ----------
-    handle : MeshHandle
-        The ball on the axle that users drag.
-    shown : dict of str to bool
-        Which of `LAYERS` are drawn.
-    """
+    """The top, its arrows and lines, and the ghost."""
 
     def __init__(self, server: ViserServer) -> None:
         self._scene = server.scene
-        self.shown = dict.fromkeys(LAYERS, True)
+        self.shown = dict.fromkeys(LAYERS, True)  # which of `LAYERS` are drawn
         server.initial_camera.position, server.initial_camera.look_at = EYE, TARGET
         server.initial_camera.fov = math.radians(42)
         self._scene.configure_default_lights(cast_shadow=False)
@@ -80,6 +68,7 @@ class Scene:
         self._arrows = {name: self._add_arrow(f"/{name}", COLORS[name]) for name in LENGTHS}
         self._labels = {name: self._add_label(name) for name in LENGTHS}
         self._pull = self._add_arrow("/pull", ORANGE)
+        # the ball on the axle that users drag
         self.handle = self._scene.add_icosphere(
             "/handle", radius=HANDLE_RADIUS, color=ORANGE, cast_shadow=False
         )
@@ -103,14 +92,7 @@ class Scene:
             self._scales[name] = LENGTHS[name] / largest if largest else 0.0
 
     def draw(self, run: Run, pull: Real | None) -> None:
-        """Draw the last sample of a run.
-
-        Parameters
-        ----------
-        run : Run
-        pull : ndarray (3,) or None
-            Point to which a user pulls the axle.
-        """
+        """Draw the last sample of a run."""
         state, segment = run.state, run.segment
         if state is None or segment is None:
             return

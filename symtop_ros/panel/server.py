@@ -44,32 +44,12 @@ warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
 
 
 class PageServer(viser.ViserServer):
-    """Viser's server, on one address and port, for its own pages only.
-
-    Parameters
-    ----------
-    host : str
-        Address to listen on.
-    port : int
-        0: any free port.
-    start : callable
-        Called with the values of a link, in the thread of the server.
-
-    Attributes
-    ----------
-    url : str
-        Address of the page.
-
-    Raises
-    ------
-    OSError
-        If the port is taken, or the address is not one of this machine.
-    """
+    """Viser's server, on one address and port, for its own pages only."""
 
     def __init__(self, host: str, port: int, start: Start) -> None:
         listener = _listen(host, port)
         shown = socket.gethostname() if host in ALL_NETWORKS else _bracket(host)
-        self.url = f"http://{shown}:{listener.getsockname()[1]}"
+        self.url = f"http://{shown}:{listener.getsockname()[1]}"  # address of the page
         guard = Guard({host, *LOCAL_NAMES, socket.gethostname()}, start)
         # Viser takes the next free port if one is taken, and has no argument for the checks: both
         # are arguments of the call by which it starts its WebSocket server.
@@ -86,22 +66,7 @@ class PageServer(viser.ViserServer):
 
 
 class Guard:
-    """Answers requests for the page and for links, and refuses all that come from elsewhere.
-
-    Parameters
-    ----------
-    names : set of str
-        Names of this server; any address in numbers is accepted too.
-    start : callable
-        Called with the values of a link.
-
-    Examples
-    --------
-    >>> guard = Guard({"localhost"}, print)
-    >>> request = Request("/", Headers(Host="evil.example"))
-    >>> guard.answer(request).status_code
-    403
-    """
+    """Answers requests for the page and for links, and refuses all that come from elsewhere."""
 
     def __init__(self, names: set[str], start: Start) -> None:
         self._names, self._start = names, start

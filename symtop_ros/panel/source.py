@@ -15,6 +15,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from symtop_ros.arrays import Vector
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.log.recording import Recording, limits_of
@@ -22,7 +23,7 @@ from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.requests import Requests
-from symtop_ros.simulation.settings import Settings, Vector
+from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS
 from symtop_ros.simulation.validation import RefusedError
@@ -47,15 +48,7 @@ class Source(Protocol):
         """Name of the top for people."""
 
     def request(self, name: str, argument: Argument = None) -> Answer:
-        """Send a request of the interface; return success and the answer.
-
-        Parameters
-        ----------
-        name : str
-            Name of the service without `~/`.
-        argument : mapping, bool or None
-            Named values, on or off, or nothing, as the service takes it.
-        """
+        """Send a request of the interface; return success and the answer."""
 
     def set_parameters(self, values: Mapping[str, Any]) -> Answer:
         """Set parameters by their full names, all or none; return success and the answer."""
@@ -85,14 +78,6 @@ class PageClock:
 
     It never advances by more than `LONGEST_STEP` at once, so that a machine under load shows a
     slower motion and not one with gaps.
-
-    Examples
-    --------
-    >>> clock = PageClock()
-    >>> before = clock.now
-    >>> clock.advance()  # begins to count
-    >>> clock.now == before
-    True
     """
 
     def __init__(self) -> None:
@@ -111,13 +96,7 @@ class PageClock:
 
 
 class Collector:
-    """The sink of a simulation in this process: keeps what is drawn, and logs if asked to.
-
-    Parameters
-    ----------
-    recorder : Recorder
-    settings : Settings
-    """
+    """The sink of a simulation in this process: keeps what is drawn, and logs if asked to."""
 
     def __init__(self, recorder: Recorder, settings: Settings) -> None:
         self.is_open, self.publishes_tf, self.is_watched = True, False, True
@@ -181,25 +160,7 @@ class Collector:
 
 
 class LocalTop:
-    """A top in this process. Needs no ROS.
-
-    Parameters
-    ----------
-    scene : str
-        Name of the scene it starts with.
-    factor : float
-        Real-time factor.
-
-    Examples
-    --------
-    >>> top = LocalTop("hurry_slow", factor=0.1)
-    >>> granted, answer = top.request("kick", {"precession_rate": 9.0})
-    >>> granted, answer[:33]
-    (True, 'Precession 6.50 -> 9.00 rad/s. Th')
-    >>> [event.name for _, event in top.batch().events]
-    ['start', 'kick']
-    >>> top.close()
-    """
+    """A top in this process. Needs no ROS."""
 
     name = "local top"
 

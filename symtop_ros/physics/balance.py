@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.motion import Motion
-from symtop_ros.physics.values import Real, refuse, validate_number
+from symtop_ros.physics.values import refuse, validate_number
 
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
 STRETCH = 4.0  # rad of the fastest rate

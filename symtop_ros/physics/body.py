@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import Real, refuse, validate_number, validate_vector
+from symtop_ros.physics.values import refuse, validate_number, validate_vector
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 

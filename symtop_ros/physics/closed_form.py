@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import elliprf
 
+from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.elementary import (
     Components,
     Number,
@@ -53,7 +54,6 @@ from symtop_ros.physics.quotients import (
 from symtop_ros.physics.spin import spin_reverses
 from symtop_ros.physics.theta import Series, choose_series
 from symtop_ros.physics.times import ExactTimes
-from symtop_ros.physics.values import Quaternion, Vector
 
 # From this ratio K/K' on phases are computed with all digits: they are then stretched.
 STRETCHED = 1.5

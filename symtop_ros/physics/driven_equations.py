@@ -18,9 +18,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Vector
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import Vector
 
 Extended = NDArray[np.longdouble]
 Form = tuple[tuple[int, int, int], ...]

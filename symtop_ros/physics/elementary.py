@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from symtop_ros.physics.values import Real
+from symtop_ros.arrays import Real
 
 Number: TypeAlias = float | Real
 Pair: TypeAlias = tuple[Number, Number]  # real and imaginary part, or a sum of two doubles

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.driven_equations import (
     FACTORS,
     OMEGA_Z,
@@ -28,7 +29,7 @@ from symtop_ros.physics.driven_equations import (
     DrivenEquations,
     Extended,
 )
-from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, Real
+from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY
 
 # Views of the arrays in which series are made: the coefficients so far, the same from the last one
 # to the first, the matrix of the terms, and the places for the next coefficient in both.

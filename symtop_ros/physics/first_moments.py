@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 from decimal import Decimal, localcontext
 
+from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.elementary import Components, Number, Pair, multiply
 from symtop_ros.physics.precise import HALF, PRECISE, Phases
 from symtop_ros.physics.times import ExactTimes
-from symtop_ros.physics.values import Quaternion, Vector
 
 TERMS = 14
 # Radians of the fastest rate. The first term left out is 0.1^14 times a coefficient below 1.

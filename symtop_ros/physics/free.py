@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from decimal import Decimal, localcontext
 
+from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.elementary import Components, Number, multiply
 from symtop_ros.physics.kind import Kind, classify_free
 from symtop_ros.physics.precise import HALF, PRECISE, Phases
 from symtop_ros.physics.spin import spin_reverses_free
 from symtop_ros.physics.times import ExactTimes
-from symtop_ros.physics.values import Quaternion, Vector
 
 UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
 

@@ -10,11 +10,12 @@ from threading import Lock
 
 import numpy as np
 
+from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.driven_equations import DrivenEquations, Extended
 from symtop_ros.physics.expansion import Expansion, Piece, Point
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import Real, Vector, refuse
+from symtop_ros.physics.values import refuse
 
 KEPT = 1024  # points kept over the whole integration; beyond this every other one is dropped
 BLOCK = 1024  # times whose variables are held at once

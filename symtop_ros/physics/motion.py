@@ -8,6 +8,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Quaternion, Real, Vector
 from symtop_ros.physics.closed_form import ClosedFormMotion
 from symtop_ros.physics.elementary import Components, Number
 from symtop_ros.physics.free import FreeMotion
@@ -16,14 +17,7 @@ from symtop_ros.physics.kind import Kind
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import (
-    Quaternion,
-    Real,
-    Vector,
-    refuse,
-    validate_array,
-    validate_vector,
-)
+from symtop_ros.physics.values import refuse, validate_array, validate_vector
 
 # Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
 BLOCK = 12288

@@ -34,8 +34,9 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
+from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.precise import HALF, TWO, ZERO
-from symtop_ros.physics.values import EPS, Quaternion, Vector
+from symtop_ros.physics.values import EPS
 
 # A sum below this share of its terms has lost 10 of its 50 digits. It is computed exactly instead.
 CANCELLED = Decimal("1e-10")

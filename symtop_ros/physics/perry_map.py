@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.kicks import Hold, validate_hold
 from symtop_ros.physics.precession import TiltQuadratic
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import Real, validate_array, validate_number
+from symtop_ros.physics.values import validate_array, validate_number
 
 
 @dataclass(frozen=True, eq=False)

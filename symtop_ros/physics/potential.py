@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import Real, validate_array
+from symtop_ros.physics.values import validate_array
 
 
 @dataclass(frozen=True, slots=True)

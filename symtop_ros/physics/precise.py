@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.elementary import Number, Pair, round_to_integer
 from symtop_ros.physics.times import SECOND, ExactTimes
-from symtop_ros.physics.values import Real
 
 PRECISE = Context(prec=50, traps=[InvalidOperation, DivisionByZero])
 ZERO, HALF, ONE, TWO = Decimal(0), Decimal("0.5"), Decimal(1), Decimal(2)

@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
-    Real,
     refuse,
     validate_array,
     validate_number,

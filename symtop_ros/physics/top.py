@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.state import State
-from symtop_ros.physics.values import EPS, Real, Vector, refuse, validate_number
+from symtop_ros.physics.values import EPS, refuse, validate_number
 
 
 @dataclass(frozen=True, slots=True)

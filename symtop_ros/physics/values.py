@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Real = NDArray[np.float64]
+from symtop_ros.arrays import Real, Vector
+
 Complex = NDArray[np.complex128]
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]  # (w, x, y, z)
 
 EPS = 2.0**-52  # distance from 1 to the next double
 # A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A

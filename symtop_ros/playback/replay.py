@@ -17,20 +17,7 @@ BAR_LENGTH = 40  # characters
 
 
 def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) -> None:
-    """Write a log as a Rerun recording; problems of the log are listed with its events.
-
-    Parameters
-    ----------
-    log : TopLog
-    target : Path
-        A .rrd file, which is overwritten.
-    options : ViewOptions
-
-    Raises
-    ------
-    LogError
-        If the log has no top, or the target cannot be written.
-    """
+    """Write a log as a Rerun recording; problems of the log are listed with its events."""
     recording = rr.RecordingStream(APPLICATION, recording_id=log.file.path.stem)
     try:
         target.open("wb").close()  # Rerun itself only warns if it cannot write

@@ -26,15 +26,6 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
 
     It runs in a separate session, so that Ctrl-C ends the caller first, which can then still send
     its last data.
-
-    Parameters
-    ----------
-    *files : str
-        Recordings that it opens.
-    port : int or None
-        Port on which it receives data; None for any free port.
-    web : bool
-        Serve a browser on this machine instead of opening a window.
     """
     port = port or free_port()
     options = ["--bind", HOST, "--port", str(port)]

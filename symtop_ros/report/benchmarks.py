@@ -10,15 +10,14 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.report.footprint import Footprint, measure_footprint
 from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, prepare
 from symtop_ros.report.peers.peer import Arrays, Peer, Task, spread_times
 from symtop_ros.report.reference import EPS, Problem, Reference
 from symtop_ros.report.sweep import REPEATS, Curve, Point, sweep, time_median, time_reaching
 
-Real = NDArray[np.float64]
 SPAN = 10.0  # s
 CHECK = 2.0**-5  # s on which a peer's model must be right at its finest setting
 RIGHT = 1e-4  # rad; a weight that is one percent off makes 6e-4
@@ -33,38 +32,16 @@ HARD_PEERS = ("SciPy DOP853, quaternion", "heyoka, quaternion")
 
 @dataclass(frozen=True)
 class Scope:
-    """The amount of work of a report.
+    """The amount of work of a report."""
 
-    Attributes
-    ----------
-    is_full : bool
-        True if every peer integrates every motion; else each says what it takes part in.
-    motions : int
-        Number of the article's seven motions, counted from the first.
-    limit : float
-        Seconds that one run of a peer may take.
-    growth_limit : float
-        The same for the growth of the error with time.
-    states : tuple of int
-        Numbers of states in an array.
-    hard_peers : tuple of str
-        Peers that try the hard cases.
-    driven : int
-        1 to try all motions with friction and torques, n to try each n-th.
-
-    Examples
-    --------
-    >>> QUICK.limit, FULL.limit
-    (4.0, 60.0)
-    """
-
+    # true if every peer integrates every motion; else each says what it takes part in
     is_full: bool
-    motions: int
-    limit: float
-    growth_limit: float
-    states: tuple[int, ...]
-    hard_peers: tuple[str, ...]
-    driven: int = 1
+    motions: int  # number of the article's seven motions, counted from the first
+    limit: float  # seconds that one run of a peer may take
+    growth_limit: float  # the same for the growth of the error with time
+    states: tuple[int, ...]  # numbers of states in an array
+    hard_peers: tuple[str, ...]  # peers that try the hard cases
+    driven: int = 1  # 1 to try all motions with friction and torques, n to try each n-th
 
     def includes(self, peer: Peer, number: int) -> bool:
         """Return True if a peer integrates the article's motion of this number."""
@@ -120,20 +97,9 @@ class DrivenCase:
 
 @dataclass
 class Results:
-    """All results, in the order in which they were measured.
+    """All results, in the order in which they were measured."""
 
-    Attributes
-    ----------
-    checks : dict
-        Largest error in rad of each peer's model at its finest setting, within `CHECK` s.
-    curves : list of Curve
-    growth : list of Growth
-    states : list of ArrayCost
-    hard : list of HardCase
-    driven : list of DrivenCase
-    footprint : Footprint or None
-    """
-
+    # largest error in rad of each peer's model at its finest setting, within `CHECK` s
     checks: dict[str, float] = field(default_factory=dict)
     curves: list[Curve] = field(default_factory=list)
     growth: list[Growth] = field(default_factory=list)
@@ -144,15 +110,7 @@ class Results:
 
     @classmethod
     def from_facts(cls, facts: dict[str, Any]) -> Results:
-        """Return the results that `dataclasses.asdict` turned into the values of a JSON file.
-
-        Examples
-        --------
-        >>> from dataclasses import asdict
-        >>> results = Results(hard=[HardCase("tilt", 0.1, 1e-12, 1e-16, {})])
-        >>> Results.from_facts(asdict(results)) == results
-        True
-        """
+        """Return the results that `dataclasses.asdict` turned into the values of a JSON file."""
         footprint = facts["footprint"]
         return cls(
             facts["checks"],
@@ -165,24 +123,11 @@ class Results:
         )
 
     def find_curve(self, peer: str, motion: str) -> Curve:
-        """Return the curve of a peer for a motion.
-
-        Examples
-        --------
-        >>> curve = Curve("a peer", "cusps", 10.0, (), "finest")
-        >>> Results(curves=[curve]).find_curve("a peer", "cusps") is curve
-        True
-        """
+        """Return the curve of a peer for a motion."""
         return next(c for c in self.curves if (c.peer, c.motion) == (peer, motion))
 
     def list_failures(self) -> list[str]:
-        """Return the errors of the package above the limit, and peers whose model is different.
-
-        Examples
-        --------
-        >>> Results(checks={"a peer": 0.5}).list_failures()
-        ['a peer: the model is a different top']
-        """
+        """Return the errors of the package above the limit, and peers whose model is different."""
         wrong = [name for name, error in self.checks.items() if error > RIGHT]
         missed = [case for case in self.hard if case.error > LARGEST_ERROR]
         return [
@@ -226,22 +171,7 @@ Step = tuple[str, Callable[[], None]]  # text for a progress bar, and the work
 
 
 def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterator[Step]:
-    """Yield the steps of a report in their order; running a step adds to the results.
-
-    Parameters
-    ----------
-    scope : Scope
-    peers : sequence of Peer
-        Integrators to measure, the package's own engines among them.
-    results : Results
-        Filled by the steps.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.peers import OWN
-    >>> next(list_steps(SMALL, OWN, Results()))[0]
-    'footprint'
-    """
+    """Yield the steps of a report in their order; running a step adds to the results."""
     reference = Reference.read()
     first, with_friction = reference.article[0], reference.article[-1]
     chosen = [peer for peer in peers if scope.includes(peer, 0)]

@@ -28,25 +28,13 @@ ARRAY = 100_000  # states of the column on arrays
 
 @dataclass(frozen=True)
 class Environment:
-    """The command, the machine and the packages of a measurement.
+    """The command, the machine and the packages of a measurement."""
 
-    Attributes
-    ----------
-    command, machine : str
-        Command to measure again; processor and system.
-    versions : dict
-        Versions of Python and of every package that was measured.
-    missing : list of str
-        Peers that are not installed.
-    limit : float
-        Seconds that one run of a peer could take.
-    """
-
-    command: str
-    machine: str
-    versions: dict[str, str]
-    missing: list[str]
-    limit: float
+    command: str  # command to measure again; processor and system
+    machine: str  # command to measure again; processor and system
+    versions: dict[str, str]  # versions of Python and of every package that was measured
+    missing: list[str]  # peers that are not installed
+    limit: float  # seconds that one run of a peer could take
 
 
 def format_document(results: Results, problem: Problem, environment: Environment) -> str:
@@ -83,15 +71,7 @@ def format_summary(results: Results, problem: Problem) -> str:
 
 
 def format_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a Markdown table; the first column is aligned left, the others right.
-
-    Examples
-    --------
-    >>> print(format_table(["", "ms"], [["closed form", "0.3"]]))
-    |  | ms |
-    | --- | --: |
-    | closed form | 0.3 |
-    """
+    """Return a Markdown table; the first column is aligned left, the others right."""
     lines = [_row(head), _row(["---", *["--:"] * (len(head) - 1)]), *map(_row, rows)]
     return "\n".join(lines)
 

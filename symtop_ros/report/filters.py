@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from tqdm import tqdm
 
+from symtop_ros.arrays import Real
 from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
 from symtop_ros.judge.compare import NONE, Errors, compare, invert
 from symtop_ros.judge.estimates import Estimates
@@ -34,7 +35,6 @@ from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.wire.layout import NANOSECONDS
 
-Real = NDArray[np.float64]
 RATE, SPAN = 1000, 20  # Hz, s
 GRAVITY = 9.81
 SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
@@ -54,51 +54,34 @@ SECTION, PLOT = "filters", "filters"
 
 @dataclass(frozen=True)
 class Trial:
-    """A filter on a scene with a place of the sensor.
-
-    Attributes
-    ----------
-    filter, scene, mount : str
-    tilt, attitude : float
-        Root mean squares of the errors in the second half of the run, in rad.
-    """
+    """A filter on a scene with a place of the sensor."""
 
     filter: str
     scene: str
     mount: str
-    tilt: float
-    attitude: float
+    tilt: float  # root mean squares of the errors in the second half of the run, in rad
+    attitude: float  # root mean squares of the errors in the second half of the run, in rad
 
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """Measurements of a sensor on a top, and the exact motion of the sensor.
+    """Measurements of a sensor on a top, and the exact motion of the sensor."""
 
-    Attributes
-    ----------
-    stamps : ndarray (n,) of int
-        In ns.
-    orientations, rates, forces : ndarray (n, 4), (n, 3), (n, 3)
-        Exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific force.
-    truth : Truth
-    """
-
-    stamps: NDArray[np.int64]
+    stamps: NDArray[np.int64]  # in ns
+    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
+    # force
     orientations: Real
+    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
+    # force
     rates: Real
+    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
+    # force
     forces: Real
     truth: Truth
 
 
 def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> Recording:
-    """Return what a sensor at a place on the top of a scene measures.
-
-    Examples
-    --------
-    >>> recording = record("cusps", (0.0, 0.0, 0.0))
-    >>> recording.rates.shape, bool(abs(recording.forces).max() < 11)
-    ((20000, 3), True)
-    """
+    """Return what a sensor at a place on the top of a scene measures."""
     settings = Settings.from_scene(scene)
     start = initial_state(settings.top, settings.initial, {})
     imu = Imu(place, (0.0, 0.0, 0.0, 1.0), *NOISE, seed=seed, rate=float(RATE))
@@ -153,18 +136,6 @@ def judge_filters(folder: Path, docs: Path | None = None) -> int:
     """Write filters.md, filters.json and a plot; return the exit status.
 
     It needs the package `ahrs`, of the extra `peers`.
-
-    Parameters
-    ----------
-    folder : Path
-        Created if it does not exist.
-    docs : Path or None
-        Folder of the documentation, into which tables and plot are written as well.
-
-    Returns
-    -------
-    int
-        0; 1 if a file cannot be written.
     """
     trials: list[Trial] = []
     curves: dict[str, Errors] = {}
@@ -202,14 +173,7 @@ def _summarize(name: str, scene: str, mount: str, errors: Errors) -> Trial:
 
 
 def format_trials(facts: dict[str, Any]) -> str:
-    """Return a table for each place of the sensor.
-
-    Examples
-    --------
-    >>> trial = asdict(Trial("EKF", "cusps", "in the pivot", 0.01, 0.5))
-    >>> print(format_trials({"trials": [trial]}).splitlines()[4])
-    | EKF | 0.01 / 0.5 |
-    """
+    """Return a table for each place of the sensor."""
     trials = [Trial(**each) for each in facts["trials"]]
     parts = []
     for mount in dict.fromkeys(trial.mount for trial in trials):
@@ -225,15 +189,7 @@ def format_trials(facts: dict[str, Any]) -> str:
 
 
 def draw(curves: dict[str, Errors]) -> Figure:
-    """Draw the tilt error of some filters against time.
-
-    Examples
-    --------
-    >>> some = np.array([1e-3, 2e-3])
-    >>> errors = Errors(np.array([0, 10**9]), some, some, some, None, 0)
-    >>> len(draw({"EKF": errors}).axes)
-    1
-    """
+    """Draw the tilt error of some filters against time."""
     figure = new_figure(3.2)
     (axes,) = rows(figure, 1)
     for color, (name, errors) in zip((INK, BLUE, RED, GOLD, GREY), curves.items(), strict=False):

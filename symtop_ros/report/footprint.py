@@ -38,35 +38,18 @@ print(peak() - before)
 
 @dataclass(frozen=True)
 class Footprint:
-    """Cost of the library apart from the time of a state.
+    """Cost of the library apart from the time of a state."""
 
-    Attributes
-    ----------
-    import_seconds : float
-        Import of `symtop_ros.physics`, with NumPy and what it needs of SciPy; a median.
-    libraries_seconds : float
-        The part of NumPy and `scipy.special` in it.
-    states : int
-        Number of states for which the memory was measured.
-    peak_bytes : int
-        Largest additional memory while they are computed, the states themselves included.
-    """
-
+    # import of `symtop_ros.physics`, with NumPy and what it needs of SciPy; a median
     import_seconds: float
-    libraries_seconds: float
-    states: int
+    libraries_seconds: float  # the part of NumPy and `scipy.special` in it
+    states: int  # number of states for which the memory was measured
+    # largest additional memory while they are computed, the states themselves included
     peak_bytes: int
 
 
 def measure_footprint(states: int) -> Footprint:
-    """Measure in fresh processes; on Linux, which gives the peak in KiB.
-
-    Examples
-    --------
-    >>> footprint = measure_footprint(100)
-    >>> footprint.import_seconds > footprint.libraries_seconds > 0
-    True
-    """
+    """Measure in fresh processes; on Linux, which gives the peak in KiB."""
     libraries, whole = np.median([_run(IMPORTS) for _ in range(RUNS)], axis=0)
     (peak,) = _run(MEMORY.format(states=states))
     return Footprint(float(whole), float(libraries), states, int(peak) * 1024)

@@ -26,24 +26,7 @@ PACKAGES = (
 
 
 def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
-    """Write report.md, report.json and the plots; return the exit status.
-
-    Parameters
-    ----------
-    folder : Path
-        Created if it does not exist; files of the same names are replaced.
-    scope : Scope
-        `QUICK`, `FULL` or `SMALL`.
-    command : str
-        Command to measure again, for the report.
-    docs : Path or None
-        Folder of the documentation, into which tables and plots are written as well.
-
-    Returns
-    -------
-    int
-        0; 1 if a file cannot be written, or an error of the package is larger than promised.
-    """
+    """Write report.md, report.json and the plots; return the exit status."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         peers, missing = installed()

@@ -22,42 +22,17 @@ END = "<!-- end of figures -->"
 
 
 def collect_facts(results: Results, environment: Environment) -> dict[str, Any]:
-    """Return everything that was measured, as values of a JSON file.
-
-    Examples
-    --------
-    >>> environment = Environment("top_report", "a machine", {}, [], 4.0)
-    >>> read_facts(collect_facts(Results(), environment)) == (Results(), environment)
-    True
-    """
+    """Return everything that was measured, as values of a JSON file."""
     return {"environment": asdict(environment), "results": asdict(results)}
 
 
 def read_facts(facts: dict[str, Any]) -> tuple[Results, Environment]:
-    """Return what `collect_facts` has turned into values of a JSON file.
-
-    Examples
-    --------
-    >>> environment = Environment("top_report", "a machine", {}, [], 4.0)
-    >>> read_facts(collect_facts(Results(), environment))[1].machine
-    'a machine'
-    """
+    """Return what `collect_facts` has turned into values of a JSON file."""
     return Results.from_facts(facts["results"]), Environment(**facts["environment"])
 
 
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
-    """Return the text of each section by its name.
-
-    Parameters
-    ----------
-    facts : dict
-        As returned by `collect_facts`.
-
-    Returns
-    -------
-    dict
-        "chapters" (docs/accuracy.md) and "summary" (README.md).
-    """
+    """Return the text of each section by its name."""
     results, environment = read_facts(facts)
     problem = Reference.read().article[0]
     return {
@@ -67,26 +42,13 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
 
 
 def find_section(text: str, name: str) -> str | None:
-    r"""Return what a text has between the comments of a section, or None.
-
-    Examples
-    --------
-    >>> find_section(f"a <!-- figures: summary -->\n\nb\n\n{END} c", "summary")
-    'b'
-    """
+    r"""Return what a text has between the comments of a section, or None."""
     _, begin, rest = text.partition(f"<!-- figures: {name} -->")
     return rest.partition(END)[0].strip() if begin else None
 
 
 def replace_section(text: str, name: str, content: str) -> str:
-    """Return a text with a section replaced; unchanged if it has no such section.
-
-    Examples
-    --------
-    >>> text = f"<!-- figures: summary -->{END}"
-    >>> find_section(replace_section(text, "summary", "new"), "summary")
-    'new'
-    """
+    """Return a text with a section replaced; unchanged if it has no such section."""
     head, begin, rest = text.partition(f"<!-- figures: {name} -->")
     if not begin:
         return text
@@ -94,15 +56,7 @@ def replace_section(text: str, name: str, content: str) -> str:
 
 
 def publish(folder: Path, docs: Path) -> None:
-    """Write figures, tables and plots of a report into the documentation.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the report.
-    docs : Path
-        Of the documentation: its pages and the README.md above it are updated.
-    """
+    """Write figures, tables and plots of a report into the documentation."""
     facts = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     write_figures(facts, format_sections(facts), docs)
     for name in NAMES:
@@ -110,17 +64,7 @@ def publish(folder: Path, docs: Path) -> None:
 
 
 def write_figures(facts: dict[str, Any], sections: dict[str, str], docs: Path) -> None:
-    """Write figures into the documentation; those of other commands stay.
-
-    Parameters
-    ----------
-    facts : dict
-        Values of a JSON file, by names that belong to one command.
-    sections : dict of str
-        Text of each section by its name, as in `replace_section`.
-    docs : Path
-        Of the documentation: its pages and the README.md above it are updated.
-    """
+    """Write figures into the documentation; those of other commands stay."""
     path = docs / FIGURES
     others = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
     text = json.dumps({**others, **facts}, indent=1) + "\n"

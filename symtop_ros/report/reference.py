@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics import Friction, State, Top
 from symtop_ros.report.peers.peer import NO_TORQUE, Task
 from symtop_ros.report.taylor import TaylorMotion
@@ -24,42 +25,19 @@ FILE = Path(__file__).with_name("reference.json")
 FRICTION = Friction(axial=2e-6, transverse=1e-5)  # of the article's top with friction, N m s
 EPS = 2.0**-52
 PARTS = "article", "hard", "driven"
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """A motion to compute, and its exact orientations.
+    """A motion to compute, and its exact orientations."""
 
-    Attributes
-    ----------
-    name : str
-        The motion, or the family of a hard case.
-    small : float or None
-        Distance of a hard case from the singular one.
-    task : Task
-        Top, start and friction; the numbers are taken as exact.
-    times : tuple of float
-        Times in s, up to very long ones, at which the exact orientations are stored.
-    limits : tuple of float
-        Change of the attitude in rad at these times if every input changes by half an ulp; empty
-        under friction.
-
-    Examples
-    --------
-    >>> problem = Reference.read().article[0]
-    >>> problem.name, problem.times[2]
-    ('cusps', 10.0)
-    >>> round(problem.error(10.0, [1.0, 0.0, 0.0, 0.0]), 3)
-    1.826
-    >>> problem.errors([0.0, 0.5], [problem.task.start.orientation] * 2).round(3)
-    array([0.   , 1.021])
-    """
-
-    name: str
-    small: float | None
-    task: Task
+    name: str  # the motion, or the family of a hard case
+    small: float | None  # distance of a hard case from the singular one
+    task: Task  # top, start and friction; the numbers are taken as exact
+    # times in s, up to very long ones, at which the exact orientations are stored
     times: tuple[float, ...]
+    # change of the attitude in rad at these times if every input changes by half an ulp;
+    # empty under friction
     limits: tuple[float, ...]
     _exact: dict[float, tuple[Real, Real]]
 
@@ -91,26 +69,11 @@ class Problem:
 
 @dataclass(frozen=True)
 class Reference:
-    """The reference motions that the package ships.
+    """The reference motions that the package ships."""
 
-    Attributes
-    ----------
-    article : list of Problem
-        The article's seven motions, and its cusps with friction.
-    hard : list of Problem
-        The hard cases.
-    driven : list of Problem
-        Motions with friction or an applied torque, in 14 families; the name is the family.
-
-    Examples
-    --------
-    >>> reference = Reference.read()
-    >>> len(reference.article), len(reference.driven)
-    (8, 124)
-    """
-
-    article: list[Problem]
-    hard: list[Problem]
+    article: list[Problem]  # the article's seven motions, and its cusps with friction
+    hard: list[Problem]  # the hard cases
+    # motions with friction or an applied torque, in 14 families; the name is the family
     driven: list[Problem]
 
     @classmethod

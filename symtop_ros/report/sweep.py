@@ -20,53 +20,26 @@ End = Literal["turning point", "time limit", "finest"]
 
 @dataclass(frozen=True)
 class Point:
-    """One setting.
+    """One setting."""
 
-    Attributes
-    ----------
-    setting : float
-        Tolerance, or step in s.
-    error, mean_error : float
-        Largest and mean error of the attitude on the way, in rad.
-    compared : int
-        Number of times at which the attitude was compared.
-    seconds : float
-        Time to reach the end once, without output on the way: the median of some runs.
-    preparing : float
-        Seconds for building, loading and compiling the model; not part of `seconds`.
-    """
-
-    setting: float
-    error: float
-    mean_error: float
-    compared: int
-    seconds: float
-    preparing: float
+    setting: float  # tolerance, or step in s
+    error: float  # largest and mean error of the attitude on the way, in rad
+    mean_error: float  # largest and mean error of the attitude on the way, in rad
+    compared: int  # number of times at which the attitude was compared
+    seconds: float  # time to reach the end once, without output on the way: the median of some runs
+    preparing: float  # seconds for building, loading and compiling the model; not part of `seconds`
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Speed against error of a peer for a motion of t seconds, setting by setting.
-
-    Attributes
-    ----------
-    end : {"turning point", "time limit", "finest"}
-        Why the sweep ended: a finer setting has a larger error, or takes too long, or there is
-        none.
-
-    Examples
-    --------
-    >>> coarse = Point(1e-4, 1e-3, 1e-3, 10, 0.01, 0.0)
-    >>> fine = Point(1e-9, 1e-8, 1e-8, 10, 0.05, 0.0)
-    >>> curve = Curve("a peer", "cusps", 10.0, (coarse, fine), "finest")
-    >>> curve.best.setting, curve.find_cheapest(1e-2).setting, curve.find_cheapest(1e-12)
-    (1e-09, 0.0001, None)
-    """
+    """Speed against error of a peer for a motion of t seconds, setting by setting."""
 
     peer: str
     motion: str
     t: float
     points: tuple[Point, ...]
+    # why the sweep ended: a finer setting has a larger error, or takes too long, or there is
+    # none
     end: End
 
     @property
@@ -81,26 +54,7 @@ class Curve:
 
 
 def sweep(peer: Peer, problem: Problem, t: float, limit: float) -> Curve:
-    """Measure setting by setting, up to the turning point of the error or a limit of time.
-
-    Parameters
-    ----------
-    peer : Peer
-    problem : Problem
-    t : float
-        End of the motion in s.
-    limit : float
-        Seconds that one run may take. A finer setting is tried only if a run is expected to stay
-        within: its time grows like that of the last two, or at most inversely to the setting.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.peers import OWN
-    >>> from symtop_ros.report.reference import Reference
-    >>> curve = sweep(OWN[0], Reference.read().article[0], 1.0, limit=1.0)
-    >>> curve.best.error < 4e-15, curve.best.compared, curve.end
-    (True, 10240, 'finest')
-    """
+    """Measure setting by setting, up to the turning point of the error or a limit of time."""
     points: list[Point] = []
     end: End = "finest"
     for setting in peer.settings:
@@ -135,15 +89,7 @@ def _measure(peer: Peer, problem: Problem, t: float, setting: float) -> Point:
 
 
 def time_reaching(solution: Solution, t: float) -> float:
-    """Return the seconds to reach t (s) once; a long run is not repeated.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.peers import prepare
-    >>> from symtop_ros.report.reference import Reference
-    >>> time_reaching(prepare(Reference.read().article[0].task, 0.0), 1e6) < 1.0
-    True
-    """
+    """Return the seconds to reach t (s) once; a long run is not repeated."""
     began = time.perf_counter()
     solution.reach(t)
     first = time.perf_counter() - began
@@ -151,13 +97,7 @@ def time_reaching(solution: Solution, t: float) -> float:
 
 
 def time_median(call: Callable[[], object]) -> float:
-    """Return the median seconds of several calls, of many if they are short.
-
-    Examples
-    --------
-    >>> time_median(lambda: sum(range(100))) > 0
-    True
-    """
+    """Return the median seconds of several calls, of many if they are short."""
     times: list[float] = []
     end = time.perf_counter() + SHORTEST
     while len(times) < REPEATS or time.perf_counter() < end:

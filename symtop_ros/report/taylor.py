@@ -15,11 +15,10 @@ from operator import mul
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import Task, initial_values
 
-Real = NDArray[np.float64]
 Series = list[Decimal]  # coefficients of powers of the time since the start of a step
 
 DIGITS = 32
@@ -39,24 +38,7 @@ class Step(NamedTuple):
 
 
 class TaylorMotion:
-    """The motion of a task, integrated as far as it has been asked for.
-
-    Parameters
-    ----------
-    task : Task
-        Its doubles are taken as exact; the quaternion is normalised with all digits.
-
-    Examples
-    --------
-    A sphere of no weight turns about its vertical axis by 2 rad/s:
-
-    >>> from symtop_ros.physics import State, Top
-    >>> start = State.from_euler(theta=0.0, psi_dot=2.0)
-    >>> motion = TaylorMotion(Task(Top(Ix=1.0, Iz=1.0, Mgl=0.0), start))
-    >>> high, low = motion.at([0.5])
-    >>> (high + low).round(9)
-    array([[0.87758256, 0.        , 0.        , 0.47942554]])
-    """
+    """The motion of a task, integrated as far as it has been asked for."""
 
     def __init__(self, task: Task) -> None:
         self._context = Context(prec=DIGITS)
@@ -72,18 +54,7 @@ class TaylorMotion:
         self._known: dict[float, tuple[list[float], list[float]]] = {}
 
     def at(self, times: Sequence[float] | Real) -> tuple[Real, Real]:
-        """Return the orientations at times in s, >= 0, as sums of two doubles.
-
-        Parameters
-        ----------
-        times : sequence of float (n,)
-            In s; the doubles are taken as exact.
-
-        Returns
-        -------
-        high, low : ndarray (n, 4)
-            high + low is (w, x, y, z) to more than 20 digits.
-        """
+        """Return the orientations at times in s, >= 0, as sums of two doubles."""
         doubles = [float(t) for t in times]
         with localcontext(self._context):
             for t in doubles:

@@ -40,50 +40,19 @@ SECTION = "testset"
 
 @dataclass(frozen=True)
 class Entry:
-    """The best run of an integrator on a problem.
+    """The best run of an integrator on a problem."""
 
-    Attributes
-    ----------
-    peer, problem : str
-        Their names.
-    level : int
-        Of the problem.
-    setting : float
-        Tolerance, or step in s.
-    angle : float
-        Largest error of the attitude at four times in rad.
-    limits : float
-        The same in units of what half an ulp of the inputs does.
-    seconds : float
-        Time to reach the end once.
-    """
-
-    peer: str
-    problem: str
-    level: int
-    setting: float
-    angle: float
-    limits: float
-    seconds: float
+    peer: str  # their names
+    problem: str  # their names
+    level: int  # of the problem
+    setting: float  # tolerance, or step in s
+    angle: float  # largest error of the attitude at four times in rad
+    limits: float  # the same in units of what half an ulp of the inputs does
+    seconds: float  # time to reach the end once
 
 
 def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) -> int:
-    """Write testset.md and testset.json; return the exit status.
-
-    Parameters
-    ----------
-    folder : Path
-        Created if it does not exist.
-    docs : Path or None
-        Folder of the documentation, into which the table is written as well.
-    limit : float
-        Seconds that a run may take.
-
-    Returns
-    -------
-    int
-        0; 1 if a file cannot be written.
-    """
+    """Write testset.md and testset.json; return the exit status."""
     peers, _ = installed()
     chosen = [peer for peer in peers if peer.name in PROGRAMS]
     work = [(peer, problem) for peer in chosen for problem in read_problems().values()]
@@ -107,15 +76,7 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
 
 
 def measure(peer: Peer, problem: Problem, limit: float) -> list[Entry]:
-    """Return the best run of a peer within the limit of time, as a list; empty if none is.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.peers import OWN
-    >>> (entry,) = measure(OWN[0], read_problems()["cusps"], 1.0)
-    >>> entry.angle < 2e-15, entry.level
-    (True, 2)
-    """
+    """Return the best run of a peer within the limit of time, as a list; empty if none is."""
     facts = problem.facts
     start = State(facts["orientation"], facts["angular_velocity"])
     task = Task(Top(facts["Ix"], facts["Iz"], facts["Mgl"]), start)
@@ -157,14 +118,7 @@ def _expect(solution: Solution, end: float) -> float:
 
 
 def format_scores(facts: dict[str, Any]) -> str:
-    """Return the table of a measurement: for each level the median and the worst problem.
-
-    Examples
-    --------
-    >>> entry = asdict(Entry("a peer", "cusps", 2, 1e-3, 1e-9, 3.0, 0.1))
-    >>> print(format_scores({"limit": 1.0, "entries": [entry]}).splitlines()[2])
-    | a peer | - | 1e-09, 1e-09 | - | - | - | 1 of 60 |
-    """
+    """Return the table of a measurement: for each level the median and the worst problem."""
     entries = [Entry(**each) for each in facts["entries"]]
     rows = []
     for peer in dict.fromkeys(entry.peer for entry in entries):

@@ -16,19 +16,6 @@ class Block:
 
     A topic is computed when it is first asked for. In the blocks made by `continue_with` it is then
     computed at once, so that its numbers are ready when their tick is due.
-
-    Parameters
-    ----------
-    segment : Segment
-    stamps : sequence of int
-        In ns.
-
-    Attributes
-    ----------
-    last : int
-        The last stamp; 0 for an empty block.
-    length : int
-        Number of stamps.
     """
 
     def __init__(self, segment: Segment, stamps: Sequence[int]) -> None:

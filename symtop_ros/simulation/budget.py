@@ -16,44 +16,22 @@ SHARE = 0.25  # share of one core for a motion that cannot be followed in real t
 
 
 class Shortfall(NamedTuple):
-    """A motion that cannot be followed.
+    """A motion that cannot be followed."""
 
-    Attributes
-    ----------
-    reached : float
-        Time up to which it is integrated, s of the motion.
-    factor : float
-        Real-time factor that can be kept with the CPU time of `SHARE`.
-    """
-
-    reached: float
-    factor: float
+    reached: float  # time up to which it is integrated, s of the motion
+    factor: float  # real-time factor that can be kept with the CPU time of `SHARE`
 
 
 class ComputeBudget:
     """Prepares a motion stretch by stretch and measures the time which that takes.
 
     Only integrated motions (friction, applied torque) need work; closed forms are always ready.
-
-    Parameters
-    ----------
-    stamp : int
-        Begin of the first stretch in ns.
-    clock : callable
-        Returns the time in s.
-
-    Attributes
-    ----------
-    spent : float
-        Work so far in s.
-    shortfall : Shortfall or None
-        Set if the last stretch took longer than it lasts.
     """
 
     def __init__(self, stamp: int, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
-        self.spent = 0.0
-        self.shortfall: Shortfall | None = None
+        self.spent = 0.0  # work so far in s
+        self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
         self._prepared = stamp  # ns: end of the last stretch
         self._stretch: tuple[Segment, int] | None = None
 

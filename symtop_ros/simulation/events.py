@@ -33,23 +33,14 @@ Number = TypeVar("Number", int, float, Fraction)
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A change of a run.
+    """A change of a run."""
 
-    Attributes
-    ----------
-    stamp : int
-        Stamp from which the new segment holds, in ns.
-    name : str
-        start, kick, reset, pause, resume, step, parameters, torque, pace, clock, record, failure.
-    verdict : str
-        The consequence of the change, in a sentence.
-    values : mapping of str to str
-        The request, the state before and after, and the segment that holds from then on.
-    """
-
-    stamp: int
+    stamp: int  # stamp from which the new segment holds, in ns
+    # start, kick, reset, pause, resume, step, parameters, torque, pace, clock, record,
+    # failure
     name: str
-    verdict: str
+    verdict: str  # the consequence of the change, in a sentence
+    # the request, the state before and after, and the segment that holds from then on
     values: Mapping[str, str]
 
     @classmethod
@@ -101,11 +92,6 @@ class Event:
         """Return the segment that holds from the event on.
 
         `event.segment().state_at(stamp)` is the published state at each stamp up to the next event.
-
-        Raises
-        ------
-        ValueError
-            If a value is missing or not valid.
         """
         try:
             return self._segment()
@@ -117,23 +103,11 @@ class Event:
             raise ValueError(msg) from None
 
     def state(self) -> State:
-        """Return the recorded state right after the event (nothing is computed).
-
-        Raises
-        ------
-        ValueError
-            If it is missing or not valid.
-        """
+        """Return the recorded state right after the event (nothing is computed)."""
         return self._read_state("after")
 
     def state_before(self) -> State:
-        """Return the recorded state right before the event (nothing is computed).
-
-        Raises
-        ------
-        ValueError
-            If it is missing or not valid.
-        """
+        """Return the recorded state right before the event (nothing is computed)."""
         return self._read_state("before")
 
     def _read_state(self, when: str) -> State:
@@ -163,13 +137,7 @@ class Event:
 
 
 def decode_events(data: bytes) -> list[Event]:
-    """Decode the events of a DiagnosticArray.
-
-    Raises
-    ------
-    ValueError
-        If the bytes are not a DiagnosticArray, or a status is not an event.
-    """
+    """Decode the events of a DiagnosticArray."""
     events = [
         Event(status.stamp, status.name.removeprefix(PREFIX), status.message, status.values)
         for status in decode_statuses(data)

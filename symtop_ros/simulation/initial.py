@@ -25,31 +25,7 @@ FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
 
 
 def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, Any]) -> State:
-    """Return the state that a request asks for.
-
-    Parameters
-    ----------
-    top : Top
-    defaults : InitialConditions
-        Values of the fields that the request does not have.
-    request : mapping
-        Fields by name: Euler angles and rates, or `orientation` and `angular_velocity`, or
-        `precession` for a root of regular precession.
-
-    Raises
-    ------
-    RefusedError
-        If a field is unknown, missing, contradictory or out of range, or if regular precession has
-        no such root.
-
-    Examples
-    --------
-    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> defaults = InitialConditions(theta=0.5, psi_dot=200.0)
-    >>> state = initial_state(top, defaults, {"precession": "slow"})
-    >>> round(state.euler_rates.phi, 2)
-    6.5
-    """
+    """Return the state that a request asks for."""
     validate_names(request, FIELDS)
     _refuse_contradictions(request)
     if any(name in request for name in DIRECT):

@@ -39,48 +39,14 @@ MAX_IMPULSE = 1e30  # N m s; keeps the angular velocity after it finite for ever
 
 
 class Kick(NamedTuple):
-    """A kick that was validated.
+    """A kick that was validated."""
 
-    Attributes
-    ----------
-    motion : Motion
-        The motion after the kick.
-    hold : {"spin_rate", "spin_momentum"} or None
-        The quantity that the kick leaves unchanged; None for an angular impulse.
-    """
-
-    motion: Motion
-    hold: Hold | None
+    motion: Motion  # the motion after the kick
+    hold: Hold | None  # the quantity that the kick leaves unchanged; None for an angular impulse
 
 
 def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
-    """Return the motion that follows if a state of a motion is kicked.
-
-    Parameters
-    ----------
-    motion : Motion
-    state : State
-        The state at the instant of the kick.
-    request : mapping
-        One of `precession_rate` (rad/s), `precession_rate_change` (rad/s) and
-        `precession_rate_factor`, with `hold` ("spin_rate" or "spin_momentum"); or
-        `angular_impulse` (3 numbers, N m s, world frame).
-
-    Raises
-    ------
-    RefusedError
-        If the request is not valid, if the axis is vertical (phi' is undefined there), or if the
-        top would be faster than 1e9 rad/s.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import Top
-    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> start = State.from_euler(theta=0.5, psi_dot=200.0)
-    >>> kick = plan_kick(Motion(top, start), start, {"precession_rate": 9.0})
-    >>> round(kick.motion.start.euler_rates.phi, 12)
-    9.0
-    """
+    """Return the motion that follows if a state of a motion is kicked."""
     validate_names(request, FIELDS)
     top, kind = motion.top, exactly_one(request, KINDS)
     hold: Hold | None = None

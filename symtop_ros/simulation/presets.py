@@ -31,29 +31,12 @@ def config_folder() -> Path:
 
 
 def scene_names() -> tuple[str, ...]:
-    """Return the names of all scenes.
-
-    Examples
-    --------
-    >>> "cusps" in scene_names()
-    True
-    """
+    """Return the names of all scenes."""
     return tuple(sorted(path.stem for path in config_folder().glob("*.yaml")))
 
 
 def load_scene(name: object) -> dict[str, Any]:
-    """Return the parameters that a scene sets, by their full names.
-
-    Raises
-    ------
-    RefusedError
-        If there is no such scene, or its file is not a ROS parameter file.
-
-    Examples
-    --------
-    >>> load_scene("cusps")["initial.theta"]
-    0.5
-    """
+    """Return the parameters that a scene sets, by their full names."""
     names = scene_names()
     if name not in names:
         raise refuse("scene", f"one of {', '.join(names)}", name)

@@ -24,10 +24,6 @@ class Requests:
     Call them in a turn, for example by `simulation.answer("kick", lambda: requests.kick(...))`.
     Each returns its answer in a sentence and raises RefusedError if it is refused; the motion is
     then unchanged.
-
-    Parameters
-    ----------
-    simulation : Simulation
     """
 
     def __init__(self, simulation: Simulation) -> None:

@@ -23,39 +23,14 @@ NO_RIG = Rig()
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One stretch of a run. Methods return the segment that follows.
+    """One stretch of a run. Methods return the segment that follows."""
 
-    Attributes
-    ----------
-    motion : Motion
-        The motion from its own start.
-    stamp : int
-        Begin of the segment in ns.
-    elapsed : Fraction
-        Time of the motion at that stamp in ns, exact.
-    factor : float
-        Real-time factor: seconds of the motion per second of the clock.
-    running : bool
-        False while paused.
-    rig : Rig
-        Gravity and the sensor on the top.
-
-    Examples
-    --------
-    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
-    >>> segment = Segment.begin(motion, stamp=0, factor=0.5)
-    >>> paused = segment.pause(stamp=2_000_000_000)
-    >>> paused.time_at(5_000_000_000)
-    1.0
-    """
-
-    motion: Motion
-    stamp: int
-    elapsed: Fraction
-    factor: float
-    running: bool
-    rig: Rig = NO_RIG
+    motion: Motion  # the motion from its own start
+    stamp: int  # begin of the segment in ns
+    elapsed: Fraction  # time of the motion at that stamp in ns, exact
+    factor: float  # real-time factor: seconds of the motion per second of the clock
+    running: bool  # false while paused
+    rig: Rig = NO_RIG  # gravity and the sensor on the top
 
     @classmethod
     def begin(cls, motion: Motion, stamp: int, factor: float, rig: Rig = NO_RIG) -> Segment:
@@ -161,11 +136,5 @@ class RoundedSegment(Segment):
 
 
 def to_nanoseconds(seconds: float) -> Fraction:
-    """Return the exact value of a double in s as a number of ns.
-
-    Examples
-    --------
-    >>> to_nanoseconds(0.5)
-    Fraction(500000000, 1)
-    """
+    """Return the exact value of a double in s as a number of ns."""
     return Fraction(seconds) * NANOSECONDS

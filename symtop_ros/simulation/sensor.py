@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
+from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Body, Motion, State, Top, specific_force
 from symtop_ros.wire.layout import NANOSECONDS
 
-Real = NDArray[np.float64]
-Vector = tuple[float, float, float]
 EXACT = 1e-18  # (1e-9)^2, a covariance of what is exact: zero would mean "unknown" (sensor_msgs)
 CENTRE: Vector = (0.0, 0.0, 0.0)
 ALONG = (0.0, 0.0, 0.0, 1.0)
@@ -36,41 +35,20 @@ WHITE, WALKS = range(2 * AXES), range(2 * AXES, 4 * AXES)
 
 @dataclass(frozen=True)
 class Imu:
-    """An inertial measurement unit.
+    """An inertial measurement unit."""
 
-    Attributes
-    ----------
-    position : (float, float, float)
-        Its place in the body frame in m.
-    orientation : (float, float, float, float)
-        Quaternion x, y, z, w, sensor to body.
-    gyroscope_noise_density, gyroscope_random_walk : float
-        In rad/s/sqrt(Hz) and rad/s^2/sqrt(Hz), as in Kalibr's YAML.
-    accelerometer_noise_density, accelerometer_random_walk : float
-        In m/s^2/sqrt(Hz) and m/s^3/sqrt(Hz).
-    seed : int
-        Of the noise.
-    rate : float
-        Samples per second: the noise of a sample is its density times the root of the rate.
-    begin : int
-        Stamp in ns at which the biases are zero.
-
-    Examples
-    --------
-    >>> imu = Imu(gyroscope_noise_density=1e-3, rate=400.0)
-    >>> round(imu.covariances[1], 12), Imu().covariances[1]
-    (0.0004, 1e-18)
-    """
-
-    position: Vector = CENTRE
-    orientation: tuple[float, float, float, float] = ALONG
+    position: Vector = CENTRE  # its place in the body frame in m
+    orientation: tuple[float, float, float, float] = ALONG  # quaternion x, y, z, w, sensor to body
+    # in rad/s/sqrt(Hz) and rad/s^2/sqrt(Hz), as in Kalibr's YAML
     gyroscope_noise_density: float = 0.0
+    # in rad/s/sqrt(Hz) and rad/s^2/sqrt(Hz), as in Kalibr's YAML
     gyroscope_random_walk: float = 0.0
-    accelerometer_noise_density: float = 0.0
-    accelerometer_random_walk: float = 0.0
-    seed: int = 0
+    accelerometer_noise_density: float = 0.0  # in m/s^2/sqrt(Hz) and m/s^3/sqrt(Hz)
+    accelerometer_random_walk: float = 0.0  # in m/s^2/sqrt(Hz) and m/s^3/sqrt(Hz)
+    seed: int = 0  # of the noise
+    # samples per second: the noise of a sample is its density times the root of the rate
     rate: float = 200.0
-    begin: int = 0
+    begin: int = 0  # stamp in ns at which the biases are zero
 
     @property
     def has_noise(self) -> bool:
@@ -100,47 +78,14 @@ class Imu:
         return State((w, x, y, z), CENTRE)
 
     def measure(self, motion: Motion, state: State, gravity: float) -> tuple[Real, Real, Real]:
-        """Return what an exact sensor measures.
-
-        Parameters
-        ----------
-        motion : Motion
-        state : State
-            One state or many.
-        gravity : float
-            In m/s^2.
-
-        Returns
-        -------
-        orientation : ndarray (..., 4)
-            Quaternion x, y, z, w, sensor to world.
-        angular_velocity, specific_force : ndarray (..., 3)
-            In the sensor frame, in rad/s and m/s^2; at rest the latter is g upwards.
-        """
+        """Return what an exact sensor measures."""
         force = specific_force(motion, state, self.position, gravity)
         orientation = multiply(state.orientation, self.mount.orientation)
         turned = self.mount.to_body(state.angular_velocity), self.mount.to_body(force)
         return orientation[..., [1, 2, 3, 0]], *turned
 
     def noise(self, stamps: Any) -> Real:
-        """Return the errors of angular velocity and acceleration at stamps.
-
-        Parameters
-        ----------
-        stamps : ndarray (...) of int
-            In ns.
-
-        Returns
-        -------
-        ndarray (..., 6)
-            White noise and bias, in rad/s and m/s^2.
-
-        Examples
-        --------
-        >>> imu = Imu(gyroscope_noise_density=1e-3, seed=7)
-        >>> bool((imu.noise(np.array([5, 9]))[1] == imu.noise(np.array([9]))[0]).all())
-        True
-        """
+        """Return the errors of angular velocity and acceleration at stamps."""
         times = np.asarray(stamps, dtype=np.int64)
         errors = np.zeros((*times.shape, 2 * AXES))
         sizes = np.repeat([each * math.sqrt(self.rate) for each in self._densities], AXES)
@@ -155,28 +100,13 @@ class Imu:
 
 @dataclass(frozen=True)
 class Rig:
-    """Gravity and the sensor: all that samples depend on besides the motion.
+    """Gravity and the sensor: all that samples depend on besides the motion."""
 
-    Attributes
-    ----------
-    gravity : float or None
-        In m/s^2; None in logs whose ~/torque has no force.
-    imu : Imu or None
-        The sensor on the top, or None.
-    """
-
-    gravity: float | None = None
-    imu: Imu | None = None
+    gravity: float | None = None  # in m/s^2; None in logs whose ~/torque has no force
+    imu: Imu | None = None  # the sensor on the top, or None
 
     def to_values(self) -> dict[str, str]:
-        """Return the values for an event, in decimals that read back to the same doubles.
-
-        Examples
-        --------
-        >>> rig = Rig(9.81, Imu(seed=3))
-        >>> Rig.from_values(rig.to_values()) == rig
-        True
-        """
+        """Return the values for an event, in decimals that read back to the same doubles."""
         values = {} if self.gravity is None else {"gravity": repr(self.gravity)}
         if self.imu:
             imu = self.imu
@@ -192,15 +122,7 @@ class Rig:
 
     @classmethod
     def from_values(cls, values: Mapping[str, str]) -> Rig:
-        """Return the rig of an event.
-
-        Raises
-        ------
-        ValueError
-            If a value is not valid.
-        KeyError
-            If a value is missing.
-        """
+        """Return the rig of an event."""
         gravity = float(values["gravity"]) if "gravity" in values else None
         if gravity is not None and not 0 < gravity < math.inf:
             msg = f"gravity must be > 0 m/s^2, got {gravity:g}"
@@ -221,13 +143,7 @@ class Rig:
 
 @lru_cache(maxsize=8)
 def find_body(top: Top, gravity: float) -> Body | None:
-    """Return the body that is chosen for a top; None if there is none.
-
-    Examples
-    --------
-    >>> find_body(Top(Ix=1.0, Iz=2.0, Mgl=1.0), 9.81) is None
-    True
-    """
+    """Return the body that is chosen for a top; None if there is none."""
     try:
         return Body.of(top, gravity)
     except ValueError:
@@ -239,25 +155,6 @@ def random_walks(seed: int, streams: Sequence[int], times: Any) -> Real:
 
     They are built by bridges between known points (Lévy's construction), so that any time is
     computed alone.
-
-    Parameters
-    ----------
-    seed : int
-    streams : sequence of int (k,)
-        Numbers of the walks, which are independent.
-    times : ndarray (...) of int
-        In ns; up to 0 a walk is 0.
-
-    Returns
-    -------
-    ndarray (k, ...)
-        In sqrt(s).
-
-    Examples
-    --------
-    >>> (walk,) = random_walks(1, [0], np.arange(4000) * 10**9)
-    >>> bool(0.95 < np.diff(walk).std() < 1.05)
-    True
     """
     times = np.clip(np.asarray(times, dtype=np.int64), 0, LONGEST_WALK)
     block, rest = times >> BLOCK_BITS, times & (BLOCK - 1)
@@ -300,13 +197,7 @@ def _hash(value: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 
 def multiply(p: Real, q: Real) -> Real:
-    """Return the products p q of quaternions, (..., 4).
-
-    Examples
-    --------
-    >>> multiply(np.array([0.0, 1, 0, 0]), np.array([0.0, 0, 1, 0])).tolist()
-    [0.0, 0.0, 0.0, 1.0]
-    """
+    """Return the products p q of quaternions, (..., 4)."""
     w, x, y, z = np.moveaxis(p, -1, 0)
     a, b, c, d = np.moveaxis(q, -1, 0)
     return np.stack(

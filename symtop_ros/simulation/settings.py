@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
+from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Top
 from symtop_ros.simulation.presets import load_scene
 from symtop_ros.simulation.sensor import ALONG, CENTRE, Imu, Rig
@@ -22,7 +23,6 @@ from symtop_ros.simulation.validation import (
     vector,
 )
 
-Vector = tuple[float, float, float]
 NO_TORQUE: Vector = (0.0, 0.0, 0.0)
 PRECESSIONS = ("slow", "fast")
 MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
@@ -35,26 +35,14 @@ MAX_FRAME = 200  # characters of a frame name, which stands in every message
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One parameter of the node.
-
-    Attributes
-    ----------
-    default : object
-    description : str
-        Meaning and unit.
-    condition : str
-        The allowed values.
-    validate : callable
-        Returns the value, converted, from the name and a raw value; raises RefusedError.
-    read_only : bool
-        True if it can only be set at the start.
-    """
+    """One parameter of the node."""
 
     default: Any
-    description: str
-    condition: str
+    description: str  # meaning and unit
+    condition: str  # the allowed values
+    # returns the value, converted, from the name and a raw value; raises RefusedError
     validate: Callable[[str, Any], Any]
-    read_only: bool = False
+    read_only: bool = False  # true if it can only be set at the start
 
 
 def _number(default: float, description: str, unit: str, low: float, high: float) -> Parameter:
@@ -186,64 +174,35 @@ PARAMETERS: dict[str, Parameter] = {
 
 @dataclass(frozen=True, slots=True)
 class InitialConditions:
-    """The `initial.*` parameters.
+    """The `initial.*` parameters."""
 
-    Attributes
-    ----------
-    theta, phi, psi : float
-        Euler angles z-x-z in rad.
-    theta_dot, phi_dot, psi_dot : float
-        Their rates in rad/s.
-    precession : str
-        "slow" or "fast" for a root of regular precession; empty: not set.
-    orientation : tuple of float
-        Quaternion x, y, z, w, or empty.
-    angular_velocity : tuple of float
-        Body frame, rad/s; empty: zero if there is an orientation.
-    """
-
-    theta: float = 0.0
-    phi: float = 0.0
-    psi: float = 0.0
-    theta_dot: float = 0.0
-    phi_dot: float = 0.0
-    psi_dot: float = 0.0
-    precession: str = ""
-    orientation: tuple[float, ...] = ()
+    theta: float = 0.0  # euler angles z-x-z in rad
+    phi: float = 0.0  # euler angles z-x-z in rad
+    psi: float = 0.0  # euler angles z-x-z in rad
+    theta_dot: float = 0.0  # their rates in rad/s
+    phi_dot: float = 0.0  # their rates in rad/s
+    psi_dot: float = 0.0  # their rates in rad/s
+    precession: str = ""  # "slow" or "fast" for a root of regular precession; empty: not set
+    orientation: tuple[float, ...] = ()  # quaternion x, y, z, w, or empty
+    # body frame, rad/s; empty: zero if there is an orientation
     angular_velocity: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class RecordSettings:
-    """The `record.*` parameters.
-
-    Attributes
-    ----------
-    enabled : bool
-    directory : str
-    max_size : float
-        In bytes; 0: no limit.
-    max_duration : float
-        In s; 0: no limit.
-    """
+    """The `record.*` parameters."""
 
     enabled: bool
     directory: str
-    max_size: float
-    max_duration: float
+    max_size: float  # in bytes; 0: no limit
+    max_duration: float  # in s; 0: no limit
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Validated values of all parameters; see `PARAMETERS` for their meaning.
+    """Validated values of all parameters; see `PARAMETERS` for their meaning."""
 
-    Attributes
-    ----------
-    values : mapping
-        The values by their full names, for logs and comparisons.
-    """
-
-    values: Mapping[str, Any]
+    values: Mapping[str, Any]  # the values by their full names, for logs and comparisons
     top: Top
     friction: Friction
     initial: InitialConditions
@@ -264,21 +223,7 @@ class Settings:
 
     @classmethod
     def from_values(cls, values: Mapping[str, Any]) -> Settings:
-        """Validate raw values; parameters that are missing get their defaults.
-
-        Raises
-        ------
-        RefusedError
-            For the first value that is not allowed.
-
-        Examples
-        --------
-        >>> Settings.from_values({"publish_rate": 500}).publish_rate
-        500.0
-        >>> Settings.from_values({"publish_rate": 5000})
-        Traceback (most recent call last):
-        symtop_ros.simulation.validation.RefusedError: publish_rate must be 1 to 2000 Hz, got 5000
-        """
+        """Validate raw values; parameters that are missing get their defaults."""
         clean = {
             name: parameter.validate(name, values.get(name, parameter.default))
             for name, parameter in PARAMETERS.items()
@@ -316,13 +261,7 @@ class Settings:
 
     @classmethod
     def from_scene(cls, name: object, **changes: Any) -> Settings:
-        """Return the settings of a scene, with changes (`__` for the dots in their names).
-
-        Examples
-        --------
-        >>> Settings.from_scene("cusps", top__Mgl=0.05).top.Mgl
-        0.05
-        """
+        """Return the settings of a scene, with changes (`__` for the dots in their names)."""
         named = {key.replace("__", "."): value for key, value in changes.items()}
         return cls.from_values({**load_scene(name), **named})
 

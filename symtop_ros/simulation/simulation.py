@@ -91,26 +91,6 @@ class Simulation:
     """A top that moves with a clock.
 
     All public methods may be called from any thread: each takes a lock.
-
-    Parameters
-    ----------
-    settings : Settings
-        Includes the initial conditions.
-    clock : Clock
-    sink : Sink
-
-    Attributes
-    ----------
-    settings : Settings
-        The current settings.
-    segment : Segment
-        The motion of the next stamp.
-    ticker : Ticker
-        The grid of stamps.
-    start : State
-        The last initial conditions.
-    motion_begin : str
-        The event at which the motion of the segment began, and its stamp in s.
     """
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink) -> None:
@@ -118,14 +98,16 @@ class Simulation:
         self._lock = threading.RLock()
         self._failures: dict[str, str] = {}
         self._jumped_to: int | None = None
+        # the last initial conditions
         self.start = initial_state(settings.top, settings.initial, {})
-        self.ticker = Ticker(settings.publish_rate, clock.now)
+        self.ticker = Ticker(settings.publish_rate, clock.now)  # the grid of stamps
         self._held_torque, self._torque_end = NO_TORQUE, 0  # ~/applied_torque, until a stamp in ns
         self._budget, self._spent = ComputeBudget(self.stamp), 0.0
         self._gap_reported = -NANOSECONDS
         motion = Motion(settings.top, self.start, settings.friction, settings.steady_torque)
         self._switched_on = self.stamp  # the stamp at which the biases of the sensor are zero
         rig = settings.rig(self._switched_on)
+        # the motion of the next stamp
         self.segment = Segment.begin(motion, self.stamp, settings.real_time_factor, rig)
         self._announced, self.motion_begin = motion, _describe_begin("start", self.stamp)
         self._block = Block(self.segment, [])
@@ -160,11 +142,6 @@ class Simulation:
 
         An exception is reported as an error and as an event, once until `name` succeeds again, and
         the motion keeps running. `RefusedError` is expected: handle it inside.
-
-        Parameters
-        ----------
-        name : str
-            Name of the action, for the report.
         """
         turn = Turn()
         with self._lock:
@@ -183,15 +160,7 @@ class Simulation:
                     self.announce("failure", turn.failure, {}, before.state_at(stamp), stamp)
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
-        """Carry out a request in a turn; return success and the answer.
-
-        Parameters
-        ----------
-        name : str
-            Name of the service.
-        act : callable
-            Carries it out and returns the answer, or raises RefusedError.
-        """
+        """Carry out a request in a turn; return success and the answer."""
         granted, text = False, ""
         with self._lock:
             with self.turn(f"~/{name}") as turn:
@@ -204,14 +173,7 @@ class Simulation:
         return (False, turn.failure) if turn.failure else (granted, text)
 
     def tick(self) -> float | None:
-        """Publish all samples that are due.
-
-        Returns
-        -------
-        float or None
-            Seconds until the next call; None if only a change of a simulated clock can make a
-            sample due.
-        """
+        """Publish all samples that are due."""
         with self._lock:
             jumped_to, self._jumped_to = self._jumped_to, None
             # The system clock can be set back without any notification.
@@ -353,13 +315,7 @@ class Simulation:
         self.announce("clock", "the clock jumped", {"from": stamp, "to": now}, before)
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> None:
-        """Apply a torque (3,) in N m from the next stamp on until its time-out.
-
-        Raises
-        ------
-        RefusedError
-            If a number is not finite, or the frame is not the world frame.
-        """
+        """Apply a torque (3,) in N m from the next stamp on until its time-out."""
         world = self.settings.world_frame
         if frame not in ("", world):
             raise refuse("applied_torque frame_id", f'"{world}" or empty', frame)
@@ -421,6 +377,7 @@ class Simulation:
         stamp = self.stamp if stamp is None else stamp
         if self.segment.motion is not self._announced:
             self._announced = self.segment.motion
+            # the event at which the motion of the segment began, and its stamp in s
             self.motion_begin = _describe_begin(name, stamp)
         frame = self.settings.top_frame
         self._sink.send_event(Event.of(stamp, name, verdict, request, before, self.segment, frame))
@@ -441,14 +398,7 @@ class Simulation:
 
 
 def list_fixed_frames(settings: Settings) -> list[Transform]:
-    """Return the frames on the body: that of the sensor, and that in the centre of mass.
-
-    Examples
-    --------
-    >>> odometry = Settings.from_scene("cusps", odometry__enabled=True)
-    >>> [each.child for each in list_fixed_frames(odometry)]
-    ['top_centre_of_mass']
-    """
+    """Return the frames on the body: that of the sensor, and that in the centre of mass."""
     frame, transforms = settings.top_frame, []
     if settings.imu:
         imu = settings.imu

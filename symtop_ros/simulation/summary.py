@@ -13,16 +13,6 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
     """Return the state at a stamp (ns), the constants of motion and the verdict, ready for JSON.
 
     `since` names the event from which the time of the motion counts.
-
-    Examples
-    --------
-    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
-    >>> summary = summarize_state(Segment.begin(motion, stamp=0, factor=1.0), stamp=0)
-    >>> summary["kind"], summary["euler_angles"]["theta"]
-    ('cusps', 0.5)
-    >>> round(summary["precession_per_nutation"], 4), summary["spin_reverses"]
-    (0.1686, False)
     """
     state, motion = segment.state_at(stamp), segment.motion
     top = motion.top

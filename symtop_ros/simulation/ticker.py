@@ -12,40 +12,16 @@ class Ticker:
 
     A stamp is the nearest integer number of nanoseconds, computed in integers: the rate is taken as
     the exact value of its double, so the grid does not drift however long it runs.
-
-    Parameters
-    ----------
-    rate : float
-        Ticks per second.
-    now : int
-        Stamp of the first tick in ns.
-
-    Attributes
-    ----------
-    rate : float
-        Ticks per second.
-    late : int
-        Ticks that were published more than a period after their stamp.
-    missed : int
-        Ticks that were dropped.
-
-    Examples
-    --------
-    >>> ticker = Ticker(rate=3.0, now=0)
-    >>> ticker.due(now=700_000_000, catch_up=1.0, until=10**18)
-    [0, 333333333, 666666667]
-    >>> ticker.next_stamp
-    1000000000
     """
 
     def __init__(self, rate: float, now: int) -> None:
-        self.late = 0
-        self.missed = 0
+        self.late = 0  # ticks that were published more than a period after their stamp
+        self.missed = 0  # ticks that were dropped
         self.restart(rate, now)
 
     def restart(self, rate: float, start: int) -> None:
         """Begin a new grid with its first tick at `start` (ns)."""
-        self.rate = rate
+        self.rate = rate  # ticks per second
         ticks, seconds = rate.as_integer_ratio()
         self._ticks, self._nanoseconds = ticks, seconds * NANOSECONDS  # rate = ticks/nanoseconds
         self._start = start
@@ -57,19 +33,7 @@ class Ticker:
         return self._stamp(self._next)
 
     def due(self, now: int, catch_up: float, until: int, count_late: bool = True) -> list[int]:
-        """Return the stamps that are due, in order, and count late and dropped ones.
-
-        Parameters
-        ----------
-        now : int
-            Current time in ns.
-        catch_up : float
-            Ticks that are later than this (s) are dropped.
-        until : int
-            Last stamp (ns) to return.
-        count_late : bool
-            False for a simulated clock, whose steps may be longer than a period.
-        """
+        """Return the stamps that are due, in order, and count late and dropped ones."""
         last = (now - self._start) * self._ticks // self._nanoseconds
         oldest = last - int(catch_up * self.rate)
         if oldest > self._next:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor import EXACT, Rig, find_body
@@ -22,29 +22,17 @@ from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.wire.layout import Layout
 from symtop_ros.wire.messages import Format
 
-Real = NDArray[np.float64]
-
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """A topic.
+    """A topic."""
 
-    Attributes
-    ----------
-    ros_name : str
-        Name in the form that ROS resolves; `~` stands for the name of the node, and a name without
-        `~` or `/` at its begin is in the namespace of the node.
-    type : str
-        Message type, such as "std_msgs/msg/String".
-    depth : int
-        Messages that are kept for a slow (or, if latched, a late) subscriber.
-    latched : bool
-        True if late subscribers get the last messages (durability "transient local").
-    """
-
+    # name in the form that ROS resolves; `~` stands for the name of the node, and a name
+    # without `~` or `/` at its begin is in the namespace of the node
     ros_name: str
-    type: str
-    depth: int = 100
+    type: str  # message type, such as "std_msgs/msg/String"
+    depth: int = 100  # messages that are kept for a slow (or, if latched, a late) subscriber
+    # true if late subscribers get the last messages (durability "transient local")
     latched: bool = False
 
     @property
@@ -53,15 +41,7 @@ class Topic:
         return self.ros_name.rpartition("/")[2]
 
     def resolve(self, node: str) -> str:
-        """Return the full name of the topic for a node such as "/top".
-
-        Examples
-        --------
-        >>> EVENTS.resolve("/lab/top"), TOPICS["tf"].resolve("/lab/top")
-        ('/lab/top/events', '/tf')
-        >>> DESCRIPTION.resolve("/lab/top"), DESCRIPTION.resolve("/top")
-        ('/lab/robot_description', '/robot_description')
-        """
+        """Return the full name of the topic for a node such as "/top"."""
         if self.ros_name.startswith("~"):
             return f"{node}{self.ros_name[1:]}"
         if self.ros_name.startswith("/"):
@@ -82,20 +62,11 @@ class Topic:
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """States of a run at one stamp or at many: what the content of a message is computed from.
-
-    Attributes
-    ----------
-    segment : Segment
-    stamps : int or ndarray (n,)
-        In ns.
-    state : State
-        At these stamps; one state for all of them while paused.
-    """
+    """States of a run at one stamp or at many: what the content of a message is computed from."""
 
     segment: Segment
-    stamps: Any
-    state: State
+    stamps: Any  # in ns
+    state: State  # at these stamps; one state for all of them while paused
 
     @classmethod
     def at(cls, segment: Segment, stamps: Any) -> Samples:
@@ -115,24 +86,14 @@ class Samples:
 
 @dataclass(frozen=True, slots=True)
 class StateTopic(Topic):
-    """A topic with one message in every sample.
+    """A topic with one message in every sample."""
 
-    Attributes
-    ----------
-    format : Format
-        Encoding of the message; its type is the type of the topic.
-    compute : callable
-        Returns the doubles of the message, (..., width), from the samples.
-    names : callable
-        Returns the constant names of the message from the world frame and the frame of the top.
-    switch : str
-        Parameter without which the topic does not exist; empty: it always does.
-    """
-
-    format: Format = messages.VECTOR
+    format: Format = messages.VECTOR  # encoding of the message; its type is the type of the topic
+    # returns the doubles of the message, (..., width), from the samples
     compute: Callable[[Samples], Real] = lambda samples: samples.state.vertical
+    # returns the constant names of the message from the world frame and the frame of the top
     names: Callable[[str, str], tuple[str, ...]] = lambda world, _: (world,)
-    switch: str = ""
+    switch: str = ""  # parameter without which the topic does not exist; empty: it always does
 
     def layout(self, world: str, top: str) -> Layout:
         """Return the layout of the message with the given frame names."""
@@ -212,13 +173,7 @@ def _odometry(samples: Samples) -> Real:
 
 
 def imu_frame(top: str) -> str:
-    """Return the name of the frame of the sensor.
-
-    Examples
-    --------
-    >>> imu_frame("a/top"), centre_frame("top")
-    ('a/top_imu', 'top_centre_of_mass')
-    """
+    """Return the name of the frame of the sensor."""
     return f"{top}_imu"
 
 

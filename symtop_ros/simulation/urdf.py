@@ -25,24 +25,7 @@ def robot_description(
     tf_moves_it: bool = True,
     gravity: float = STANDARD_GRAVITY,
 ) -> str:
-    """Return the URDF of a top.
-
-    Parameters
-    ----------
-    top : Top
-    world_frame, top_frame : str
-        Names of the fixed link and of the link of the body.
-    tf_moves_it : bool
-        True if the transform from `world_frame` to `top_frame` is published on /tf.
-    gravity : float
-        Acceleration of gravity in m/s^2, from which the mass and its arm follow.
-
-    Examples
-    --------
-    >>> text = robot_description(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068), "world", "top")
-    >>> '<joint name="precession" type="continuous">' in text
-    True
-    """
+    """Return the URDF of a top."""
     world_frame, top_frame = (escape(name, QUOTES) for name in (world_frame, top_frame))
     end = f"{top_frame}_spin" if tf_moves_it else top_frame
     floating = f"""
@@ -95,14 +78,7 @@ def _inertial(top: Top, gravity: float) -> str:
 
 
 def describe_body(top: Top, body: Body) -> str:
-    """Return the sentence that says which body was chosen for a top.
-
-    Examples
-    --------
-    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> print(describe_body(top, Body.of(top))[:64])
-    Ix = 0.000228 kg m^2 and Iz = 5.72e-05 kg m^2 about the pivot, M
-    """
+    """Return the sentence that says which body was chosen for a top."""
     choice = "half of the longest arm that a rigid body can have"
     if not top.Mgl:
         choice = "any mass would do, as the centre of mass is the pivot"

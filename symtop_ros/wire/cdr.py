@@ -16,16 +16,7 @@ class DecodeError(ValueError):
 
 
 class Writer:
-    """Encode values into a message, one after the other.
-
-    Examples
-    --------
-    >>> writer = Writer()
-    >>> writer.integer(7)
-    >>> writer.string("top")
-    >>> writer.data.hex(" ", 4)
-    '00010000 07000000 04000000 746f7000'
-    """
+    """Encode values into a message, one after the other."""
 
     def __init__(self) -> None:
         self._data = bytearray(HEADER)
@@ -52,24 +43,7 @@ class Writer:
 
 
 class Reader:
-    """Decode values from a message, one after the other.
-
-    Parameters
-    ----------
-    data : bytes
-        Encoded message.
-
-    Raises
-    ------
-    DecodeError
-        If the message is not little-endian CDR. The methods raise it if the message is too short.
-
-    Examples
-    --------
-    >>> reader = Reader(bytes.fromhex("00010000 07000000 04000000 746f7000"))
-    >>> reader.integer(), reader.string()
-    (7, 'top')
-    """
+    """Decode values from a message, one after the other."""
 
     def __init__(self, data: bytes) -> None:
         if data[:2] != HEADER[:2]:
@@ -127,13 +101,7 @@ class Reader:
 
 
 def encode_string(text: str) -> bytes:
-    """Encode a std_msgs/String.
-
-    Examples
-    --------
-    >>> encode_string("top").hex(" ", 4)
-    '00010000 04000000 746f7000'
-    """
+    """Encode a std_msgs/String."""
     writer = Writer()
     writer.string(text)
     return writer.data

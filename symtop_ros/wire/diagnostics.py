@@ -13,42 +13,17 @@ OK, WARN, ERROR = range(3)
 
 
 class Status(NamedTuple):
-    """One status of an array.
+    """One status of an array."""
 
-    Attributes
-    ----------
-    stamp : int
-        Stamp of the array in ns.
-    level : int
-        OK, WARN or ERROR.
-    name, message : str
-    values : mapping of str to str
-    """
-
-    stamp: int
-    level: int
+    stamp: int  # stamp of the array in ns
+    level: int  # OK, WARN or ERROR
     name: str
     message: str
     values: Mapping[str, str]
 
 
 def encode_statuses(stamp: int, frame: str, statuses: Sequence[Status]) -> bytes:
-    """Encode an array of statuses.
-
-    Parameters
-    ----------
-    stamp : int
-        Stamp of the array in ns; the stamps of the statuses are not encoded.
-    frame : str
-        frame_id of the header.
-    statuses : sequence of Status
-
-    Examples
-    --------
-    >>> status = Status(7, OK, "top: kick", "The top rises.", {"hold": "spin_rate"})
-    >>> decode_statuses(encode_statuses(7, "world", [status])) == [status]
-    True
-    """
+    """Encode an array of statuses."""
     writer = Writer()
     seconds, nanoseconds = divmod(stamp, NANOSECONDS)
     writer.integer(seconds, "i")
@@ -67,13 +42,7 @@ def encode_statuses(stamp: int, frame: str, statuses: Sequence[Status]) -> bytes
 
 
 def decode_statuses(data: bytes) -> list[Status]:
-    """Decode an array of statuses.
-
-    Raises
-    ------
-    DecodeError
-        If the bytes are not a DiagnosticArray.
-    """
+    """Decode an array of statuses."""
     reader = Reader(data)
     stamp = reader.integer("i") * NANOSECONDS + reader.integer("I")
     reader.string()

@@ -51,21 +51,7 @@ Part = Stamp | Text | Count | Doubles
 
 
 class Layout:
-    """Offsets of the stamp and of the doubles in a message, and its constant bytes.
-
-    Parameters
-    ----------
-    *parts : Stamp, Text, Count or Doubles
-        Fields of the message in their order.
-
-    Examples
-    --------
-    >>> layout = Layout(Stamp(), Text("world"), Doubles(4))
-    >>> message = layout.encode(1_500_000_000, [0.0, 0.0, 0.0, 1.0])
-    >>> rows = np.frombuffer(message, np.uint8).reshape(1, -1)
-    >>> bool(layout.match(rows)[0]), layout.decode(rows)[0].tolist()
-    (True, [1500000000])
-    """
+    """Offsets of the stamp and of the doubles in a message, and its constant bytes."""
 
     def __init__(self, *parts: Part) -> None:
         self._template, self._constant = bytearray(), bytearray()

@@ -22,20 +22,12 @@ MAX_PADDING = 7  # bytes that rclpy's serialize_message may append to a message
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """Encoding of one ROS message type.
+    """Encoding of one ROS message type."""
 
-    Attributes
-    ----------
-    type : str
-        Name of the type, such as "geometry_msgs/msg/QuaternionStamped".
-    layout : callable
-        Returns the layout for given names: the frame, then the child frame or the joints.
-    read_names : callable
-        Returns these names from an encoded message; raises DecodeError.
-    """
-
-    type: str
+    type: str  # name of the type, such as "geometry_msgs/msg/QuaternionStamped"
+    # returns the layout for given names: the frame, then the child frame or the joints
     layout: Callable[..., Layout]
+    # returns these names from an encoded message; raises DecodeError
     read_names: Callable[[bytes], tuple[str, ...]]
 
 
@@ -83,13 +75,7 @@ def _joint_state(frame: str, *names: str) -> Layout:
 
 
 def stamped(package_type: str, doubles: int) -> Format:
-    """Return the format of a type that consists of a header and some doubles.
-
-    Examples
-    --------
-    >>> stamped("geometry_msgs/msg/PoseStamped", 7).type
-    'geometry_msgs/msg/PoseStamped'
-    """
+    """Return the format of a type that consists of a header and some doubles."""
 
     def layout(frame: str) -> Layout:
         return Layout(Stamp(), Text(frame), Doubles(doubles))
@@ -120,34 +106,16 @@ CLOCK = Layout(Stamp())  # rosgraph_msgs/Clock
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """A frame in its parent frame.
+    """A frame in its parent frame."""
 
-    Attributes
-    ----------
-    parent, child : str
-        Names of both frames.
-    translation : (float, float, float)
-        In m.
-    rotation : (float, float, float, float)
-        Quaternion x, y, z, w.
-    """
-
-    parent: str
-    child: str
-    translation: tuple[float, float, float]
-    rotation: tuple[float, float, float, float]
+    parent: str  # names of both frames
+    child: str  # names of both frames
+    translation: tuple[float, float, float]  # in m
+    rotation: tuple[float, float, float, float]  # quaternion x, y, z, w
 
 
 def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
-    """Encode a TFMessage with any number of transforms at one stamp (ns).
-
-    Examples
-    --------
-    >>> one = Transform("world", "top", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-    >>> message = TRANSFORM.layout("world", "top").encode(7, [0.0] * 6 + [1.0])
-    >>> encode_transforms(7, [one]) == message
-    True
-    """
+    """Encode a TFMessage with any number of transforms at one stamp (ns)."""
     writer = Writer()
     writer.integer(len(transforms))
     for each in transforms:
@@ -163,48 +131,16 @@ def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
 
 @dataclass(frozen=True, eq=False)
 class Decoded:
-    """Messages of one layout.
+    """Messages of one layout."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Frames (the child last), or the frame and the joints.
-    indices : ndarray (n,) of int
-        Their places among the messages that were decoded together.
-    stamps : ndarray (n,) of int
-        In ns.
-    numbers : ndarray (n, width)
-        Their doubles.
-    """
-
-    names: tuple[str, ...]
-    indices: NDArray[np.int64]
-    stamps: NDArray[np.int64]
-    numbers: NDArray[np.float64]
+    names: tuple[str, ...]  # frames (the child last), or the frame and the joints
+    indices: NDArray[np.int64]  # their places among the messages that were decoded together
+    stamps: NDArray[np.int64]  # in ns
+    numbers: NDArray[np.float64]  # their doubles
 
 
 def decode_messages(form: Format, messages: Sequence[bytes]) -> tuple[list[Decoded], list[str]]:
-    """Decode messages of one type, written by any program.
-
-    Parameters
-    ----------
-    form : Format
-    messages : sequence of bytes
-
-    Returns
-    -------
-    decoded : list of Decoded
-        One for each layout (each combination of names).
-    refused : list of str
-        The reason for each message that is not of this type or not of one sample.
-
-    Examples
-    --------
-    >>> message = VECTOR.layout("world").encode(7, [1.0, 2.0, 3.0])
-    >>> decoded, refused = decode_messages(VECTOR, [message, b"noise"])
-    >>> decoded[0].numbers.tolist(), refused
-    ([[1.0, 2.0, 3.0]], ['encoding must be 0001 (CDR, little-endian), got 6e6f'])
-    """
+    """Decode messages of one type, written by any program."""
     sizes = np.fromiter(map(len, messages), np.int64, len(messages))
     remaining, unread = np.arange(len(messages)), np.ones(len(messages), dtype=bool)
     decoded: list[Decoded] = []

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import GOLD, GREEN, ORANGE, VIOLET, WHITE
 from symtop_ros.playback.view.quantities import find_step
 from symtop_ros.playback.view.stream import Stream
 
-Real = NDArray[np.float64]
 RATE = 60.0  # positions per s of the clock
 POINTS = 33  # of an arc
 # In scene units. The arcs have different radii, so that letters do not meet; that of theta is
@@ -86,14 +85,7 @@ def send_angles(stream: Stream, euler: Columns) -> None:
 
 
 def draw_arcs(phi: Real, theta: Real, psi: Real) -> dict[str, Real]:
-    """Return the arcs (n, 33, 3) of angles (n,) in rad, by the name of the angle.
-
-    Examples
-    --------
-    >>> arcs = draw_arcs(np.zeros(1), np.full(1, np.pi / 2), np.zeros(1))
-    >>> (arcs["theta"][0, -1] / RADII["theta"]).round(6).tolist()  # where z points to
-    [0.0, -1.0, 0.0]
-    """
+    """Return the arcs (n, 33, 3) of angles (n,) in rad, by the name of the angle."""
     part = np.linspace(0.0, 1.0, POINTS)
     nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
     ahead = np.stack([np.sin(phi), -np.cos(phi), np.zeros_like(phi)], axis=-1)  # where z leans to

@@ -27,20 +27,11 @@ HORIZON = 1.65  # rad; slightly below the horizontal plane of the pivot
 
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """Visible part of a motion. The default is for a log without events.
+    """Visible part of a motion. The default is for a log without events."""
 
-    Attributes
-    ----------
-    trace : float
-        Time for which the trace of the axis stays visible, s of the clock.
-    window : float
-        Range of the plots on each side of the cursor, s of the clock.
-    below_pivot : bool
-        True if the axis moves below the pivot: the whole sphere is drawn, and no stand.
-    """
-
-    trace: float = 2.0
-    window: float = 10.0
+    trace: float = 2.0  # time for which the trace of the axis stays visible, s of the clock
+    window: float = 10.0  # range of the plots on each side of the cursor, s of the clock
+    # true if the axis moves below the pivot: the whole sphere is drawn, and no stand
     below_pivot: bool = True
 
     @classmethod

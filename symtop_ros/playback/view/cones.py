@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.drawing.mesh import create_lathe
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
@@ -19,7 +19,6 @@ from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import BLUE, GREEN
 from symtop_ros.playback.view.stream import Stream
 
-Real = NDArray[np.float64]
 OPACITY = 70  # of 255
 AROUND = np.linspace(0.0, 2 * np.pi, 97)
 NARROWEST = 1e-3  # radius of a cone that can be seen, in scene units
@@ -27,30 +26,12 @@ PALE_GREEN, PALE_BLUE = (60, 140, 95), (60, 105, 170)
 
 
 def has_cones(motion: Motion) -> bool:
-    """Return True if no torque acts at all, so that L is constant and omega stays on two cones.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import Top
-    >>> start = State.from_euler(theta=0.5, phi_dot=30.0, psi_dot=60.0)
-    >>> has_cones(Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), start))
-    True
-    """
+    """Return True if no torque acts at all, so that L is constant and omega stays on two cones."""
     return motion.top.Mgl == 0 and not motion.is_integrated
 
 
 def log_cones(stream: Stream, motion: Motion, state: State, scale: float) -> None:
-    """Draw both cones of a free motion from the current time on.
-
-    Parameters
-    ----------
-    stream : Stream
-    motion : Motion
-    state : State
-        One state of the motion.
-    scale : float
-        Angular velocity in rad/s of one scene unit, as for the arrow of omega.
-    """
+    """Draw both cones of a free motion from the current time on."""
     wx, wy, wz = (state.angular_velocity / scale).tolist()
     _log_cone(stream, entities.POLHODE, math.hypot(wx, wy), wz, (GREEN, PALE_GREEN))
     L = motion.top.angular_momentum(state)

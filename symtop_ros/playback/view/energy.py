@@ -6,16 +6,14 @@ Stacked, the first three end at the energy of the start plus the work that was d
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import Motion
 from symtop_ros.playback.view.quantities import Samples, axis_of
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 TOPICS = ("orientation", "angular_velocity", "angular_momentum")
 
 

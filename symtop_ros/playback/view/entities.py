@@ -60,11 +60,6 @@ def lighten(color: tuple[int, int, int]) -> tuple[int, int, int]:
     """Return the colour of a label, halfway to white.
 
     Labels stand on grey in the light theme of the viewer, where the full colours are hard to read.
-
-    Examples
-    --------
-    >>> lighten((255, 1, 101))
-    (255, 128, 178)
     """
     red, green, blue = color
     return (red + 255) // 2, (green + 255) // 2, (blue + 255) // 2

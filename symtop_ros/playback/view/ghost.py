@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.drawing import ghost as drawing
 from symtop_ros.drawing.mesh import create_body
 from symtop_ros.physics import Motion
@@ -16,19 +16,12 @@ from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.segment import Segment
 
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 RATE = 125.0  # states per s of the clock; more would not be seen
 OPACITY = 90  # of 255
 
 
 class Ghost(drawing.Ghost):
-    """The motion without the last kick, and its trace.
-
-    Attributes
-    ----------
-    trace : Trace
-    """
+    """The motion without the last kick, and its trace."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -12,14 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN
-from symtop_ros.playback.view.quantities import Samples, Stamps, find_step
+from symtop_ros.playback.view.quantities import Samples, find_step
 from symtop_ros.playback.view.stream import Stream
 
-Real = NDArray[np.float64]
 RATE = 60.0  # arrows per s of the clock
 LENGTH = 0.9  # of the longest arrow in scene units
 TOPICS = ("angular_velocity", "angular_momentum", "torque", "euler_angles")
@@ -30,22 +29,13 @@ EQUATIONS = {
 
 
 class TorqueArrow(NamedTuple):
-    """An arrow below or above the pivot.
-
-    Attributes
-    ----------
-    label : str
-    color : (int, int, int)
-    depth : float
-        Below the pivot, in scene units; negative above it.
-    place : (float, float)
-        Of the label: along the line of nodes, and up. It is fixed, so that labels stay apart when
-        the arrows are short, as they are at cusps.
-    """
+    """An arrow below or above the pivot."""
 
     label: str
     color: tuple[int, int, int]
-    depth: float
+    depth: float  # below the pivot, in scene units; negative above it
+    # of the label: along the line of nodes, and up. It is fixed, so that labels stay apart
+    # when the arrows are short, as they are at cusps
     place: tuple[float, float]
 
 
@@ -57,33 +47,13 @@ ARROWS = {
 
 
 class Torques(NamedTuple):
-    """Parts of the torque as vectors in the world frame, (n, 3), in N m.
+    """Parts of the torque as vectors in the world frame, (n, 3), in N m."""
 
-    Attributes
-    ----------
-    total : ndarray (n, 3)
-        The torque.
-    body : ndarray (n, 3)
-        dL/dt as the body frame sees it.
-    turning : ndarray (n, 3)
-        omega x L.
-    precession : ndarray (n, 3)
-        phi' z' x L.
-    nodes : ndarray (n, 3)
-        Unit vectors along the line of nodes.
-
-    Examples
-    --------
-    >>> along = np.array([[1.0, 0.0, 0.0]])
-    >>> Torques(along, 4.5 * along, -3.5 * along, along, along).find_scale()
-    5.0
-    """
-
-    total: Real
-    body: Real
-    turning: Real
-    precession: Real
-    nodes: Real
+    total: Real  # the torque
+    body: Real  # dL/dt as the body frame sees it
+    turning: Real  # omega x L
+    precession: Real  # phi' z' x L
+    nodes: Real  # unit vectors along the line of nodes
 
     @classmethod
     def of(cls, samples: Samples) -> tuple[Stamps, Torques] | None:

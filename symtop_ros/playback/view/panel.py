@@ -12,18 +12,7 @@ from symtop_ros.simulation.segment import Segment
 def describe_motion(
     segment: Segment, state: State, scales: dict[str, str], equations: Mapping[str, str]
 ) -> str:
-    """Return the table for the segment that begins with an event.
-
-    Parameters
-    ----------
-    segment : Segment
-    state : State
-        The state right after the event.
-    scales : dict of str to str
-        Value and unit of one scene unit, by the label of the arrow.
-    equations : mapping of str to str
-        Equation of the torque by the words for the frame; empty if no arrows show its parts.
-    """
+    """Return the table for the segment that begins with an event."""
     motion = segment.motion
     top = motion.top
     low, high = motion.turning_angles

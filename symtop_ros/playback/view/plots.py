@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Motion, Top
 from symtop_ros.playback.view import entities, quantities
@@ -18,7 +18,6 @@ from symtop_ros.playback.view.stream import Stream
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
-Real = NDArray[np.float64]
 EPS = float(np.finfo(float).eps)
 RATE_OF_DOTS = 125.0  # positions per s of the clock
 DRIFT_INTERVAL = 100_000_000  # ns between two curves of a potential that drifts
@@ -38,12 +37,7 @@ LINES = {
 
 
 class Plots:
-    """Everything of a recording that is a curve.
-
-    Parameters
-    ----------
-    stream : Stream
-    """
+    """Everything of a recording that is a curve."""
 
     def __init__(self, stream: Stream) -> None:
         self._stream = stream

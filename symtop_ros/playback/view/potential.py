@@ -9,15 +9,14 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.drawing.chart import TILTS, Chart, frame_cubic, frame_potential
 from symtop_ros.physics import EffectivePotential, Motion
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREY, WHITE
 from symtop_ros.playback.view.stream import Stream
 
-Real = NDArray[np.float64]
 HATCHES = 40
 OLD = (118, 126, 140)
 HATCHED, DRAWN = 10.0, 20.0  # what is drawn later is in front
@@ -25,12 +24,7 @@ CLEAR = rr.Clear(recursive=False)
 
 
 class PotentialView:
-    """Both charts of one recording.
-
-    Parameters
-    ----------
-    stream : Stream
-    """
+    """Both charts of one recording."""
 
     def __init__(self, stream: Stream) -> None:
         self._stream = stream
@@ -50,17 +44,7 @@ class PotentialView:
         self._potential, self._charts = potential, (chart, cubic)
 
     def place(self, tilts: Real, energies: Real, squares: Real) -> dict[str, Real]:
-        """Return the positions (n, 2) of the dot in each chart, by its entity.
-
-        Parameters
-        ----------
-        tilts : ndarray (n,)
-            theta in rad.
-        energies : ndarray (n,)
-            E' in J.
-        squares : ndarray (n,)
-            (du/dt)^2 in 1/s^2.
-        """
+        """Return the positions (n, 2) of the dot in each chart, by its entity."""
         if self._charts is None:
             return {}
         chart, cubic = self._charts

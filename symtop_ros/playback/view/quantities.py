@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Top
 
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 Samples = Mapping[str, Columns]
 
 
@@ -53,13 +51,7 @@ def axis_of(quaternions: Real) -> Real:
 
 
 def rotate(quaternions: Real, vectors: Real) -> Real:
-    """Return vectors (n, 3) turned by quaternions x, y, z, w, (n, 4).
-
-    Examples
-    --------
-    >>> rotate(np.array([[0.0, 0.0, 1.0, 0.0]]), np.array([[1.0, 2.0, 3.0]])).tolist()
-    [[-1.0, -2.0, 3.0]]
-    """
+    """Return vectors (n, 3) turned by quaternions x, y, z, w, (n, 4)."""
     axis = quaternions[:, :3]
     turned = 2 * np.cross(axis, vectors)
     return np.asarray(vectors + quaternions[:, 3:] * turned + np.cross(axis, turned))

@@ -6,30 +6,17 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.playback.view import entities
-
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 
 
 class Stream:
-    """A recording with the stamp at which its time is zero.
-
-    Parameters
-    ----------
-    recording : RecordingStream
-
-    Attributes
-    ----------
-    origin : int or None
-        That stamp in ns; None before the first sample or event.
-    """
+    """A recording with the stamp at which its time is zero."""
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self.recording = recording
-        self.origin: int | None = None
+        self.origin: int | None = None  # that stamp in ns; None before the first sample or event
 
     def log(self, entity: str, *values: Any, static: bool = False) -> None:
         """Log values at the time that was set."""

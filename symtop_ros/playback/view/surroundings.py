@@ -9,15 +9,13 @@ import math
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.drawing.mesh import create_lathe
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import GREY, ORANGE
 
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
 MAX_LINES = 3000  # visible at one time
 MAX_GAP = 5  # sample periods; longer gaps are not bridged by a line
 STONE = (92, 98, 110)
@@ -72,16 +70,10 @@ def _meridian(phi: float, depth: float) -> Real:
 
 
 class Trace:
-    """Joins the points of one batch to those of the next one.
-
-    Attributes
-    ----------
-    length : float
-        Visible time in s.
-    """
+    """Joins the points of one batch to those of the next one."""
 
     def __init__(self) -> None:
-        self.length = 0.0
+        self.length = 0.0  # visible time in s
         self._stamps: Stamps = np.empty(0, np.int64)
         self._points: Real = np.empty((0, 3))
 

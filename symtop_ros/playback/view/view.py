@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.drawing.mesh import create_body
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
@@ -33,31 +33,16 @@ from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
-Real = NDArray[np.float64]
-Stamps = NDArray[np.int64]
-
 
 class Arrow(NamedTuple):
-    """An arrow of the scene.
+    """An arrow of the scene."""
 
-    Attributes
-    ----------
-    entity : str
-        Path of the entity.
-    label, unit : str
-    color : (int, int, int)
-    length : float
-        Length of the first vector in scene units.
-    first : int
-        Index of the vector among the doubles of its topic.
-    """
-
-    entity: str
+    entity: str  # path of the entity
     label: str
     unit: str
     color: tuple[int, int, int]
-    length: float
-    first: int
+    length: float  # length of the first vector in scene units
+    first: int  # index of the vector among the doubles of its topic
 
 
 SENSOR = "imu"
@@ -71,41 +56,18 @@ ARROWS = {
 
 @dataclass(frozen=True, slots=True)
 class ViewOptions:
-    """Parts of the scene that can be left out. One that is off costs nothing.
+    """Parts of the scene that can be left out. One that is off costs nothing."""
 
-    Attributes
-    ----------
-    ghost : bool
-        The top that was not kicked.
-    angles : bool
-        Both frames, the line of nodes, and the arcs of phi, theta and psi.
-    torques : bool
-        Arrows of dL/dt and of the inertial torque in two frames.
-
-    Examples
-    --------
-    >>> ViewOptions(angles=True)
-    ViewOptions(ghost=True, angles=True, torques=False)
-    """
-
-    ghost: bool = True
-    angles: bool = False
-    torques: bool = False
+    ghost: bool = True  # the top that was not kicked
+    angles: bool = False  # both frames, the line of nodes, and the arcs of phi, theta and psi
+    torques: bool = False  # arrows of dL/dt and of the inertial torque in two frames
 
 
 DEFAULT_OPTIONS = ViewOptions()
 
 
 class View:
-    """A Rerun recording of one top.
-
-    Parameters
-    ----------
-    recording : RecordingStream
-    live : bool
-        True to follow the newest sample, False to play the whole run.
-    options : ViewOptions
-    """
+    """A Rerun recording of one top."""
 
     def __init__(
         self,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from importlib import import_module
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion
-from symtop_ros.report.peers.peer import Arrays, Peer, Real, Solution, Task, spread_times
+from symtop_ros.report.peers.peer import Arrays, Peer, Solution, Task, spread_times
 
 CLOSED_FORM, SPLITTING = "symtop_ros, closed form", "symtop_ros, splitting"
 OPTIONAL = {  # package, and the file here that needs it
@@ -20,15 +21,7 @@ OPTIONAL = {  # package, and the file here that needs it
 
 
 def prepare(task: Task, _: float) -> Solution:
-    """Return a solution that sets the motion up at each call: that is part of its cost.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.reference import Reference
-    >>> problem = Reference.read().article[0]
-    >>> problem.error(10.0, prepare(problem.task, 0.0).reach(10.0)) < 1e-15
-    True
-    """
+    """Return a solution that sets the motion up at each call: that is part of its cost."""
     arrays = prepare_arrays(task)
 
     def reach(t: float) -> Real:
@@ -42,15 +35,7 @@ def prepare(task: Task, _: float) -> Solution:
 
 
 def prepare_arrays(task: Task) -> Arrays:
-    """Return the same for many times.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.reference import Reference
-    >>> import numpy as np
-    >>> prepare_arrays(Reference.read().article[0].task)(np.array([0.0, 1.0])).shape
-    (2, 4)
-    """
+    """Return the same for many times."""
     given = task.top, task.start, task.friction, task.torque
     return lambda times: Motion(*given).at(times).orientation
 
@@ -62,14 +47,7 @@ OWN = [
 
 
 def installed() -> tuple[list[Peer], list[str]]:
-    """Return the package's engines and the peers that can be imported, and the missing packages.
-
-    Examples
-    --------
-    >>> peers, missing = installed()
-    >>> peers[0].name
-    'symtop_ros, closed form'
-    """
+    """Return the package's engines and the peers that can be imported, and the missing packages."""
     modules, missing = [import_module(f"{__name__}.scipy_peer")], []
     for package, file in OPTIONAL.items():
         try:

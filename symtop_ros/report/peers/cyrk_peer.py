@@ -10,9 +10,9 @@ from typing import Any, Literal
 import numpy as np
 from CyRK import nb_diffeq_addr, nbsolve2_ivp
 
+from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     Peer,
-    Real,
     Solution,
     Task,
     choose_steps,

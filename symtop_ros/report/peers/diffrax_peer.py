@@ -9,9 +9,9 @@ import diffrax
 import jax
 import numpy as np
 
+from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     Peer,
-    Real,
     Solution,
     Task,
     body_rates,

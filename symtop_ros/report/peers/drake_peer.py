@@ -23,17 +23,10 @@ from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from pydrake.systems.framework import DiagramBuilder, EventStatus
 from pydrake.systems.primitives import ConstantValueSource
 
+from symtop_ros.arrays import Real
 from symtop_ros.models.formats import format_sdf
 from symtop_ros.physics import State
-from symtop_ros.report.peers.peer import (
-    Peer,
-    Real,
-    Solution,
-    Task,
-    choose_steps,
-    normalize,
-    time_strides,
-)
+from symtop_ros.report.peers.peer import Peer, Solution, Task, choose_steps, normalize, time_strides
 
 SCHEMES = {"RK3": "runge_kutta3", "RK5": "runge_kutta5"}
 # At order 3 an accuracy of 1e-10 takes 3 million steps for ten seconds.

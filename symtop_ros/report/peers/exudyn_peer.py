@@ -20,7 +20,8 @@ from exudyn.itemInterface import (
 )
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.report.peers.peer import RECORDED, Peer, Real, Solution, Task, count_steps
+from symtop_ros.arrays import Real
+from symtop_ros.report.peers.peer import RECORDED, Peer, Solution, Task, count_steps
 
 METHODS = {"RK44": exu.DynamicSolverType.RK44, "RK67": exu.DynamicSolverType.RK67}
 SETTINGS = tuple(2.0**-k for k in (9, 10, 11, 12, 13, 14, 15, 16, 17, 18))  # s

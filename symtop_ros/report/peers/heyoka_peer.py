@@ -14,10 +14,10 @@ from typing import Any, NamedTuple
 import heyoka as hy
 import numpy as np
 
+from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     Arrays,
     Peer,
-    Real,
     Solution,
     Task,
     body_rates,

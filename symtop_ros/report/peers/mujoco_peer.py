@@ -7,10 +7,10 @@ from functools import partial
 import mujoco
 import numpy as np
 
+from symtop_ros.arrays import Real
 from symtop_ros.models.formats import format_mjcf
 from symtop_ros.report.peers.peer import (
     Peer,
-    Real,
     Solution,
     Task,
     count_steps,

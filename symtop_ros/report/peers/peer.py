@@ -11,12 +11,10 @@ from math import cos, sin
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Friction, State, Top
 
-Real = NDArray[np.float64]
-Vector = tuple[float, float, float]
 Solve = Callable[[float], Real]  # t in s -> orientation (w, x, y, z), from the start each time
 Record = Callable[[float], tuple[Real, Real]]  # t -> times (n,) in (0, t], orientations (n, 4)
 Arrays = Callable[[Real], Real]  # times (n,) in s -> orientations (n, 4)
@@ -31,13 +29,7 @@ OWN_STEPS = 1000  # at most, of an integrator that has no exact output between i
 
 @dataclass(frozen=True)
 class Task:
-    """A top that starts moving at t = 0; its numbers are taken as exact.
-
-    Examples
-    --------
-    >>> Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.5)).friction == NO_FRICTION
-    True
-    """
+    """A top that starts moving at t = 0; its numbers are taken as exact."""
 
     top: Top
     start: State
@@ -46,113 +38,57 @@ class Task:
 
 
 class Solution(NamedTuple):
-    """A model that is built, and what it computes from the start, anew each time.
+    """A model that is built, and what it computes from the start, anew each time."""
 
-    Attributes
-    ----------
-    reach : callable
-        Returns the orientation at a time in s, and stores nothing on the way: this is timed.
-    record : callable
-        Returns times in (0, t] and the orientations there, with the same steps: errors are taken
-        from it, and it is not timed.
-    """
-
+    # returns the orientation at a time in s, and stores nothing on the way: this is timed
     reach: Solve
+    # returns times in (0, t] and the orientations there, with the same steps: errors are
+    # taken from it, and it is not timed
     record: Record
 
 
 @dataclass(frozen=True)
 class Peer:
-    """An integrator with one method.
+    """An integrator with one method."""
 
-    Attributes
-    ----------
-    name : str
-        As in tables and plots.
-    settings : tuple of float
-        Tolerances, or steps in s, from coarse to fine; the package's own engines have one.
-    prepare : callable
-        Builds a `Solution` for a task and a setting, with all compiling and loading.
-    friction : {"no", "also", "only"}
-        Friction along and across the axis: not modelled, modelled, or the only use of the peer.
-    prepare_arrays : callable or None
-        Builds a model, at the best setting, that computes the states at many times at once.
-    quick : {"every motion", "first motion", "no"}
-        Part in the quick report, which must not take long: the best form of each program is in it.
-
-    Examples
-    --------
-    >>> from symtop_ros.report.peers import prepare
-    >>> peer = Peer("closed form", (0.0,), prepare)
-    >>> task = Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.0, psi_dot=2.0))
-    >>> peer.prepare(task, peer.settings[0]).reach(0.0)
-    array([1., 0., 0., 0.])
-    """
-
-    name: str
+    name: str  # as in tables and plots
+    # tolerances, or steps in s, from coarse to fine; the package's own engines have one
     settings: tuple[float, ...]
+    # builds a `Solution` for a task and a setting, with all compiling and loading
     prepare: Callable[[Task, float], Solution]
+    # friction along and across the axis: not modelled, modelled, or the only use of the peer
     friction: Literal["no", "also", "only"] = "no"
+    # builds a model, at the best setting, that computes the states at many times at once
     prepare_arrays: Callable[[Task], Arrays] | None = None
+    # part in the quick report, which must not take long: the best form of each program is in
+    # it
     quick: Literal["every motion", "first motion", "no"] = "no"
 
 
 def spread_times(t: float) -> Real:
-    """Return `RECORDED` times, evenly in (0, t] (s).
-
-    Examples
-    --------
-    >>> spread_times(10.0)[:2]
-    array([0.00097656, 0.00195312])
-    """
+    """Return `RECORDED` times, evenly in (0, t] (s)."""
     return np.asarray(np.arange(1, RECORDED + 1) * (t / RECORDED))
 
 
 def list_strides(t: float, step: float) -> list[int]:
-    """Return how many steps (of s) to make before each state that is recorded up to t (s).
-
-    Examples
-    --------
-    >>> list_strides(1.0, 0.25)
-    [1, 1, 1, 1]
-    >>> len(list_strides(10.0, 2.0**-14)), list_strides(10.0, 2.0**-14)[0]
-    (10240, 16)
-    """
+    """Return how many steps (of s) to make before each state that is recorded up to t (s)."""
     steps = count_steps(t, step)
     stride = max(1, steps // RECORDED)
     return [stride] * (steps // stride)
 
 
 def time_strides(t: float, step: float) -> Real:
-    """Return the times in s of the states that are recorded.
-
-    Examples
-    --------
-    >>> time_strides(1.0, 0.25)
-    array([0.25, 0.5 , 0.75, 1.  ])
-    """
+    """Return the times in s of the states that are recorded."""
     return np.cumsum(list_strides(t, step)) * step
 
 
 def choose_steps(number: int) -> slice:
-    """Return a choice of at most 1000 of a number of an integrator's own steps.
-
-    Examples
-    --------
-    >>> len(range(2500)[choose_steps(2500)])
-    834
-    """
+    """Return a choice of at most 1000 of a number of an integrator's own steps."""
     return slice(None, None, -(-number // OWN_STEPS))
 
 
 def from_euler_angles(angles: Real) -> Real:
-    """Return quaternions (n, 4) from phi, theta, psi (n, 3) in rad.
-
-    Examples
-    --------
-    >>> from_euler_angles(np.array([[0.0, 0.0, 0.0]]))
-    array([[1., 0., 0., 0.]])
-    """
+    """Return quaternions (n, 4) from phi, theta, psi (n, 3) in rad."""
     phi, theta, psi = angles.T
     A = np.cos(theta / 2) * np.exp(0.5j * (phi + psi))
     B = np.sin(theta / 2) * np.exp(0.5j * (phi - psi))
@@ -160,35 +96,17 @@ def from_euler_angles(angles: Real) -> Real:
 
 
 def normalize(orientations: Real) -> Real:
-    """Return quaternions (..., 4) of norm 1.
-
-    Examples
-    --------
-    >>> normalize(np.array([0.0, 3.0, 0.0, 4.0]))
-    array([0. , 0.6, 0. , 0.8])
-    """
+    """Return quaternions (..., 4) of norm 1."""
     return np.asarray(orientations / np.linalg.norm(orientations, axis=-1, keepdims=True))
 
 
 def count_steps(t: float, step: float) -> int:
-    """Return the number of steps of this size (s) to t (s), which must be a multiple of it.
-
-    Examples
-    --------
-    >>> count_steps(0.3, 0.1)
-    3
-    """
+    """Return the number of steps of this size (s) to t (s), which must be a multiple of it."""
     return round(t / step)
 
 
 def initial_values(task: Task) -> list[float]:
-    """Return orientation (w, x, y, z) and body angular velocity (rad/s) at the start.
-
-    Examples
-    --------
-    >>> initial_values(Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.0, psi_dot=2.0)))
-    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]
-    """
+    """Return orientation (w, x, y, z) and body angular velocity (rad/s) at the start."""
     return [*task.start.orientation.tolist(), *task.start.angular_velocity.tolist()]
 
 
@@ -197,12 +115,6 @@ def body_rates(task: Task, t: float, y: Any) -> list[Any]:
 
     With friction -axial wz on the axis and -transverse (wx, wy) across it, and with the applied
     torque. Only sums and products are used, so that the numbers may also be symbolic expressions.
-
-    Examples
-    --------
-    >>> task = Task(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State.from_euler(theta=0.0, psi_dot=2.0))
-    >>> body_rates(task, 0.0, initial_values(task))[3]
-    1.0
     """
     Ix, Iz, Mgl = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
@@ -234,12 +146,6 @@ def euler_rates(task: Task, t: float, y: Any, *, sin: Any = sin, cos: Any = cos)
     """Return the article's three equations for y = (phi, theta, psi, phi', theta', psi').
 
     With the functions sin and cos of another package the numbers may be symbolic expressions.
-
-    Examples
-    --------
-    >>> task = Task(Top(Ix=1.0, Iz=0.5, Mgl=2.0), State.from_euler(theta=1.0))
-    >>> print(f"{euler_rates(task, 0.0, np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.0]))[4]:.3f}")
-    1.683
     """
     Ix, Iz, Mgl = task.top.moments
     _, theta, _, phi_dot, theta_dot, psi_dot = y.tolist() if hasattr(y, "tolist") else y

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pinocchio
 
+from symtop_ros.arrays import Real
 from symtop_ros.models.formats import format_urdf
 from symtop_ros.report.peers.peer import (
     Peer,
-    Real,
     Solution,
     Task,
     initial_values,

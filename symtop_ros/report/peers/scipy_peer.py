@@ -9,11 +9,11 @@ from typing import Any, Literal
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     TOLERANCES,
     Arrays,
     Peer,
-    Real,
     Solution,
     Task,
     body_rates,
