@@ -137,7 +137,7 @@ def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment
         difference[:, :3] = np.minimum(difference[:, :3], turns)
         with np.errstate(divide="ignore"):  # on the vertical phi and psi are undefined
             scale = np.maximum(scale, 1.0) / np.abs(np.sin(computed[:, 1:2]))
-    if segment.motion.is_integrated:
+    if segment.motion.is_driven:
         # A difference in the last place of a rate grows with the phase of the motion.
         rate = np.abs(samples.state.angular_velocity).max(axis=-1)
         phase = rate * np.abs(segment.time_at(columns.stamps))

@@ -88,7 +88,7 @@ def _balance_status(segment: Segment, stamp: int) -> Status:
         "energy.balance": found.energy,
         "angular_momentum.balance": found.angular_momentum.tolist(),
     }
-    integrated = motion.is_integrated
+    integrated = motion.is_driven
     message = "friction or an applied torque acts" if integrated else "only gravity acts"
     return _status("top: balance", OK, message, facts)
 

@@ -92,7 +92,7 @@ class PotentialChart:
         motion, potential, chart = self._motion, run.potential, self._chart
         if motion is None or potential is None or chart is None or run.state is None:
             return
-        if motion.is_integrated:
+        if motion.is_driven:
             self._fixed = _fixed_part(chart, Motion(motion.top, run.state), potential)
         theta = float(run.state.euler_angles.theta)
         (x, y), (_, bottom) = (

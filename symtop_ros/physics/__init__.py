@@ -15,6 +15,7 @@ Examples
 
 from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
+from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -24,7 +25,6 @@ from symtop_ros.physics.kicks import (
     set_precession_rate,
     validate_hold,
 )
-from symtop_ros.physics.kind import Kind
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.perry import Direction
 from symtop_ros.physics.perry_map import HurryEffect, compare_hurried

@@ -224,6 +224,6 @@ def _body_torque(motion: Motion, state: State) -> Real:
     vertical, Mgl = state.vertical, motion.top.Mgl
     torque = np.zeros(vertical.shape)
     torque[..., 0], torque[..., 1] = Mgl * vertical[..., 1], -Mgl * vertical[..., 0]
-    if motion.is_integrated:
+    if motion.is_driven:
         torque += motion.friction.torque(state) + state.to_body(motion.applied_torque)
     return torque

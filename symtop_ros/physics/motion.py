@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.closed_form import ClosedFormMotion
-from symtop_ros.physics.elementary import Components, Number
-from symtop_ros.physics.free import FreeMotion
-from symtop_ros.physics.integrated import IntegratedMotion
-from symtop_ros.physics.kind import Kind
+from symtop_ros.physics.driven.trail import DrivenMotion
+from symtop_ros.physics.exact.closed_form import ClosedFormMotion
+from symtop_ros.physics.exact.elementary import Components, Number
+from symtop_ros.physics.exact.free import FreeMotion
+from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -82,10 +82,9 @@ class Motion:
     friction : Friction
     applied_torque : (float, float, float)
         In the world frame, in N m.
-    engine : {"closed form", "free", "splitting"}
+    engine : {"closed form", "free", "taylor"}
         Method of solution: elliptic functions; circular functions if Mgl is 0 or if the axis rests
-        on the vertical; with friction or an applied torque Taylor series, from which the spin about
-        the axis is split off.
+        on the vertical; with friction or an applied torque Taylor series in time.
 
     Raises
     ------
@@ -105,7 +104,7 @@ class Motion:
     (3, 4)
     """
 
-    engine: Literal["closed form", "free", "splitting"]
+    engine: Literal["closed form", "free", "taylor"]
 
     def __init__(
         self,
@@ -128,10 +127,10 @@ class Motion:
         self._spin = float(start.angular_velocity[2])
         self._engine = self._solve()
         self.engine = "free" if isinstance(self._engine, FreeMotion) else "closed form"
-        self._integrated: IntegratedMotion | None = None
-        if self.is_integrated:
-            self._integrated = IntegratedMotion(top, start, friction, self.applied_torque)
-            self.engine = "splitting"
+        self._driven: DrivenMotion | None = None
+        if self.is_driven:
+            self._driven = DrivenMotion(top, start, friction, self.applied_torque)
+            self.engine = "taylor"
 
     def _solve(self) -> Engine:
         w, x, y, z = self.start.given_orientation.tolist()
@@ -148,8 +147,8 @@ class Motion:
         return Motion, (self.top, self.start, self.friction, self.applied_torque)
 
     @property
-    def is_integrated(self) -> bool:
-        """True if friction or an applied torque acts, so that the motion is integrated."""
+    def is_driven(self) -> bool:
+        """True if friction or an applied torque acts: there is no closed form, only series."""
         return bool(self.friction) or any(self.applied_torque)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
@@ -158,8 +157,8 @@ class Motion:
         Parameters
         ----------
         t : float, array_like (...) or ExactTimes
-            Time since the start in s, any finite number of either sign, or exact times in ns. An
-            integrated motion takes the nearest doubles in s of exact times, and it costs about
+            Time since the start in s, any finite number of either sign, or exact times in ns. A
+            driven motion takes the nearest doubles in s of exact times, and it costs about
             0.04 ms for each radian of nutation on the way.
 
         Returns
@@ -170,7 +169,7 @@ class Motion:
         Raises
         ------
         ValueError
-            If a time is not a finite number, or if an integrated motion becomes too fast on the
+            If a time is not a finite number, or if a driven motion becomes too fast on the
             way to it.
 
         Examples
@@ -182,9 +181,9 @@ class Motion:
         0.5
         """
         times: float | Real | ExactTimes = t if isinstance(t, ExactTimes) else _validate_times(t)
-        if self._integrated:
+        if self._driven:
             seconds = np.asarray(times.seconds if isinstance(times, ExactTimes) else times)
-            return self._integrate(self._integrated, seconds)
+            return _fill_states(self._driven, seconds)
         if isinstance(times, np.ndarray) or (isinstance(times, ExactTimes) and times.shape):
             return self._compute_many(times)
         return self._compute_one(times)
@@ -224,11 +223,6 @@ class Motion:
         of_A = of_B + share
         return w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, wx, wy
 
-    def _integrate(self, integrated: IntegratedMotion, seconds: Real) -> State:
-        orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
-        integrated.fill(seconds.reshape(-1), orientation, angular_velocity)
-        return _wrap(orientation, angular_velocity, seconds.shape)
-
     def reach(self, t: float, steps: float) -> float:
         """Prepare the states up to a time, within a limited number of steps.
 
@@ -254,7 +248,7 @@ class Motion:
         >>> 0 < Motion(top, start, Friction(axial=2e-6)).reach(10.0, steps=100) < 10
         True
         """
-        return self._integrated.reach(t, steps) if self._integrated else t
+        return self._driven.reach(t, steps) if self._driven else t
 
     def total_torque(self, state: State) -> Real:
         """Return the torque of gravity, friction and the applied torque about the pivot.
@@ -270,7 +264,7 @@ class Motion:
             In the world frame, in N m.
         """
         torque = self.top.gravity_torque(state)
-        return torque + self.added_torque(state) if self.is_integrated else torque
+        return torque + self.added_torque(state) if self.is_driven else torque
 
     def added_torque(self, state: State) -> Real:
         """Return the torque of friction and the applied torque, without gravity.
@@ -408,6 +402,12 @@ def _validate_times(t: Any) -> float | Real:
         return t
     array = validate_array("t", t, unit="s")
     return array if array.ndim else float(array)
+
+
+def _fill_states(driven: DrivenMotion, seconds: Real) -> State:
+    orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
+    driven.fill(seconds.reshape(-1), orientation, angular_velocity)
+    return _wrap(orientation, angular_velocity, seconds.shape)
 
 
 def _wrap(orientation: Real, angular_velocity: Real, shape: tuple[int, ...]) -> State:

@@ -28,8 +28,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics.exact.precise import PRECISE, ZERO, compute_cosine
 from symtop_ros.physics.kicks import Hold
-from symtop_ros.physics.precise import PRECISE, ZERO, compute_cosine
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import EPS, START_ROUNDING, validate_number
 

@@ -184,12 +184,12 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> str:
     facts = _Facts(
         _find_direction(top, after), Motion(top, before).turning_angles, motion.turning_angles
     )
-    sentences = [change, facts.describe_motion(motion.is_integrated), rule, facts.describe_lift()]
+    sentences = [change, facts.describe_motion(motion.is_driven), rule, facts.describe_lift()]
     contradictions = " and ".join(facts.contradictions(expected))
     if contradictions:
         verb = "holds" if holds else "fails"
         sentences.append(f"Although Perry's rule {verb}, {contradictions}.")
-    if not motion.is_integrated:
+    if not motion.is_driven:
         sentences += filter(None, [_describe_average(motion)])
     return " ".join(sentences) + (AXIS_NOTE if top.Mgl < 0 else "")
 
@@ -216,9 +216,9 @@ class _Facts:
     before: tuple[float, float]
     after: tuple[float, float]
 
-    def describe_motion(self, is_integrated: bool) -> str:
+    def describe_motion(self, is_driven: bool) -> str:
         """Return the sentence on direction and turning angles."""
-        condition = "without friction and applied torque " if is_integrated else ""
+        condition = "without friction and applied torque " if is_driven else ""
         return f"The top {self.direction}: {condition}{_describe_range(self.after)}."
 
     def describe_lift(self) -> str:

@@ -37,7 +37,7 @@ class ComputeBudget:
 
     def prepare(self, segment: Segment, stamp: int) -> bool:
         """Work for about 1 ms towards a stamp (ns); return True if its state is ready."""
-        if not segment.motion.is_integrated:
+        if not segment.motion.is_driven:
             self._prepared, self._stretch = stamp, None
             return True
         end = segment.time_at(stamp)

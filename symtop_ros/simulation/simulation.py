@@ -228,7 +228,7 @@ class Simulation:
     def _next_block_length(self) -> int:
         """Return 1 for the first block of a motion, so that its first sample comes soon."""
         segment, rate = self.segment, self.ticker.rate
-        longest = MAX_INTEGRATED_BLOCK if segment.motion.is_integrated else MAX_BLOCK
+        longest = MAX_INTEGRATED_BLOCK if segment.motion.is_driven else MAX_BLOCK
         grown = 4 * self._block.length if self._block.segment is segment else 1
         return max(1, min(longest, grown, int(AHEAD * rate)))
 
@@ -269,7 +269,7 @@ class Simulation:
         work, self._spent = self._budget.spent - self._spent, self._budget.spent
         current, asked = self.segment.factor, self.settings.real_time_factor
         if current < asked and work < SHARE / 2:
-            factor = min(asked, 2 * current) if self.segment.motion.is_integrated else asked
+            factor = min(asked, 2 * current) if self.segment.motion.is_driven else asked
             before = self.state
             self.segment = self.segment.set_factor(factor, self.stamp)
             verdict = f"real-time factor {current:.3g} -> {factor:.3g}"

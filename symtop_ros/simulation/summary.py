@@ -58,7 +58,7 @@ def summarize_motion(motion: Motion, state: State) -> dict[str, Any]:
     Under friction or an applied torque these change all the time. They are then given for the
     motion that would follow from `state` under gravity alone.
     """
-    free = Motion(motion.top, state) if motion.is_integrated else motion
+    free = Motion(motion.top, state) if motion.is_driven else motion
     numbers = {
         "nutation_period": free.nutation_period,
         "mean_precession_rate": free.mean_precession_rate,

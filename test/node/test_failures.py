@@ -66,7 +66,7 @@ def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
     assert failures() == [f"~/applied_torque failed: {BUG}"]
     monkeypatch.undo()
     push(run)
-    run.spin_until(lambda: run.top.simulation.segment.motion.is_integrated)
+    run.spin_until(lambda: run.top.simulation.segment.motion.is_driven)
     assert_keeps_running(run)
 
 

@@ -55,9 +55,9 @@ def test_every_scene_has_a_test():
 
 
 @pytest.mark.parametrize("scene", sorted(INTEGRATED))
-def test_a_scene_with_friction_or_torque_is_integrated(start_top, scene):
+def test_a_scene_with_friction_or_torque_is_driven(start_top, scene):
     state = json.loads(start_top(scene=scene).trigger("get_state")[1])
-    assert state["engine"] == "splitting"
+    assert state["engine"] == "taylor"
     assert state["friction"]["axial"] > 0 or state["applied_torque"][2] > 0
 
 

@@ -58,7 +58,7 @@ def test_a_torque_acts_from_its_sample_until_it_has_run_out(start_top):
     run.spin_until(lambda: len(orientations) > seen + 20)
     begin, end = events_named(events, "torque")
     assert facts(begin)["applied_torque"] == f"0.0 0.0 {VERTICAL}"
-    assert facts(begin)["engine"] == "splitting"
+    assert facts(begin)["engine"] == "taylor"
     assert facts(end)["applied_torque"] == "0.0 0.0 0.0"
     assert facts(end)["engine"] == "closed form"
     assert stamp_of(end) - stamp_of(begin) == round(TIMEOUT * 1e9)
@@ -111,7 +111,7 @@ def test_friction_and_torque_can_change_while_the_top_turns_and_the_run_is_recom
     run.spin_until(lambda: len(orientations) > seen + 20)
     engines = [facts(event)["engine"] for event in events]
     assert engines[0] == "closed form"
-    assert set(engines[1:]) == {"splitting"}
+    assert set(engines[1:]) == {"taylor"}
     motion = segment_of(events[-1]).motion
     assert (motion.friction, motion.applied_torque) == (Friction(2e-6, 1e-5), (0.0, 0.0, 1e-4))
     assert_recomputed(events, orientations)

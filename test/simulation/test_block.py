@@ -14,7 +14,7 @@ from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
 STAMPS = [BEGIN + 1_000_003 * k for k in range(16)]
 SEGMENTS = {
     "closed form": Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 0.7),
-    "splitting": Segment.begin(Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-5)), BEGIN, 0.7),
+    "taylor": Segment.begin(Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-5)), BEGIN, 0.7),
     "paused": Segment.begin(Motion(ARTICLE, CUSPS), BEGIN - 10**9, 0.7).pause(BEGIN),
 }
 
@@ -29,7 +29,7 @@ def test_samples_are_those_of_each_stamp_alone_bit_for_bit(segment, name):
 
 
 def test_it_covers_its_segment_and_stamps_only():
-    segment, other = SEGMENTS["closed form"], SEGMENTS["splitting"]
+    segment, other = SEGMENTS["closed form"], SEGMENTS["taylor"]
     block = Block(segment, STAMPS)
     assert block.covers(segment, STAMPS[0])
     assert not block.covers(segment, STAMPS[0] + 1)
@@ -47,9 +47,9 @@ def test_a_topic_that_is_not_requested_is_not_computed(monkeypatch):
     for stamp in STAMPS:
         assert np.isfinite(block.numbers("torque", stamp)).all()
     assert computed == ["torque"]
-    after = block.continue_with(SEGMENTS["splitting"], STAMPS)
+    after = block.continue_with(SEGMENTS["taylor"], STAMPS)
     assert computed == ["torque", "torque"]
     after.numbers("torque", STAMPS[0])
     assert computed == ["torque", "torque"]
-    after.continue_with(SEGMENTS["splitting"], STAMPS)
+    after.continue_with(SEGMENTS["taylor"], STAMPS)
     assert len(computed) == 3

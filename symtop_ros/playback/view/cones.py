@@ -27,7 +27,7 @@ PALE_GREEN, PALE_BLUE = (60, 140, 95), (60, 105, 170)
 
 def has_cones(motion: Motion) -> bool:
     """Return True if no torque acts at all, so that L is constant and omega stays on two cones."""
-    return motion.top.Mgl == 0 and not motion.is_integrated
+    return motion.top.Mgl == 0 and not motion.is_driven
 
 
 def log_cones(stream: Stream, motion: Motion, state: State, scale: float) -> None:

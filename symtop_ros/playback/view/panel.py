@@ -39,7 +39,7 @@ def describe_motion(
 
 def _added_torques(motion: Motion) -> dict[str, str]:
     """Return friction and applied torque; angles, period and rates then hold at the event only."""
-    if not motion.is_integrated:
+    if not motion.is_driven:
         return {}
     friction = motion.friction
     torque = " ".join(f"{part:g}" for part in motion.applied_torque)

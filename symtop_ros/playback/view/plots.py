@@ -97,7 +97,7 @@ class Plots:
             for entity, points in self._potential.place(*heights).items():
                 positions = rr.Points2D.columns(positions=points)
                 self._stream.send(f"{entity}/state", euler.stamps[::step], positions)
-            if motion.is_integrated:
+            if motion.is_driven:
                 self._send_drifting_curves(euler, motion)
         for entity, found in (
             (entities.ENERGY, self._energy.rows(columns, motion)),

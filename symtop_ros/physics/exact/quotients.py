@@ -16,34 +16,25 @@ the same way for all three.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
 from decimal import Decimal
+from typing import NamedTuple
 
 from scipy.special import elliprf
 
-from symtop_ros.physics.nutation import CANCELLED, Nutation, Roots
-from symtop_ros.physics.precise import HALF, ONE, TWO, ZERO
+from symtop_ros.physics.exact.elementary import Shift
+from symtop_ros.physics.exact.nutation import CANCELLED, Nutation, Roots
+from symtop_ros.physics.exact.precise import HALF, ONE, TWO, ZERO
 
 CONVERGED = Decimal("1e-24")  # convergence is quadratic: this leaves 48 digits
 
 
-@dataclass(frozen=True, slots=True)
-class Zero:
-    """The height u_P at which one of the three functions vanishes.
+class Zero(NamedTuple):
+    """The height u_P at which one of the three functions vanishes."""
 
-    Attributes
-    ----------
-    is_below : bool
-        True for A, whose zero lies below the motion; False for B and omega_xy.
-    d : Decimal
-        b - a u_P in rad/s.
-    from_u1, from_u2, from_u3 : Decimal
-        Distances of u_P from the roots of f, all >= 0.
-    """
-
-    is_below: bool
-    d: Decimal
-    from_u1: Decimal
+    is_below: bool  # True for A, whose zero lies below the motion; False for B and omega_xy
+    d: Decimal  # b - a u_P in rad/s
+    from_u1: Decimal  # distances of u_P from the roots of f, all >= 0
     from_u2: Decimal
     from_u3: Decimal
 
@@ -55,7 +46,22 @@ class Zero:
         return self.from_u2 / self.from_u1
 
 
-def find_zeros(nutation: Nutation, roots: Roots) -> tuple[Zero, Zero, Zero]:
+class Zeros(NamedTuple):
+    """The zeros of the three functions."""
+
+    A: Zero  # the lower pole
+    B: Zero  # the upper pole
+    omega_xy: Zero  # alpha/beta, where all energy would be potential
+
+    @property
+    def largest_sine_squared(self) -> Decimal:
+        """The largest sin^2(theta) of a nutation."""
+        if self.A.from_u1 < 1 < self.A.from_u2:  # u1 < 0 < u2: the axis becomes horizontal
+            return ONE
+        return max(self.A.from_u1 * self.B.from_u1, self.A.from_u2 * self.B.from_u2)
+
+
+def find_zeros(nutation: Nutation, roots: Roots) -> Zeros:
     """Return the zeros of A, B and omega_xy."""
     above = nutation.omega_xy_squared / nutation.beta
     d = nutation.b_minus_au_at(above)
@@ -65,13 +71,10 @@ def find_zeros(nutation: Nutation, roots: Roots) -> tuple[Zero, Zero, Zero]:
         lift = nutation.alpha_minus_beta / nutation.beta  # alpha/beta - 1
         d = nutation.b_minus_a - nutation.a * lift
         from_u2, from_u3 = roots.below_pole + lift, roots.above_pole - lift
-    return (
+    from_pole = nutation.one_minus_u - roots.s1, roots.below_pole, roots.above_pole
+    return Zeros(
         _zero_below(nutation, roots),
-        _zero_above(
-            nutation,
-            nutation.b_minus_a,
-            (nutation.one_minus_u - roots.s1, roots.below_pole, roots.above_pole),
-        ),
+        _zero_above(nutation, nutation.b_minus_a, from_pole),
         _zero_above(nutation, d, (above - roots.s1, from_u2, from_u3)),
     )
 
@@ -103,7 +106,42 @@ def _zero_above(nutation: Nutation, d: Decimal, distances: tuple[Decimal, ...]) 
     return Zero(False, d, from_u1, from_u2, from_u3)
 
 
-def compute_shift_complement(zero: Zero, roots: Roots) -> float:
+class Quotient(NamedTuple):
+    """One of the three functions: C th_k(v + i shift)/th4(v) exp(i rate t)."""
+
+    zero: Zero
+    mean: float  # its mean rate in a nutation, in rad/s, without the body's turning by c
+    start: complex  # its value at t = 0; for omega_xy the conjugate
+    change: complex  # the time derivative of `start`, without the body's turning by c
+    from_start: Decimal  # |u_P - u0|
+
+    def find_shift(self, roots: Roots, Kc: float, winding: int) -> Shift:
+        """Return the shift of its theta function."""
+        sign = math.copysign(1.0, self.zero.d)
+        complement = min(_compute_shift_complement(self.zero, roots), Kc)
+        return Shift(sign, complement, self.zero.is_below, winding)
+
+    def find_factor(
+        self, value: complex, find_slope: Callable[[], complex], width: float
+    ) -> complex:
+        """Return C, so that the function is right at t = 0.
+
+        C is start/value. If the function nearly vanishes at the start, both have lost their digits,
+        and C comes from the derivatives instead. Value and derivative never vanish together.
+
+        `value` is the theta quotient at t = 0, `find_slope` returns its time derivative, and
+        `width` is the time of the fastest change.
+        """
+        # The square of a function is in proportion to the distance from its zero. Above half of its
+        # largest size it has all its digits.
+        if 4 * self.from_start < max(self.zero.from_u1, self.zero.from_u2):
+            slope = find_slope()
+            if abs(value) < width * abs(slope):
+                return (self.change - 1j * self.mean * self.start) / slope
+        return self.start / value
+
+
+def _compute_shift_complement(zero: Zero, roots: Roots) -> float:
     """Return K' - |shift|, right to rounding however close to K' the shift is.
 
     The textbooks give the shift itself as an incomplete elliptic integral of the first kind. When
@@ -124,7 +162,7 @@ def compute_shift_complement(zero: Zero, roots: Roots) -> float:
 
 
 def compute_mean_rates(
-    nutation: Nutation, zeros: tuple[Zero, ...], k: Decimal
+    nutation: Nutation, zeros: Zeros, k: Decimal
 ) -> tuple[Decimal, tuple[Decimal, ...]]:
     """Return the arithmetic-geometric mean of 1 and k, and the mean rates of the three functions.
 

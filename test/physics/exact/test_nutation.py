@@ -7,8 +7,8 @@ import pytest
 from mpmath import mp, mpf
 from physics.tops import EPS, random_case
 
-from symtop_ros.physics.nutation import Nutation, find_roots
-from symtop_ros.physics.precise import PRECISE
+from symtop_ros.physics.exact.nutation import Nutation, find_roots
+from symtop_ros.physics.exact.precise import PRECISE
 
 
 @pytest.mark.parametrize("family", ["any", "fast", "critical", "pendulum"])

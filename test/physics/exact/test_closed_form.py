@@ -12,7 +12,7 @@ from physics.tops import ARTICLE, EPS, Case, random_case, seeds
 from symtop_ros.physics import Motion, State, Top
 
 pytestmark = pytest.mark.untraced
-MOTIONS = json.loads(Path(__file__).with_name("motions.json").read_text())
+MOTIONS = json.loads(Path(__file__).parents[1].joinpath("motions.json").read_text())
 
 
 def solved(motion_data):

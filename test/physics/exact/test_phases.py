@@ -7,7 +7,7 @@ from mpmath import mp, mpf
 from physics.tops import EPS
 
 from symtop_ros.physics import ExactTimes
-from symtop_ros.physics.precise import Phase, Phases
+from symtop_ros.physics.exact.phases import Phase, Phases
 
 RATES = (Decimal("6.49714481615578871234567890123456"), Decimal("-1234567890.123456789012345678"))
 

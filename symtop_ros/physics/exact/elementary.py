@@ -10,7 +10,7 @@ NumPy may round their products in another way than Python does.
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,7 +20,32 @@ Number: TypeAlias = float | Real
 Pair: TypeAlias = tuple[Number, Number]  # real and imaginary part, or a sum of two doubles
 Components: TypeAlias = tuple[Pair, Pair, Pair]  # A, B and omega_x + i omega_y
 
+ORDERS = range(1, 5)  # of the terms of a theta series
 SPLITTER = 2.0**27 + 1  # Veltkamp's, for halves of 26 bits
+
+
+class Shift(NamedTuple):
+    """The imaginary shift of a theta function, and the zero that belongs to it."""
+
+    sign: float
+    # K' - |shift|. The shift itself would not do: close to K' this difference, on which the small
+    # coefficients depend, would be lost.
+    complement: float
+    is_below: bool  # True for A (theta_4), whose zero is near the lower turning point
+    winding: int = 0  # the quotient is multiplied by exp(-i winding x)
+
+
+class Location(NamedTuple):
+    """A phase of the nutation, and its distances from the turning points.
+
+    The distances are multiplied by K/K' for the complementary series. Each is right to rounding of
+    itself, which x alone cannot give.
+    """
+
+    x: Number  # in [-pi, pi]; 0 is the lower turning point
+    below: Number  # x: the distance from the lower turning point, with the sign of x
+    above: Number  # pi - |x|
+    low: Number = 0.0  # what rounding left of -|below| or above, of the one that is smaller
 
 
 def sine(x: Number) -> Number:
@@ -70,11 +95,6 @@ def find_rest(x: Pair, factor: tuple[float, float], product: Number) -> Number:
 
     The first part of `factor` must have at most 26 bits. Its products with the halves of x[0] are
     then exact (T. J. Dekker, Numer. Math. 18 (1971) 224).
-
-    Examples
-    --------
-    >>> find_rest((0.1, 0.0), (0.5, 2.0**-60), 0.05) == 0.1 * 2.0**-60
-    True
     """
     high, low = factor
     shifted = SPLITTER * x[0]
@@ -84,24 +104,12 @@ def find_rest(x: Pair, factor: tuple[float, float], product: Number) -> Number:
 
 
 def multiply(a: Pair, b: Pair) -> Pair:
-    """Return the product of two complex numbers, each as real and imaginary part.
-
-    Examples
-    --------
-    >>> multiply((1.0, 2.0), (3.0, 4.0))
-    (-5.0, 10.0)
-    """
+    """Return the product of two complex numbers, each as real and imaginary part."""
     return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]
 
 
 def multiply_by_conjugate(a: Pair, b: Pair) -> Pair:
-    """Return the product of a and the conjugate of b.
-
-    Examples
-    --------
-    >>> multiply_by_conjugate((1.0, 2.0), (3.0, 4.0))
-    (11.0, 2.0)
-    """
+    """Return the product of a and the conjugate of b."""
     return a[0] * b[0] + a[1] * b[1], a[1] * b[0] - a[0] * b[1]
 
 

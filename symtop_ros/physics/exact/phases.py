@@ -1,8 +1,4 @@
-"""Numbers of 50 digits, for the set-up of a motion, and how they enter double precision.
-
-A motion is set up once and evaluated often. With Python's decimal module the set-up takes some tens
-of microseconds more than with floats, and the constants of a motion are then those of exactly the
-doubles that were given: no error grows with time, and exponents have no limit.
+"""Phases that grow at constant rates, reduced to one turn without error.
 
 Phases are reduced to one turn in integers of 64 bits, a turn being 2^64. Their products wrap round
 after whole turns, which is the reduction itself: it is exact however many turns there are, while
@@ -12,19 +8,26 @@ the product rate * t in doubles would have an error of EPS times the whole phase
 from __future__ import annotations
 
 import math
-from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
+from decimal import Decimal, localcontext
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.elementary import Number, Pair, round_to_integer
+from symtop_ros.physics.exact.elementary import Number, Pair, round_to_integer
+from symtop_ros.physics.exact.precise import (
+    ONE,
+    PRECISE,
+    TWO,
+    TWO_PI,
+    ZERO,
+    compute_cosine,
+    split,
+    split_short,
+)
 from symtop_ros.physics.times import SECOND, ExactTimes
 
-PRECISE = Context(prec=50, traps=[InvalidOperation, DivisionByZero])
-ZERO, HALF, ONE, TWO = Decimal(0), Decimal("0.5"), Decimal(1), Decimal(2)
-TWO_PI = Decimal("6.28318530717958647692528676655900576839433879875021")
 PER_TURN = Decimal("0.159154943091895335768883763372514362034459645740456")  # 1/(2 pi)
 
 # A turn in the integers of the set-up. They have digits to spare: 192 bits go before a phase of
@@ -45,105 +48,11 @@ ENTRY_BITS = 64 - 9
 HALF_ENTRY = 2 ** (ENTRY_BITS - 1)
 FINENESS = 2.0**-27  # unit of the coarse part, in turns
 
-EQUAL = Decimal("2e-6")  # differences of which the sixth power is below 1e-34
-
 Limbs = tuple[int, int, int]
 
 
-def split(x: Decimal) -> tuple[float, float]:
-    """Return x as a double and the remainder: 32 digits together.
-
-    Examples
-    --------
-    >>> split(Decimal("0.1"))
-    (0.1, -5.551115123125783e-18)
-    """
-    high = float(x)
-    return high, float(x - Decimal(high))
-
-
-def split_short(x: Decimal) -> tuple[float, float]:
-    """Return x as a double of 26 bits and the remainder: 24 digits together.
-
-    Examples
-    --------
-    >>> high, low = split_short(TWO_PI)
-    >>> (high * 2**23).is_integer(), high + low == 2 * math.pi
-    (True, True)
-    """
-    fraction, exponent = math.frexp(float(x))
-    high = math.ldexp(math.floor(math.ldexp(fraction, 26)), exponent - 26)
-    return high, float(x - Decimal(high))
-
-
-def compute_cosine(x: Decimal) -> Decimal:
-    """Return cos(x) to 48 digits of 1, less those of whole turns.
-
-    Examples
-    --------
-    >>> float(compute_cosine(Decimal("0.5"))) == math.cos(0.5)
-    True
-    """
-    x = x - (x / TWO_PI).to_integral_value() * TWO_PI
-    square, term, total, n = x * x, ONE, ONE, 0
-    while abs(term) > Decimal("1e-52"):
-        n += 2
-        term *= -square / (n * (n - 1))
-        total += term
-    return total
-
-
-def integrate_rf(x: Decimal, y: Decimal) -> Decimal:
-    """Return Carlson's symmetric integral R_F(x, y, 1) to 34 digits.
-
-    Each step of the duplication makes the arguments differ by a quarter of what they did (B. C.
-    Carlson, Numer. Algorithms 10 (1995) 13, algorithm for R_F). The error of the last series is of
-    the order of their sixth power.
-
-    Examples
-    --------
-    >>> with localcontext(PRECISE):
-    ...     float(integrate_rf(ZERO, ONE)) == math.pi / 2
-    True
-    """
-    z = ONE
-    while True:
-        mean = (x + y + z) / 3
-        dx, dy = 1 - x / mean, 1 - y / mean
-        if max(abs(dx), abs(dy), abs(dx + dy)) < EQUAL:
-            break
-        roots = x.sqrt(), y.sqrt(), z.sqrt()
-        shift = roots[0] * roots[1] + roots[0] * roots[2] + roots[1] * roots[2]
-        x, y, z = (x + shift) / 4, (y + shift) / 4, (z + shift) / 4
-    dz = -(dx + dy)
-    e2, e3 = dx * dy - dz * dz, dx * dy * dz
-    return (1 - e2 / 10 + e3 / 14 + e2 * e2 / 24 - 3 * e2 * e3 / 44) / mean.sqrt()
-
-
 class Phases:
-    """Several phases that grow at constant rates, at times in s or at exact times.
-
-    Parameters
-    ----------
-    rates : sequence of Decimal
-        In rad/s.
-
-    Examples
-    --------
-    After 1e15 s the third decimal of rate * t in doubles would be wrong:
-
-    >>> [phase] = Phases(Decimal("0.1")).at(1e15)
-    >>> round(phase.radians[0], 8)
-    -2.93062284
-    >>> cosine, sine = phase.unit
-    >>> round(math.atan2(sine, cosine), 8)
-    -2.93062284
-    >>> from fractions import Fraction
-    >>> times = ExactTimes(np.array([10**18]), factor=1000.0, elapsed=Fraction(1))
-    >>> [phase] = Phases(Decimal("0.1")).at(times)  # 1e12 s and 1 ns
-    >>> phase.radians[0].round(8)
-    array([1.19087459])
-    """
+    """Several phases that grow at constant rates, at times in s or at exact times."""
 
     def __init__(self, *rates: Decimal) -> None:
         with localcontext(PRECISE):
@@ -159,19 +68,7 @@ class Phases:
         self._farthest = math.ldexp(1.0, min(COUNT_BITS - self._exponent, 1023))
 
     def at(self, times: Number | ExactTimes) -> list[Phase]:
-        """Return the phases at times in s, or at exact times.
-
-        Parameters
-        ----------
-        times : float, ndarray (n,) or ExactTimes
-            Up to 4e15 turns of the fastest phase the reduction is exact. Beyond, times cost some
-            microseconds each, and phases are right as far as 50 digits of the rates determine them.
-
-        Returns
-        -------
-        list of Phase
-            Each for all times.
-        """
+        """Return the phases at times in s, or at exact times."""
         if isinstance(times, ExactTimes):
             return self._at_exact(times)
         if isinstance(times, np.ndarray):
@@ -276,17 +173,11 @@ class _Counts:
 
 
 class Phase(NamedTuple):
-    """A phase modulo whole turns, at one time or at many.
+    """A phase modulo whole turns, at one time or at many."""
 
-    Attributes
-    ----------
-    turns : int or ndarray (n,) of int64
-        In units of 2^-64 turns.
-    rest : float or ndarray (n,)
-        To be added, in rad; at most 2^-11 of a turn. So the phase of a short time keeps its digits.
-    """
-
-    turns: Any
+    turns: Any  # in units of 2^-64 turns
+    # to be added, in rad; at most 2^-11 of a turn. So the phase of a short time keeps its
+    # digits
     rest: Any = 0.0
 
     @property

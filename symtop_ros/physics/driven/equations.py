@@ -61,30 +61,17 @@ TURNING = (
 
 
 class DrivenEquations:
-    """Terms of the derivatives, and how states become variables and variables states.
-
-    Parameters
-    ----------
-    top : Top
-    friction : Friction
-    torque : (float, float, float)
-        Applied torque in the world frame, in N m.
-
-    Attributes
-    ----------
-    ratio : float
-        Iz/Ix.
-    parts : ndarray (3, FACTORS, FACTORS, FACTORS)
-        The derivative of variable k is the sum of parts[n, k, i, j] times variables i and j, over i
-        and j, and over n: the terms of the free top, of friction, and of the torques. In another
-        unit of time part n has the n-th power of the unit as a factor.
-    """
+    """Terms of the derivatives, and how states become variables and variables states."""
 
     def __init__(self, top: Top, friction: Friction, torque: Vector) -> None:
         Ix, Iz, Mgl = map(np.longdouble, top.moments)
         ratio = Iz / Ix
         share = round(float(ratio) * 2**SHARE_BITS) / 2**SHARE_BITS
-        self.ratio, self._half_rest = float(ratio), (1 - share) / 2
+        self.ratio = float(ratio)  # Iz/Ix
+        self._half_rest = (1 - share) / 2
+        # The derivative of variable k is the sum of parts[n, k, i, j] times variables i and j, over
+        # i, j and n: the terms of the free top, of friction, and of the torques. In another unit of
+        # time part n has the n-th power of the unit as a factor.
         self.parts = np.zeros((3, FACTORS, FACTORS, FACTORS), np.longdouble)
         free, damping, driving = self.parts
         for row, i, j, sign in TURNING:

@@ -6,9 +6,9 @@ import math
 from decimal import Decimal, localcontext
 from typing import Literal
 
-from symtop_ros.physics.nutation import Nutation, Roots
-from symtop_ros.physics.precise import ONE, PRECISE
-from symtop_ros.physics.quotients import Zero
+from symtop_ros.physics.exact.nutation import Nutation, Roots
+from symtop_ros.physics.exact.precise import PRECISE
+from symtop_ros.physics.exact.quotients import Zeros
 from symtop_ros.physics.values import START_ROUNDING
 
 Kind = Literal[
@@ -24,20 +24,20 @@ Kind = Literal[
 ROUNDING = Decimal(START_ROUNDING)
 
 
-def classify(nutation: Nutation, roots: Roots, zeros: tuple[Zero, ...]) -> Kind:
+def classify(nutation: Nutation, roots: Roots, zeros: Zeros) -> Kind:
     """Return the kind of a motion whose axis moves.
 
     Numbers that differ by rounding of the start alone count as equal: a start that is computed to
     lie on a root of regular precession is regular, although its doubles miss the root.
     """
     with localcontext(PRECISE):
-        above = zeros[1]
+        above = zeros.B
         if roots.s32 == 0:
             return "spiralling"
         if _is_regular(nutation):
             return "regular"
         rounding = ROUNDING * largest_precession(nutation, zeros)
-        lower_pole, upper_pole = abs(zeros[0].d), abs(above.d)
+        lower_pole, upper_pole = abs(zeros.A.d), abs(above.d)
         if lower_pole <= rounding or (upper_pole <= rounding and above.from_u2 <= above.from_u3):
             return "through the pole"
         lower, upper = nutation.b_minus_au_at(roots.s1), nutation.b_minus_au_at(roots.s2)
@@ -46,23 +46,15 @@ def classify(nutation: Nutation, roots: Roots, zeros: tuple[Zero, ...]) -> Kind:
         return "unidirectional" if (lower > 0) == (upper > 0) else "looping"
 
 
-def largest_precession(nutation: Nutation, zeros: tuple[Zero, ...]) -> Decimal:
+def largest_precession(nutation: Nutation, zeros: Zeros) -> Decimal:
     """Return a bound on the terms of b - a u = sin^2(theta) phi' during a nutation, in rad/s.
 
     A state of the motion is known to rounding of these, not to rounding of the terms at the start:
     they may all be small there, near a cusp.
     """
-    sine_squared = largest_sine_squared(zeros)
-    rate = (nutation.beta * zeros[2].from_u1).sqrt()  # largest |omega_xy|
+    sine_squared = zeros.largest_sine_squared
+    rate = (nutation.beta * zeros.omega_xy.from_u1).sqrt()  # largest |omega_xy|
     return rate * sine_squared.sqrt() + abs(nutation.a) * sine_squared
-
-
-def largest_sine_squared(zeros: tuple[Zero, ...]) -> Decimal:
-    """Return the largest sin^2(theta) of a nutation."""
-    below, above, _ = zeros
-    if below.from_u1 < 1 < below.from_u2:  # u1 < 0 < u2: the axis becomes horizontal
-        return ONE
-    return max(below.from_u1 * above.from_u1, below.from_u2 * above.from_u2)
 
 
 def _is_regular(nutation: Nutation) -> bool:
@@ -77,15 +69,7 @@ def _is_regular(nutation: Nutation) -> bool:
 
 
 def classify_free(tilt_of_momentum: float, cone: float) -> Kind:
-    """Return the kind of a motion without torque, whose axis moves on a circle about L.
-
-    Parameters
-    ----------
-    tilt_of_momentum : float
-        Angle between L and the vertical, in rad.
-    cone : float
-        Angle between the axis and L, in rad.
-    """
+    """Return the kind of a motion without torque, whose axis moves on a circle about L."""
     inside, far = tilt_of_momentum - cone, tilt_of_momentum + cone
     rounding = START_ROUNDING * math.pi
     if min(math.sin(tilt_of_momentum), math.sin(cone)) <= rounding:

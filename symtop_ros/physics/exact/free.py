@@ -6,10 +6,11 @@ import math
 from decimal import Decimal, localcontext
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.elementary import Components, Number, multiply
-from symtop_ros.physics.kind import Kind, classify_free
-from symtop_ros.physics.precise import HALF, PRECISE, Phases
-from symtop_ros.physics.spin import spin_reverses_free
+from symtop_ros.physics.exact.elementary import Components, Number, multiply
+from symtop_ros.physics.exact.kind import Kind, classify_free
+from symtop_ros.physics.exact.phases import Phases
+from symtop_ros.physics.exact.precise import HALF, PRECISE
+from symtop_ros.physics.exact.spin import spin_reverses_free
 from symtop_ros.physics.times import ExactTimes
 
 UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
@@ -20,15 +21,6 @@ class FreeMotion:
 
     c = p_psi (1/Iz - 1/Ix) (Landau & Lifshitz, Mechanics, section 33). A resting vertical axis
     stays where it is, and L is along it: the same formula holds.
-
-    Parameters
-    ----------
-    moments : (float, float, float)
-        Ix and Iz in kg m^2, and Mgl, which is not used.
-    orientation : (float, float, float, float)
-        (w, x, y, z) at t = 0.
-    angular_velocity : (float, float, float)
-        In the body frame at t = 0, in rad/s.
     """
 
     kind: Kind

@@ -5,26 +5,37 @@ import pytest
 from mpmath import ellipk, mp, mpf
 from physics.tops import EPS
 
-from symtop_ros.physics.closed_form import quarter_period
-from symtop_ros.physics.theta import ComplementarySeries, DirectSeries, choose_series
+from symtop_ros.physics.exact.complementary_series import ComplementarySeries
+from symtop_ros.physics.exact.direct_series import DirectSeries
+from symtop_ros.physics.exact.elementary import Location, Shift
+from symtop_ros.physics.exact.nutation_phase import quarter_period
+from symtop_ros.physics.exact.theta import choose_series
 
-SIGNS = (1.0, -1.0, 1.0)
+
+def shifts(*complements, winding=0):
+    """Return the shifts of A, B and omega_xy."""
+    first, second, third = complements
+    return (
+        Shift(1.0, first, is_below=True),
+        Shift(-1.0, second, is_below=False),
+        Shift(1.0, third, is_below=False, winding=winding),
+    )
 
 
-def evaluate(series, *phases):
+def evaluate(series, location):
     """Return the quotients as complex numbers, (3, n)."""
-    return np.array([real + 1j * imaginary for real, imaginary in series.values(*phases)])
+    return np.array([real + 1j * imaginary for real, imaginary in series.values(location)])
 
 
 @pytest.mark.parametrize("m", [0.45, 0.5, 0.55])
 def test_both_nomes_give_the_same_quotients_up_to_a_constant(m):
     K, Kc = quarter_period((1 - m) ** 0.5), quarter_period(m**0.5)
-    rest = 0.1 * Kc, 0.5 * Kc, 0.93 * Kc
+    shifted = shifts(0.1 * Kc, 0.5 * Kc, 0.93 * Kc)
     x = np.linspace(-3.1, 3.1, 101)
-    phases = x, x * K / Kc, (np.pi - np.abs(x)) * K / Kc
-    direct = evaluate(DirectSeries(K, Kc, SIGNS, rest), x, x, np.pi - np.abs(x))
+    stretched = Location(x, x * K / Kc, (np.pi - np.abs(x)) * K / Kc)
+    direct = evaluate(DirectSeries(K, Kc, shifted), Location(x, x, np.pi - np.abs(x)))
     root_of_nome = math.exp(-math.pi * K / Kc / 2)
-    complementary = evaluate(ComplementarySeries(K, Kc, SIGNS, rest, root_of_nome), *phases)
+    complementary = evaluate(ComplementarySeries(K, Kc, shifted, root_of_nome), stretched)
     ratio = direct / complementary
     # five terms of either series leave 1e-16; near its zero a quotient loses digits
     smallest = np.abs(direct).min(axis=1) / np.abs(direct).max(axis=1)
@@ -37,17 +48,17 @@ def test_both_nomes_give_the_same_quotients_up_to_a_constant(m):
 def test_derivatives_are_those_of_the_values(m, x):
     K, Kc = quarter_period((1 - m) ** 0.5), quarter_period(m**0.5)
     root_of_nome = math.exp(-math.pi * K / Kc / 2)
-    series = choose_series(K, Kc, root_of_nome, SIGNS, [0.2 * Kc, 0.5 * Kc, 0.8 * Kc])
+    series = choose_series(K, Kc, root_of_nome, shifts(0.2 * Kc, 0.5 * Kc, 0.8 * Kc))
 
-    def phases(x):
+    def locate(x):
         stretch = max(1.0, K / Kc)  # of the complementary series
-        return x, x * stretch, (np.pi - np.abs(x)) * stretch
+        return Location(x, x * stretch, (np.pi - np.abs(x)) * stretch)
 
-    slopes = np.array([series.slope(k, *phases(x)) for k in range(3)]) * K / np.pi  # in x
+    slopes = np.array([series.slope(k, locate(x)) for k in range(3)]) * K / np.pi  # in x
     h = 1e-3 / max(1.0, K / Kc)
     steps = h * np.array([-2, -1, 1, 2])
     weights = np.array([1, -8, 8, -1]) / (12 * h)
-    around = evaluate(series, *phases(x + steps))
+    around = evaluate(series, locate(x + steps))
     # five-point differences: h^4/30 times fifth derivatives of order (K/K')^5, and rounding/h
     scale = np.abs(around).max() * max(1.0, K / Kc)
     np.testing.assert_allclose(around @ weights, slopes, atol=(1e-12 + 16 * EPS / 1e-3) * scale)
@@ -58,12 +69,14 @@ def test_derivatives_are_those_of_the_values(m, x):
 def test_one_phase_gives_the_same_bits_as_an_array(m, winding):
     K, Kc = quarter_period((1 - m) ** 0.5), quarter_period(m**0.5)
     root_of_nome, stretch = math.exp(-math.pi * K / Kc / 2), max(1.0, K / Kc)
-    rests = [0.2 * Kc, 0.5 * Kc, 0.8 * Kc]
-    series = choose_series(K, Kc, root_of_nome, SIGNS, rests, winding)
+    shifted = shifts(0.2 * Kc, 0.5 * Kc, 0.8 * Kc, winding=winding)
+    series = choose_series(K, Kc, root_of_nome, shifted)
     x = np.linspace(-3.1, 3.1, 257)
-    phases = x, x * stretch, (np.pi - np.abs(x)) * stretch
-    singly = [series.values(*map(float, phase)) for phase in zip(*phases, strict=True)]
-    assert np.array_equal(np.moveaxis(np.array(singly), 0, -1), np.array(series.values(*phases)))
+    locations = Location(x, x * stretch, (np.pi - np.abs(x)) * stretch)
+    singly = [
+        series.values(Location(*map(float, each))) for each in zip(*locations[:3], strict=True)
+    ]
+    assert np.array_equal(np.moveaxis(np.array(singly), 0, -1), np.array(series.values(locations)))
 
 
 @pytest.mark.parametrize("m", [0.0, 1e-9, 0.5, 0.99, 1 - 1e-12])

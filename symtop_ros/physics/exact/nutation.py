@@ -35,7 +35,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.precise import HALF, TWO, ZERO
+from symtop_ros.physics.exact.precise import HALF, TWO, ZERO
 from symtop_ros.physics.values import EPS
 
 # A sum below this share of its terms has lost 10 of its 50 digits. It is computed exactly instead.
@@ -60,17 +60,7 @@ class Nutation:
 
     @classmethod
     def of(cls, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> Nutation:
-        """Return the nutation of a top (Ix, Iz, Mgl) that starts at a state.
-
-        Parameters
-        ----------
-        moments : (float, float, float)
-            Ix and Iz in kg m^2, Mgl in J.
-        orientation : (float, float, float, float)
-            (w, x, y, z), of any norm near 1.
-        angular_velocity : (float, float, float)
-            In the body frame, in rad/s.
-        """
+        """Return the nutation of a top (Ix, Iz, Mgl) that starts at a state."""
         Ix, Iz, Mgl = (Decimal(x) for x in moments)
         w, x, y, z = (Decimal(c) for c in orientation)
         wx, wy, wz = (Decimal(c) for c in angular_velocity)

@@ -10,9 +10,9 @@ from physics.refusals import NOT_TOO_FAST, VECTOR, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, random_states
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.physics.driven_equations import ONE, RATES, DrivenEquations
-from symtop_ros.physics.expansion import Expansion, Point
-from symtop_ros.physics.integrated import IntegratedMotion
+from symtop_ros.physics.driven.equations import ONE, RATES, DrivenEquations
+from symtop_ros.physics.driven.series import Knot, Stepper
+from symtop_ros.physics.driven.trail import DrivenMotion
 
 pytestmark = pytest.mark.untraced
 NONE = (0.0, 0.0, 0.0)
@@ -32,7 +32,7 @@ def exact(top, start, friction, torque, t):
 
 
 def integrate(top, start, friction=Friction(), torque=NONE):  # noqa: B008
-    return IntegratedMotion(top, start, friction, torque)
+    return DrivenMotion(top, start, friction, torque)
 
 
 def states(engine, times):
@@ -65,7 +65,7 @@ def allowed(case_motion, t, swing=0.0):
 def test_ten_seconds_of_the_friction_scene_agree_with_thirty_digits():
     friction, torque = DRIVES["friction"]
     motion = Motion(ARTICLE, CUSPS, friction)
-    assert motion.engine == "splitting"
+    assert motion.engine == "taylor"
     expected = exact(ARTICLE, CUSPS, friction, torque, 10.0)
     # rounding of the angular velocity at the start would make 1000 eps; 0.6 measured
     assert distance(motion.at(10.0), expected) < 2 * EPS
@@ -138,7 +138,7 @@ def test_without_friction_it_gives_what_the_closed_form_gives(phi_dot):
 )
 def test_friction_too_weak_to_be_felt_gives_what_the_closed_form_gives(t, tiny):
     motion = Motion(ARTICLE, CUSPS, Friction(tiny, tiny), (0.0, 0.0, tiny))
-    assert motion.engine == "splitting"
+    assert motion.engine == "taylor"
     assert distance(motion.at(t), Motion(ARTICLE, CUSPS).at(t)) < allowed(motion, t)
 
 
@@ -164,7 +164,7 @@ def test_the_first_coefficients_are_eulers_equations():
     motion, equations = Motion(top, CUSPS, friction, torque), DrivenEquations(top, friction, torque)
     for k in range(5):
         state = State(*(part[k] for part in random_states(5)))
-        piece = Expansion(equations).expand(Point(0.0, equations.start(state)), 1)
+        piece = Stepper(equations).step(Knot(0.0, equations.start(state)), 1)
         rates = piece.low[-1][RATES] / piece.unit**2
         x, y, z = state.angular_velocity
         L = top.body_angular_momentum(state)
@@ -179,11 +179,11 @@ def test_the_first_coefficients_are_eulers_equations():
 
 def test_the_terms_left_out_of_a_step_do_not_count():
     equations = DrivenEquations(ARTICLE, *DRIVES["both"])
-    expansion = Expansion(equations)
-    piece = expansion.expand(Point(0.0, equations.start(CUSPS)), 1)
+    expansion = Stepper(equations)
+    piece = expansion.step(Knot(0.0, equations.start(CUSPS)), 1)
     # the same time in two steps: half the step leaves out 2^30 times less
     shorter = piece._replace(end=piece.end / 2).find_end()
-    middle = expansion.expand(shorter, 1)
+    middle = expansion.step(shorter, 1)
     assert middle.end > piece.end
     gap = np.abs(middle.at(np.array([piece.end]))[0] - piece.find_end().values)
     assert gap[:4].max() < EPS / 10  # rounding of the higher terms

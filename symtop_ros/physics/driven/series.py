@@ -1,6 +1,6 @@
 """The top with friction and an applied torque: Taylor series in time, step after step.
 
-The derivatives are polynomials of degree 2 of the variables (`driven_equations`).
+The derivatives are polynomials of degree 2 of the variables (`equations`).
 So coefficient k + 1 of all variables follows from the products of coefficients 0 to k with those
 from k to 0. One product of two matrices has them all, and a second one combines them. The length of
 a step follows from the last two coefficients (A. Jorba and M. Zou, A software package for the
@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.driven_equations import (
+from symtop_ros.physics.driven.equations import (
     FACTORS,
     OMEGA_Z,
     QUATERNION,
@@ -52,42 +52,22 @@ HIGH_POWERS = np.arange(TERMS, EXTENDED_TERMS, -1.0)
 LOW_POWERS = np.arange(EXTENDED_TERMS, 0.0, -1.0, dtype=np.longdouble)
 
 
-class Point(NamedTuple):
-    """A state between two steps.
+class Knot(NamedTuple):
+    """The state between two steps."""
 
-    Attributes
-    ----------
-    t : float
-        Time in s.
-    values : ndarray (9,)
-        The variables, in rad and s.
-    """
-
-    t: float
-    values: Extended
+    t: float  # time in s
+    values: Extended  # the variables, in rad and s
 
 
 class Piece(NamedTuple):
-    """The Taylor series of the motion between two points of the grid.
+    """The Taylor series of the motion between two knots of the grid."""
 
-    Attributes
-    ----------
-    start : Point
-    end : float
-        Time in s up to which the series hold.
-    unit : float
-        Unit of time of the coefficients in s, a power of two.
-    low : ndarray (EXTENDED_TERMS, 9)
-        Coefficients of the lowest powers of the time, from the highest of them to the first.
-    high : ndarray (TERMS - EXTENDED_TERMS, 9)
-        Coefficients of the higher powers, from the highest on.
-    """
-
-    start: Point
-    end: float
-    unit: float
+    start: Knot
+    end: float  # time in s up to which the series hold
+    unit: float  # unit of time of the coefficients in s, a power of two
+    # coefficients of the lowest powers of the time, from the highest of them to the first
     low: Extended
-    high: Real
+    high: Real  # coefficients of the higher powers, from the highest on
 
     def at(self, times: Real) -> Extended:
         """Return the variables at times (n,) in s of the piece, (n, 9).
@@ -108,8 +88,8 @@ class Piece(NamedTuple):
         gain[:, RATES] /= self.unit
         return np.asarray(gain + self.start.values)
 
-    def find_end(self) -> Point:
-        """Return the point at the end."""
+    def find_end(self) -> Knot:
+        """Return the knot at the end."""
         u = (self.end - self.start.t) / self.unit
         gain = np.dot(u**LOW_POWERS, self.low)
         gain += np.dot(u**HIGH_POWERS, self.high)
@@ -118,17 +98,13 @@ class Piece(NamedTuple):
         q = gain[QUATERNION]
         # One Newton step towards norm 1: rounding leaves so little that its square is nothing.
         q *= 1.5 - 0.5 * np.dot(q, q)
-        return Point(self.end, gain)
+        return Knot(self.end, gain)
 
 
-class Expansion:
-    """The Taylor series of a driven top about any point.
+class Stepper:
+    """The Taylor series of a driven top about any knot.
 
     Not thread-safe: the arrays in which series are made are used again for the next ones.
-
-    Parameters
-    ----------
-    equations : DrivenEquations
     """
 
     def __init__(self, equations: DrivenEquations) -> None:
@@ -146,11 +122,16 @@ class Expansion:
         self._low_backward = np.zeros((EXTENDED_TERMS + 1, FACTORS), np.longdouble)
         self._matrices = np.zeros((TERMS, FACTORS, FACTORS * FACTORS))
         self._low_matrices = np.zeros((EXTENDED_TERMS, *self._matrices.shape[1:]), np.longdouble)
+        # Of 512 possible terms of the derivatives some 60 are not zero. Only they are written when
+        # the unit of time changes.
         row, i, j = np.nonzero(self._equations.parts.any(axis=0))
         self._constants = self._equations.parts[:, row, i, j]
         all_orders = slice(None)
         self._places = all_orders, row, i * FACTORS + j
         self._mirrored = all_orders, row, j * FACTORS + i
+        # Coefficient k + 1 needs the products of coefficient n with k - n for all n. With one array
+        # in ascending and one in descending order they are a single product of two matrices, and
+        # its two factors are views: making these views takes longer than the product.
         self._low_orders = [
             (
                 self._low[: k + 1].T,
@@ -172,23 +153,23 @@ class Expansion:
             for k in range(EXTENDED_TERMS, TERMS)
         ]
 
-    def expand(self, point: Point, direction: int) -> Piece:
-        """Return the series about a point, for times after it (1) or before it (-1).
+    def step(self, knot: Knot, direction: int) -> Piece:
+        """Return the series about a knot, for times after it (1) or before it (-1).
 
         If the motion has become too fast for doubles, the piece ends at its start.
         """
-        rate = self._equations.estimate_rate(point.values)
+        rate = self._equations.estimate_rate(knot.values)
         if not rate < LARGEST_ANGULAR_VELOCITY:
-            return _stop(point, point.t)
+            return _stop(knot, knot.t)
         self._set_unit(math.ldexp(1.0, math.frexp(1 / rate)[1]) if rate else 1.0)
-        scaled = point.values[:FACTORS].copy()
+        scaled = knot.values[:FACTORS].copy()
         scaled[RATES] *= self._unit
         self._compute_low_orders(scaled)
         if not self._low[1].any():
-            return _stop(point, direction * math.inf)  # it is at rest, for ever
+            return _stop(knot, direction * math.inf)  # it is at rest, for ever
         self._compute_high_orders()
-        end = point.t + direction * self._find_length() * self._unit
-        return Piece(point, end, self._unit, *self._copy_series())
+        end = knot.t + direction * self._find_length() * self._unit
+        return Piece(knot, end, self._unit, *self._copy_series())
 
     def _set_unit(self, unit: float) -> None:
         if unit == self._unit:
@@ -204,6 +185,7 @@ class Expansion:
         self._matrices[self._places] = nearest
 
     def _compute_low_orders(self, scaled: Extended) -> None:
+        # The first terms of a series are its largest. Their rounding would be that of the state.
         self._low[0] = self._low_backward[EXTENDED_TERMS] = scaled
         _compute(self._low_orders, self._low_products)
 
@@ -225,6 +207,7 @@ class Expansion:
     def _find_length(self) -> float:
         """Return the length of the step in the unit of time, by the root test."""
         omega_x, omega_y, omega_z = self._series[0, RATES].tolist()
+        # The last two terms, of which one may be small by chance, are below LAST at this length.
         turn = math.hypot(omega_x, omega_y, self._equations.ratio * omega_z)
         length = LARGEST_TURN / max(turn, LARGEST_TURN / LONGEST)
         axial = max(1.0, abs(omega_z))  # the spin of a rod exceeds the rate
@@ -247,7 +230,7 @@ def _compute(orders: list[Order], products: NDArray[Any]) -> None:
         reverse[:] = row
 
 
-def _stop(point: Point, end: float) -> Piece:
+def _stop(knot: Knot, end: float) -> Piece:
     """Return the piece of a constant state."""
     low = np.zeros((EXTENDED_TERMS, SPIN + 1), np.longdouble)
-    return Piece(point, end, math.inf, low, np.zeros((len(HIGH_POWERS), SPIN + 1)))
+    return Piece(knot, end, math.inf, low, np.zeros((len(HIGH_POWERS), SPIN + 1)))

@@ -8,16 +8,16 @@ import pytest
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import Friction, Motion
-from symtop_ros.physics.driven_equations import DrivenEquations
-from symtop_ros.physics.expansion import Expansion, Point
-from symtop_ros.physics.integrated import KEPT, Trail
+from symtop_ros.physics.driven.equations import DrivenEquations
+from symtop_ros.physics.driven.series import Knot, Stepper
+from symtop_ros.physics.driven.trail import KEPT, Trail
 
 FRICTION = Friction(2e-6, 1e-5)
 
 
 def trail(direction=1):
     equations = DrivenEquations(ARTICLE, FRICTION, (0.0, 0.0, 0.0))
-    return Trail(Expansion(equations), Point(0.0, equations.start(CUSPS)), direction)
+    return Trail(Stepper(equations), Knot(0.0, equations.start(CUSPS)), direction)
 
 
 def values_at(way, t):

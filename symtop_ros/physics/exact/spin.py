@@ -15,23 +15,21 @@ from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from typing import Any
 
-from symtop_ros.physics.kind import ROUNDING, largest_precession, largest_sine_squared
-from symtop_ros.physics.nutation import Nutation, Roots
-from symtop_ros.physics.precise import PRECISE
-from symtop_ros.physics.quotients import Zero
+from symtop_ros.physics.exact.kind import ROUNDING, largest_precession
+from symtop_ros.physics.exact.nutation import Nutation, Roots
+from symtop_ros.physics.exact.precise import PRECISE
+from symtop_ros.physics.exact.quotients import Zeros
 from symtop_ros.physics.values import START_ROUNDING
 
 
-def spin_reverses(
-    nutation: Nutation, roots: Roots, zeros: tuple[Zero, ...], omega_z: float
-) -> bool:
+def spin_reverses(nutation: Nutation, roots: Roots, zeros: Zeros, omega_z: float) -> bool:
     """Return True if psi' takes both signs in a motion whose axis moves under gravity.
 
     A psi' that differs from zero by rounding of the start alone has no sign: a top that is started
     with psi' = 0 at a turning point does not reverse there.
     """
     with localcontext(PRECISE):
-        spin, (below, above, _) = Decimal(omega_z), zeros
+        spin, below, above = Decimal(omega_z), zeros.A, zeros.B
         ends = [
             spin * below.from_u1 * above.from_u1
             - (nutation.u + roots.s1) * nutation.b_minus_au_at(roots.s1),
@@ -40,22 +38,12 @@ def spin_reverses(
         ]
         b = nutation.b_minus_au + nutation.a * nutation.u
         vertex = _find_vertex(spin, nutation.a, b, nutation.u + roots.s1, nutation.u + roots.s2)
-        size = abs(spin) * largest_sine_squared(zeros) + largest_precession(nutation, zeros)
+        size = abs(spin) * zeros.largest_sine_squared + largest_precession(nutation, zeros)
         return _has_both_signs([*ends, *vertex], ROUNDING * size)
 
 
 def spin_reverses_free(tilt_of_momentum: float, cone: float, rate: float, omega_z: float) -> bool:
-    """Return True if psi' takes both signs in a motion without torque.
-
-    Parameters
-    ----------
-    tilt_of_momentum, cone : float
-        Angles of L to the vertical and to the axis in rad.
-    rate : float
-        |L|/Ix in rad/s, at which the axis goes round L.
-    omega_z : float
-        In rad/s.
-    """
+    """Return True if psi' takes both signs in a motion without torque."""
     low, far = tilt_of_momentum - cone, tilt_of_momentum + cone
     # b - a u at the ends, with b = rate cos(tilt) and a = rate cos(cone), by the addition theorem:
     # the difference would cancel for a narrow cone.

@@ -11,38 +11,29 @@ from threading import Lock
 import numpy as np
 
 from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics.driven_equations import DrivenEquations, Extended
-from symtop_ros.physics.expansion import Expansion, Piece, Point
+from symtop_ros.physics.driven.equations import DrivenEquations, Extended
+from symtop_ros.physics.driven.series import Knot, Piece, Stepper
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
 
-KEPT = 1024  # points kept over the whole integration; beyond this every other one is dropped
+KEPT = 1024  # knots kept over the whole integration; beyond this every other one is dropped
 BLOCK = 1024  # times whose variables are held at once
 RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
 
 
-class IntegratedMotion:
-    """States by `expansion`, in pieces in both directions of time from the start.
+class DrivenMotion:
+    """States by Taylor series, in pieces in both directions of time from the start.
 
     Threads may share it: a lock keeps each call whole, because a call moves along the pieces.
-
-    Parameters
-    ----------
-    top : Top
-    start : State
-        The state at t = 0.
-    friction : Friction
-    torque : (float, float, float)
-        Applied torque in the world frame, in N m.
     """
 
     def __init__(self, top: Top, start: State, friction: Friction, torque: Vector) -> None:
         self._start = start
         self._equations = DrivenEquations(top, friction, torque)
-        expansion, point = Expansion(self._equations), Point(0.0, self._equations.start(start))
+        stepper, knot = Stepper(self._equations), Knot(0.0, self._equations.start(start))
         self._lock = Lock()
-        self._forward, self._backward = (Trail(expansion, point, sign) for sign in (1, -1))
+        self._forward, self._backward = (Trail(stepper, knot, sign) for sign in (1, -1))
 
     def fill(self, times: Real, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at times (n,) in s into arrays (n, 4) and (n, 3)."""
@@ -69,20 +60,12 @@ class Trail:
     """The pieces of an integration in one direction of time.
 
     They depend on the motion alone, not on earlier requests: a state is the same to the last bit
-    whatever was asked before. Some points and pieces are kept, so that one can go back.
-
-    Parameters
-    ----------
-    expansion : Expansion
-    start : Point
-        The point at t = 0.
-    direction : {1, -1}
-        Direction of time.
+    whatever was asked before. Some knots and pieces are kept, so that one can go back.
     """
 
-    def __init__(self, expansion: Expansion, start: Point, direction: int) -> None:
-        self._expansion, self._direction = expansion, direction
-        self._kept, self._spacing = [start], 1  # points, and the number of pieces between two
+    def __init__(self, stepper: Stepper, start: Knot, direction: int) -> None:
+        self._stepper, self._direction = stepper, direction
+        self._kept, self._spacing = [start], 1  # knots, and the number of pieces between two
         self._recent: deque[Piece] = deque(maxlen=RECENT)  # the last one is the present piece
         self._count = 0  # pieces before the present one
 
@@ -97,18 +80,7 @@ class Trail:
             first = after
 
     def reach(self, t: float, steps: float) -> float:
-        """Integrate towards a time in a limited number of steps.
-
-        Returns
-        -------
-        float
-            The time up to which `evaluate` needs no further step.
-
-        Raises
-        ------
-        ValueError
-            If the motion becomes too fast for doubles on the way.
-        """
+        """Integrate towards a time in a limited number of steps."""
         self._go_back(t)
         while steps > 0 and abs(self._recent[-1].end) < abs(t):
             self._step(t)
@@ -123,12 +95,12 @@ class Trail:
             )
             raise refuse("t", condition, t)
         self._count += 1
-        point = piece.find_end()
+        knot = piece.find_end()
         if self._count == len(self._kept) * self._spacing:
-            self._kept.append(point)
+            self._kept.append(knot)
         if len(self._kept) > KEPT:
             self._kept, self._spacing = self._kept[::2], 2 * self._spacing
-        self._append_piece(point)
+        self._append_piece(knot)
 
     def _go_back(self, t: float) -> None:
         """Go back to a piece that begins nearer to the start than a time in s."""
@@ -136,10 +108,10 @@ class Trail:
             self._recent.pop()
             self._count -= 1
         if not self._recent:
-            place = bisect_left(self._kept, abs(t), key=lambda point: abs(point.t)) - 1
+            place = bisect_left(self._kept, abs(t), key=lambda knot: abs(knot.t)) - 1
             place = max(place, 0)  # the start belongs to the first piece
             self._count = place * self._spacing
             self._append_piece(self._kept[place])
 
-    def _append_piece(self, point: Point) -> None:
-        self._recent.append(self._expansion.expand(point, self._direction))
+    def _append_piece(self, knot: Knot) -> None:
+        self._recent.append(self._stepper.step(knot, self._direction))

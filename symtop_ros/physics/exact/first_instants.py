@@ -1,4 +1,4 @@
-"""The first moments of a motion, as a Taylor series about the start.
+"""The first instants of a motion, as a Taylor series about the start.
 
 An axis that starts at rest moves slowly at first. Quotients of theta functions are right to
 rounding of the largest angular velocity of the motion; the first, small angular velocities are
@@ -11,8 +11,9 @@ import math
 from decimal import Decimal, localcontext
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.elementary import Components, Number, Pair, multiply
-from symtop_ros.physics.precise import HALF, PRECISE, Phases
+from symtop_ros.physics.exact.elementary import Components, Number, Pair, multiply
+from symtop_ros.physics.exact.phases import Phases
+from symtop_ros.physics.exact.precise import HALF, PRECISE
 from symtop_ros.physics.times import ExactTimes
 
 TERMS = 14
@@ -21,18 +22,8 @@ REACH = 0.1
 SLOWEST = 1e-290  # rad/s; the quotient Mgl/Ix may be zero in doubles
 
 
-class FirstMoments:
-    """A, B and omega_xy near t = 0.
-
-    Parameters
-    ----------
-    moments : (float, float, float)
-        Ix and Iz in kg m^2, Mgl in J.
-    orientation : (float, float, float, float)
-        (w, x, y, z) at t = 0.
-    angular_velocity : (float, float, float)
-        In the body frame at t = 0, in rad/s.
-    """
+class FirstInstants:
+    """A, B and omega_xy near t = 0."""
 
     def __init__(self, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> None:
         (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity

@@ -1,0 +1,265 @@
+"""The motion of the heavy top for Mgl > 0, in closed form and without a singular coordinate.
+
+The Cayley-Klein parameters A and B have no pole on the vertical, in contrast to Euler's angles, and
+their phases grow linearly in time except for a periodic part. So nothing is divided by sin(theta),
+and no error accumulates (Klein & Sommerfeld, The Theory of the Top, chapter VI).
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal, localcontext
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.arrays import Quaternion, Vector
+from symtop_ros.physics.exact.elementary import (
+    Components,
+    Number,
+    Pair,
+    find_size,
+    multiply,
+    multiply_by_conjugate,
+    to_complex,
+)
+from symtop_ros.physics.exact.first_instants import FirstInstants, find_end
+from symtop_ros.physics.exact.kind import Kind, classify
+from symtop_ros.physics.exact.nutation import Nutation, find_roots
+from symtop_ros.physics.exact.nutation_phase import NutationPhase
+from symtop_ros.physics.exact.phases import Phases
+from symtop_ros.physics.exact.precise import HALF, PRECISE, TWO
+from symtop_ros.physics.exact.quotients import Quotient, compute_mean_rates, find_zeros
+from symtop_ros.physics.exact.spin import spin_reverses
+from symtop_ros.physics.exact.theta import Series, choose_series
+from symtop_ros.physics.times import ExactTimes
+
+
+class ClosedFormMotion:
+    """A, B and omega_xy = omega_x + i omega_y at any time, for Mgl > 0 and an axis that moves.
+
+    u(t) = u1 + (u2 - u1) sn(v)^2 with v = v0 + Omega t (Whittaker, section 72). The phase of the
+    nutation is x = pi v/K; x = 0 is the lower turning point u1, x = pi the upper one.
+
+    `moments` are Ix and Iz in kg m^2 and Mgl > 0 in J, `orientation` is (w, x, y, z) at t = 0, and
+    `angular_velocity` that of the body frame at t = 0 in rad/s.
+    """
+
+    def __init__(self, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> None:
+        with localcontext(PRECISE):
+            self.nutation = Nutation.of(moments, orientation, angular_velocity)
+            self.roots = find_roots(self.nutation)
+            self.zeros = find_zeros(self.nutation, self.roots)
+            # The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that
+            # would have no digits.
+            k = (self.roots.s32 / self.roots.s31).sqrt()
+            self._mean, self._means = compute_mean_rates(self.nutation, self.zeros, k)
+            self._frequency = (self.nutation.beta * self.roots.s31).sqrt()  # 2 Omega
+            # 2 pi over the period of theta in rad/s; 0 for a motion that never returns.
+            self.nutation_rate = self._frequency * self._mean
+            # Mean rates of the arguments of A, B and omega_xy, in rad/s.
+            self.rates = _argument_rates(moments, Decimal(angular_velocity[2]), self._means)
+        # A state at a time of at most this size comes from a Taylor series.
+        self._first_end = find_end(moments, angular_velocity)
+        norm = math.hypot(*orientation)
+        w, x, y, z = (component / norm for component in orientation)
+        self._arguments = moments, (w, x, y, z), angular_velocity
+
+    @cached_property
+    def kind(self) -> Kind:
+        """Name of the motion."""
+        return classify(self.nutation, self.roots, self.zeros)
+
+    @property
+    def nutation_period(self) -> float:
+        """Period of theta in s; infinite at the separatrix."""
+        rate = float(self.nutation_rate)
+        return 2 * math.pi / rate if rate else math.inf
+
+    @property
+    def turning_angles(self) -> tuple[float, float]:
+        """Smallest and largest theta in rad.
+
+        tan(theta/2)^2 = (1 - u)/(1 + u): both distances are known to all digits, while the arc
+        cosine of u loses half of them near a pole.
+        """
+        below, above = self.zeros.A, self.zeros.B
+        return (
+            2 * math.atan2(math.sqrt(above.from_u2), math.sqrt(below.from_u2)),
+            2 * math.atan2(math.sqrt(above.from_u1), math.sqrt(below.from_u1)),
+        )
+
+    @property
+    def mean_rates(self) -> tuple[float, float]:
+        """Mean phi' and psi' in rad/s: sum and difference of the rates of arg A and arg B."""
+        a, b = float(self.rates[0]), float(self.rates[1])
+        return a + b, a - b
+
+    @property
+    def precession_per_nutation(self) -> float:
+        """Turns of the precession in a nutation; nan at the separatrix."""
+        with localcontext(PRECISE):
+            turn = self.rates[0] + self.rates[1]
+            return float(turn / self.nutation_rate) if self.nutation_rate else math.nan
+
+    @property
+    def spin_reverses(self) -> bool:
+        """True if psi' takes both signs."""
+        return spin_reverses(self.nutation, self.roots, self.zeros, self._arguments[2][2])
+
+    def cayley_klein(self, t: Number | ExactTimes) -> Components:
+        """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
+        seconds = t.rough_seconds if isinstance(t, ExactTimes) else t
+        is_first = find_size(seconds) <= self._first_end
+        if isinstance(is_first, np.ndarray):
+            if is_first.any() and not is_first.all():
+                first = self._first_instants.cayley_klein(_select(t, is_first))
+                return _merge(is_first, first, self._evaluate(_select(t, ~is_first)))
+            is_first = bool(is_first.any())
+        elif seconds == 0:
+            return self._return_start()  # as the first instants do, without their coefficients
+        return self._first_instants.cayley_klein(t) if is_first else self._evaluate(t)
+
+    def _return_start(self) -> Components:
+        _, (w, x, y, z), (wx, wy, _) = self._arguments
+        return (w, z), (x, y), (wx, wy)
+
+    def _evaluate(self, t: Number | ExactTimes) -> Components:
+        nutation, a, b = self._phases.at(t)
+        location = self._nutation_phase.locate(t, *nutation.radians)
+        turn_A, turn_B = a.unit, b.unit
+        turn_omega = multiply_by_conjugate(turn_B, turn_A)
+        A, B, omega_xy = self._series.values(location)
+        factors = self._factors
+        return (
+            multiply(multiply(factors[0], A), turn_A),
+            multiply(multiply(factors[1], B), turn_B),
+            multiply(multiply_by_conjugate(factors[2], omega_xy), turn_omega),
+        )
+
+    # A verdict needs only turning angles and roots. What only states need, more than half of the
+    # set-up, is computed with the first state.
+
+    @cached_property
+    def _first_instants(self) -> FirstInstants:
+        return FirstInstants(*self._arguments)
+
+    @cached_property
+    def _phases(self) -> Phases:
+        return Phases(self.nutation_rate, *self.rates[:2])
+
+    @cached_property
+    def _nutation_phase(self) -> NutationPhase:
+        return NutationPhase(self.nutation, self.roots, self.zeros, self._mean, self._frequency)
+
+    @cached_property
+    def _quotients(self) -> tuple[Quotient, Quotient, Quotient]:
+        """A, B and conj(omega_xy), of which the third has the form of the other two."""
+        (A, B, omega_xy), (A_dot, B_dot, omega_xy_dot) = _initial_values(*self._arguments)
+        nutation, zeros, (a, b, omega) = self.nutation, self.zeros, map(float, self._means)
+        return (
+            Quotient(zeros.A, a, A, A_dot, nutation.one_plus_u),
+            Quotient(zeros.B, b, B, B_dot, nutation.one_minus_u),
+            Quotient(
+                zeros.omega_xy,
+                omega,
+                omega_xy.conjugate(),
+                omega_xy_dot.conjugate(),
+                nutation.height_left,
+            ),
+        )
+
+    @cached_property
+    def _series(self) -> Series:
+        phase, windings = self._nutation_phase, (0, 0, self._winding)
+        with localcontext(PRECISE):
+            shifts = [
+                quotient.find_shift(self.roots, phase.Kc, winding)
+                for quotient, winding in zip(self._quotients, windings, strict=True)
+            ]
+        return choose_series(phase.K, phase.Kc, phase.root_of_nome, shifts)
+
+    @cached_property
+    def _winding(self) -> int:
+        """Whole turns of omega_xy in a nutation, compared with conj(A) B.
+
+        In the frame of the line of nodes omega_xy is theta' + i sin(theta) phi', which is periodic.
+        conj(A) B has the argument of the line of nodes in the body. So the mean rates of the two
+        arguments differ by whole turns in a nutation, one if phi' reverses. With the integer known
+        no third phase is needed, and its rounding cannot separate omega_xy from the attitude.
+        """
+        a, b, omega = self.rates
+        return round((omega - (b - a)) / self.nutation_rate) if self.nutation_rate else 0
+
+    @cached_property
+    def _factors(self) -> tuple[Pair, Pair, Pair]:
+        """Constant factors that make A, B and omega_xy right at t = 0."""
+        values = self._series.values(self._nutation_phase.start)
+        A, B, omega_xy = (self._find_factor(k, to_complex(each)) for k, each in enumerate(values))
+        omega_xy *= self._modulus_of_third_factor / abs(omega_xy)
+        return (A.real, A.imag), (B.real, B.imag), (omega_xy.real, -omega_xy.imag)
+
+    def _find_factor(self, k: int, value: complex) -> complex:
+        phase, series = self._nutation_phase, self._series
+
+        def find_slope() -> complex:
+            return series.slope(k, phase.start) * phase.Omega
+
+        return self._quotients[k].find_factor(value, find_slope, phase.shortest_change)
+
+    @property
+    def _modulus_of_third_factor(self) -> float:
+        """Modulus of the factor of omega_xy.
+
+        At the lower turning point |omega_xy|^2 is alpha - beta u1, and largest. From a start at
+        which omega_xy is small, its rounding would be an error of all later ones.
+        """
+        largest = math.sqrt(self.nutation.beta * self.zeros.omega_xy.from_u1)
+        value = self._series.values(self._nutation_phase.lower_turning_point)[2]
+        return largest / abs(to_complex(value))
+
+
+def _select(t: Any, mask: NDArray[np.bool_]) -> Any:
+    return t.select(mask) if isinstance(t, ExactTimes) else t[mask]
+
+
+def _merge(is_first: NDArray[np.bool_], first: Components, rest: Components) -> Components:
+    """Return values of which some come from the first instants, and the others from the series."""
+    values = np.empty((3, 2, is_first.size))
+    values[:, :, is_first], values[:, :, ~is_first] = first, rest
+    A, B, omega_xy = ((real, imaginary) for real, imaginary in values)
+    return A, B, omega_xy
+
+
+def _argument_rates(
+    moments: Vector, omega_z: Decimal, means: tuple[Decimal, ...]
+) -> tuple[Decimal, ...]:
+    """Return the mean rates of arg A, arg B and arg omega_xy.
+
+    To the means over a nutation it adds the terms that do not depend on u: the body turns about its
+    axis by c = p_psi (1/Iz - 1/Ix) in addition, written here without the difference of reciprocals.
+    """
+    Ix, Iz = Decimal(moments[0]), Decimal(moments[1])
+    half_c = HALF * omega_z * (Ix - Iz) / Ix
+    a, b, omega = means
+    return a + half_c, b - half_c, -(omega + omega_z * (TWO * Ix - Iz) / (TWO * Ix))
+
+
+def _initial_values(
+    moments: Vector, orientation: Quaternion, angular_velocity: Vector
+) -> tuple[tuple[complex, ...], tuple[complex, ...]]:
+    """Return A, B, omega_xy at t = 0, and their time derivatives without the rotation by c.
+
+    The derivatives are q' = q (0, omega)/2 and Euler's equations with p_psi/Ix in place of omega_z.
+    The rotation by c commutes and is added exactly, in `_argument_rates`. In these derivatives it
+    would be so large for a thin rod that no digit of the other terms would remain.
+    """
+    (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity
+    A, B = complex(w, z), complex(x, y)
+    omega_xy, half_spin = complex(wx, wy), 0.5j * wz * (Iz / Ix)
+    A_dot = half_spin * A - omega_xy.conjugate() * B / 2
+    B_dot = omega_xy * A / 2 - half_spin * B
+    omega_xy_dot = half_spin * omega_xy + 2 * (Mgl / Ix) * A.conjugate() * B
+    return (A, B, omega_xy), (A_dot, B_dot, omega_xy_dot)
