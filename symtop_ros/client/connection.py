@@ -14,6 +14,9 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
+from symtop_ros.session.services import SERVICES
+
+TYPES = {"named": SetParametersAtomically, "switch": SetBool, "plain": Trigger}  # by kind
 POLL = 0.01  # s; an executor does not notice that a service was found
 
 
@@ -48,6 +51,14 @@ class Connection:
         answer = self._call(SetBool, service, SetBool.Request(data=on))
         return answer.success, answer.message
 
+    def request(self, service: str, argument: Mapping[str, Any] | bool | None) -> tuple[bool, str]:
+        """Call a service with the argument of its kind; return success and the answer."""
+        if argument is None:
+            return self.trigger(service)
+        if isinstance(argument, bool):
+            return self.switch(service, argument)
+        return self.set(service, argument)
+
     def subscribe(self, kind: Any, topic: str, callback: Callable[[Any], None]) -> None:
         """Call `callback` for each message on a topic of the top, given by its short name."""
         self.node.create_subscription(kind, f"{self.name}/{topic}", callback, 100)
@@ -59,14 +70,18 @@ class Connection:
             self._executor.spin_once(timeout_sec=min(POLL, max(0.0, deadline - time.monotonic())))
         return done()
 
-    def prepare(self, kind: Any, service: str) -> Client:
-        """Return the client of a service; created early, it has found the top at the first call."""
+    def prepare(self) -> None:
+        """Create the clients of all services: at the first call they have found the top."""
+        for name, service in SERVICES.items():
+            self._client(TYPES[service.kind], name)
+
+    def _client(self, kind: Any, service: str) -> Client:
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, f"{self.name}/{service}")
         return self._clients[service]
 
     def _call(self, kind: Any, service: str, request: Any) -> Any:
-        client = self.prepare(kind, service)
+        client = self._client(kind, service)
         if not self.spin_until(client.service_is_ready, self._timeout):
             msg = (
                 f"no answer from {self.name} within {self._timeout:g} s: "

@@ -6,7 +6,6 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Callable
 from typing import Any
 
 import rclpy
@@ -16,24 +15,12 @@ from rclpy.utilities import remove_ros_args
 from symtop_ros.client.arguments import UsageError, parse_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.watch import watch
+from symtop_ros.session.services import SERVICES
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import one_line
 
 Answer = tuple[bool, str]
-NAMED = {
-    "start": ("set_initial_conditions", "restart: theta=0.5 psi_dot=200 precession=slow ..."),
-    "kick": ("kick", "precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4"),
-    "step": ("step", "while paused: duration=0.01"),
-}
-PLAIN: dict[str, tuple[str, Callable[[Connection], Answer]]] = {
-    "hurry": (
-        "multiply the precession rate by the parameter hurry_factor",
-        lambda top: top.trigger("hurry_precession"),
-    ),
-    "reset": ("back to the last initial conditions", lambda top: top.trigger("reset")),
-    "pause": ("stop the motion", lambda top: top.switch("pause", True)),
-    "resume": ("continue the motion from where it stopped", lambda top: top.switch("pause", False)),
-}
+BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
 
 
@@ -73,17 +60,18 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
     parser.add_argument("--timeout", type=_seconds, default=5.0, help="seconds to wait (default 5)")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, (_, text) in NAMED.items():
-        named = commands.add_parser(name, help=text)
-        named.add_argument("values", nargs="*", metavar="NAME=VALUE", help=text)
-    for name, (text, _call) in PLAIN.items():
-        commands.add_parser(name, help=text)
-    commands.add_parser("record", help="start or stop a log").add_argument(
-        "switch", choices=("on", "off")
-    )
-    commands.add_parser("state", help="full state, constants and verdict").add_argument(
-        "--json", action="store_true", help="as JSON in one line"
-    )
+    parsers = {
+        service.command: commands.add_parser(service.command, help=service.help)
+        for service in SERVICES.values()
+    }
+    for service in SERVICES.values():
+        if service.kind == "named":
+            parsers[service.command].add_argument(
+                "values", nargs="*", metavar="NAME=VALUE", help=service.help
+            )
+    parsers["record"].add_argument("switch", choices=("on", "off"))
+    parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
+    commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
     commands.add_parser("watch", help="show the motion in a line that is updated").add_argument(
         "--seconds", type=_seconds, default=math.inf, help="how long (default: until Ctrl-C)"
@@ -99,22 +87,25 @@ def _seconds(text: str) -> float:
 
 
 def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Answer:
-    if options.command in NAMED:
-        return top.set(NAMED[options.command][0], values)
-    if options.command in PLAIN:
-        return PLAIN[options.command][1](top)
-    if options.command == "record":
-        return top.switch("record", options.switch == "on")
-    if options.command == "state":
-        granted, text = top.trigger("get_state")
-        return granted, text if options.json or not granted else _readable(json.loads(text))
     if options.command == "keys":
         from symtop_ros.client.keys import follow_keys
 
         follow_keys(top)
-    else:
+        return True, ""
+    if options.command == "watch":
         watch(top, options.seconds, options.timeout)
-    return True, ""
+        return True, ""
+    if options.command == "resume":
+        return top.switch("pause", False)
+    service = BY_COMMAND[options.command]
+    if SERVICES[service].kind == "switch":
+        return top.switch(service, getattr(options, "switch", "on") == "on")
+    if SERVICES[service].kind == "named":
+        return top.set(service, values)
+    granted, text = top.trigger(service)
+    if options.command == "state" and granted and not options.json:
+        text = _readable(json.loads(text))
+    return granted, text
 
 
 def _readable(state: dict[str, Any]) -> str:

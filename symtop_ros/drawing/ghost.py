@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from symtop_ros.physics import Motion
+from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.events import RESTARTS
-from symtop_ros.simulation.segment import BEGIN, Segment
+from symtop_ros.simulation.segment import START, Segment
 
 MOST_STEPS = 3000  # of an integration, for one batch; a log may ask for years
 
@@ -37,18 +38,10 @@ class Ghost:
 
         A motion under friction or a torque that is too fast or too long is given up.
         """
-        if self.segment is not None and not _is_ready(self.segment, stamp):
+        segment = self.segment
+        if segment and not StepBudget().reach(segment.motion, segment.time_at(stamp), MOST_STEPS):
             self.segment = None
         return self.segment
-
-
-def _is_ready(segment: Segment, stamp: int) -> bool:
-    """Return False if a motion is too fast or too long to be integrated up to a stamp."""
-    end = segment.time_at(stamp)
-    try:
-        return bool(segment.motion.reach(end, MOST_STEPS) == end)
-    except ValueError:
-        return False
 
 
 def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
@@ -58,7 +51,7 @@ def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
     timing = replace(ghost, factor=after.factor, running=after.running, stamp=stamp)
     if added != (old.top, old.friction, old.applied_torque):
         motion = Motion(new.top, ghost.state_at(stamp), new.friction, new.applied_torque)
-        return replace(timing, motion=motion, elapsed=BEGIN)
+        return replace(timing, motion=motion, elapsed=START)
     elapsed = ghost.elapsed_at(stamp)
     if new.start == old.start:  # the same motion: a step, or a time that the clock lost
         elapsed += after.elapsed - before.elapsed_at(stamp)

@@ -131,6 +131,10 @@ class McapFile:
                     # flipped bit can turn an index into a message that no checksum would catch.
                     self.problems.append("a record between chunks is damaged")
                     continue
+                if record.opcode != Opcode.CHUNK and self._is_listed_as_chunk(record):
+                    # A flipped bit in its type makes it a record that readers pass over.
+                    self.problems.append(f"the chunk before byte {record.end} is damaged")
+                    continue
                 chunked = chunked or record.opcode == Opcode.CHUNK
                 try:
                     contents = _contents(record)
@@ -144,6 +148,9 @@ class McapFile:
                 yield from self._runs(contents.messages)
             self._report_damage(damaged, lost)
         self._report_ending()
+
+    def _is_listed_as_chunk(self, record: Record) -> bool:
+        return record.end - len(record.data) - RECORD_START.size in self._chunk_offsets
 
     def since_start(self, log_time: int) -> float:
         """Return the seconds between the first message and a log time in ns."""

@@ -64,6 +64,7 @@ def _run(listen: Callable[[], None]) -> int:
             raise
     finally:
         top.close()
-    if top.recording.unreported_failure:
-        print(f"top_node: recording stopped: {top.recording.unreported_failure}", file=sys.stderr)
-    return 1 if top.failure or top.recording.unreported_failure else 0
+    failure = top.session.recording.unreported_failure
+    if failure:
+        print(f"top_node: recording stopped: {failure}", file=sys.stderr)
+    return 1 if top.failure or failure else 0

@@ -11,40 +11,20 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
-from symtop_ros.log.recording import Recording
-from symtop_ros.simulation.requests import Requests
+from symtop_ros.session.services import Kind
 from symtop_ros.simulation.validation import RefusedError, refuse, show
 
 VALUE_FIELDS = (
     *("bool_value", "integer_value", "double_value", "string_value"),
     *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
 )
-Act = Callable[[Any], str]  # from the ROS request to the answer
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
-
-
-def service_table(requests: Requests, recording: Recording) -> dict[str, tuple[type, Act]]:
-    """Return type and action of each service by its name."""
-
-    def named(act: Callable[[dict[str, Any]], str]) -> tuple[type, Act]:
-        return SetParametersAtomically, lambda request: act(read_values(request.parameters))
-
-    def switch(act: Callable[[bool], str]) -> tuple[type, Act]:
-        return SetBool, lambda request: act(bool(request.data))
-
-    def plain(act: Callable[[], str]) -> tuple[type, Act]:
-        return Trigger, lambda _: act()
-
-    return {
-        "set_initial_conditions": named(requests.set_initial_conditions),
-        "kick": named(requests.kick),
-        "step": named(requests.step),
-        "hurry_precession": plain(requests.hurry_precession),
-        "reset": plain(requests.reset),
-        "pause": switch(requests.pause),
-        "record": switch(recording.switch),
-        "get_state": plain(requests.get_state),
-    }
+# By the kind of a service: its ROS type, and how the argument of the request is read.
+TYPES: dict[Kind, tuple[type, Callable[[Any], Any]]] = {
+    "named": (SetParametersAtomically, lambda request: read_values(request.parameters)),
+    "switch": (SetBool, lambda request: bool(request.data)),
+    "plain": (Trigger, lambda _: None),
+}
 
 
 def fill_response(response: Any, granted: bool, answer: str) -> Any:

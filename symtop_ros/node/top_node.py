@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any, cast
 
 from geometry_msgs.msg import WrenchStamped
@@ -16,15 +16,12 @@ from rclpy.qos import QoSProfile, QoSReliabilityPolicy
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from symtop_ros.distribution import distribution_name
-from symtop_ros.log.recorder import Recorder
-from symtop_ros.log.recording import Recording, limits_of
-from symtop_ros.node.diagnostics import DuplicateNodes, collect_statuses
-from symtop_ros.node.outputs import Outputs
+from symtop_ros.node.host import NodeHost
 from symtop_ros.node.pacer import Pacer
 from symtop_ros.node.parameters import declare_parameters
-from symtop_ros.node.services import Act, fill_response, guard_types, service_table
-from symtop_ros.simulation.initial import initial_state
-from symtop_ros.simulation.requests import Requests
+from symtop_ros.node.services import TYPES, fill_response, guard_types
+from symtop_ros.session.services import SERVICES
+from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
 from symtop_ros.simulation.validation import RefusedError, one_line, refuse
@@ -53,7 +50,7 @@ class NodeClock:
 
 
 class TopNode(Node):
-    """A heavy symmetric top in real time; the README lists topics, services and parameters.
+    """A heavy symmetric top in real time; docs/ros.md lists topics, services and parameters.
 
     Ticks run in a thread of the pacer, requests and timers in the executor's.
     """
@@ -63,56 +60,42 @@ class TopNode(Node):
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
         self.failure: Exception | None = None  # the exception that ended the ticks
-        self._create_simulation(settings)
-        for name, (kind, act) in service_table(Requests(self.simulation), self.recording).items():
-            self.create_service(kind, f"~/{name}", self._handler(name, act))
+        environment = {
+            "rmw": get_rmw_implementation_identifier(),
+            "ros_distro": distribution_name(),
+        }
+        scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
+        self.session = Session(settings, NodeClock(self), host, scene, environment)
+        for name, service in SERVICES.items():
+            kind, read = TYPES[service.kind]
+            self.create_service(kind, f"~/{name}", self._handler(name, read))
         # Best effort, so that publishers of either reliability are received.
         best_effort = QoSProfile(depth=10, reliability=QoSReliabilityPolicy.BEST_EFFORT)
         self.create_subscription(WrenchStamped, "~/applied_torque", self._apply_torque, best_effort)
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
-        self.create_timer(1.0, self._diagnose)
+        self.create_timer(1.0, self.session.keep_up)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._clock_is_missing = False
         self.create_timer(CLOCK_WAIT, self._check_clock, clock=steady)
         self._pacer = Pacer(self.simulation.tick, self._fail)
         self._follow_clock()
 
-    def _create_simulation(self, settings: Settings) -> None:
-        """Create the simulation with its outputs, and its recording if one is asked for."""
-        scene = str(self.get_parameter("scene").value)
-        self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
-        self._outputs = Outputs(self, self._recorder, settings)
-        self.simulation = Simulation(settings, NodeClock(self), self._outputs)
-        start = self.simulation.start
-        self.simulation.announce("start", self.simulation.verdict, {"scene": scene}, start)
-        environment = {
-            "scene": scene,
-            "rmw": get_rmw_implementation_identifier(),
-            "ros_distro": distribution_name(),
-        }
-        self.recording = Recording(self._recorder, self.simulation, environment, self._report)
-        if settings.record.enabled:
-            self.recording.begin()
-        self._duplicates = DuplicateNodes(self)
-        self.get_logger().info(f"scene {scene}: {self.simulation.verdict}")
+    @property
+    def simulation(self) -> Simulation:
+        """The simulation of the session."""
+        return self.session.simulation
 
     def close(self) -> None:
         """End the ticks and the recording."""
         self._pacer.stop()
-        self._recorder.stop()
+        self.session.close()
 
     def destroy_node(self) -> None:
         """Close, then remove the node; also called by rclpy if the constructor failed."""
         if hasattr(self, "_pacer"):
             self.close()
         super().destroy_node()
-
-    def _report(self, sentence: str, is_error: bool) -> None:
-        if is_error:  # a line for each level: rclpy allows one level for each line of code
-            self.get_logger().error(sentence)
-        else:
-            self.get_logger().info(sentence)
 
     # Time
 
@@ -122,15 +105,6 @@ class TopNode(Node):
             self.failure = error
             self.get_logger().fatal(f"a tick failed: {type(error).__name__}: {one_line(error)}")
             self.context.try_shutdown()
-
-    def _diagnose(self) -> None:
-        with self.simulation.turn("/diagnostics"):
-            self._duplicates.update()
-            self.simulation.speed_up()
-            self.recording.report_failure()
-            if self._outputs.need_diagnostics:
-                statuses = collect_statuses(self.simulation, self._recorder, self._duplicates)
-                self._outputs.send_diagnostics(self.simulation.stamp, statuses)
 
     def _check_clock(self) -> None:
         """Warn once if time is simulated and nothing has set it: the top then stands still."""
@@ -165,24 +139,23 @@ class TopNode(Node):
         kind, name, handler, *others = arguments
         return super().create_service(kind, name, guard_types(kind, handler), *others, **options)
 
-    def _handler(self, name: str, act: Act) -> Any:
+    def _handler(self, name: str, read: Callable[[Any], Any]) -> Any:
         def handle(request: Any, response: Any) -> Any:
-            granted, answer = self.simulation.answer(name, lambda: act(request))
+            granted, answer = self.session.answer(name, lambda: read(request))
             return fill_response(response, granted, answer)
 
         return handle
 
     def _apply_torque(self, message: WrenchStamped) -> None:
-        with self.simulation.turn("~/applied_torque"):
-            torque, force = message.wrench.torque, message.wrench.force
+        torque, force = message.wrench.torque, message.wrench.force
+        if (force.x, force.y, force.z) == (0.0, 0.0, 0.0):
             vector = (torque.x, torque.y, torque.z)
-            try:
-                if (force.x, force.y, force.z) != (0.0, 0.0, 0.0):
-                    got = (force.x, force.y, force.z)
-                    raise refuse("applied_torque force", "0 (only the torque acts)", got)
-                self.simulation.hold_torque(vector, message.header.frame_id)
-            except RefusedError as refusal:
-                self.get_logger().warning(str(refusal), throttle_duration_sec=1.0)
+            reason = self.session.hold_torque(vector, message.header.frame_id)
+        else:
+            got = (force.x, force.y, force.z)
+            reason = str(refuse("applied_torque force", "0 (only the torque acts)", got))
+        if reason:
+            self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     # Parameters
 
@@ -191,9 +164,8 @@ class TopNode(Node):
         reason = ""
         with self.simulation.turn("a check of parameters") as turn:
             try:
-                settings = self._settings_with(parameters)
+                settings = self.session.plan_settings(_own_values(parameters))
                 self._refuse_own_clock(settings, simulated)
-                initial_state(settings.top, settings.initial, {})  # may have no such root
             except RefusedError as refusal:
                 reason = str(refusal)
         reason = reason or turn.failure
@@ -205,14 +177,12 @@ class TopNode(Node):
             msg = "publish_clock must be false together with use_sim_time, got true"
             raise RefusedError(msg)
 
-    def _settings_with(self, parameters: list[Parameter]) -> Settings:
-        changes = {each.name: each.value for each in parameters if each.name in PARAMETERS}
-        return Settings.from_values({**self.simulation.settings.values, **changes})
-
     def _apply_parameters(self, parameters: list[Parameter]) -> None:
         with self.simulation.turn("a change of parameters"):
-            settings = self._settings_with(parameters)
-            self._outputs.enable_tf(settings.publish_tf)
-            self._recorder.limits = limits_of(settings.record)
-            self.simulation.apply_settings(settings)
+            self.session.apply_settings(_own_values(parameters))
             self._pacer.wake()
+
+
+def _own_values(parameters: list[Parameter]) -> dict[str, Any]:
+    """Return the parameters of the top; a node has others, such as use_sim_time."""
+    return {each.name: each.value for each in parameters if each.name in PARAMETERS}

@@ -11,29 +11,19 @@ from typing import Any
 
 import rclpy
 from geometry_msgs.msg import WrenchStamped
-from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.callback_groups import CallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.subscription import Subscription
-from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.arrays import Vector
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.live.feed import DEPTH, Feed
 from symtop_ros.log.batch import Batch
-from symtop_ros.panel.source import DRAWN, Answer, Argument
+from symtop_ros.panel.source import DRAWN, Argument
+from symtop_ros.session.session import Answer
 from symtop_ros.simulation.topics import STATE_TOPICS
 
-SERVICES = {
-    "set_initial_conditions": SetParametersAtomically,
-    "kick": SetParametersAtomically,
-    "step": SetParametersAtomically,
-    "set_parameters_atomically": SetParametersAtomically,
-    "reset": Trigger,
-    "pause": SetBool,
-    "record": SetBool,
-}
 TIMEOUT = 3.0  # s for an answer
 SILENCE = 2.0  # s without samples after which the page says so
 
@@ -74,8 +64,7 @@ class NodeTop:
     def __init__(self, node: Node, name: str) -> None:
         self._connection = SharedConnection(node, name, TIMEOUT)
         self.name = self._connection.name
-        for service, kind in SERVICES.items():
-            self._connection.prepare(kind, service)
+        self._connection.prepare()
         self._torque = node.create_publisher(WrenchStamped, f"{self.name}/applied_torque", 10)
         self._node, self._feed = node, Feed(node, self.name, ())
         self._samples: Subscription | None = None
@@ -89,24 +78,15 @@ class NodeTop:
 
     def request(self, name: str, argument: Argument = None) -> Answer:
         """Call a service."""
-        connection = self._connection
-        if argument is None:
-            return self._call(lambda: connection.trigger(name))
-        if isinstance(argument, bool):
-            return self._call(lambda: connection.switch(name, argument))
-        return self._call(lambda: connection.set(name, argument))
+        try:
+            with self._calls:  # one at a time: two pages may ask at once
+                return self._connection.request(name, argument)
+        except UnreachableError as error:
+            return False, str(error)
 
     def set_parameters(self, values: Mapping[str, Any]) -> Answer:
         """Set parameters of the node."""
         return self.request("set_parameters_atomically", values)
-
-    def _call(self, call: Callable[[], Answer]) -> Answer:
-        """Call a service, one at a time: two pages may ask at once."""
-        try:
-            with self._calls:
-                return call()
-        except UnreachableError as error:
-            return False, str(error)
 
     def hold_torque(self, torque: Vector) -> None:
         """Publish a torque; the node applies it until its time-out."""

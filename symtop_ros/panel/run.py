@@ -13,9 +13,10 @@ from symtop_ros.drawing.ghost import Ghost
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.panel.source import DRAWN
 from symtop_ros.physics import EffectivePotential, Motion, State
+from symtop_ros.session.summary import constants_of_motion
+from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.summary import constants_of_motion
 
 SERIES = ("theta", "phi_dot", "psi_dot", "energy", "L_z", "L_z'")
 UNITS = ("rad", "rad/s", "rad/s", "J", "N m s", "N m s")
@@ -128,8 +129,8 @@ class Run:
         orientation = columns[DRAWN]
         stamps, motion = orientation.stamps, segment.motion
         end = segment.time_at(int(stamps[-1]))
-        if motion.reach(end, MOST_STEPS) != end:
-            return  # an integrated motion is too fast: the next samples find it further on
+        if not StepBudget().reach(motion, end, MOST_STEPS):
+            return  # a driven motion is too fast: the next samples find it further on
         elapsed = segment.time_at(stamps) - segment.time_at(segment.stamp)
         times = self._begin + np.broadcast_to(elapsed, stamps.shape)
         # The attitude is the published one; the rates follow from the motion, which is exact.

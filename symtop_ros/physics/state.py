@@ -18,6 +18,7 @@ from symtop_ros.physics.values import (
     validate_array,
     validate_number,
 )
+from symtop_ros.quaternions import rotate, stack
 
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding
@@ -182,7 +183,7 @@ class State:
         """
         w, x, y, z = self._components
         return _make_read_only(
-            _stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+            stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
         )
 
     @property
@@ -237,7 +238,7 @@ class State:
         ndarray (..., 3)
             Components in the world frame.
         """
-        return _rotate(*self._components, np.asarray(vector, dtype=float))
+        return rotate(*self._components, np.asarray(vector, dtype=float))
 
     def to_body(self, vector: ArrayLike) -> Real:
         """Rotate world-frame vectors into the body frame.
@@ -253,7 +254,7 @@ class State:
             Components in the body frame.
         """
         w, x, y, z = self._components
-        return _rotate(-w, x, y, z, np.asarray(vector, dtype=float))
+        return rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
     def __iter__(self) -> Iterator[Real]:
         """Unpack as orientation, angular_velocity."""
@@ -288,21 +289,6 @@ def _normalize(q: Real) -> Real:
         condition = f"a quaternion of norm 1 within {NORM_TOLERANCE:g}"
         raise refuse("orientation", condition, f"a norm of {worst:g}")
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
-
-
-def _rotate(w: Real, x: Real, y: Real, z: Real, v: Real) -> Real:
-    """Return q v q* = v + w t + (x, y, z) x t with t = 2 (x, y, z) x v."""
-    a, b, c = v[..., 0], v[..., 1], v[..., 2]
-    t, u, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
-    return _stack(
-        a + w * t + (y * s - z * u), b + w * u + (z * t - x * s), c + w * s + (x * u - y * t)
-    )
-
-
-def _stack(x: Real, y: Real, z: Real) -> Real:
-    vector = np.empty((*np.shape(x), 3))
-    vector[..., 0], vector[..., 1], vector[..., 2] = x, y, z
-    return vector
 
 
 def _wrap_angle(angle: Real) -> Real:

@@ -1,4 +1,8 @@
-"""The compute budget: how much work a motion needs, and how fast it can be followed."""
+"""Budgets of work: only driven motions (friction, applied torque) need any, one step after another.
+
+A `StepBudget` limits the steps that are taken for one request or one log. A `ComputeBudget` limits
+the CPU time of a run, and says how fast the motion can be followed.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +10,49 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
+from symtop_ros.physics import Motion
 from symtop_ros.simulation.segment import Segment
 
-STEPS_AT_ONCE = (
-    15  # integration steps in one call, about 1 ms: requests wait no longer for the lock
-)
+# Steps of the integration in one call, about 1 ms: requests wait no longer for the lock.
+STEPS_AT_ONCE = 15
+STEPS_OF_A_CHECK = 1500  # steps between two estimates of the steps that remain
+# A motion that slows down is followed in longer steps, so an estimate of the remaining work may be
+# this many times too large.
+OPTIMISM = 10.0
 FREE_WORK = 0.02  # s of work that is allowed for any stretch
 SHARE = 0.25  # share of one core for a motion that cannot be followed in real time
+
+
+class StepBudget:
+    """A number of spare steps, for all motions that are reached with it."""
+
+    def __init__(self, spare: int = 0) -> None:
+        self._spare = spare
+
+    def reach(self, motion: Motion, t: float, free: int) -> bool:
+        """Integrate a motion to a time in s; return False if that takes too many steps.
+
+        `free` steps are not counted. Work that would exceed the budget by far is not begun.
+        """
+        try:
+            return self._reach(motion, t, free)
+        except ValueError:  # the motion is too fast for doubles
+            return False
+
+    def _reach(self, motion: Motion, t: float, free: int) -> bool:
+        before = motion.reach(t, 0)
+        while free + self._spare > 0:
+            count = min(STEPS_OF_A_CHECK, free + self._spare)
+            reached = motion.reach(t, count)
+            if reached == t:
+                return True
+            self._spare -= max(0, count - max(0, free))
+            free -= count
+            left = max(0, free) + self._spare
+            if abs(t - reached) * count > OPTIMISM * left * abs(reached - before):
+                return False
+            before = reached
+        return before == t
 
 
 class Shortfall(NamedTuple):
@@ -23,10 +63,7 @@ class Shortfall(NamedTuple):
 
 
 class ComputeBudget:
-    """Prepares a motion stretch by stretch and measures the time which that takes.
-
-    Only integrated motions (friction, applied torque) need work; closed forms are always ready.
-    """
+    """Prepares a motion stretch by stretch and measures the time which that takes."""
 
     def __init__(self, stamp: int, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
@@ -46,10 +83,10 @@ class ComputeBudget:
             self._progress, self._spent_before = 0.0, self.spent
         # The progress is counted call by call: a state that was asked for in between may have moved
         # the integration back to an earlier point.
-        begin, before = segment.motion.reach(end, 0), self._clock()
+        start, before = segment.motion.reach(end, 0), self._clock()
         reached = segment.motion.reach(end, STEPS_AT_ONCE)
         self.spent += self._clock() - before
-        self._progress += reached - begin
+        self._progress += reached - start
         work = self.spent - self._spent_before
         if reached == end:
             self._prepared, self._stretch = stamp, None

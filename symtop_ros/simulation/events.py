@@ -12,15 +12,14 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.simulation.segment import RoundedSegment, Segment, to_nanoseconds
+from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor import Rig
+from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import OK, Status, decode_statuses, encode_statuses
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
 PREFIX = "top: "  # of the name of an event as a diagnostic status
-# Version of the values of an event. Events without it were written by symtop_ros 0.1, whose times
-# were rounded to doubles.
-FORMAT = "2"
+FORMAT = "2"  # version of the values of an event
 # Limits of the numbers in an event that is read. A log may be damaged or hostile; beyond these
 # limits no run of a node can be.
 MAX_STAMP = 2**62  # ns; ROS has 32 bits of seconds
@@ -120,8 +119,10 @@ class Event:
             _numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])
         )
         factor = "motion.real_time_factor"
-        exact = values.get("format") == FORMAT
-        return (Segment if exact else RoundedSegment)(
+        if values["format"] != FORMAT:
+            msg = f"format of an event must be {FORMAT}, got {one_line(values['format'], 20)}"
+            raise ValueError(msg)
+        return Segment(
             motion=Motion(
                 Top(*_numbers(values["top"])),
                 start,
@@ -129,7 +130,7 @@ class Event:
                 _numbers(values["applied_torque"]),
             ),
             stamp=_limit(-MAX_STAMP, "motion.stamp", int(values["motion.stamp"]), MAX_STAMP),
-            elapsed=_exact_elapsed(values) if exact else _rounded_elapsed(values),
+            elapsed=_read_elapsed(values["motion.elapsed_ns"]),
             factor=_limit(MIN_FACTOR, factor, float(values[factor]), MAX_FACTOR),
             running=values["motion.running"] == "true",
             rig=Rig.from_values(values),
@@ -149,19 +150,13 @@ def decode_events(data: bytes) -> list[Event]:
     return events
 
 
-def _exact_elapsed(values: Mapping[str, str]) -> Fraction:
+def _read_elapsed(text: str) -> Fraction:
     name, limit = "motion.elapsed_ns", MAX_ELAPSED * 1e9
-    text = values[name]
     # Fraction itself would also take 1e999999999, and compute it.
     if not EXACT.fullmatch(text):
         msg = f"{name} must be a whole number of ns or a fraction, got {text[:60]!r}"
         raise ValueError(msg)
     return _limit(-limit, name, Fraction(text), limit)
-
-
-def _rounded_elapsed(values: Mapping[str, str]) -> Fraction:
-    name = "motion.elapsed"
-    return to_nanoseconds(_limit(-MAX_ELAPSED, name, float(values[name]), MAX_ELAPSED))
 
 
 def _text(value: Any) -> str:

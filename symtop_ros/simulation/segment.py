@@ -17,7 +17,7 @@ from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.simulation.sensor import Rig
 from symtop_ros.wire.layout import NANOSECONDS
 
-BEGIN = Fraction(0)
+START = Fraction(0)
 NO_RIG = Rig()
 
 
@@ -26,7 +26,7 @@ class Segment:
     """One stretch of a run. Methods return the segment that follows."""
 
     motion: Motion  # the motion from its own start
-    stamp: int  # begin of the segment in ns
+    stamp: int  # first stamp of the segment in ns
     elapsed: Fraction  # time of the motion at that stamp in ns, exact
     factor: float  # real-time factor: seconds of the motion per second of the clock
     running: bool  # false while paused
@@ -35,7 +35,7 @@ class Segment:
     @classmethod
     def begin(cls, motion: Motion, stamp: int, factor: float, rig: Rig = NO_RIG) -> Segment:
         """Return the first segment of a motion that starts at a stamp."""
-        return cls(motion, stamp, BEGIN, factor, running=True, rig=rig)
+        return cls(motion, stamp, START, factor, running=True, rig=rig)
 
     def times_at(self, stamp: Any) -> Any:
         """Return the exact times of the motion at a stamp (ns) or an array of stamps.
@@ -83,7 +83,7 @@ class Segment:
 
     def replace_motion(self, motion: Motion, stamp: int) -> Segment:
         """Continue with another motion from its start."""
-        return replace(self, motion=motion, stamp=stamp, elapsed=BEGIN)
+        return replace(self, motion=motion, stamp=stamp, elapsed=START)
 
     def pause(self, stamp: int) -> Segment:
         """Stop the motion at its state at a stamp."""
@@ -113,26 +113,6 @@ class Segment:
         """Continue at another factor, from the time (s) that the integration has reached."""
         elapsed = min(to_nanoseconds(reached), self.elapsed_at(stamp))
         return replace(self, stamp=stamp, elapsed=elapsed, factor=factor)
-
-
-class RoundedSegment(Segment):
-    """A segment of a log that symtop_ros 0.1 wrote: its times were rounded to doubles.
-
-    Its states are those which the node published then, to the last bit.
-    """
-
-    __slots__ = ()
-
-    def times_at(self, stamp: Any) -> Any:
-        """Return the times (s) in the formula of that version."""
-        elapsed = float(self.elapsed / NANOSECONDS)
-        if not self.running:
-            return elapsed
-        return elapsed + self.factor * ((stamp - self.stamp) * 1e-9)
-
-    def time_at(self, stamp: Any) -> Any:
-        """Return the time of the motion (s) at a stamp (ns) or an array of stamps."""
-        return self.times_at(stamp)
 
 
 def to_nanoseconds(seconds: float) -> Fraction:

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics import Body, Motion, State, Top, specific_force
+from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
+from symtop_ros.quaternions import compose
 from symtop_ros.wire.layout import NANOSECONDS
 
 EXACT = 1e-18  # (1e-9)^2, a covariance of what is exact: zero would mean "unknown" (sensor_msgs)
@@ -56,12 +57,16 @@ class Imu:
         return any((*self._densities, *self._walks))
 
     @property
-    def covariances(self) -> Vector:
-        """Variances of orientation (rad^2), angular velocity and acceleration, of each axis."""
+    def covariances(self) -> dict[str, float]:
+        """Variance of each axis of what is measured, by the names in the message."""
         gyroscope, accelerometer = (
             density * density * self.rate if density else EXACT for density in self._densities
         )
-        return EXACT, gyroscope, accelerometer
+        return {
+            "orientation": EXACT,
+            "angular_velocity": gyroscope,
+            "linear_acceleration": accelerometer,
+        }
 
     @property
     def _densities(self) -> tuple[float, float]:
@@ -80,7 +85,7 @@ class Imu:
     def measure(self, motion: Motion, state: State, gravity: float) -> tuple[Real, Real, Real]:
         """Return what an exact sensor measures."""
         force = specific_force(motion, state, self.position, gravity)
-        orientation = multiply(state.orientation, self.mount.orientation)
+        orientation = compose(state.orientation, self.mount.orientation)
         turned = self.mount.to_body(state.angular_velocity), self.mount.to_body(force)
         return orientation[..., [1, 2, 3, 0]], *turned
 
@@ -102,12 +107,12 @@ class Imu:
 class Rig:
     """Gravity and the sensor: all that samples depend on besides the motion."""
 
-    gravity: float | None = None  # in m/s^2; None in logs whose ~/torque has no force
+    gravity: float = STANDARD_GRAVITY  # m/s^2
     imu: Imu | None = None  # the sensor on the top, or None
 
     def to_values(self) -> dict[str, str]:
         """Return the values for an event, in decimals that read back to the same doubles."""
-        values = {} if self.gravity is None else {"gravity": repr(self.gravity)}
+        values = {"gravity": repr(self.gravity)}
         if self.imu:
             imu = self.imu
             parts = (*imu.position, *imu.orientation)
@@ -123,8 +128,8 @@ class Rig:
     @classmethod
     def from_values(cls, values: Mapping[str, str]) -> Rig:
         """Return the rig of an event."""
-        gravity = float(values["gravity"]) if "gravity" in values else None
-        if gravity is not None and not 0 < gravity < math.inf:
+        gravity = float(values["gravity"])
+        if not 0 < gravity < math.inf:
             msg = f"gravity must be > 0 m/s^2, got {gravity:g}"
             raise ValueError(msg)
         if "imu.mount" not in values:
@@ -194,18 +199,3 @@ def _hash(value: NDArray[np.uint64]) -> NDArray[np.uint64]:
         z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
         z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
         return np.asarray(z ^ (z >> np.uint64(31)))
-
-
-def multiply(p: Real, q: Real) -> Real:
-    """Return the products p q of quaternions, (..., 4)."""
-    w, x, y, z = np.moveaxis(p, -1, 0)
-    a, b, c, d = np.moveaxis(q, -1, 0)
-    return np.stack(
-        (
-            w * a - x * b - y * c - z * d,
-            w * b + x * a + y * d - z * c,
-            w * c - x * d + y * a + z * b,
-            w * d + x * c - y * b + z * a,
-        ),
-        axis=-1,
-    )

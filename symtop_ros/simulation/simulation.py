@@ -1,38 +1,35 @@
 """The simulation: a sample at every stamp of a grid, and an event for every change.
 
 A change takes effect at the next stamp that is not published yet: samples before it belong to the
-old motion, samples from it on to the new one.
+old motion, samples from it on to the new one. What a change is says the `timeline`; here is when it
+takes effect, and what is published.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
-from symtop_ros.physics import Motion, State, perrys_rule
+from symtop_ros.physics import State
 from symtop_ros.simulation.block import Block
-from symtop_ros.simulation.budget import SHARE, ComputeBudget, Shortfall
+from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import ALONG, find_body
-from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
+from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.ticker import CATCH_UP, Ticker
-from symtop_ros.simulation.topics import centre_frame, imu_frame
-from symtop_ros.simulation.urdf import robot_description
-from symtop_ros.simulation.validation import RefusedError, one_line, refuse, vector
+from symtop_ros.simulation.timeline import Change, Request, Timeline
+from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS
-from symtop_ros.wire.messages import Transform
 
 AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
 # Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
-# integrated motions are shorter, because it takes a block to find that one is too fast.
-MAX_BLOCK, MAX_INTEGRATED_BLOCK = 16, 4
+# driven motions are shorter, because it takes a block to find that one is too fast.
+MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
 JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
-Request = Mapping[str, Any]
+AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
 
 
 class Clock(Protocol):
@@ -54,21 +51,14 @@ class Sink(Protocol):
     def is_open(self) -> bool:
         """False when the program is shutting down and nothing can be sent."""
 
-    @property
-    def publishes_tf(self) -> bool:
-        """True if the transform of the top is published on /tf."""
-
     def send_sample(self, stamp: int, block: Block) -> None:
         """Send the sample of a stamp (ns) on all topics that somebody needs."""
 
     def send_event(self, event: Event) -> None:
         """Send an event."""
 
-    def send_description(self, stamp: int, urdf: str) -> None:
-        """Send the description of the top."""
-
-    def send_fixed_frames(self, stamp: int, transforms: Sequence[Transform]) -> None:
-        """Send the frames of the sensor and of the centre of mass."""
+    def send_description(self, stamp: int, settings: Settings) -> None:
+        """Send the description of the top and its fixed frames."""
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""
@@ -94,24 +84,16 @@ class Simulation:
     """
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink) -> None:
-        self.settings, self._clock, self._sink = settings, clock, sink
+        self._clock, self._sink = clock, sink
         self._lock = threading.RLock()
-        self._failures: dict[str, str] = {}
-        self._jumped_to: int | None = None
-        # the last initial conditions
-        self.start = initial_state(settings.top, settings.initial, {})
-        self.ticker = Ticker(settings.publish_rate, clock.now)  # the grid of stamps
-        self._held_torque, self._torque_end = NO_TORQUE, 0  # ~/applied_torque, until a stamp in ns
+        self._failures: dict[str, str] = {}  # by the name of the turn
+        self._jumped_to: int | None = None  # ns
+        self.ticker = Ticker(settings.publish_rate, clock.now)
+        self.timeline = Timeline.begin(settings, self.stamp)
         self._budget, self._spent = ComputeBudget(self.stamp), 0.0
         self._gap_reported = -NANOSECONDS
-        motion = Motion(settings.top, self.start, settings.friction, settings.steady_torque)
-        self._switched_on = self.stamp  # the stamp at which the biases of the sensor are zero
-        rig = settings.rig(self._switched_on)
-        # the motion of the next stamp
-        self.segment = Segment.begin(motion, self.stamp, settings.real_time_factor, rig)
-        self._announced, self.motion_begin = motion, _describe_begin("start", self.stamp)
         self._block = Block(self.segment, [])
-        self._send_description()
+        sink.send_description(self.stamp, settings)
 
     @property
     def now(self) -> int:
@@ -124,15 +106,19 @@ class Simulation:
         return self.ticker.next_stamp
 
     @property
+    def segment(self) -> Segment:
+        """The motion of the next stamp."""
+        return self.timeline.segment
+
+    @property
+    def settings(self) -> Settings:
+        """The current settings."""
+        return self.timeline.settings
+
+    @property
     def state(self) -> State:
         """State at the next stamp."""
         return self.segment.state_at(self.stamp)
-
-    @property
-    def verdict(self) -> str:
-        """Kind of the motion and what follows from its start, in a sentence."""
-        motion = self.segment.motion
-        return f"{motion.kind}: {perrys_rule(motion.top, motion.start)}"
 
     # Turns. Ticks, requests and timers run in different threads; each takes a turn.
 
@@ -140,13 +126,13 @@ class Simulation:
     def turn(self, name: str) -> Iterator[Turn]:
         """Take the lock, bring the run up to date and survive an unexpected exception.
 
-        An exception is reported as an error and as an event, once until `name` succeeds again, and
-        the motion keeps running. `RefusedError` is expected: handle it inside.
+        An exception is reported as an error and as an event, once until the action `name` succeeds
+        again, and the motion keeps running. `RefusedError` is expected: handle it inside.
         """
         turn = Turn()
         with self._lock:
             self._settle()
-            stamp, before = self.stamp, self.segment
+            stamp, before = self.stamp, self.timeline
             try:
                 yield turn
                 self._failures.pop(name, None)
@@ -154,13 +140,19 @@ class Simulation:
                 if not self._sink.is_open:
                     raise
                 turn.failure = f"{name} failed: {type(error).__name__}: {one_line(error)}"
-                if self._failures.get(name) != turn.failure or self.segment is not before:
-                    self._failures[name] = turn.failure
-                    self._sink.report_error(turn.failure)
-                    self.announce("failure", turn.failure, {}, before.state_at(stamp), stamp)
+                self._report_failure(name, turn.failure, stamp, before)
+
+    def _report_failure(self, name: str, failure: str, stamp: int, before: Timeline) -> None:
+        if self._failures.get(name) != failure or self.segment is not before.segment:
+            self._failures[name] = failure
+            self._sink.report_error(failure)
+            self.apply(self.timeline.report("failure", failure, {}, stamp))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
-        """Carry out a request in a turn; return success and the answer."""
+        """Carry out a request in a turn; return success and the answer.
+
+        `act` returns the answer or raises RefusedError.
+        """
         granted, text = False, ""
         with self._lock:
             with self.turn(f"~/{name}") as turn:
@@ -173,32 +165,24 @@ class Simulation:
         return (False, turn.failure) if turn.failure else (granted, text)
 
     def tick(self) -> float | None:
-        """Publish all samples that are due."""
+        """Publish all samples that are due; return the seconds until the next call.
+
+        None: only a change of a simulated clock can make a sample due.
+        """
         with self._lock:
-            jumped_to, self._jumped_to = self._jumped_to, None
-            # The system clock can be set back without any notification.
-            if self.now < self.stamp - (JUMP + 1 / self.ticker.rate) * NANOSECONDS:
-                jumped_to = self.now
-            if jumped_to is not None:
-                self._follow_jump(jumped_to)
+            self._follow_jump()
             self._release_torque()
-            if not (self._publish() and self._prepare_block()):
-                return 0.0
+            # The next block is computed now, so that it is ready when its stamps are due.
+            if not (self._publish() and self._work_on_block()):
+                return AT_ONCE
             wait = (self.stamp - self.now) / NANOSECONDS
             return None if self._clock.is_simulated and wait > 0 else wait
-
-    def note_jump(self) -> None:
-        """Note that the clock jumped to its current time; the next tick follows it.
-
-        Does not take the lock, because it is called from within the clock.
-        """
-        self._jumped_to = self.now
 
     # Samples
 
     def _publish(self) -> bool:
         """Publish what is due; return False if the motion is not integrated up to there."""
-        ready = self._prepare_block()
+        ready = self._work_on_block()
         if ready:
             missed, simulated = self.ticker.missed, self._clock.is_simulated
             catch_up = JUMP if simulated else CATCH_UP
@@ -208,27 +192,31 @@ class Simulation:
                 self._report_gap(self.ticker.missed - missed)
         return ready
 
-    def _prepare_block(self) -> bool:
-        """Compute the samples of the next stamps; return False if that needs more calls."""
-        stamp, segment = self.stamp, self.segment
-        if self._block.covers(segment, stamp):
+    def _work_on_block(self) -> bool:
+        """Work towards the samples of the next stamps; return True when they are ready."""
+        if self._block.covers(self.segment, self.stamp):
             return True
-        stamps = self.ticker.grid(stamp, self._next_block_length())
-        if any(self._held_torque):
-            stamps = [each for each in stamps if each < self._torque_end]
+        stamps = self._list_next_stamps()
         if not stamps:  # the torque ends with the next turn
             return False
-        ready = self._budget.prepare(segment, stamps[-1])
+        ready = self._budget.prepare(self.segment, stamps[-1])
         if ready:
-            self._block = self._block.continue_with(segment, stamps)
-        elif self._budget.shortfall:
-            self._slow_down(stamp, self._budget.shortfall)
+            self._block = self._block.continue_with(self.segment, stamps)
+        else:
+            self._check_pace(stamps[0])
         return ready
+
+    def _list_next_stamps(self) -> list[int]:
+        """Return the stamps of the next block; none if the held torque ends before the first."""
+        stamps = self.ticker.grid(self.stamp, self._next_block_length())
+        if any(self.timeline.held_torque):
+            stamps = [each for each in stamps if each < self.timeline.torque_end]
+        return stamps
 
     def _next_block_length(self) -> int:
         """Return 1 for the first block of a motion, so that its first sample comes soon."""
         segment, rate = self.segment, self.ticker.rate
-        longest = MAX_INTEGRATED_BLOCK if segment.motion.is_driven else MAX_BLOCK
+        longest = MAX_DRIVEN_BLOCK if segment.motion.is_driven else MAX_BLOCK
         grown = 4 * self._block.length if self._block.segment is segment else 1
         return max(1, min(longest, grown, int(AHEAD * rate)))
 
@@ -241,7 +229,7 @@ class Simulation:
             "stopped or has too little CPU time; the motion follows the clock"
         )
 
-    # The compute budget of integrated motions
+    # The compute budget of driven motions
 
     def _settle(self) -> None:
         """Bring the run up to date: the state at the next stamp is ready afterwards."""
@@ -250,165 +238,90 @@ class Simulation:
 
     def _integrate_to(self, stamp: int) -> None:
         while not self._budget.prepare(self.segment, stamp):
-            if self._budget.shortfall:
-                self._slow_down(stamp, self._budget.shortfall)
+            self._check_pace(stamp)
 
-    def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
-        reached, factor = shortfall
-        previous, before = self.segment.factor, self.segment.motion.at(reached)
-        self.segment = self.segment.slow_down(reached, factor, stamp)
-        verdict = (
-            f"the motion is too fast for the compute budget: real-time factor {previous:.3g} -> "
-            f"{factor:.3g}"
-        )
-        self._sink.warn(verdict)
-        self.announce("pace", verdict, {"reached": reached}, before, stamp)
+    def _check_pace(self, stamp: int) -> None:
+        """Slow the motion down if it cannot be followed."""
+        if self._budget.shortfall:
+            self._sink.warn(self.apply(self.timeline.slow_down(stamp, self._budget.shortfall)))
 
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""
         work, self._spent = self._budget.spent - self._spent, self._budget.spent
-        current, asked = self.segment.factor, self.settings.real_time_factor
-        if current < asked and work < SHARE / 2:
-            factor = min(asked, 2 * current) if self.segment.motion.is_driven else asked
-            before = self.state
-            self.segment = self.segment.set_factor(factor, self.stamp)
-            verdict = f"real-time factor {current:.3g} -> {factor:.3g}"
-            self.announce("pace", verdict, {}, before)
+        if self.segment.factor < self.settings.real_time_factor and work < SHARE / 2:
+            self.apply(self.timeline.speed_up(self.stamp))
 
     # Changes
 
-    def change(self, name: str, segment: Segment, request: Request, verdict: str) -> str:
-        """Continue with another segment and announce it; return the verdict."""
-        before, self.segment = self.state, segment
-        self.announce(name, verdict, request, before)
+    def apply(self, change: Change) -> str:
+        """Continue with the timeline of a change and announce it; return the verdict."""
+        verdict = change.describe()
+        self._announce(change, verdict)
         return verdict
 
-    def change_at_once(
-        self,
-        name: str,
-        segment: Segment,
-        request: Request,
-        before: State,
-        verdict: Callable[[], str],
-    ) -> str:
-        """Like `change`, but publish the first sample before the verdict is computed.
+    def apply_at_once(self, change: Change) -> str:
+        """Like `apply`, but publish the first sample before the verdict is computed.
 
         In the log the event still precedes its samples.
         """
-        stamp = self.stamp
-        self.segment = segment
+        self.timeline = change.following
         with self._sink.put_events_first():
             self._publish()
-            text = verdict()
+            verdict = change.describe()
             self._publish()
-            self.announce(name, text, request, before, stamp)
-        return text
+            self._sink.send_event(change.event(verdict))
+        return verdict
 
-    def _follow_jump(self, now: int) -> None:
-        """Continue the motion from its current state at the time (ns) the clock jumped to."""
-        stamp = self.stamp
-        self._integrate_to(stamp)
-        before = self.state
-        self.segment = self.segment.move(stamp, now)
-        self.ticker.restart(self.settings.publish_rate, now)
-        self._torque_end += now - stamp
-        self.announce("clock", "the clock jumped", {"from": stamp, "to": now}, before)
+    def _announce(self, change: Change, verdict: str) -> None:
+        self.timeline = change.following
+        self._sink.send_event(change.event(verdict))
+
+    def report(self, name: str, verdict: str, request: Request | None = None) -> str:
+        """Announce an event that changes nothing of the motion; return the verdict."""
+        return self.apply(self.timeline.report(name, verdict, request or {}, self.stamp))
+
+    def note_jump(self) -> None:
+        """Note that the clock jumped to its current time; the next tick follows it.
+
+        Does not take the lock, because it is called from within the clock.
+        """
+        self._jumped_to = self.now
+
+    def _follow_jump(self) -> None:
+        """Continue the motion from its current state at the time the clock jumped to."""
+        now, self._jumped_to = self._jumped_to, None
+        # The system clock can be set back without any notification.
+        if self.now < self.stamp - (JUMP + 1 / self.ticker.rate) * NANOSECONDS:
+            now = self.now
+        if now is not None:
+            stamp = self.stamp
+            self._integrate_to(stamp)
+            self.ticker.restart(self.settings.publish_rate, now)
+            self.apply(self.timeline.move(stamp, now))
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> None:
         """Apply a torque (3,) in N m from the next stamp on until its time-out."""
-        world = self.settings.world_frame
-        if frame not in ("", world):
-            raise refuse("applied_torque frame_id", f'"{world}" or empty', frame)
-        x, y, z = vector("applied_torque", torque, 3, MAX_MOMENT, "N m, world frame")
-        self._held_torque = x, y, z
-        self._torque_end = self.stamp + round(self.settings.applied_torque_timeout * NANOSECONDS)
-        self._apply_torque(self.stamp, "the applied torque changed")
+        self._apply_torque(self.timeline.hold_torque(self.stamp, torque, frame))
 
     def _release_torque(self) -> None:
-        if any(self._held_torque) and self.stamp >= self._torque_end:
-            self._integrate_to(self._torque_end)
-            self._held_torque = NO_TORQUE
-            self._apply_torque(self._torque_end, "the applied torque timed out")
+        end = self.timeline.torque_end
+        if any(self.timeline.held_torque) and self.stamp >= end:
+            self._integrate_to(end)
+            self._apply_torque(self.timeline.release_torque(end))
 
-    def _apply_torque(self, stamp: int, verdict: str) -> None:
-        """Continue from a stamp under the current torque if it differs from the motion's."""
-        (a, b, c), (x, y, z) = self.settings.steady_torque, self._held_torque
-        total = (a + x, b + y, c + z)
-        if total != self.segment.motion.applied_torque:
-            before = self.segment.state_at(stamp)
-            self.segment = self.segment.change(stamp, torque=total)
-            self.announce("torque", verdict, {"torque": total}, before, stamp)
+    def _apply_torque(self, change: Change) -> None:
+        """Continue under a torque; it is announced if it differs from the one before."""
+        self.timeline = change.following
+        if change.is_new:
+            self.apply(change)
 
     def apply_settings(self, settings: Settings) -> None:
         """Continue from the current state with other settings."""
-        old, self.settings = self.settings, settings
-        changes = {
-            name: value for name, value in settings.values.items() if value != old.values[name]
-        }
-        if not changes:
-            return
-        stamp, before = self.stamp, self.state
-        if settings.initial != old.initial:  # ~/reset then starts from them
-            self.start = initial_state(settings.top, settings.initial, {})
-        if (settings.top, settings.friction) != (old.top, old.friction):
-            self.segment = self.segment.change(stamp, settings.top, settings.friction)
+        old, stamp = self.settings, self.stamp
+        for change in self.timeline.change_settings(settings, stamp):
+            self.apply(change)
         if (settings.top, settings.publish_tf) != (old.top, old.publish_tf):
-            self._send_description()
-        if "real_time_factor" in changes:
-            self.segment = self.segment.set_factor(settings.real_time_factor, stamp)
-        if "publish_rate" in changes:
+            self._sink.send_description(stamp, settings)
+        if settings.publish_rate != old.publish_rate:
             self.ticker.restart(settings.publish_rate, stamp)
-            self.segment = self.segment.equip(settings.rig(self._switched_on))
             self._block = Block(self.segment, [])  # its stamps belong to the old grid
-        verdict = "; ".join(f"{name} is now {value}" for name, value in changes.items())
-        self.announce("parameters", verdict, changes, before)
-        if settings.steady_torque != old.steady_torque:
-            self._apply_torque(stamp, "the steady torque changed")
-
-    def announce(
-        self,
-        name: str,
-        verdict: str,
-        request: Request,
-        before: State,
-        stamp: int | None = None,
-    ) -> None:
-        """Send the event with which the current segment began, or that reports something."""
-        stamp = self.stamp if stamp is None else stamp
-        if self.segment.motion is not self._announced:
-            self._announced = self.segment.motion
-            # the event at which the motion of the segment began, and its stamp in s
-            self.motion_begin = _describe_begin(name, stamp)
-        frame = self.settings.top_frame
-        self._sink.send_event(Event.of(stamp, name, verdict, request, before, self.segment, frame))
-
-    def _send_description(self) -> None:
-        settings = self.settings
-        frames = settings.world_frame, settings.top_frame
-        urdf = robot_description(
-            settings.top,
-            *frames,
-            tf_moves_it=self._sink.publishes_tf,
-            gravity=settings.gravity,
-        )
-        self._sink.send_description(self.stamp, urdf)
-        transforms = list_fixed_frames(settings)
-        if transforms:
-            self._sink.send_fixed_frames(self.stamp, transforms)
-
-
-def list_fixed_frames(settings: Settings) -> list[Transform]:
-    """Return the frames on the body: that of the sensor, and that in the centre of mass."""
-    frame, transforms = settings.top_frame, []
-    if settings.imu:
-        imu = settings.imu
-        transforms.append(Transform(frame, imu_frame(frame), imu.position, imu.orientation))
-    body = find_body(settings.top, settings.gravity)
-    if settings.odometry and body:
-        place = (0.0, 0.0, body.arm)
-        transforms.append(Transform(frame, centre_frame(frame), place, ALONG))
-    return transforms
-
-
-def _describe_begin(name: str, stamp: int) -> str:
-    return f"{name} at stamp {stamp / NANOSECONDS:.9f} s"

@@ -94,6 +94,7 @@ class StateTopic(Topic):
     # returns the constant names of the message from the world frame and the frame of the top
     names: Callable[[str, str], tuple[str, ...]] = lambda world, _: (world,)
     switch: str = ""  # parameter without which the topic does not exist; empty: it always does
+    angles: str = ""  # quantity of Euler's angles, which are equal modulo 2 pi; empty: none
 
     def layout(self, world: str, top: str) -> Layout:
         """Return the layout of the message with the given frame names."""
@@ -101,13 +102,9 @@ class StateTopic(Topic):
 
 
 def _state_topic(
-    ros_name: str,
-    form: Format,
-    compute: Callable[[Samples], Real],
-    names: Callable[[str, str], tuple[str, ...]] = lambda world, _: (world,),
-    switch: str = "",
+    ros_name: str, form: Format, compute: Callable[[Samples], Real], **options: Any
 ) -> StateTopic:
-    return StateTopic(ros_name, form.type, format=form, compute=compute, names=names, switch=switch)
+    return StateTopic(ros_name, form.type, format=form, compute=compute, **options)
 
 
 def _quaternion(samples: Samples) -> Real:
@@ -123,14 +120,12 @@ def _twist(samples: Samples) -> Real:
 def _wrench(samples: Samples) -> Real:
     """Force of the pivot on the top, total torque about the pivot.
 
-    The force depends on a mass, and is nan for a top that no body can be. In logs of earlier
-    versions, which did not model it, it is zero.
+    The force depends on a mass, and is nan for a top that no body can be.
     """
-    motion, state, gravity = samples.motion, samples.state, samples.rig.gravity
+    motion, state = samples.motion, samples.state
     wrench = _after_zeros(motion.total_torque(state))
-    if gravity is not None:
-        body = find_body(motion.top, gravity)
-        wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
+    body = find_body(motion.top, samples.rig.gravity)
+    wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
     return wrench
 
 
@@ -142,33 +137,34 @@ def _joints(samples: Samples) -> Real:
 
 def _imu(samples: Samples) -> Real:
     """Orientation, angular velocity and specific force of the sensor, each with its covariance."""
-    imu, gravity = samples.rig.imu, samples.rig.gravity
-    numbers = np.full((*np.shape(samples.stamps), messages.IMU_WIDTH), np.nan)
-    if not imu or gravity is None:
+    imu, places = samples.rig.imu, messages.IMU.quantities
+    numbers = np.full((*np.shape(samples.stamps), messages.IMU.width), np.nan)
+    if not imu:
         return numbers
-    orientation, rates, force = imu.measure(samples.motion, samples.state, gravity)
-    numbers[..., 0:4], numbers[..., 13:16], numbers[..., 25:28] = orientation, rates, force
+    orientation, rates, force = imu.measure(samples.motion, samples.state, samples.rig.gravity)
     if imu.has_noise:
         errors = imu.noise(samples.stamps)
-        numbers[..., 13:16] += errors[..., :3]
-        numbers[..., 25:28] += errors[..., 3:]
-    for first, variance in zip((4, 16, 28), imu.covariances, strict=True):
-        numbers[..., first : first + 9] = variance * np.eye(3).reshape(-1)
+        rates, force = rates + errors[..., :3], force + errors[..., 3:]
+    measured = orientation, rates, force
+    for (name, variance), each in zip(imu.covariances.items(), measured, strict=True):
+        numbers[..., places[name]] = each
+        numbers[..., places[f"{name}_covariance"]] = variance * np.eye(3).reshape(-1)
     return numbers
 
 
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
-    state, gravity = samples.state, samples.rig.gravity
-    body = None if gravity is None else find_body(samples.motion.top, gravity)
-    numbers = np.zeros((*state.orientation.shape[:-1], messages.ODOMETRY_WIDTH))
+    state, places = samples.state, messages.ODOMETRY.quantities
+    body = find_body(samples.motion.top, samples.rig.gravity)
     omega, arm = state.angular_velocity, body.arm if body else np.nan
-    numbers[..., 0:3] = state.to_world([0.0, 0.0, 1.0]) * arm
-    numbers[..., 3:7] = _quaternion(samples)
-    numbers[..., 43], numbers[..., 44] = omega[..., 1] * arm, -omega[..., 0] * arm
-    numbers[..., 46:49] = omega
-    for first in (7, 49):
-        numbers[..., first : first + 36] = EXACT * np.eye(6).reshape(-1)
+    numbers = np.zeros((*state.orientation.shape[:-1], messages.ODOMETRY.width))
+    numbers[..., places["position"]] = state.to_world([0.0, 0.0, 1.0]) * arm
+    numbers[..., places["orientation"]] = _quaternion(samples)
+    first = places["linear"].start  # of omega x (0, 0, arm), whose last component is zero
+    numbers[..., first], numbers[..., first + 1] = omega[..., 1] * arm, -omega[..., 0] * arm
+    numbers[..., places["angular"]] = omega
+    for name in ("pose_covariance", "twist_covariance"):
+        numbers[..., places[name]] = EXACT * np.eye(6).reshape(-1)
     return numbers
 
 
@@ -201,14 +197,15 @@ STATE_TOPICS: dict[str, StateTopic] = {
             "~/euler_angles",
             messages.JOINT_STATE,
             _joints,
-            lambda world, _: (world, *messages.JOINTS),
+            names=lambda world, _: (world, *messages.JOINTS),
+            angles="position",
         ),
         _state_topic(
             "/tf",
             messages.TRANSFORM,
             # the origins of both frames are the pivot: the translation is zero
             lambda samples: _after_zeros(_quaternion(samples)),
-            lambda world, top: (world, top),
+            names=lambda world, top: (world, top),
         ),
     )
 }
@@ -216,13 +213,19 @@ STATE_TOPICS: dict[str, StateTopic] = {
 SENSOR_TOPICS: dict[str, StateTopic] = {
     topic.name: topic
     for topic in (
-        _state_topic("~/imu", messages.IMU, _imu, lambda _, top: (imu_frame(top),), "imu.enabled"),
+        _state_topic(
+            "~/imu",
+            messages.IMU,
+            _imu,
+            names=lambda _, top: (imu_frame(top),),
+            switch="imu.enabled",
+        ),
         _state_topic(
             "~/odometry",
             messages.ODOMETRY,
             _odometry,
-            lambda world, top: (world, centre_frame(top)),
-            "odometry.enabled",
+            names=lambda world, top: (world, centre_frame(top)),
+            switch="odometry.enabled",
         ),
     )
 }

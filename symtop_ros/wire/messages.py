@@ -6,8 +6,9 @@ Doubles are in the order of the message: quaternions x, y, z, w; linear (or forc
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,10 +26,29 @@ class Format:
     """Encoding of one ROS message type."""
 
     type: str  # name of the type, such as "geometry_msgs/msg/QuaternionStamped"
+    # places of the quantities among the doubles of a message, in their order
+    quantities: Mapping[str, slice]
     # returns the layout for given names: the frame, then the child frame or the joints
     layout: Callable[..., Layout]
     # returns these names from an encoded message; raises DecodeError
     read_names: Callable[[bytes], tuple[str, ...]]
+
+    @property
+    def width(self) -> int:
+        """Number of doubles in a message."""
+        return _width(self.quantities)
+
+
+def _place(**sizes: int) -> dict[str, slice]:
+    """Return the places of quantities of these sizes, one after the other."""
+    ends = list(accumulate(sizes.values()))
+    return {
+        name: slice(end - size, end) for (name, size), end in zip(sizes.items(), ends, strict=True)
+    }
+
+
+def _width(quantities: Mapping[str, slice]) -> int:
+    return max(int(place.stop) for place in quantities.values())
 
 
 def _read_frame(data: bytes) -> tuple[str, ...]:
@@ -74,31 +94,42 @@ def _joint_state(frame: str, *names: str) -> Layout:
     )
 
 
-def stamped(package_type: str, doubles: int) -> Format:
-    """Return the format of a type that consists of a header and some doubles."""
+def _stamped(message_type: str, **sizes: int) -> Format:
+    """Return the format of a type that consists of a header and some quantities."""
+    quantities = _place(**sizes)
 
     def layout(frame: str) -> Layout:
-        return Layout(Stamp(), Text(frame), Doubles(doubles))
+        return Layout(Stamp(), Text(frame), Doubles(_width(quantities)))
 
-    return Format(package_type, layout, _read_frame)
+    return Format(message_type, quantities, layout, _read_frame)
 
 
-QUATERNION = stamped("geometry_msgs/msg/QuaternionStamped", 4)
-VECTOR = stamped("geometry_msgs/msg/Vector3Stamped", 3)
-TWIST = stamped("geometry_msgs/msg/TwistStamped", 6)
-IMU_WIDTH, ODOMETRY_WIDTH = 37, 85
-# Orientation, angular velocity and acceleration, each followed by its covariance (9)
-IMU = stamped("sensor_msgs/msg/Imu", IMU_WIDTH)
-WRENCH = stamped("geometry_msgs/msg/WrenchStamped", 6)
-JOINT_STATE = Format("sensor_msgs/msg/JointState", _joint_state, _read_joints)
-TRANSFORM = Format(  # tf2_msgs/TFMessage with one transform: translation, then rotation
+QUATERNION = _stamped("geometry_msgs/msg/QuaternionStamped", orientation=4)
+VECTOR = _stamped("geometry_msgs/msg/Vector3Stamped", vector=3)
+TWIST = _stamped("geometry_msgs/msg/TwistStamped", linear=3, angular=3)
+IMU = _stamped(
+    "sensor_msgs/msg/Imu",
+    orientation=4,
+    orientation_covariance=9,
+    angular_velocity=3,
+    angular_velocity_covariance=9,
+    linear_acceleration=3,
+    linear_acceleration_covariance=9,
+)
+WRENCH = _stamped("geometry_msgs/msg/WrenchStamped", force=3, torque=3)
+JOINT_STATE = Format(
+    "sensor_msgs/msg/JointState", _place(position=3, velocity=3), _joint_state, _read_joints
+)
+TRANSFORM = Format(  # tf2_msgs/TFMessage with one transform
     "tf2_msgs/msg/TFMessage",
+    _place(translation=3, rotation=4),
     lambda frame, child: Layout(Count(1), Stamp(), Text(frame), Text(child), Doubles(7)),
     _read_transform_frames,
 )
-ODOMETRY = Format(  # pose and its covariance, twist and its covariance
+ODOMETRY = Format(
     "nav_msgs/msg/Odometry",
-    lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(ODOMETRY_WIDTH)),
+    _place(position=3, orientation=4, pose_covariance=36, linear=3, angular=3, twist_covariance=36),
+    lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(85)),
     _read_frame_and_child,
 )
 CLOCK = Layout(Stamp())  # rosgraph_msgs/Clock

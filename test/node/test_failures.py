@@ -11,8 +11,8 @@ from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.running_top import LATCHED
 from programs import environment
-
 from symtop_ros.node.outputs import Output
+
 from symtop_ros.simulation.simulation import Simulation
 
 DOMAIN = claim_domain()
@@ -118,7 +118,7 @@ def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
 
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.simulation.requests.kick_verdict", fail)
+    monkeypatch.setattr("symtop_ros.session.requests.kick_verdict", fail)
     for _ in range(2):
         assert run.trigger("hurry_precession") == (False, f"~/hurry_precession failed: {BUG}")
     run.spin_until(lambda: len(failures()) == 2)

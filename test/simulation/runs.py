@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
+from symtop_ros.session.requests import Requests
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.requests import Requests
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.wire.messages import Transform
 
 SECOND = 1_000_000_000
 
@@ -27,12 +26,11 @@ class ListSink:
     """Keeps everything that it is sent."""
 
     def __init__(self) -> None:
-        self.is_open, self.publishes_tf = True, True
+        self.is_open = True
         self.samples: list[tuple[int, list[float]]] = []  # stamp and orientation x, y, z, w
         self.events: list[Event] = []
         self.order: list[str] = []  # of events and samples, as a log would have it
-        self.urdfs: list[str] = []
-        self.frames: list[Transform] = []
+        self.descriptions: list[Settings] = []
         self.warnings: list[str] = []
         self.errors: list[str] = []
 
@@ -44,11 +42,8 @@ class ListSink:
         self.events.append(event)
         self.order.append(event.name)
 
-    def send_description(self, stamp: int, urdf: str) -> None:
-        self.urdfs.append(urdf)
-
-    def send_fixed_frames(self, stamp: int, transforms: Sequence[Transform]) -> None:
-        self.frames = list(transforms)
+    def send_description(self, stamp: int, settings: Settings) -> None:
+        self.descriptions.append(settings)
 
     @contextlib.contextmanager
     def put_events_first(self) -> Iterator[None]:
@@ -69,8 +64,8 @@ class Run:
     def __init__(self, scene: str = "cusps", **changes: Any) -> None:
         self.clock, self.sink = HandClock(), ListSink()
         self.simulation = Simulation(Settings.from_scene(scene, **changes), self.clock, self.sink)
-        self.simulation.announce("start", self.simulation.verdict, {}, self.simulation.start)
-        self.requests = Requests(self.simulation)
+        self.simulation.report("start", self.simulation.timeline.verdict)
+        self.requests = Requests(self.simulation, lambda on: "not recording")
 
     def advance(self, seconds: float, step: float = 0.005) -> None:
         """Advance the clock in steps and tick after each."""

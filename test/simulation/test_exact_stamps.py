@@ -167,7 +167,7 @@ def _euler_errors(expected, numbers):
 def start(scene, **changes):
     run = Run(scene, **changes)
     run.sink = run.simulation._sink = ByteSink()
-    run.simulation.announce("start", "", {}, run.simulation.start)
+    run.simulation.report("start", "")
     return run
 
 

@@ -113,7 +113,7 @@ def test_other_settings_continue_from_the_current_state():
     assert event.values["request"] == "top.Mgl=-0.05; real_time_factor=0.5"
     assert run.simulation.segment.motion.start == before
     assert run.simulation.segment.factor == 0.5
-    assert len(run.sink.urdfs) == 2
+    assert len(run.sink.descriptions) == 2
     run.advance(0.2)
     assert_recomputed(run)
 

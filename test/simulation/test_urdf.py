@@ -6,6 +6,7 @@ import pytest
 from simulation.runs import Run
 
 from symtop_ros.physics import Top
+from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.urdf import robot_description
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
@@ -64,13 +65,8 @@ def test_the_urdf_is_one_tree(with_tf):
     assert sorted(children) == sorted(links - {"world"})
 
 
-def test_the_description_follows_publish_tf():
+def test_the_top_is_described_anew_when_publish_tf_changes():
     run = Run()
-    run.sink.publishes_tf = False
-    settings = type(run.simulation.settings).from_values(
-        {**run.simulation.settings.values, "publish_tf": False}
-    )
-    run.simulation.apply_settings(settings)
-    with_tf, without = run.sink.urdfs
-    assert "floating" in with_tf
-    assert "floating" not in without
+    changed = {**run.simulation.settings.values, "publish_tf": False}
+    run.simulation.apply_settings(Settings.from_values(changed))
+    assert [each.publish_tf for each in run.sink.descriptions] == [True, False]

@@ -48,7 +48,7 @@ def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
     granted, answer = run.ask("set_initial_conditions", {"precession": "slow", "theta": 0.7})
     assert granted
     assert answer.startswith("regular: ")
-    start = run.simulation.start
+    start = run.simulation.timeline.start
     run.advance(0.1)
     assert run.ask("kick", {"precession_rate_factor": 2.0})[0]
     assert run.ask("reset")[0]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from datetime import datetime, timezone
 from pathlib import Path
 
 from symtop_ros import __version__
 from symtop_ros.log.recorder import Limits, Recorder, describe_error
+from symtop_ros.session.outputs import Host
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.validation import RefusedError
@@ -26,10 +27,10 @@ class Recording:
         recorder: Recorder,
         simulation: Simulation,
         environment: Mapping[str, str],
-        report: Callable[[str, bool], None],
+        host: Host,
     ) -> None:
         self._recorder, self._simulation = recorder, simulation
-        self._environment, self._report = environment, report
+        self._environment, self._host = environment, host
         self._failure_reported = False
 
     def begin(self) -> Path:
@@ -41,8 +42,13 @@ class Recording:
             msg = f"record.directory must be a writable folder, got {directory!r}: "
             raise RefusedError(msg + describe_error(error)) from None
         self._failure_reported = False
-        self._report(f"recording to {path}", False)
+        self._host.inform(f"recording to {path}")
         return path
+
+    @property
+    def path(self) -> Path | None:
+        """Path of the current file, None if not recording."""
+        return self._recorder.path
 
     def switch(self, on: bool) -> str:
         """Begin or end a recording; return the answer."""
@@ -69,10 +75,11 @@ class Recording:
         """Report once that a recording ended by itself; the motion keeps running."""
         if self.unreported_failure:
             self._failure_reported = True
-            self._report(self._announce(f"recording stopped: {self._recorder.failure}"), True)
+            sentence = self._announce(f"recording stopped: {self._recorder.failure}")
+            self._host.report_error(sentence)
 
     def _announce(self, sentence: str) -> str:
-        return self._simulation.change("record", self._simulation.segment, {}, sentence)
+        return self._simulation.report("record", sentence)
 
     def _metadata(self) -> dict[str, str]:
         values = self._simulation.settings.values

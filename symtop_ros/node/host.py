@@ -1,0 +1,97 @@
+"""The node as the host of a session: publishers, messages to the user, markers, duplicate nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+
+from symtop_ros.node.duplicates import DuplicateNodes
+from symtop_ros.node.markers import Markers
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import Topic
+from symtop_ros.wire.diagnostics import Status
+
+
+class NodePublisher:
+    """Publishes bytes. When ROS shuts down in the middle of a sample, the log still gets all."""
+
+    def __init__(self, publisher: Publisher, node: Node) -> None:
+        self._publisher, self._context = publisher, node.context
+
+    @property
+    def has_subscriber(self) -> bool:
+        """True if the topic has a subscriber."""
+        return bool(self._publisher.get_subscription_count())
+
+    def publish(self, data: bytes) -> None:
+        """Publish an encoded message."""
+        try:
+            self._publisher.publish(data)
+        except RuntimeError:
+            if self._context.ok():
+                raise
+
+
+class NodeHost:
+    """See `Host` for the methods."""
+
+    def __init__(self, node: Node, settings: Settings) -> None:
+        self._node, self._duplicates = node, DuplicateNodes(node)
+        self._markers = Markers(node, settings.world_frame) if settings.publish_markers else None
+
+    @property
+    def is_open(self) -> bool:
+        """False when ROS is shutting down."""
+        return self._node.context.ok()
+
+    def resolve(self, topic: Topic) -> str:
+        """Return the full name of a topic, which may be remapped."""
+        return self._node.resolve_topic_name(topic.ros_name)
+
+    def create_publisher_of(self, topic: Topic) -> NodePublisher | None:
+        """Return a publisher with the QoS of the topic, which ROS parameters may override."""
+        message_class = topic.load_message_class()
+        if message_class is None:
+            if topic.ros_name == "/tf":
+                self.inform("tf2_msgs is not installed: /tf is logged, not published")
+            return None
+        latched, volatile = QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE
+        qos = QoSProfile(depth=topic.depth, durability=latched if topic.latched else volatile)
+        publisher: Any = self._node.create_publisher(
+            message_class,
+            topic.ros_name,
+            qos,
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )
+        return NodePublisher(publisher, self._node)
+
+    def watch_sample(self, stamp: int, block: Block) -> None:
+        """Publish markers."""
+        if self._markers:
+            self._markers.send(stamp, block)
+
+    def watch_event(self, event: Event) -> None:
+        """Do nothing: events are published and logged."""
+
+    def list_statuses(self) -> list[Status]:
+        """Return the status on nodes of the same name."""
+        self._duplicates.update()
+        return [self._duplicates.status]
+
+    def inform(self, text: str) -> None:
+        """Log a sentence. Each level has a line of its own: rclpy allows one level for a line."""
+        self._node.get_logger().info(text)
+
+    def warn(self, text: str) -> None:
+        """Log a warning."""
+        self._node.get_logger().warning(text)
+
+    def report_error(self, text: str) -> None:
+        """Log an error."""
+        self._node.get_logger().error(text)

@@ -1,0 +1,46 @@
+"""Products of quaternions (w, x, y, z), and rotations by them; for one or for many."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symtop_ros.arrays import Real
+
+
+def compose(p: Real, q: Real) -> Real:
+    """Return the products p q, (..., 4): the rotation q, followed by p."""
+    w, x, y, z = np.moveaxis(p, -1, 0)
+    a, b, c, d = np.moveaxis(q, -1, 0)
+    return np.stack(
+        (
+            w * a - x * b - y * c - z * d,
+            w * b + x * a + y * d - z * c,
+            w * c - x * d + y * a + z * b,
+            w * d + x * c - y * b + z * a,
+        ),
+        axis=-1,
+    )
+
+
+def invert(q: Real) -> Real:
+    """Return the inverse of unit quaternions, (..., 4)."""
+    return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
+
+
+def rotate(w: Real, x: Real, y: Real, z: Real, v: Real) -> Real:
+    """Return q v q*, (..., 3), for the components (...) of q.
+
+    It is v + w t + (x, y, z) x t with t = 2 (x, y, z) x v.
+    """
+    a, b, c = v[..., 0], v[..., 1], v[..., 2]
+    t, u, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return stack(
+        a + w * t + (y * s - z * u), b + w * u + (z * t - x * s), c + w * s + (x * u - y * t)
+    )
+
+
+def stack(x: Real, y: Real, z: Real) -> Real:
+    """Return vectors (..., 3) from their components; NumPy's own takes twice the time for one."""
+    vector = np.empty((*np.shape(x), 3))
+    vector[..., 0], vector[..., 1], vector[..., 2] = x, y, z
+    return vector

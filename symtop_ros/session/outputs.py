@@ -1,0 +1,198 @@
+"""The topics of a run: each message is encoded once, and goes to its publisher and to the log.
+
+A topic without a subscriber is not computed unless it is logged.
+"""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import Protocol
+
+from symtop_ros.log.recorder import Recorder
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.sensor import ALONG, find_body
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import (
+    CLOCK,
+    DESCRIPTION,
+    DIAGNOSTICS,
+    EVENTS,
+    SAMPLE_TOPICS,
+    TF_STATIC,
+    Topic,
+    centre_frame,
+    imu_frame,
+)
+from symtop_ros.simulation.urdf import robot_description
+from symtop_ros.wire import messages
+from symtop_ros.wire.cdr import encode_string
+from symtop_ros.wire.diagnostics import Status, encode_statuses
+from symtop_ros.wire.messages import Transform
+
+
+class Publisher(Protocol):
+    """Sends the bytes of messages to subscribers."""
+
+    @property
+    def has_subscriber(self) -> bool:
+        """True if somebody subscribes to the topic."""
+
+    def publish(self, data: bytes) -> None:
+        """Publish an encoded message."""
+
+
+class Host(Protocol):
+    """The program around a run: the node, or the page."""
+
+    @property
+    def is_open(self) -> bool:
+        """False when the program is shutting down and nothing can be sent."""
+
+    def resolve(self, topic: Topic) -> str:
+        """Return the full name of a topic."""
+
+    def create_publisher_of(self, topic: Topic) -> Publisher | None:
+        """Return a publisher, or None if the topic is only logged."""
+
+    def watch_sample(self, stamp: int, block: Block) -> None:
+        """Take note of the sample of a stamp (ns)."""
+
+    def watch_event(self, event: Event) -> None:
+        """Take note of an event."""
+
+    def list_statuses(self) -> list[Status]:
+        """Return its own part of the diagnostics."""
+
+    def inform(self, text: str) -> None:
+        """Inform the user."""
+
+    def warn(self, text: str) -> None:
+        """Warn the user."""
+
+    def report_error(self, text: str) -> None:
+        """Report an error to the user."""
+
+
+class Output:
+    """One topic: its publisher and its channel in the log."""
+
+    def __init__(self, topic: Topic, host: Host, recorder: Recorder) -> None:
+        self._publisher = host.create_publisher_of(topic)
+        self._latched, self._recorder = topic.latched, recorder
+        self.channel = recorder.add_channel(host.resolve(topic), topic)
+        self.enabled = True  # set to False to log the topic without publishing it
+
+    @property
+    def is_published(self) -> bool:
+        """True if it has a publisher and is enabled."""
+        return self.enabled and self._publisher is not None
+
+    @property
+    def is_needed(self) -> bool:
+        """True if there is a subscriber or a recording."""
+        return self._recorder.running or self._has_subscriber
+
+    def send(self, stamp: int, data: bytes) -> None:
+        """Publish and log an encoded message with its stamp (ns)."""
+        if self._publisher and (self._latched or self._has_subscriber):
+            self._publisher.publish(data)
+        self._recorder.add(self.channel, stamp, data)
+
+    @property
+    def _has_subscriber(self) -> bool:
+        return bool(self.enabled and self._publisher and self._publisher.has_subscriber)
+
+
+class Outputs:
+    """All topics of a run; the sink of its simulation."""
+
+    def __init__(self, settings: Settings, host: Host, recorder: Recorder) -> None:
+        def add(topic: Topic) -> Output:
+            return Output(topic, host, recorder)
+
+        self._host, self._recorder = host, recorder
+        self._frame = settings.world_frame
+        frames = settings.world_frame, settings.top_frame
+        self._events, self._description = add(EVENTS), add(DESCRIPTION)
+        self._samples = {
+            name: (add(topic), topic.layout(*frames))
+            for name, topic in SAMPLE_TOPICS.items()
+            if settings.enables(topic.switch)
+        }
+        has_frames = bool(settings.imu or settings.odometry)
+        self._fixed_frames = add(TF_STATIC) if has_frames else None
+        self._diagnostics = add(DIAGNOSTICS)
+        self._clock = add(CLOCK) if settings.publish_clock else None
+        self.enable_tf(settings.publish_tf)
+
+    @property
+    def is_open(self) -> bool:
+        """False when the program is shutting down."""
+        return self._host.is_open
+
+    def enable_tf(self, enabled: bool) -> None:
+        """Publish /tf or not; it is always logged."""
+        self._samples["tf"][0].enabled = enabled
+
+    def send_sample(self, stamp: int, block: Block) -> None:
+        """Publish and log the sample of a stamp (ns) on the topics that are needed."""
+        for name, (output, layout) in self._samples.items():
+            if output.is_needed:
+                output.send(stamp, layout.encode(stamp, block.numbers(name, stamp)))
+        if self._clock:
+            self._clock.send(stamp, messages.CLOCK.encode(stamp, ()))
+        self._host.watch_sample(stamp, block)
+
+    def send_event(self, event: Event) -> None:
+        """Publish and log an event."""
+        self._host.watch_event(event)
+        self._events.send(event.stamp, event.encode(self._frame))
+
+    def send_description(self, stamp: int, settings: Settings) -> None:
+        """Publish and log the URDF of the top, and the frames on its body."""
+        urdf = robot_description(
+            settings.top,
+            settings.world_frame,
+            settings.top_frame,
+            tf_moves_it=self._samples["tf"][0].is_published,
+            gravity=settings.gravity,
+        )
+        self._description.send(stamp, encode_string(urdf))
+        if self._fixed_frames:
+            transforms = list_fixed_frames(settings)
+            self._fixed_frames.send(stamp, messages.encode_transforms(stamp, transforms))
+
+    @property
+    def need_diagnostics(self) -> bool:
+        """True if diagnostics have a subscriber or are logged."""
+        return self._diagnostics.is_needed
+
+    def send_diagnostics(self, stamp: int, statuses: list[Status]) -> None:
+        """Publish and log diagnostics."""
+        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, statuses))
+
+    def put_events_first(self) -> AbstractContextManager[None]:
+        """In the log, put the events sent in this context before its samples."""
+        return self._recorder.put_first(self._events.channel)
+
+    def warn(self, text: str) -> None:
+        """Warn the user."""
+        self._host.warn(text)
+
+    def report_error(self, text: str) -> None:
+        """Report an error to the user."""
+        self._host.report_error(text)
+
+
+def list_fixed_frames(settings: Settings) -> list[Transform]:
+    """Return the frames on the body: that of the sensor, and that in the centre of mass."""
+    frame, transforms = settings.top_frame, []
+    if settings.imu:
+        imu = settings.imu
+        transforms.append(Transform(frame, imu_frame(frame), imu.position, imu.orientation))
+    body = find_body(settings.top, settings.gravity)
+    if settings.odometry and body:
+        place = (0.0, 0.0, body.arm)
+        transforms.append(Transform(frame, centre_frame(frame), place, ALONG))
+    return transforms

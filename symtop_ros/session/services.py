@@ -1,0 +1,37 @@
+"""The services of the top: one record for each. Its action is the method of `Requests` of its name.
+
+The node offers what this table says, the page and `top_ctl` call it. It imports nothing, so that
+`top_ctl` starts without the library.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+Kind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument
+
+
+class Service(NamedTuple):
+    """A service."""
+
+    kind: Kind
+    command: str  # of top_ctl
+    help: str
+
+
+SERVICES = {
+    "set_initial_conditions": Service(
+        "named", "start", "restart: theta=0.5 psi_dot=200 precession=slow ..."
+    ),
+    "kick": Service(
+        "named", "kick", "precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4"
+    ),
+    "step": Service("named", "step", "while paused: duration=0.01"),
+    "hurry_precession": Service(
+        "plain", "hurry", "multiply the precession rate by the parameter hurry_factor"
+    ),
+    "reset": Service("plain", "reset", "back to the last initial conditions"),
+    "pause": Service("switch", "pause", "stop the motion; `resume` continues it"),
+    "record": Service("switch", "record", "start or stop a log"),
+    "get_state": Service("plain", "state", "full state, constants and verdict"),
+}

@@ -1,0 +1,91 @@
+"""A session: a simulation with its outputs, its requests, its recording and its upkeep.
+
+The node and the page are hosts of a session. They translate: ROS, or what is pressed in a browser.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from symtop_ros.log.recorder import Recorder
+from symtop_ros.session.diagnostics import collect_statuses
+from symtop_ros.session.outputs import Host, Outputs
+from symtop_ros.session.recording import Recording, limits_of
+from symtop_ros.session.requests import Requests
+from symtop_ros.session.services import SERVICES
+from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.simulation import Clock, Simulation
+from symtop_ros.simulation.validation import RefusedError
+
+Answer = tuple[bool, str]  # success, and the sentence or the reason
+
+
+class Session:
+    """A run from the start of its program to the end. Methods may be called from any thread."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        clock: Clock,
+        host: Host,
+        scene: str,
+        environment: Mapping[str, str],
+    ) -> None:
+        self._host = host
+        self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
+        self._outputs = Outputs(settings, host, self._recorder)
+        self.simulation = Simulation(settings, clock, self._outputs)
+        verdict = self.simulation.timeline.verdict
+        self.simulation.report("start", verdict, {"scene": scene})
+        metadata = {"scene": scene, **environment}
+        self.recording = Recording(self._recorder, self.simulation, metadata, host)
+        self._requests = Requests(self.simulation, self.recording.switch)
+        if settings.record.enabled:
+            self.recording.begin()
+        host.inform(f"scene {scene}: {verdict}")
+
+    def answer(self, service: str, read: Callable[[], Any]) -> Answer:
+        """Carry out a request; `read` returns its argument, or raises RefusedError."""
+        act = getattr(self._requests, service)
+        if SERVICES[service].kind == "plain":
+            return self.simulation.answer(service, act)
+        return self.simulation.answer(service, lambda: act(read()))
+
+    def hold_torque(self, torque: Sequence[float], frame: str = "") -> str:
+        """Apply a torque (N m) until its time-out; return the reason if it is refused."""
+        with self.simulation.turn("~/applied_torque"):
+            try:
+                self.simulation.hold_torque(torque, frame)
+            except RefusedError as refusal:
+                return str(refusal)
+        return ""
+
+    def plan_settings(self, changes: Mapping[str, Any]) -> Settings:
+        """Return the settings with changed values; raise RefusedError if they do not fit."""
+        settings = Settings.from_values({**self.simulation.settings.values, **changes})
+        initial_state(settings.top, settings.initial, {})  # may have no such root
+        return settings
+
+    def apply_settings(self, changes: Mapping[str, Any]) -> None:
+        """Continue with changed values, in a turn of the caller."""
+        settings = self.plan_settings(changes)
+        self._outputs.enable_tf(settings.publish_tf)
+        self._recorder.limits = limits_of(settings.record)
+        self.simulation.apply_settings(settings)
+
+    def keep_up(self) -> None:
+        """Do what is due once a second: pace, failed recordings, diagnostics."""
+        with self.simulation.turn("/diagnostics"):
+            own = self._host.list_statuses()
+            self.simulation.speed_up()
+            self.recording.report_failure()
+            if self._outputs.need_diagnostics:
+                statuses = [*collect_statuses(self.simulation, self._recorder), *own]
+                self._outputs.send_diagnostics(self.simulation.stamp, statuses)
+
+    def close(self) -> None:
+        """End the recording."""
+        self._recorder.stop()

@@ -1,0 +1,226 @@
+"""The timeline of a run: what holds at a stamp, and what each command makes of it.
+
+A command gives a `Change`: the timeline that follows, and the event that tells of it. Nothing here
+has a clock, a lock or a side effect; `simulation` decides at which stamp a change takes effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from symtop_ros.arrays import Vector
+from symtop_ros.physics import Motion, State, kick_verdict, perrys_rule
+from symtop_ros.simulation.budget import Shortfall
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.kick import plan_kick
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
+from symtop_ros.simulation.validation import refuse, vector
+from symtop_ros.wire.layout import NANOSECONDS
+
+Request = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """A run from one change to the next."""
+
+    settings: Settings
+    segment: Segment  # the motion from the last change on
+    start: State  # the last initial conditions
+    since: str  # the event with which the motion of the segment began, and its stamp
+    switched_on: int  # stamp in ns at which the biases of the sensor are zero
+    held_torque: Vector = NO_TORQUE  # from ~/applied_torque
+    torque_end: int = 0  # stamp in ns at which the held torque ends
+
+    @classmethod
+    def begin(cls, settings: Settings, stamp: int) -> Timeline:
+        """Return the timeline that starts at a stamp (ns) from the initial conditions."""
+        start = initial_state(settings.top, settings.initial, {})
+        motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
+        rig = settings.rig(stamp)
+        segment = Segment.begin(motion, stamp, settings.real_time_factor, rig)
+        return cls(settings, segment, start, _describe_origin("start", stamp), stamp)
+
+    @property
+    def verdict(self) -> str:
+        """Kind of the motion and what follows from its start, in a sentence."""
+        motion = self.segment.motion
+        return f"{motion.kind}: {perrys_rule(motion.top, motion.start)}"
+
+    def report(self, name: str, verdict: str, request: Request, stamp: int) -> Change:
+        """Return a change of nothing: an event that only reports."""
+        return self._follow(name, self.segment, stamp, request, verdict)
+
+    def restart(self, stamp: int, values: Request | None = None) -> Change:
+        """Restart from named initial conditions, or without them from the last ones."""
+        start, name = self.start, "reset"
+        if values is not None:
+            start = initial_state(self.settings.top, self.settings.initial, values)
+            name = "start"
+        following = replace(self, start=start, segment=self.segment.restart(start, stamp))
+        return self._lead_to(following, name, stamp, values or {}, lambda: following.verdict)
+
+    def kick(self, stamp: int, values: Request) -> Change:
+        """Kick by named values; see `plan_kick`."""
+        before = self.segment.state_at(stamp)
+        motion, hold = plan_kick(self.segment.motion, before, values)
+        segment = self.segment.replace_motion(motion, stamp)
+        change = self._follow(
+            "kick", segment, stamp, values, lambda: kick_verdict(motion, before, hold)
+        )
+        return replace(change, before=before)
+
+    def pause(self, stamp: int, paused: bool) -> Change:
+        """Stop the motion, or continue it from where it stopped."""
+        name = "pause" if paused else "resume"
+        segment = (self.segment.pause if paused else self.segment.resume)(stamp)
+        return self._follow(name, segment, stamp, {}, f"{name}d at {_seconds(segment)}")
+
+    def step(self, stamp: int, duration: float) -> Change:
+        """Advance a paused motion by a duration in s."""
+        segment = self.segment.step(duration, stamp)
+        verdict = f"stepped to {_seconds(segment)}"
+        return self._follow("step", segment, stamp, {"duration": duration}, verdict)
+
+    def move(self, stamp: int, now: int) -> Change:
+        """Continue the state of a stamp at the time (ns) to which the clock jumped."""
+        change = self._follow(
+            "clock",
+            self.segment.move(stamp, now),
+            stamp,
+            {"from": stamp, "to": now},
+            "the clock jumped",
+        )
+        moved = replace(change.following, torque_end=self.torque_end + now - stamp)
+        return replace(change, following=moved, stamp=now, before=self.segment.state_at(stamp))
+
+    def slow_down(self, stamp: int, shortfall: Shortfall) -> Change:
+        """Continue at a real-time factor that can be kept, from the time that was reached."""
+        segment = self.segment.slow_down(shortfall.reached, shortfall.factor, stamp)
+        verdict = (
+            "the motion is too fast for the compute budget: real-time factor "
+            f"{self.segment.factor:.3g} -> {shortfall.factor:.3g}"
+        )
+        change = self._follow("pace", segment, stamp, {"reached": shortfall.reached}, verdict)
+        return replace(change, before=self.segment.motion.at(shortfall.reached))
+
+    def speed_up(self, stamp: int) -> Change:
+        """Continue at up to twice the real-time factor, as far as the settings ask for it."""
+        current, factor = self.segment.factor, self.settings.real_time_factor
+        if self.segment.motion.is_driven:
+            factor = min(factor, 2 * current)
+        verdict = f"real-time factor {current:.3g} -> {factor:.3g}"
+        return self._follow("pace", self.segment.set_factor(factor, stamp), stamp, {}, verdict)
+
+    def hold_torque(self, stamp: int, torque: Sequence[float], frame: str = "") -> Change:
+        """Apply a torque (3,) in N m until its time-out."""
+        world = self.settings.world_frame
+        if frame not in ("", world):
+            raise refuse("applied_torque frame_id", f'"{world}" or empty', frame)
+        x, y, z = vector("applied_torque", torque, 3, MAX_MOMENT, "N m, world frame")
+        end = stamp + round(self.settings.applied_torque_timeout * NANOSECONDS)
+        held = replace(self, held_torque=(x, y, z), torque_end=end)
+        return held._apply_torque(stamp, "the applied torque changed")
+
+    def release_torque(self, stamp: int) -> Change:
+        """Continue without the held torque."""
+        released = replace(self, held_torque=NO_TORQUE)
+        return released._apply_torque(stamp, "the applied torque timed out")
+
+    def _apply_torque(self, stamp: int, verdict: str) -> Change:
+        a, b, c = self.settings.steady_torque
+        x, y, z = self.held_torque
+        total, segment = (a + x, b + y, c + z), self.segment
+        if total != segment.motion.applied_torque:
+            segment = segment.change(stamp, torque=total)
+        return self._follow("torque", segment, stamp, {"torque": total}, verdict)
+
+    def change_settings(self, settings: Settings, stamp: int) -> list[Change]:
+        """Continue from the current state with other settings."""
+        old = self.settings
+        changes = {
+            name: value for name, value in settings.values.items() if value != old.values[name]
+        }
+        if not changes:
+            return []
+        start, segment = self.start, self.segment
+        if settings.initial != old.initial:  # ~/reset then starts from them
+            start = initial_state(settings.top, settings.initial, {})
+        if (settings.top, settings.friction) != (old.top, old.friction):
+            segment = segment.change(stamp, settings.top, settings.friction)
+        if settings.real_time_factor != old.real_time_factor:
+            segment = segment.set_factor(settings.real_time_factor, stamp)
+        if settings.publish_rate != old.publish_rate:
+            segment = segment.equip(settings.rig(self.switched_on))
+        following = replace(self, settings=settings, start=start, segment=segment)
+        verdict = "; ".join(f"{name} is now {value}" for name, value in changes.items())
+        first = self._lead_to(following, "parameters", stamp, changes, verdict)
+        torque = first.following._apply_torque(stamp, "the steady torque changed")
+        return [first, torque] if torque.is_new else [first]
+
+    def _follow(
+        self,
+        name: str,
+        segment: Segment,
+        stamp: int,
+        request: Request,
+        verdict: str | Callable[[], str],
+    ) -> Change:
+        """Return the change to another segment."""
+        return self._lead_to(replace(self, segment=segment), name, stamp, request, verdict)
+
+    def _lead_to(
+        self,
+        following: Timeline,
+        name: str,
+        stamp: int,
+        request: Request,
+        verdict: str | Callable[[], str],
+    ) -> Change:
+        if following.segment.motion is not self.segment.motion:
+            following = replace(following, since=_describe_origin(name, stamp))
+        is_new = following.segment is not self.segment
+        return Change(following, name, stamp, request, self.segment, is_new, verdict)
+
+
+@dataclass(frozen=True)
+class Change:
+    """A timeline that follows, and the event that says how it came about."""
+
+    following: Timeline
+    name: str  # of the event
+    stamp: int  # ns, from which on it holds
+    request: Request
+    previous: Segment
+    is_new: bool  # False if the motion continues as it was
+    verdict: str | Callable[[], str]  # a sentence; computed late, because it takes a millisecond
+    before: State | None = None  # the state before the change, if it is not the one at the stamp
+
+    def describe(self) -> str:
+        """Return the consequence of the change, in a sentence."""
+        return self.verdict if isinstance(self.verdict, str) else self.verdict()
+
+    def event(self, verdict: str) -> Event:
+        """Return the event."""
+        before = self.before or self.previous.state_at(self.stamp)
+        return Event.of(
+            self.stamp,
+            self.name,
+            verdict,
+            self.request,
+            before,
+            self.following.segment,
+            self.following.settings.top_frame,
+        )
+
+
+def _describe_origin(name: str, stamp: int) -> str:
+    return f"{name} at stamp {stamp / NANOSECONDS:.9f} s"
+
+
+def _seconds(segment: Segment) -> str:
+    return f"{segment.time_at(segment.stamp):.6f} s of the motion"
