@@ -12,7 +12,7 @@ MCAP = {"mcap", "lz4", "zstandard"}
 RERUN = {"rerun", "rerun_cli"}
 PEERS = {"CyRK", "ahrs", "diffrax", "exudyn", "heyoka", "jax", "mujoco", "pinocchio", "pydrake"}
 # Files of the package itself.
-TOP = {"__init__", "arrays", "demo", "distribution", "programs", "shutdown"}
+TOP = {"__init__", "arrays", "demo", "distribution", "programs", "quaternions", "shutdown"}
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
@@ -20,26 +20,34 @@ ARROWS = {
     "wire": (set(), {"numpy"}),
     "simulation": ({"physics", "wire"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy"}),
-    "log": ({"__init__", "physics", "simulation", "wire"}, {"numpy", *MCAP}),
+    "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
     "playback": ({"drawing", "log", "physics", "simulation"}, {"numpy", *RERUN}),
+    "session": ({"__init__", "log", "physics", "simulation", "wire"}, set()),
     "node": (
-        {"distribution", "log", "physics", "shutdown", "simulation", "wire"},
+        {"distribution", "session", "shutdown", "simulation", "wire"},
         {
             *("rclpy", "rcl_interfaces", "std_srvs"),
             *("builtin_interfaces", "geometry_msgs", "visualization_msgs"),
         },
     ),
-    "client": ({"shutdown", "simulation"}, {"rclpy", "rcl_interfaces", "sensor_msgs", "std_srvs"}),
+    # of session only the table of services, which imports nothing
+    "client": (
+        {"session", "shutdown", "simulation"},
+        {"rclpy", "rcl_interfaces", "sensor_msgs", "std_srvs"},
+    ),
     "live": (
         {"log", "playback", "shutdown", "simulation"},
         {"rclpy", "rerun"},
     ),
     "panel": (
         # client, live and rclpy: only in node_source.py, which main.py imports for --node
-        {"client", "drawing", "live", "log", "physics", "shutdown", "simulation", "wire"},
+        {
+            *("client", "drawing", "live", "log", "physics"),
+            *("session", "shutdown", "simulation", "wire"),
+        },
         {
             *("numpy", "viser", "websockets", "imageio"),
-            *("rclpy", "rcl_interfaces", "std_srvs", "geometry_msgs"),
+            *("rclpy", "geometry_msgs"),
         },
     ),
     "article": (
@@ -62,7 +70,7 @@ ARROWS = {
 def imports(folder):
     """Top-level packages that the files of a folder import, own folders by their names.
 
-    Every folder may use the types in `arrays`.
+    Every folder may use `arrays` and `quaternions`.
     """
     own, others = set(), set()
     for path in sorted((PACKAGE / folder).rglob("*.py")):
@@ -78,7 +86,7 @@ def imports(folder):
                     own.add(rest.partition(".")[0] or "__init__")
                 elif package not in sys.stdlib_module_names:
                     others.add(package)
-    return own - {folder, "arrays"}, others
+    return own - {folder, "arrays", "quaternions"}, others
 
 
 @pytest.mark.parametrize("folder", ARROWS)

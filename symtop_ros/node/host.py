@@ -27,15 +27,22 @@ class NodePublisher:
     @property
     def has_subscriber(self) -> bool:
         """True if the topic has a subscriber."""
-        return bool(self._publisher.get_subscription_count())
+        try:
+            return bool(self._publisher.get_subscription_count())
+        except RuntimeError:
+            self._raise_unless_ending()
+            return False
 
     def publish(self, data: bytes) -> None:
         """Publish an encoded message."""
         try:
             self._publisher.publish(data)
         except RuntimeError:
-            if self._context.ok():
-                raise
+            self._raise_unless_ending()
+
+    def _raise_unless_ending(self) -> None:
+        if self._context.ok():
+            raise  # noqa: PLE0704 (the error that is being handled)
 
 
 class NodeHost:

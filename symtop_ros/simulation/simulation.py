@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from symtop_ros.physics import State
@@ -146,7 +146,8 @@ class Simulation:
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
             self._sink.report_error(failure)
-            self.apply(self.timeline.report("failure", failure, {}, stamp))
+            change = self.timeline.report("failure", failure, {}, stamp)
+            self.apply(replace(change, before=before.segment.state_at(stamp)))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
         """Carry out a request in a turn; return success and the answer.

@@ -11,8 +11,8 @@ from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.running_top import LATCHED
 from programs import environment
-from symtop_ros.node.outputs import Output
 
+from symtop_ros.session.outputs import Output, Outputs
 from symtop_ros.simulation.simulation import Simulation
 
 DOMAIN = claim_domain()
@@ -71,8 +71,8 @@ def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
 
 
 def test_one_after_a_torque_was_applied_leaves_the_log_exact(run, failures, monkeypatch):
-    def apply_then_fail(simulation, stamp, _verdict):
-        simulation.segment = simulation.segment.change(stamp, torque=(0.0, 0.0, 1e-4))
+    def apply_then_fail(simulation, change):
+        simulation.timeline = change.following
         fail()
 
     monkeypatch.setattr(Simulation, "_apply_torque", apply_then_fail)
@@ -83,10 +83,10 @@ def test_one_after_a_torque_was_applied_leaves_the_log_exact(run, failures, monk
 
 
 def test_one_in_each_of_the_diagnostics_is_reported_once(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.node.top_node.collect_statuses", fail)
+    monkeypatch.setattr("symtop_ros.session.session.collect_statuses", fail)
     run.spin_until(failures)
     for _ in range(3):
-        run.top._diagnose()
+        run.top.session.keep_up()
     heard = run.collect(DiagnosticArray, "/diagnostics")
     monkeypatch.undo()
     run.spin_until(lambda: heard)
@@ -95,7 +95,7 @@ def test_one_in_each_of_the_diagnostics_is_reported_once(run, failures, monkeypa
 
 
 def test_one_in_the_check_of_parameters_refuses_them(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.node.top_node.Settings.from_values", fail)
+    monkeypatch.setattr("symtop_ros.session.session.Settings.from_values", fail)
     report = f"a check of parameters failed: {BUG}"
     values = {"hurry_factor": 1.2}
     assert run.connection.set("set_parameters_atomically", values) == (False, report)
@@ -109,7 +109,7 @@ def test_one_in_the_check_of_parameters_refuses_them(run, failures, monkeypatch)
 def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
     run, failures, monkeypatch
 ):
-    monkeypatch.setattr(Simulation, "_send_description", fail)
+    monkeypatch.setattr(Outputs, "send_description", fail)
     run.connection.set("set_parameters_atomically", {"top.Mgl": 0.05})
     run.spin_until(failures)
     monkeypatch.undo()
@@ -118,7 +118,7 @@ def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
 
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.session.requests.kick_verdict", fail)
+    monkeypatch.setattr("symtop_ros.simulation.timeline.kick_verdict", fail)
     for _ in range(2):
         assert run.trigger("hurry_precession") == (False, f"~/hurry_precession failed: {BUG}")
     run.spin_until(lambda: len(failures()) == 2)
@@ -129,7 +129,7 @@ def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, m
 def test_the_log_has_the_sample_complete_in_which_ros_ends(run, tmp_path, monkeypatch):
     heard = run.collect(QuaternionStamped, "/top/orientation")
     run.spin_until(lambda: len(heard) > 10)
-    first = run.top._outputs._samples["orientation"][0]
+    first = run.top.session._outputs._samples["orientation"][0]
     send = Output.send
 
     def send_and_end(output, stamp, data):
@@ -166,7 +166,7 @@ sys.exit(top_node())
 @pytest.mark.parametrize(
     ("module", "name", "method"),
     [
-        ("node.outputs", "Outputs", "send_sample"),
+        ("session.outputs", "Outputs", "send_sample"),
         ("simulation.simulation", "Simulation", "_publish"),
     ],
 )

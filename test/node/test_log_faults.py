@@ -117,15 +117,15 @@ def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_p
     assert recording.errors == [f"recording stopped: {path}: the file was removed"]
 
 
-def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path, monkeypatch):
+def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
     recording = Recording(start_top, tmp_path)
-    monkeypatch.setattr(type(recording.run.top), "_diagnose", lambda _: None)
+    recorder = recording.run.top.session._recorder
     paths = []
     for _ in range(2):
         paths.append(recording.begin())
         paths[-1].unlink()
-        recording.run.spin_until(lambda: recording.run.top._recorder.failure)
-    assert not recording.run.top._recorder.running
+        recording.run.spin_until(lambda: recorder.failure)
+    assert not recorder.running
     assert recording.run.switch("record", False) == (True, "not recording")
     recording.run.spin_until(lambda: len(recording.errors) == 2)
     assert recording.errors == [

@@ -1,6 +1,6 @@
 from types import SimpleNamespace
 
-from symtop_ros.node.diagnostics import _log_status, _pace_status
+from symtop_ros.session.diagnostics import _log_status, _pace_status
 from symtop_ros.wire.diagnostics import OK, WARN
 
 
