@@ -32,7 +32,7 @@ def follow_keys(top: Connection) -> None:
     with _single_keys(sys.stdin.fileno()) as descriptor:
         print("\n".join(f"{key.name:<12}{key.effect}" for key in KEYS.values()))
         print(f"{'q':<12}quit", flush=True)
-        for key in _pressed(descriptor):
+        for key in _read_keys(descriptor):
             if key in QUIT:
                 return
             if key in KEYS:
@@ -107,7 +107,7 @@ def _single_keys(descriptor: int) -> Iterator[int]:
         termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
 
 
-def _pressed(descriptor: int) -> Iterator[str]:
+def _read_keys(descriptor: int) -> Iterator[str]:
     """Yield keys until ROS shuts down or the terminal is closed."""
     while rclpy.ok():
         if select.select([descriptor], [], [], WAIT)[0]:

@@ -45,7 +45,7 @@ class Ghost:
 
 
 def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
-    """Return the ghost's segment from the begin of `after` on, which follows `before`."""
+    """Return the ghost's segment from the start of `after` on, which follows `before`."""
     stamp, old, new = after.stamp, before.motion, after.motion
     added = (new.top, new.friction, new.applied_torque)
     timing = replace(ghost, factor=after.factor, running=after.running, stamp=stamp)

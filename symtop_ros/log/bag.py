@@ -1,6 +1,6 @@
 """Runs in several files: rosbag2 folders, split recordings, and bags of rosbag2's sqlite3 storage.
 
-A bag of any kind is read like one `McapFile`, as a `Source`.
+A bag of any kind is read like one `McapFile`, as a `MessageSource`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp, i
 TOPICS = "SELECT id, name, type, serialization_format FROM topics"
 
 
-class Source(Protocol):
+class MessageSource(Protocol):
     """Messages of a log, in the order of their times, with the descriptions of their channels.
 
     The attributes are those of `McapFile`.
@@ -46,7 +46,7 @@ class Source(Protocol):
         """Yield lists of messages."""
 
 
-def open_run(paths: Sequence[Path]) -> Source:
+def open_run(paths: Sequence[Path]) -> MessageSource:
     """Open files and rosbag2 folders as one run; their order does not matter."""
     files = [file for path in paths for file in _files_of(path)]
     if len(files) > MAX_FILES:
@@ -68,14 +68,14 @@ def _files_of(path: Path) -> list[Path]:
     return files
 
 
-def _open(path: Path) -> Source:
+def _open(path: Path) -> MessageSource:
     return SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
 
 
 class SeveralFiles:
     """Several logs, read one after the other in the order of their first messages."""
 
-    def __init__(self, path: Path, sources: Sequence[Source]) -> None:
+    def __init__(self, path: Path, sources: Sequence[MessageSource]) -> None:
         self.path = path
         self._sources = sorted(sources, key=_begin)
         self.schemas: dict[int, Schema] = {}
@@ -105,7 +105,7 @@ class SeveralFiles:
                     for each in messages
                 ]
 
-    def _describe(self, place: int, source: Source) -> None:
+    def _describe(self, place: int, source: MessageSource) -> None:
         """Take over the channels of a file that are new."""
         for number, channel in list(source.channels.items()):
             mine = self._number(place, number)
@@ -118,7 +118,7 @@ class SeveralFiles:
         return self._numbers.setdefault((place, number), len(self._numbers) + 1)
 
 
-def _begin(source: Source) -> tuple[int, str]:
+def _begin(source: MessageSource) -> tuple[int, str]:
     """Return the time of the first message, and the name for files that begin together."""
     first = next(source.chunks(), [])
     return (first[0].log_time if first else 0), source.path.name

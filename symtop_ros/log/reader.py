@@ -122,7 +122,7 @@ class McapFile:
             for record in self._records(file):
                 self.offset = record.end
                 if damaged and record.opcode == Opcode.MESSAGE_INDEX:
-                    lost += _indexed(record.data)
+                    lost += _count_indexed(record.data)
                     continue
                 self._report_damage(damaged, lost)
                 lost = 0
@@ -279,7 +279,7 @@ def _size(description: Description) -> int:
     return 500 + sum(len(key) + len(value) for key, value in description.metadata.items())
 
 
-def _indexed(data: bytes) -> int:
+def _count_indexed(data: bytes) -> int:
     """Return the number of messages in an index: 16 bytes each after channel and size."""
     return max(0, len(data) - 6) // 16
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from mcap.records import Message
 
-from symtop_ros.log.bag import Source
+from symtop_ros.log.bag import MessageSource
 from symtop_ros.log.batch import TF, Batch, BatchReader
 from symtop_ros.log.reader import LogError
 from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS, SENSOR_TOPICS
@@ -23,7 +23,7 @@ TYPES = {topic.name: topic.type for topic in (EVENTS, *SAMPLE_TOPICS.values())}
 class TopLog:
     """The run of one top."""
 
-    def __init__(self, file: Source, node: str | None = None) -> None:
+    def __init__(self, file: MessageSource, node: str | None = None) -> None:
         self.file, self.node = file, node
         self._asked = f" {node}" if node else ""
         # full names of the topics that were found, by their names in `simulation.topics`
@@ -33,7 +33,7 @@ class TopLog:
         self._reader = BatchReader()
 
     def batches(self) -> Iterator[Batch]:
-        """Yield the run from its begin to its end."""
+        """Yield the run from its start to its end."""
         if self.node is None:
             self.node = self._find_node()
         for messages in self._runs():

@@ -14,7 +14,7 @@ from rclpy.node import Node
 
 from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import refuse
+from symtop_ros.simulation.validation import reject
 
 DEFAULT_SCENE = "cusps"
 GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
@@ -34,7 +34,7 @@ def declare_parameters(node: Node) -> Settings:
     scene = load_scene(name)
     for key in scene:
         if key not in PARAMETERS:
-            raise refuse(f"parameter in scene {name}", f"one of {', '.join(PARAMETERS)}", key)
+            raise reject(f"parameter in scene {name}", f"one of {', '.join(PARAMETERS)}", key)
     defaults = {"top_frame": _default_frame(node.get_namespace()), **scene}
     for key, parameter in PARAMETERS.items():
         descriptor = _descriptor(parameter.description, parameter.condition, parameter.read_only)
@@ -66,7 +66,7 @@ def _check_unknown_names(node: Node) -> None:
             continue
         nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
         if name.partition(".")[0] in GROUPS:
-            raise refuse("parameter name", f"known (the nearest is {nearest})", name)
+            raise reject("parameter name", f"known (the nearest is {nearest})", name)
         node.get_logger().warning(
             f"parameter {name!r} is unknown and not used (nearest: {nearest})"
         )

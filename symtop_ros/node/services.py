@@ -11,8 +11,8 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
-from symtop_ros.session.services import Kind
-from symtop_ros.simulation.validation import RefusedError, refuse, show
+from symtop_ros.session.services import ServiceKind
+from symtop_ros.simulation.validation import RefusedError, reject, show
 
 VALUE_FIELDS = (
     *("bool_value", "integer_value", "double_value", "string_value"),
@@ -20,7 +20,7 @@ VALUE_FIELDS = (
 )
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
 # By the kind of a service: its ROS type, and how the argument of the request is read.
-TYPES: dict[Kind, tuple[type, Callable[[Any], Any]]] = {
+TYPES: dict[ServiceKind, tuple[type, Callable[[Any], Any]]] = {
     "named": (SetParametersAtomically, lambda request: read_values(request.parameters)),
     "switch": (SetBool, lambda request: bool(request.data)),
     "plain": (Trigger, lambda _: None),
@@ -47,7 +47,7 @@ def read_values(parameters: Iterable[ParameterMessage]) -> dict[str, Any]:
             msg = f"{show(name)} must be given once, got it more than once"
             raise RefusedError(msg)
         if value is None:
-            raise refuse(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
+            raise reject(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
         values[name] = value
     return values
 
@@ -68,7 +68,7 @@ def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:
     last = ParameterType.PARAMETER_STRING_ARRAY
     for parameter in parameters:
         if parameter.value.type > last:
-            raise refuse(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)
+            raise reject(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)
 
 
 def guard_types(service: Any, handler: Handler) -> Handler:

@@ -24,7 +24,7 @@ from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
-from symtop_ros.simulation.validation import RefusedError, one_line, refuse
+from symtop_ros.simulation.validation import RefusedError, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
 
 SIM_TIME = "use_sim_time"
@@ -153,7 +153,7 @@ class TopNode(Node):
             reason = self.session.hold_torque(vector, message.header.frame_id)
         else:
             got = (force.x, force.y, force.z)
-            reason = str(refuse("applied_torque force", "0 (only the torque acts)", got))
+            reason = str(reject("applied_torque force", "0 (only the torque acts)", got))
         if reason:
             self.get_logger().warning(reason, throttle_duration_sec=1.0)
 

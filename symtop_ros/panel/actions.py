@@ -19,7 +19,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.initial import FIELDS
 from symtop_ros.simulation.presets import load_scene
 from symtop_ros.simulation.settings import PARAMETERS
-from symtop_ros.simulation.validation import RefusedError, number, refuse
+from symtop_ros.simulation.validation import RefusedError, number, reject
 
 SCENE_PARAMETERS = ("top.", "initial.", "friction.", "steady_torque", "hurry_factor")
 TOP_PARAMETERS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
@@ -197,7 +197,7 @@ def read_link(texts: Mapping[str, str]) -> tuple[dict[str, float], dict[str, Any
             initial[name] = text if name in WORDS else _read_number(name, text)
         else:
             known = [each for each in FIELDS if each not in ("orientation", "angular_velocity")]
-            raise refuse("name in a link", f"one of scene, {', '.join([*LINKED, *known])}", name)
+            raise reject("name in a link", f"one of scene, {', '.join([*LINKED, *known])}", name)
     return top, initial
 
 

@@ -103,7 +103,7 @@ class Controls:
             return
         self._record.label = "End the recording" if run.is_recording else "Record (MCAP)"
         self._others.options = ("Delay", "Pause" if segment.running else "Run", "Step", "Reset")
-        for entry, event in zip(self._entries, self._listed(), strict=False):
+        for entry, event in zip(self._entries, self._list_history(), strict=False):
             entry.label, entry.visible = _describe(event), True
         for entry in self._entries[len(run.history) :]:
             entry.visible = False
@@ -140,7 +140,7 @@ class Controls:
             _set(self._psi_dot, round(float(rates.psi), 3))
             self._mark_rates(float(rates.phi))
 
-    def _listed(self) -> list[Event]:
+    def _list_history(self) -> list[Event]:
         return list(self._run.history)[: -LISTED - 1 : -1]
 
     # What a user can do
@@ -260,7 +260,7 @@ class Controls:
 
         @entry.on_click
         def _(_: GuiEvent[GuiButtonHandle]) -> None:
-            listed = self._listed()
+            listed = self._list_history()
             if k < len(listed):
                 self._actions.restart_from(listed[k])
 

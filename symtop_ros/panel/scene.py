@@ -36,7 +36,7 @@ SHORTEST = 0.02  # scene units; shorter arrows have no direction that can be see
 GHOST_OPACITY = 0.28
 HANDLE_RADIUS = 0.055
 SENSOR = "specific force"  # drawn if the top carries a sensor
-# Lengths of the arrows in scene units, for the largest vector at the begin of the motion.
+# Lengths of the arrows in scene units, for the largest vector at the start of the motion.
 LENGTHS = {"L": 1.3, "omega": 1.15, "torque": 0.55, SENSOR: 0.8}
 COLORS = {"L": BLUE, "omega": GREEN, "torque": RED, SENSOR: VIOLET}
 LAYERS = (

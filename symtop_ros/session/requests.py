@@ -9,7 +9,7 @@ from typing import Any
 from symtop_ros.session.summary import summarize_state
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.simulation.validation import RefusedError, number, refuse, validate_names
+from symtop_ros.simulation.validation import RefusedError, number, reject, validate_names
 
 MAX_STEP = 1e9  # s of the motion
 STEPS_OF_A_REQUEST = 6_000  # integration steps; the lock is held for up to 0.5 s
@@ -73,7 +73,7 @@ class Requests:
         if not StepBudget().reach(segment.motion, end, STEPS_OF_A_REQUEST):
             longest = segment.motion.reach(end, 0) - segment.time_at(segment.stamp)
             condition = f"up to {longest:.6g} s in one step under friction or an applied torque"
-            raise refuse("duration", condition, duration)
+            raise reject("duration", condition, duration)
         return duration
 
     def get_state(self) -> str:

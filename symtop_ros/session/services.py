@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-Kind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument
+ServiceKind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument
 
 
 class Service(NamedTuple):
     """A service."""
 
-    kind: Kind
+    kind: ServiceKind
     command: str  # of top_ctl
     help: str
 

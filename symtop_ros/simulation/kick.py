@@ -23,7 +23,7 @@ from symtop_ros.simulation.validation import (
     choice,
     exactly_one,
     number,
-    refuse,
+    reject,
     validate_names,
     vector,
 )
@@ -61,7 +61,7 @@ def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
         after = _change_precession(state, kind, request[kind], hold)
     if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
         condition = f"such that the top stays below {MAX_RATE:g} rad/s"
-        raise refuse(kind, condition, request[kind])
+        raise reject(kind, condition, request[kind])
     return Kick(Motion(top, after, motion.friction, motion.applied_torque), hold)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from symtop_ros.simulation.validation import RefusedError, one_line, refuse, show
+from symtop_ros.simulation.validation import RefusedError, one_line, reject, show
 
 CONFIG = Path("share", "symtop_ros", "config")
 # Limits of a file that is read. YAML with aliases can grow without bound ("billion laughs"), and
@@ -39,7 +39,7 @@ def load_scene(name: object) -> dict[str, Any]:
     """Return the parameters that a scene sets, by their full names."""
     names = scene_names()
     if name not in names:
-        raise refuse("scene", f"one of {', '.join(names)}", name)
+        raise reject("scene", f"one of {', '.join(names)}", name)
     path = config_folder() / f"{name}.yaml"
     try:
         _refuse_bombs(path)
@@ -90,7 +90,7 @@ def _refuse_bombs(path: Path) -> None:
 def _value(name: str, value: Any) -> Any:
     """Return a value if ROS has a type for it: YAML also knows dates, sets and big integers."""
     if not all(map(_has_ros_type, value if isinstance(value, list) else [value])):
-        raise refuse(show(name), "a number, a text, true, false, or a list of them", value)
+        raise reject(show(name), "a number, a text, true, false, or a list of them", value)
     return value
 
 

@@ -19,7 +19,7 @@ from symtop_ros.simulation.validation import (
     describe_range,
     flag,
     number,
-    refuse,
+    reject,
     vector,
 )
 
@@ -80,7 +80,7 @@ def _printable(condition: str, max_length: int, name: str, value: Any) -> str:
     if not (isinstance(value, str) and value.strip() and value.isprintable()) or (
         len(value) > max_length
     ):
-        raise refuse(name, condition, value)
+        raise reject(name, condition, value)
     return value
 
 
@@ -102,19 +102,19 @@ def _precession(name: str, value: Any) -> str:
     return choice(name, value, ("", *PRECESSIONS))
 
 
-def _fixed(parameter: Parameter) -> Parameter:
+def _fix(parameter: Parameter) -> Parameter:
     """Return a parameter that can only be set at the start."""
     return replace(parameter, read_only=True)
 
 
 def _noise(description: str, unit: str) -> Parameter:
-    return _fixed(_number(0.0, description, unit, 0.0, MAX_NOISE))
+    return _fix(_number(0.0, description, unit, 0.0, MAX_NOISE))
 
 
 def _seed(name: str, value: Any) -> int:
     seed = number(name, value, "", 0, MAX_SEED)
     if seed != int(seed):
-        raise refuse(name, f"a whole number, 0 to {MAX_SEED}", value)
+        raise reject(name, f"a whole number, 0 to {MAX_SEED}", value)
     return int(seed)
 
 
@@ -157,10 +157,10 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "record.max_size": _number(0.0, "size at which a new log begins; 0: none", "B", 0.0, 1e15),
     "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
-    "gravity": _fixed(_number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3)),
+    "gravity": _fix(_number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3)),
     "imu.enabled": _flag(False, "publish ~/imu", read_only=True),
-    "imu.position": _fixed(_vector("place of the sensor, body frame", 3, MAX_ARM, "m")),
-    "imu.orientation": _fixed(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),
+    "imu.position": _fix(_vector("place of the sensor, body frame", 3, MAX_ARM, "m")),
+    "imu.orientation": _fix(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),
     "imu.noise.gyroscope_noise_density": _noise("white noise", "rad/s/sqrt(Hz)"),
     "imu.noise.gyroscope_random_walk": _noise("random walk of the bias", "rad/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),

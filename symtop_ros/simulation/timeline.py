@@ -18,7 +18,7 @@ from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.kick import plan_kick
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
-from symtop_ros.simulation.validation import refuse, vector
+from symtop_ros.simulation.validation import reject, vector
 from symtop_ros.wire.layout import NANOSECONDS
 
 Request = Mapping[str, Any]
@@ -120,7 +120,7 @@ class Timeline:
         """Apply a torque (3,) in N m until its time-out."""
         world = self.settings.world_frame
         if frame not in ("", world):
-            raise refuse("applied_torque frame_id", f'"{world}" or empty', frame)
+            raise reject("applied_torque frame_id", f'"{world}" or empty', frame)
         x, y, z = vector("applied_torque", torque, 3, MAX_MOMENT, "N m, world frame")
         end = stamp + round(self.settings.applied_torque_timeout * NANOSECONDS)
         held = replace(self, held_torque=(x, y, z), torque_end=end)

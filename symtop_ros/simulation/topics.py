@@ -28,7 +28,7 @@ class Topic:
     """A topic."""
 
     # name in the form that ROS resolves; `~` stands for the name of the node, and a name
-    # without `~` or `/` at its begin is in the namespace of the node
+    # without `~` or `/` at its start is in the namespace of the node
     ros_name: str
     type: str  # message type, such as "std_msgs/msg/String"
     depth: int = 100  # messages that are kept for a slow (or, if latched, a late) subscriber

@@ -22,7 +22,7 @@ class RefusedError(ValueError):
     """A request that is refused; its text is the answer."""
 
 
-def refuse(name: str, condition: str, got: object) -> RefusedError:
+def reject(name: str, condition: str, got: object) -> RefusedError:
     """Return the refusal of a value."""
     return RefusedError(f"{name} must be {condition}, got {show(got)}")
 
@@ -38,7 +38,7 @@ def validate_names(values: Mapping[str, Any], names: Collection[str]) -> None:
     """Refuse a mapping with a name that is not one of `names`."""
     for name in values:
         if name not in names:
-            raise refuse("field name", f"one of {', '.join(names)}", name)
+            raise reject("field name", f"one of {', '.join(names)}", name)
 
 
 def number(
@@ -50,9 +50,9 @@ def number(
     if isinstance(value, str) and NUMBER.fullmatch(value):
         value = float(value)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise refuse(name, condition, value)
+        raise reject(name, condition, value)
     if not low <= value <= high or not math.isfinite(value):
-        raise refuse(name, condition, value)
+        raise reject(name, condition, value)
     return float(value)
 
 
@@ -78,20 +78,20 @@ def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[f
         return tuple(number(name, part, unit, -limit, limit) for part in parts)
     except RefusedError:
         condition = f"{size} numbers from {-limit:g} to {limit:g} ({unit})"
-        raise refuse(name, condition, list(parts)) from None
+        raise reject(name, condition, list(parts)) from None
 
 
 def choice(name: str, value: object, options: tuple[str, ...]) -> str:
     """Return one of some words."""
     if not isinstance(value, str) or value not in options:
-        raise refuse(name, " or ".join(f'"{option}"' for option in options), value)
+        raise reject(name, " or ".join(f'"{option}"' for option in options), value)
     return value
 
 
 def flag(name: str, value: object) -> bool:
     """Return True or False; numbers and text are refused."""
     if not isinstance(value, bool):
-        raise refuse(name, "true or false", value)
+        raise reject(name, "true or false", value)
     return value
 
 

@@ -40,7 +40,7 @@ from symtop_ros.physics.exact.elementary import (
 Exponentials = tuple[list[float], list[float]]
 
 
-class Numerator(NamedTuple):
+class ComplementaryNumerator(NamedTuple):
     """One theta function without its factor 1 - w, and what 1 - w is made of."""
 
     real: Exponentials  # of the cofactor
@@ -143,12 +143,12 @@ class ComplementarySeries:
         return math.pi / self._Kc * in_y - math.pi / self._K * turn * value
 
 
-def _sum_cofactor(each: Numerator, basis: Basis) -> Pair:
+def _sum_cofactor(each: ComplementaryNumerator, basis: Basis) -> Pair:
     imaginary = basis.sign * _sum_exponentials(each.imaginary, basis.h, basis.E)
     return _sum_exponentials(each.real, basis.h, basis.E), imaginary
 
 
-def _compute_one_minus_w(each: Numerator, basis: Basis) -> Pair:
+def _compute_one_minus_w(each: ComplementaryNumerator, basis: Basis) -> Pair:
     """Return 1 - w = (1 - r) + r (1 - cos(phi)) -+ i r sin(phi), with r = |w| = E or h.
 
     Both terms of the real part are positive: nothing cancels where w is near 1.
@@ -174,7 +174,7 @@ def _sum_slopes(coefficients: Exponentials, h: float, E: float) -> float:
     )
 
 
-def _expand_numerator(q: float, Kc: float, shift: Shift) -> Numerator:
+def _expand_numerator(q: float, Kc: float, shift: Shift) -> ComplementaryNumerator:
     """Return the coefficients of a numerator divided by 1 - w: of 1 and h^n, and of E^n.
 
     The cofactor is the sum over k of (-1)^k q^(k^2 + k) (1 + w + 1/w + ... + w^k + 1/w^k). With
@@ -192,7 +192,7 @@ def _expand_numerator(q: float, Kc: float, shift: Shift) -> Numerator:
         size * turn.conjugate() for size, turn in zip([powers[0], *of_h[1:]], turns, strict=True)
     ]
     falling = [size * turn for size, turn in zip(of_E[1:], turns[1:], strict=True)]
-    return Numerator(
+    return ComplementaryNumerator(
         real=([c.real for c in rising], [c.real for c in falling]),
         imaginary=([c.imag for c in rising], [c.imag for c in falling]),
         angle=shift.sign * math.pi * (1 - shift.complement / Kc),

@@ -37,7 +37,7 @@ NEGLIGIBLE = 2.0**-60  # of the largest coefficient, which is 1: such a term cha
 VERSINE_FACTORS = (2, 8, 2, 32)
 
 
-class Numerator(NamedTuple):
+class DirectNumerator(NamedTuple):
     """Coefficients of one theta function; the denominator theta_4 has the same form."""
 
     even: list[float]  # of cos(n x), n = 0, 1, ...
@@ -65,7 +65,7 @@ class DirectSeries:
 
     def _collect(
         self, even: list[float], odd: list[float], least: float, shift: Shift
-    ) -> Numerator:
+    ) -> DirectNumerator:
         """Return the coefficients up to the order in use.
 
         About the upper turning point cos(n x) is (-1)^n cos(n delta).
@@ -75,7 +75,7 @@ class DirectSeries:
             parity = 1 if shift.is_below else (-1) ** n
             versines.append(-factor * parity * even[n])
         end = self._order + 1
-        return Numerator(even, odd[1:end], versines[:end], shift.is_below, shift.winding)
+        return DirectNumerator(even, odd[1:end], versines[:end], shift.is_below, shift.winding)
 
     def values(self, at: Location) -> list[Pair]:
         """Return real and imaginary parts of the three quotients."""
