@@ -1,0 +1,133 @@
+"""Topics of a run: who gets which bytes."""
+
+from pathlib import Path
+
+import pytest
+
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.session.services import SERVICES
+from symtop_ros.session.session import Session
+from symtop_ros.simulation.settings import Settings
+
+SECOND = 1_000_000_000
+
+
+class Clock:
+    now, is_simulated = 0, True
+
+
+class Publisher:
+    """Keeps the bytes that it publishes."""
+
+    def __init__(self):
+        self.has_subscriber, self.sent = False, []
+
+    def publish(self, data):
+        self.sent.append(data)
+
+
+class Program:
+    """A host without ROS that keeps what it is sent."""
+
+    def __init__(self, publishes=True):
+        self.is_open, self._publishes = True, publishes
+        self.publishers, self.samples, self.events = {}, [], []
+        self.said, self.warnings, self.errors = [], [], []
+
+    def resolve(self, topic):
+        return topic.resolve("/top")
+
+    def create_publisher_of(self, topic):
+        if not self._publishes:
+            return None
+        return self.publishers.setdefault(topic.name, Publisher())
+
+    def watch_sample(self, stamp, block):
+        self.samples.append(stamp)
+
+    def watch_event(self, event):
+        self.events.append(event)
+
+    def list_statuses(self):
+        return []
+
+    def inform(self, text):
+        self.said.append(text)
+
+    def warn(self, text):
+        self.warnings.append(text)
+
+    def report_error(self, text):
+        self.errors.append(text)
+
+
+def start(host, scene="cusps", **changes):
+    clock = Clock()
+    session = Session(Settings.from_scene(scene, **changes), clock, host, scene, {})
+    return session, clock
+
+
+def advance(session, clock, seconds):
+    clock.now += round(seconds * SECOND)
+    while (wait := session.simulation.tick()) is not None and wait <= 0:
+        pass
+
+
+def test_a_topic_is_published_while_it_has_a_subscriber_and_a_latched_one_always():
+    host = Program()
+    session, clock = start(host)
+    host.publishers["torque"].has_subscriber = True
+    advance(session, clock, 0.5)
+    assert len(host.publishers["torque"].sent) == len(host.samples) == 101
+    assert host.publishers["orientation"].sent == []
+    assert (
+        len(host.publishers["events"].sent) == len(host.publishers["robot_description"].sent) == 1
+    )
+
+
+def test_the_urdf_moves_by_tf_while_that_is_published():
+    host = Program()
+    session, _ = start(host)
+    session.apply_settings({"publish_tf": False})
+    with_tf, without = host.publishers["robot_description"].sent
+    assert b"floating" in with_tf
+    assert b"floating" not in without
+
+
+def test_a_log_has_all_topics_although_nothing_is_published(tmp_path):
+    host = Program(publishes=False)
+    session, clock = start(host, record__directory=str(tmp_path))
+    assert session.answer("record", lambda: True)[0]
+    advance(session, clock, 0.5)
+    session.keep_up()
+    session.close()
+    (path,) = tmp_path.iterdir()
+    log = TopLog(McapFile(Path(path)))
+    samples = {
+        name: len(each.stamps) for batch in log.batches() for name, each in batch.columns.items()
+    }
+    assert set(samples.values()) == {101}
+    assert log.problems == []
+
+
+@pytest.mark.parametrize("name", SERVICES)
+def test_each_service_is_answered_with_a_sentence(name, tmp_path):
+    host = Program()
+    session, clock = start(host, record__directory=str(tmp_path))
+    advance(session, clock, 0.1)
+    argument = {"named": {}, "switch": True, "plain": None}[SERVICES[name].kind]
+    granted, answer = session.answer(name, lambda: argument)
+    session.close()
+    assert granted == (name not in ("kick", "step")), answer
+    assert answer
+    assert host.errors == []
+
+
+def test_a_refused_torque_is_named_and_leaves_the_motion():
+    session, clock = start(Program())
+    advance(session, clock, 0.1)
+    before = session.simulation.segment
+    reason = session.hold_torque((0.0, 0.0, float("nan")))
+    assert reason.startswith("applied_torque must be 3 numbers")
+    assert session.simulation.segment is before
