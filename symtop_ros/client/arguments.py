@@ -20,11 +20,11 @@ def parse_values(words: Iterable[str]) -> dict[str, Any]:
     for word in words:
         name, equals, text = word.partition("=")
         if not equals or not name:
-            msg = f"argument must be NAME=VALUE, got {one_line(repr(word), MAX_SHOWN)}"
-            raise UsageError(msg)
+            raise UsageError(f"argument must be NAME=VALUE, got {one_line(repr(word), MAX_SHOWN)}")
         if name in values:
-            msg = f"{one_line(name, MAX_SHOWN)} must be given once, got it more than once"
-            raise UsageError(msg)
+            raise UsageError(
+                f"{one_line(name, MAX_SHOWN)} must be given once, got it more than once"
+            )
         values[name] = _value(text)
     return values
 

@@ -83,16 +83,16 @@ class Connection:
     def _call(self, kind: Any, service: str, request: Any) -> Any:
         client = self._client(kind, service)
         if not self.spin_until(client.service_is_ready, self._timeout):
-            msg = (
+            raise UnreachableError(
                 f"no answer from {self.name} within {self._timeout:g} s: "
                 "is top_node running, with the same ROS_DOMAIN_ID and --node?"
             )
-            raise UnreachableError(msg)
         future = client.call_async(request)
         if not self.spin_until(future.done, self._timeout):
             client.remove_pending_request(future)
-            msg = f"{self.name}/{service} did not answer within {self._timeout:g} s"
-            raise UnreachableError(msg)
+            raise UnreachableError(
+                f"{self.name}/{service} did not answer within {self._timeout:g} s"
+            )
         return future.result()
 
 

@@ -27,8 +27,7 @@ QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
 def follow_keys(top: Connection) -> None:
     """Send a request for each key that is pressed, and print the answers, until q or Ctrl-C."""
     if not sys.stdin.isatty():
-        msg = "standard input must be a terminal for keys, got a file or a pipe"
-        raise ValueError(msg)
+        raise ValueError("standard input must be a terminal for keys, got a file or a pipe")
     with _single_keys(sys.stdin.fileno()) as descriptor:
         print("\n".join(f"{key.name:<12}{key.effect}" for key in KEYS.values()))
         print(f"{'q':<12}quit", flush=True)

@@ -27,8 +27,7 @@ def watch(connection: Connection, seconds: float, timeout: float) -> None:
         while time.monotonic() < end:
             latest.clear()
             if not connection.spin_until(lambda: bool(latest), timeout):
-                msg = f"no samples from {connection.name} within {timeout:g} s"
-                raise UnreachableError(msg)
+                raise UnreachableError(f"no samples from {connection.name} within {timeout:g} s")
             end = min(end, time.monotonic() + seconds)
             _show(latest[0])
             connection.spin_until(lambda: False, UPDATE_PERIOD)

@@ -79,15 +79,15 @@ def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
         yield None
         return
     if not web and not viewer.has_screen():
-        msg = f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
-        raise LogError(msg)
+        raise LogError(
+            f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
+        )
     process = viewer.start(port=port, web=web)
     try:
         deadline = time.monotonic() + START_TIMEOUT
         while rclpy.ok() and not _listens(port):
             if process.poll() is not None or time.monotonic() > deadline:
-                msg = f"the Rerun viewer did not start within {START_TIMEOUT:g} s"
-                raise LogError(msg)
+                raise LogError(f"the Rerun viewer did not start within {START_TIMEOUT:g} s")
             time.sleep(0.1)
         yield process
     finally:

@@ -50,8 +50,7 @@ def open_run(paths: Sequence[Path]) -> MessageSource:
     """Open files and rosbag2 folders as one run; their order does not matter."""
     files = [file for path in paths for file in _files_of(path)]
     if len(files) > MAX_FILES:
-        msg = f"a run must have at most {MAX_FILES} files, got {len(files)}"
-        raise LogError(msg)
+        raise LogError(f"a run must have at most {MAX_FILES} files, got {len(files)}")
     sources = [_open(file) for file in dict.fromkeys(files)]
     return sources[0] if len(sources) == 1 else SeveralFiles(paths[0], sources)
 
@@ -63,8 +62,9 @@ def _files_of(path: Path) -> list[Path]:
     if not files:
         compressed = any(path.glob("*.zstd"))
         reason = "its files are compressed as a whole (`ros2 bag convert` writes others)"
-        msg = f"cannot open {path}: {reason if compressed else 'no .mcap or .db3 file in it'}"
-        raise LogError(msg)
+        raise LogError(
+            f"cannot open {path}: {reason if compressed else 'no .mcap or .db3 file in it'}"
+        )
     return files
 
 
@@ -137,11 +137,9 @@ class SqliteBag:
             for number, name, kind, encoding in self._rows(TOPICS):
                 self._add_topic(int(number), str(name), str(kind), str(encoding))
         except OSError as error:
-            msg = f"cannot open {path}: {error.strerror}"
-            raise LogError(msg) from None
+            raise LogError(f"cannot open {path}: {error.strerror}") from None
         except (sqlite3.Error, ValueError) as error:
-            msg = f"cannot open {path}: not a bag of rosbag2 ({error})"
-            raise LogError(msg) from None
+            raise LogError(f"cannot open {path}: not a bag of rosbag2 ({error})") from None
 
     def _add_topic(self, number: int, name: str, kind: str, encoding: str) -> None:
         self.schemas[number] = Schema(number, b"", "ros2msg", kind)

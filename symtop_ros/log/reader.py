@@ -98,20 +98,17 @@ class McapFile:
                 self.size = file.seek(0, 2)  # bytes of the file, and bytes that were read
                 file.seek(0)
                 if file.read(len(MAGIC)) != MAGIC:
-                    msg = f"cannot open {path}: not an MCAP file"
-                    raise LogError(msg)
+                    raise LogError(f"cannot open {path}: not an MCAP file")
                 self._read_summary(file)
         except OSError as error:
-            msg = f"cannot open {path}: {error.strerror}"
-            raise LogError(msg) from None
+            raise LogError(f"cannot open {path}: {error.strerror}") from None
 
     def chunks(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the file, those of a chunk together."""
         try:
             yield from self._read_chunks()
         except OSError as error:
-            msg = f"cannot read {self.path}: {error.strerror}"
-            raise LogError(msg) from None
+            raise LogError(f"cannot read {self.path}: {error.strerror}") from None
 
     def _read_chunks(self) -> Iterator[list[Message]]:
         self.problems.clear()
@@ -208,11 +205,10 @@ class McapFile:
             if self._replace(each) != each:
                 self._described += _size(each)
         if self._described > MAX_DESCRIPTIONS:
-            msg = (
+            raise LogError(
                 f"{self.path} must have at most {MAX_DESCRIPTIONS} bytes of schemas, channels and "
                 "metadata, got more: it is not a log"
             )
-            raise LogError(msg)
 
     def _replace(self, each: Description) -> Description | None:
         """Keep a description and return the one it replaces; most are repeated in each chunk."""
@@ -299,11 +295,9 @@ def _contents(record: Record) -> Contents:
     chunk = Chunk.read(_stream(record.data))
     data = _decompress(chunk)
     if len(data) != chunk.uncompressed_size:
-        msg = "the size differs from the announced one"
-        raise ValueError(msg)
+        raise ValueError("the size differs from the announced one")
     if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
-        msg = "CRC"
-        raise ValueError(msg)
+        raise ValueError("CRC")
     return _parse(data, Places(data), PARSED_IN_CHUNK)
 
 
@@ -320,8 +314,7 @@ class Places:
             opcode, length = RECORD_START.unpack_from(self.data, end)
             begin, end = end + RECORD_START.size, end + RECORD_START.size + length
             if not opcode or end > len(self.data):
-                msg = "not a record"
-                raise ValueError(msg)
+                raise ValueError("not a record")
             yield opcode, begin, end
 
 
@@ -332,8 +325,7 @@ def _parse(data: bytes, places: Iterable[Place], parsed: Mapping[int, Parse]) ->
         if opcode in parsed:
             descriptions.append(parsed[opcode](_stream(data[begin:end])))
         if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
-            msg = "not a message"
-            raise ValueError(msg)
+            raise ValueError("not a message")
     return Contents(descriptions, _messages(data, places))
 
 
@@ -349,8 +341,7 @@ def _decompress(chunk: Chunk) -> bytes:
     """Decompress at most the announced size: hostile data may contain far more."""
     size = chunk.uncompressed_size
     if size > MAX_RECORD:
-        msg = f"{size} bytes are more than {MAX_RECORD}"
-        raise ValueError(msg)
+        raise ValueError(f"{size} bytes are more than {MAX_RECORD}")
     if chunk.compression == "zstd":
         with zstandard.ZstdDecompressor().stream_reader(BytesIO(chunk.data)) as reader:
             return bytes(reader.read(size))

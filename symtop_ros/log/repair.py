@@ -20,11 +20,9 @@ def repair(file: McapFile, target: Path) -> int:
             count = _copy(file, writer)
             writer.finish()  # type: ignore[no-untyped-call]
     except FileExistsError:
-        msg = f"{target} must not exist (nothing is overwritten)"
-        raise LogError(msg) from None
+        raise LogError(f"{target} must not exist (nothing is overwritten)") from None
     except OSError as error:
-        msg = f"cannot write {target}: {error.strerror}"
-        raise LogError(msg) from None
+        raise LogError(f"cannot write {target}: {error.strerror}") from None
     return count
 
 

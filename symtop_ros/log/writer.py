@@ -79,8 +79,7 @@ class LogFile:
         """
         self._writer.flush()  # type: ignore[no-untyped-call]
         if not self._exists():
-            msg = "the file was removed"
-            raise FileNotFoundError(msg)
+            raise FileNotFoundError("the file was removed")
         self._flushed = self._file.tell()
 
     @property

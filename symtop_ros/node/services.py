@@ -44,8 +44,7 @@ def read_values(parameters: Iterable[ParameterMessage]) -> dict[str, Any]:
     for parameter in parameters:
         name, value = parameter.name, _read_value(parameter.value)
         if name in values:
-            msg = f"{show(name)} must be given once, got it more than once"
-            raise RefusedError(msg)
+            raise RefusedError(f"{show(name)} must be given once, got it more than once")
         if value is None:
             raise reject(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
         values[name] = value

@@ -174,8 +174,7 @@ class TopNode(Node):
     def _refuse_own_clock(self, settings: Settings, simulated: Any) -> None:
         """Refuse to follow the /clock that the node itself publishes: it would stand still."""
         if simulated and settings.publish_clock:
-            msg = "publish_clock must be false together with use_sim_time, got true"
-            raise RefusedError(msg)
+            raise RefusedError("publish_clock must be false together with use_sim_time, got true")
 
     def _apply_parameters(self, parameters: list[Parameter]) -> None:
         with self.simulation.turn("a change of parameters"):

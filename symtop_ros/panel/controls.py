@@ -148,7 +148,7 @@ class Controls:
     def _add_acts(self) -> None:
         gui, actions = self._gui, self._actions
         hurry = gui.add_button("Hurry the precession", color=BRAND, icon=Icon.ROTATE_2)
-        hurry.on_click(lambda _: self._hurry())
+        hurry.on_click(lambda _: self._act("Hurry"))
         self._factor = gui.add_slider("factor of phi'", 1.05, 3.0, 0.05, FACTOR)
         self._others = gui.add_button_group("", ("Delay", "Pause", "Step", "Reset"))
         self._others.on_click(lambda event: self._act(event.target.value))
@@ -166,20 +166,12 @@ class Controls:
 
     def _act(self, name: str) -> None:
         acts: dict[str, Act] = {
-            "Delay": self._delay,
+            "Hurry": lambda: self._actions.hurry(_within(self._factor)),
+            "Delay": lambda: self._actions.hurry(1 / _within(self._factor)),
             "Step": self._actions.step,
-            "Reset": self._reset,
+            "Reset": lambda: self._actions.request("reset"),
         }
         acts.get(name, self._actions.toggle_pause)()
-
-    def _hurry(self) -> None:
-        self._actions.hurry(_within(self._factor))
-
-    def _delay(self) -> None:
-        self._actions.hurry(1 / _within(self._factor))
-
-    def _reset(self) -> None:
-        self._actions.request("reset")
 
     def _add_start(self) -> None:
         gui, actions = self._gui, self._actions
@@ -299,10 +291,8 @@ class Controls:
     def _add_keys(self) -> None:
         actions = self._actions
         keys: dict[str, tuple[str, Act]] = {
-            "Hurry": ("H", self._hurry),
-            "Delay": ("D", self._delay),
+            **{name: (name[0], partial(self._act, name)) for name in ("Hurry", "Delay", "Reset")},
             "Pause or resume": ("space", actions.toggle_pause),
-            "Reset": ("R", self._reset),
             "Push the axle up": ("arrowup", lambda: actions.push_tilt(-KEY_PUSH)),
             "Push the axle down": ("arrowdown", lambda: actions.push_tilt(KEY_PUSH)),
             "Push the axle forward": ("arrowright", lambda: actions.push_along(KEY_PUSH)),

@@ -13,6 +13,7 @@ from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.sensor import ALONG, find_body
 from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
     CLOCK,
     DESCRIPTION,
@@ -42,12 +43,8 @@ class Publisher(Protocol):
         """Publish an encoded message."""
 
 
-class Host(Protocol):
-    """The program around a run: the node, or the page."""
-
-    @property
-    def is_open(self) -> bool:
-        """False when the program is shutting down and nothing can be sent."""
+class OutputHost(Host, Protocol):
+    """A host with publishers."""
 
     def resolve(self, topic: Topic) -> str:
         """Return the full name of a topic."""
@@ -64,20 +61,11 @@ class Host(Protocol):
     def list_statuses(self) -> list[Status]:
         """Return its own part of the diagnostics."""
 
-    def inform(self, text: str) -> None:
-        """Inform the user."""
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-
-    def report_error(self, text: str) -> None:
-        """Report an error to the user."""
-
 
 class Output:
     """One topic: its publisher and its channel in the log."""
 
-    def __init__(self, topic: Topic, host: Host, recorder: Recorder) -> None:
+    def __init__(self, topic: Topic, host: OutputHost, recorder: Recorder) -> None:
         self._publisher = host.create_publisher_of(topic)
         self._latched, self._recorder = topic.latched, recorder
         self.channel = recorder.add_channel(host.resolve(topic), topic)
@@ -107,7 +95,7 @@ class Output:
 class Outputs:
     """All topics of a run; the sink of its simulation."""
 
-    def __init__(self, settings: Settings, host: Host, recorder: Recorder) -> None:
+    def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder) -> None:
         def add(topic: Topic) -> Output:
             return Output(topic, host, recorder)
 
@@ -125,11 +113,6 @@ class Outputs:
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
         self.enable_tf(settings.publish_tf)
-
-    @property
-    def is_open(self) -> bool:
-        """False when the program is shutting down."""
-        return self._host.is_open
 
     def enable_tf(self, enabled: bool) -> None:
         """Publish /tf or not; it is always logged."""
@@ -175,14 +158,6 @@ class Outputs:
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""
         return self._recorder.put_first(self._events.channel)
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-        self._host.warn(text)
-
-    def report_error(self, text: str) -> None:
-        """Report an error to the user."""
-        self._host.report_error(text)
 
 
 def list_fixed_frames(settings: Settings) -> list[Transform]:

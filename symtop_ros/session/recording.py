@@ -8,9 +8,8 @@ from pathlib import Path
 
 from symtop_ros import __version__
 from symtop_ros.log.recorder import Limits, Recorder, describe_error
-from symtop_ros.session.outputs import Host
 from symtop_ros.simulation.settings import RecordSettings
-from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.simulation import Host, Simulation
 from symtop_ros.simulation.validation import RefusedError
 
 
@@ -61,8 +60,7 @@ class Recording:
             self._recorder.stop()
             if self._recorder.failure:
                 self.report_failure()
-                msg = f"recording failed: {self._recorder.failure}"
-                raise RefusedError(msg)
+                raise RefusedError(f"recording failed: {self._recorder.failure}")
             return f"recorded to {path}"
         return self._announce(f"recording to {self.begin()}")
 

@@ -62,13 +62,13 @@ class Requests:
     def _read_duration(self, values: Values) -> float:
         validate_names(values, ("duration",))
         if "duration" not in values:
-            msg = f"duration must be 0 to {MAX_STEP:g} s, got none"
-            raise RefusedError(msg)
+            raise RefusedError(f"duration must be 0 to {MAX_STEP:g} s, got none")
         duration = number("duration", values["duration"], "s", 0.0, MAX_STEP)
         segment = self._simulation.segment
         if segment.running:
-            msg = "step must be requested while paused (~/pause), got it while running"
-            raise RefusedError(msg)
+            raise RefusedError(
+                "step must be requested while paused (~/pause), got it while running"
+            )
         end = segment.step(duration, segment.stamp).time_at(segment.stamp)
         if not StepBudget().reach(segment.motion, end, STEPS_OF_A_REQUEST):
             longest = segment.motion.reach(end, 0) - segment.time_at(segment.stamp)

@@ -11,7 +11,7 @@ from typing import Any
 
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.session.diagnostics import collect_statuses
-from symtop_ros.session.outputs import Host, Outputs
+from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.recording import Recording, limits_of
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
@@ -30,14 +30,14 @@ class Session:
         self,
         settings: Settings,
         clock: Clock,
-        host: Host,
+        host: OutputHost,
         scene: str,
         environment: Mapping[str, str],
     ) -> None:
         self._host = host
         self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
         self._outputs = Outputs(settings, host, self._recorder)
-        self.simulation = Simulation(settings, clock, self._outputs)
+        self.simulation = Simulation(settings, clock, self._outputs, host)
         verdict = self.simulation.timeline.verdict
         self.simulation.report("start", verdict, {"scene": scene})
         metadata = {"scene": scene, **environment}

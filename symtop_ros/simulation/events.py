@@ -95,11 +95,13 @@ class Event:
         try:
             return self._segment()
         except (KeyError, TypeError) as error:
-            msg = f"event {self.name!r} must have all values, {error} is missing or incomplete"
-            raise ValueError(msg) from None
+            raise ValueError(
+                f"event {self.name!r} must have all values, {error} is missing or incomplete"
+            ) from None
         except ArithmeticError:
-            msg = f"event {self.name!r} must describe a motion, its numbers are out of range"
-            raise ValueError(msg) from None
+            raise ValueError(
+                f"event {self.name!r} must describe a motion, its numbers are out of range"
+            ) from None
 
     def state(self) -> State:
         """Return the recorded state right after the event (nothing is computed)."""
@@ -120,8 +122,9 @@ class Event:
         )
         factor = "motion.real_time_factor"
         if values["format"] != FORMAT:
-            msg = f"format of an event must be {FORMAT}, got {one_line(values['format'], 20)}"
-            raise ValueError(msg)
+            raise ValueError(
+                f"format of an event must be {FORMAT}, got {one_line(values['format'], 20)}"
+            )
         return Segment(
             motion=Motion(
                 Top(*_numbers(values["top"])),
@@ -154,8 +157,7 @@ def _read_elapsed(text: str) -> Fraction:
     name, limit = "motion.elapsed_ns", MAX_ELAPSED * 1e9
     # Fraction itself would also take 1e999999999, and compute it.
     if not EXACT.fullmatch(text):
-        msg = f"{name} must be a whole number of ns or a fraction, got {text[:60]!r}"
-        raise ValueError(msg)
+        raise ValueError(f"{name} must be a whole number of ns or a fraction, got {text[:60]!r}")
     return _limit(-limit, name, Fraction(text), limit)
 
 
@@ -169,8 +171,7 @@ def _text(value: Any) -> str:
 
 def _limit(low: float, name: str, value: Number, high: float) -> Number:
     if not low <= value <= high:
-        msg = f"{name} must be {low:.6g} to {high:.6g}, got {float(value):.6g}"
-        raise ValueError(msg)
+        raise ValueError(f"{name} must be {low:.6g} to {high:.6g}, got {float(value):.6g}")
     return value
 
 

@@ -42,19 +42,16 @@ def _refuse_contradictions(request: Mapping[str, Any]) -> None:
     direct = [name for name in DIRECT if name in request]
     others = [name for name in FIELDS if name in request and name not in DIRECT]
     if direct and others:
-        msg = f"{direct[0]} must be given without {', '.join(others)}, got both"
-        raise RefusedError(msg)
+        raise RefusedError(f"{direct[0]} must be given without {', '.join(others)}, got both")
     if len(direct) == 1:
         missing = next(name for name in DIRECT if name not in request)
-        msg = f"{missing} must be given together with {direct[0]}, got none"
-        raise RefusedError(msg)
+        raise RefusedError(f"{missing} must be given together with {direct[0]}, got none")
     if "precession" in request and ("phi_dot" in request or request.get("theta_dot", 0.0) != 0.0):
         other = "phi_dot" if "phi_dot" in request else "theta_dot"
-        msg = (
+        raise RefusedError(
             f"precession must be given without {other}, got both "
             "(regular precession determines phi_dot, and theta_dot is 0)"
         )
-        raise RefusedError(msg)
 
 
 def _from_quaternion(orientation: Any, angular_velocity: Any) -> State:
@@ -85,8 +82,7 @@ def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
     count = f"only {roots[0]:.6g} rad/s" if roots else "no real root"
     if len(roots) < len(rates):
         count += f" up to {MAX_RATE:g} rad/s"
-    msg = (
+    raise RefusedError(
         f'precession must be a rate that exists, got "{which}": at theta {theta:g} rad and psi_dot '
         f"{psi_dot:g} rad/s regular precession has {count}"
     )
-    raise RefusedError(msg)

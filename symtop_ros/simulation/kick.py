@@ -52,8 +52,7 @@ def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
     hold: Hold | None = None
     if kind == "angular_impulse":
         if "hold" in request:
-            msg = "hold must be given without angular_impulse, got both"
-            raise RefusedError(msg)
+            raise RefusedError("hold must be given without angular_impulse, got both")
         impulse = vector(kind, request[kind], 3, MAX_IMPULSE, "N m s, world frame")
         after = apply_impulse(top, state, impulse)
     else:

@@ -46,8 +46,9 @@ def load_scene(name: object) -> dict[str, Any]:
         content = yaml.safe_load(path.read_text(encoding="utf-8"))
         parameters = dict(_flatten(content["/**"]["ros__parameters"]))
     except Exception as error:
-        msg = f"scene file {path.name} must be a ROS parameter file for /**, got {_cause(error)}"
-        raise RefusedError(msg) from None
+        raise RefusedError(
+            f"scene file {path.name} must be a ROS parameter file for /**, got {_cause(error)}"
+        ) from None
     return {key: _value(key, value) for key, value in parameters.items()}
 
 
@@ -61,8 +62,7 @@ def _flatten(parameters: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[
     """Yield nested parameters with dots in their names."""
     for key, value in parameters.items():
         if not isinstance(key, str):
-            msg = "a name that is not text"
-            raise ValueError(msg)
+            raise ValueError("a name that is not text")
         if isinstance(value, dict):
             yield from _flatten(value, f"{prefix}{key}.")
         else:
@@ -72,19 +72,16 @@ def _flatten(parameters: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[
 def _refuse_bombs(path: Path) -> None:
     """Refuse files that could grow without bound when they are loaded."""
     if not path.is_file():
-        msg = "no file"
-        raise ValueError(msg)
+        raise ValueError("no file")
     if path.stat().st_size > MAX_BYTES:
-        msg = f"{path.stat().st_size} bytes (limit {MAX_BYTES})"
-        raise ValueError(msg)
+        raise ValueError(f"{path.stat().st_size} bytes (limit {MAX_BYTES})")
     depth = 0
     with path.open(encoding="utf-8") as file:
         for event in yaml.parse(file):
             depth += isinstance(event, yaml.CollectionStartEvent)
             depth -= isinstance(event, yaml.CollectionEndEvent)
             if depth > MAX_DEPTH or isinstance(event, yaml.AliasEvent):
-                msg = f"aliases or more than {MAX_DEPTH} levels"
-                raise ValueError(msg)
+                raise ValueError(f"aliases or more than {MAX_DEPTH} levels")
 
 
 def _value(name: str, value: Any) -> Any:

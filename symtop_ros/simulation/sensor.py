@@ -130,8 +130,7 @@ class Rig:
         """Return the rig of an event."""
         gravity = float(values["gravity"])
         if not 0 < gravity < math.inf:
-            msg = f"gravity must be > 0 m/s^2, got {gravity:g}"
-            raise ValueError(msg)
+            raise ValueError(f"gravity must be > 0 m/s^2, got {gravity:g}")
         if "imu.mount" not in values:
             return cls(gravity)
         a, b, c, x, y, z, w = map(float, values["imu.mount"].split())
@@ -139,8 +138,9 @@ class Rig:
         seed, begin = int(values["imu.seed"]), int(values["imu.begin"])
         numbers = (a, b, c, gyro, gyro_walk, accel, accel_walk, rate)
         if not all(map(math.isfinite, numbers)) or rate <= 0 or not 0 <= seed < 2**63:
-            msg = "the numbers of the imu must be finite, with a rate above 0 and a seed >= 0"
-            raise ValueError(msg)
+            raise ValueError(
+                "the numbers of the imu must be finite, with a rate above 0 and a seed >= 0"
+            )
         imu = Imu((a, b, c), (x, y, z, w), gyro, gyro_walk, accel, accel_walk, seed, rate, begin)
         _ = imu.mount  # refused here if it is no unit quaternion
         return cls(gravity, imu)

@@ -229,13 +229,13 @@ class Settings:
             for name, parameter in PARAMETERS.items()
         }
         if clean["initial.angular_velocity"] and not clean["initial.orientation"]:
-            msg = "initial.angular_velocity must be set together with initial.orientation, got none"
-            raise RefusedError(msg)
+            raise RefusedError(
+                "initial.angular_velocity must be set together with initial.orientation, got none"
+            )
         try:
             top = Top(**_group(clean, "top."))
         except ValueError as error:
-            msg = f"top.{error}"
-            raise RefusedError(msg) from None
+            raise RefusedError(f"top.{error}") from None
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
         odometry = clean["odometry.enabled"]
@@ -276,8 +276,7 @@ def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
     try:
         _ = imu.mount
     except ValueError as error:
-        msg = f"imu.{error}"
-        raise RefusedError(msg) from None
+        raise RefusedError(f"imu.{error}") from None
     return imu if clean["imu.enabled"] else None
 
 

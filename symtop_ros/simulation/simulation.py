@@ -44,12 +44,25 @@ class Clock(Protocol):
         """True if the time is set from outside (use_sim_time)."""
 
 
-class Sink(Protocol):
-    """Destination of samples and events."""
+class Host(Protocol):
+    """The program around a run: the node, or the page."""
 
     @property
     def is_open(self) -> bool:
         """False when the program is shutting down and nothing can be sent."""
+
+    def inform(self, text: str) -> None:
+        """Inform the user."""
+
+    def warn(self, text: str) -> None:
+        """Warn the user."""
+
+    def report_error(self, text: str) -> None:
+        """Report an error to the user."""
+
+
+class Sink(Protocol):
+    """Destination of samples and events."""
 
     def send_sample(self, stamp: int, block: Block) -> None:
         """Send the sample of a stamp (ns) on all topics that somebody needs."""
@@ -62,12 +75,6 @@ class Sink(Protocol):
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-
-    def report_error(self, text: str) -> None:
-        """Report an error to the user."""
 
 
 @dataclass
@@ -83,8 +90,8 @@ class Simulation:
     All public methods may be called from any thread: each takes a lock.
     """
 
-    def __init__(self, settings: Settings, clock: Clock, sink: Sink) -> None:
-        self._clock, self._sink = clock, sink
+    def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
+        self._clock, self._sink, self._host = clock, sink, host
         self._lock = threading.RLock()
         self._failures: dict[str, str] = {}  # by the name of the turn
         self._jumped_to: int | None = None  # ns
@@ -137,7 +144,7 @@ class Simulation:
                 yield turn
                 self._failures.pop(name, None)
             except Exception as error:
-                if not self._sink.is_open:
+                if not self._host.is_open:
                     raise
                 turn.failure = f"{name} failed: {type(error).__name__}: {one_line(error)}"
                 self._report_failure(name, turn.failure, stamp, before)
@@ -145,7 +152,7 @@ class Simulation:
     def _report_failure(self, name: str, failure: str, stamp: int, before: Timeline) -> None:
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
-            self._sink.report_error(failure)
+            self._host.report_error(failure)
             change = self.timeline.report("failure", failure, {}, stamp)
             self.apply(replace(change, before=before.segment.state_at(stamp)))
 
@@ -225,7 +232,7 @@ class Simulation:
         if self.now - self._gap_reported < NANOSECONDS:  # at most one warning a second
             return
         self._gap_reported = self.now
-        self._sink.warn(
+        self._host.warn(
             f"no samples for {missed / self.ticker.rate:.3g} s ({missed} missed): the process was "
             "stopped or has too little CPU time; the motion follows the clock"
         )
@@ -244,7 +251,7 @@ class Simulation:
     def _check_pace(self, stamp: int) -> None:
         """Slow the motion down if it cannot be followed."""
         if self._budget.shortfall:
-            self._sink.warn(self.apply(self.timeline.slow_down(stamp, self._budget.shortfall)))
+            self._host.warn(self.apply(self.timeline.slow_down(stamp, self._budget.shortfall)))
 
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""

@@ -72,8 +72,7 @@ def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[f
         parts = ()
     if len(parts) != size:
         got = len(parts) if parts else show(value)
-        msg = f"{name} must have {size} elements ({unit}), got {got}"
-        raise RefusedError(msg)
+        raise RefusedError(f"{name} must have {size} elements ({unit}), got {got}")
     try:
         return tuple(number(name, part, unit, -limit, limit) for part in parts)
     except RefusedError:
@@ -99,8 +98,9 @@ def exactly_one(values: Mapping[str, Any], names: tuple[str, ...]) -> str:
     """Return which of several names is given; refuse none and more than one."""
     given = [name for name in names if name in values]
     if len(given) != 1:
-        msg = f"a request must have one of {', '.join(names)}, got {' and '.join(given) or 'none'}"
-        raise RefusedError(msg)
+        raise RefusedError(
+            f"a request must have one of {', '.join(names)}, got {' and '.join(given) or 'none'}"
+        )
     return given[0]
 
 

@@ -47,8 +47,9 @@ class Reader:
 
     def __init__(self, data: bytes) -> None:
         if data[:2] != HEADER[:2]:
-            msg = f"encoding must be 0001 (CDR, little-endian), got {bytes(data[:2]).hex() or '-'}"
-            raise DecodeError(msg)
+            raise DecodeError(
+                f"encoding must be 0001 (CDR, little-endian), got {bytes(data[:2]).hex() or '-'}"
+            )
         self._data = data
         self.offset = len(HEADER)
 
@@ -80,8 +81,9 @@ class Reader:
         # Every element takes at least a byte. Without this limit a damaged length of four billion
         # would be used to loop.
         if count > len(self._data) - self.offset:
-            msg = f"a sequence of {count} elements does not fit in {len(self._data)} bytes"
-            raise DecodeError(msg)
+            raise DecodeError(
+                f"a sequence of {count} elements does not fit in {len(self._data)} bytes"
+            )
         return count
 
     def strings(self) -> tuple[str, ...]:
@@ -94,8 +96,9 @@ class Reader:
     def _take(self, size: int) -> bytes:
         part = self._data[self.offset : self.offset + size]
         if len(part) < size:
-            msg = f"the message is cut: {len(self._data)} bytes are too few for its content"
-            raise DecodeError(msg)
+            raise DecodeError(
+                f"the message is cut: {len(self._data)} bytes are too few for its content"
+            )
         self.offset += size
         return part
 

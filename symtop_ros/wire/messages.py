@@ -62,8 +62,7 @@ def _read_joints(data: bytes) -> tuple[str, ...]:
     reader.skip(4, 2)
     frame, names = reader.string(), reader.strings()
     if len(names) != len(JOINTS):
-        msg = f"JointState must have {len(JOINTS)} joints, got {len(names)}"
-        raise DecodeError(msg)
+        raise DecodeError(f"JointState must have {len(JOINTS)} joints, got {len(names)}")
     return (frame, *names)
 
 
@@ -202,8 +201,7 @@ def _decode_first_layout(
     if not (
         0 <= len(first) - layout.size <= MAX_PADDING and layout.match(_stack([first], layout))[0]
     ):
-        msg = f"{len(first)} bytes are not a {form.type} of one sample"
-        raise DecodeError(msg)
+        raise DecodeError(f"{len(first)} bytes are not a {form.type} of one sample")
     rows = _stack([messages[k] for k in indices], layout)
     matching = layout.match(rows)
     return Decoded(names, indices[matching], *layout.decode(rows[matching]))

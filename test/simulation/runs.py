@@ -51,6 +51,9 @@ class ListSink:
         yield
         self.order[begin:] = sorted(self.order[begin:], key=lambda name: name == "sample")
 
+    def inform(self, text: str) -> None:
+        raise AssertionError
+
     def warn(self, text: str) -> None:
         self.warnings.append(text)
 
@@ -63,7 +66,9 @@ class Run:
 
     def __init__(self, scene: str = "cusps", **changes: Any) -> None:
         self.clock, self.sink = HandClock(), ListSink()
-        self.simulation = Simulation(Settings.from_scene(scene, **changes), self.clock, self.sink)
+        self.simulation = Simulation(
+            Settings.from_scene(scene, **changes), self.clock, self.sink, self.sink
+        )
         self.simulation.report("start", self.simulation.timeline.verdict)
         self.requests = Requests(self.simulation, lambda on: "not recording")
 

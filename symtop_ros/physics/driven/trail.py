@@ -50,10 +50,7 @@ class DrivenMotion:
     def reach(self, t: float, steps: float) -> float:
         """Integrate towards t in a limited number of steps; return the time reached."""
         with self._lock:
-            return self._trail(t).reach(t, steps)
-
-    def _trail(self, t: float) -> Trail:
-        return self._forward if t >= 0 else self._backward
+            return (self._forward if t >= 0 else self._backward).reach(t, steps)
 
 
 class Trail:
