@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from decimal import localcontext
 from typing import Any, Literal, Protocol
 
 import numpy as np
@@ -14,6 +15,7 @@ from symtop_ros.physics.exact.closed_form import ClosedFormMotion
 from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
 from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.physics.exact.precise import PRECISE
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -140,7 +142,8 @@ class Motion:
         is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
         is_weightless = Mgl <= WEIGHTLESS * Ix * max(abs(wx), abs(wy), abs(wz)) ** 2
         solver = FreeMotion if is_resting or is_weightless else ClosedFormMotion
-        return solver((Ix, Iz, Mgl), orientation, (wx, wy, wz))
+        with localcontext(PRECISE):
+            return solver((Ix, Iz, Mgl), orientation, (wx, wy, wz))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""
@@ -209,7 +212,8 @@ class Motion:
 
     def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
         """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
-        (w, z), (x, y), (wx, wy) = self._engine.cayley_klein(times)
+        with localcontext(PRECISE):
+            (w, z), (x, y), (wx, wy) = self._engine.cayley_klein(times)
         if self._is_turned_over:
             w, x, y, z = x, -w, z, -y
         # One step to norm 1. Newton's would correct A and B by the same factor, and so give a small
@@ -289,17 +293,20 @@ class Motion:
         zero at one angle), "looping" (phi' has opposite signs), "through the pole", "spiralling"
         (the axis approaches the vertical for ever) or "sleeping" (it rests on the vertical).
         """
-        return self._engine.kind
+        with localcontext(PRECISE):
+            return self._engine.kind
 
     @property
     def nutation_period(self) -> float:
         """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
-        return self._engine.nutation_period
+        with localcontext(PRECISE):
+            return self._engine.nutation_period
 
     @property
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
-        low, high = self._engine.turning_angles
+        with localcontext(PRECISE):
+            low, high = self._engine.turning_angles
         return (math.pi - high, math.pi - low) if self._is_turned_over else (low, high)
 
     @property
@@ -319,7 +326,10 @@ class Motion:
 
     @property
     def _mean_rates(self) -> tuple[float, float]:
-        return (math.nan, math.nan) if self._is_undefined else self._engine.mean_rates
+        if self._is_undefined:
+            return math.nan, math.nan
+        with localcontext(PRECISE):
+            return self._engine.mean_rates
 
     @property
     def _is_undefined(self) -> bool:
@@ -340,7 +350,10 @@ class Motion:
         >>> round(motion.precession_per_nutation, 6)
         0.168557
         """
-        turns = math.nan if self._is_undefined else self._engine.precession_per_nutation
+        if self._is_undefined:
+            return math.nan
+        with localcontext(PRECISE):
+            turns = self._engine.precession_per_nutation
         return -turns if self._is_turned_over else turns
 
     @property
@@ -355,7 +368,8 @@ class Motion:
         >>> Motion(top, start).spin_reverses
         True
         """
-        return self._engine.spin_reverses
+        with localcontext(PRECISE):
+            return self._engine.spin_reverses
 
     @property
     def nutation_rate(self) -> float:

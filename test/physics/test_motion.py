@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
+from mpmath import mp, mpc, mpf
 from physics.exact_motion import Inputs, exact_motion
 from physics.refusals import FINITE_ARRAY, ONE_STATE, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case
@@ -219,7 +219,7 @@ def test_a_copy_shares_no_integration_and_gives_the_same_states(make):
     motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
     before = motion.at(0.7)
     other = make(motion)
-    assert other._integrated is not motion._integrated
+    assert other._driven is not motion._driven
     assert other.at(0.7) == before
 
 
@@ -236,3 +236,25 @@ def test_threads_share_a_motion_with_friction():
         sys.setswitchinterval(interval)
     for k, state in enumerate(states):
         assert state.orientation.tolist() == expected.orientation[k].tolist()
+
+
+@pytest.mark.parametrize(
+    ("top", "psi_dot"),
+    [
+        *((ARTICLE, rate) for rate in (200.0, 1e4, 1e6, 1e9)),
+        (Top(1.0, 1e-12, 1.0), 2e12),
+    ],
+)
+def test_the_mean_precession_of_a_fast_top_keeps_its_digits(top, psi_dot):
+    start = State.from_euler(theta=0.5, psi_dot=psi_dot)
+    motion = Motion(top, start)
+    inputs = Inputs.of(*top.moments, start.given_orientation, start.angular_velocity)
+    # It is let go at rest, so phi' is 0 after a period, and the rounding of the period costs
+    # nothing. phi is the sum of the arguments of A and B.
+    period = mpf(motion.nutation_period)
+    with mp.workdps(60):
+        (w, x, y, z), _ = exact_motion(inputs, period)
+        phi = mp.arg(mpc(w, z) * mpc(x, y))
+        expected = phi / period
+    # a rounding of the period, one of the rate, and start doubles with theta = 0.5 to an eps
+    assert abs(motion.mean_precession_rate / expected - 1) <= 4 * EPS

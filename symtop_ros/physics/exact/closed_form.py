@@ -8,7 +8,7 @@ and no error accumulates (Klein & Sommerfeld, The Theory of the Top, chapter VI)
 from __future__ import annotations
 
 import math
-from decimal import Decimal, localcontext
+from decimal import Decimal
 from functools import cached_property
 from typing import Any
 
@@ -30,7 +30,7 @@ from symtop_ros.physics.exact.kind import Kind, classify
 from symtop_ros.physics.exact.nutation import Nutation, find_roots
 from symtop_ros.physics.exact.nutation_phase import NutationPhase
 from symtop_ros.physics.exact.phases import Phases
-from symtop_ros.physics.exact.precise import HALF, PRECISE, TWO
+from symtop_ros.physics.exact.precise import HALF, TWO
 from symtop_ros.physics.exact.quotients import Quotient, compute_mean_rates, find_zeros
 from symtop_ros.physics.exact.spin import spin_reverses
 from symtop_ros.physics.exact.theta import Series, choose_series
@@ -48,19 +48,18 @@ class ClosedFormMotion:
     """
 
     def __init__(self, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> None:
-        with localcontext(PRECISE):
-            self.nutation = Nutation.of(moments, orientation, angular_velocity)
-            self.roots = find_roots(self.nutation)
-            self.zeros = find_zeros(self.nutation, self.roots)
-            # The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that
-            # would have no digits.
-            k = (self.roots.s32 / self.roots.s31).sqrt()
-            self._mean, self._means = compute_mean_rates(self.nutation, self.zeros, k)
-            self._frequency = (self.nutation.beta * self.roots.s31).sqrt()  # 2 Omega
-            # 2 pi over the period of theta in rad/s; 0 for a motion that never returns.
-            self.nutation_rate = self._frequency * self._mean
-            # Mean rates of the arguments of A, B and omega_xy, in rad/s.
-            self.rates = _argument_rates(moments, Decimal(angular_velocity[2]), self._means)
+        self.nutation = Nutation.of(moments, orientation, angular_velocity)
+        self.roots = find_roots(self.nutation)
+        self.zeros = find_zeros(self.nutation, self.roots)
+        # The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that
+        # would have no digits.
+        k = (self.roots.s32 / self.roots.s31).sqrt()
+        self._mean, self._means = compute_mean_rates(self.nutation, self.zeros, k)
+        self._frequency = (self.nutation.beta * self.roots.s31).sqrt()  # 2 Omega
+        # 2 pi over the period of theta in rad/s; 0 for a motion that never returns.
+        self.nutation_rate = self._frequency * self._mean
+        # Mean rates of the arguments of A, B and omega_xy, in rad/s.
+        self.rates = _argument_rates(moments, Decimal(angular_velocity[2]), self._means)
         # A state at a time of at most this size comes from a Taylor series.
         self._first_end = find_end(moments, angular_velocity)
         norm = math.hypot(*orientation)
@@ -94,15 +93,14 @@ class ClosedFormMotion:
     @property
     def mean_rates(self) -> tuple[float, float]:
         """Mean phi' and psi' in rad/s: sum and difference of the rates of arg A and arg B."""
-        a, b = float(self.rates[0]), float(self.rates[1])
-        return a + b, a - b
+        a, b, _ = self.rates  # of a fast or a slender top they nearly cancel
+        return float(a + b), float(a - b)
 
     @property
     def precession_per_nutation(self) -> float:
         """Turns of the precession in a nutation; nan at the separatrix."""
-        with localcontext(PRECISE):
-            turn = self.rates[0] + self.rates[1]
-            return float(turn / self.nutation_rate) if self.nutation_rate else math.nan
+        turn = self.rates[0] + self.rates[1]
+        return float(turn / self.nutation_rate) if self.nutation_rate else math.nan
 
     @property
     def spin_reverses(self) -> bool:
@@ -174,11 +172,10 @@ class ClosedFormMotion:
     @cached_property
     def _series(self) -> Series:
         phase, windings = self._nutation_phase, (0, 0, self._winding)
-        with localcontext(PRECISE):
-            shifts = [
-                quotient.find_shift(self.roots, phase.Kc, winding)
-                for quotient, winding in zip(self._quotients, windings, strict=True)
-            ]
+        shifts = [
+            quotient.find_shift(self.roots, phase.Kc, winding)
+            for quotient, winding in zip(self._quotients, windings, strict=True)
+        ]
         return choose_series(phase.K, phase.Kc, phase.root_of_nome, shifts)
 
     @cached_property

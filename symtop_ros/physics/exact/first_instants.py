@@ -8,12 +8,12 @@ differences of large numbers there. The series has them to rounding of themselve
 from __future__ import annotations
 
 import math
-from decimal import Decimal, localcontext
+from decimal import Decimal
 
 from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.exact.elementary import Components, Number, Pair, multiply
 from symtop_ros.physics.exact.phases import Phases
-from symtop_ros.physics.exact.precise import HALF, PRECISE
+from symtop_ros.physics.exact.precise import HALF
 from symtop_ros.physics.times import ExactTimes
 
 TERMS = 14
@@ -45,8 +45,7 @@ class FirstInstants:
             [coefficient for pair in ((c.real, c.imag) for c in series) for coefficient in pair]
             for series in (A, B, omega)
         ]
-        with localcontext(PRECISE):
-            self._phases = Phases(HALF * Decimal(wz) * (Decimal(Ix) - Decimal(Iz)) / Decimal(Ix))
+        self._phases = Phases(HALF * Decimal(wz) * (Decimal(Ix) - Decimal(Iz)) / Decimal(Ix))
 
     def cayley_klein(self, t: Number | ExactTimes) -> Components:
         """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""

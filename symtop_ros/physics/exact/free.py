@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from decimal import Decimal, localcontext
+from decimal import Decimal
 
 from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.exact.elementary import Components, Number, multiply
 from symtop_ros.physics.exact.kind import Kind, classify_free
 from symtop_ros.physics.exact.phases import Phases
-from symtop_ros.physics.exact.precise import HALF, PRECISE
+from symtop_ros.physics.exact.precise import HALF
 from symtop_ros.physics.exact.spin import spin_reverses_free
 from symtop_ros.physics.times import ExactTimes
 
@@ -26,19 +26,18 @@ class FreeMotion:
     kind: Kind
 
     def __init__(self, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> None:
-        with localcontext(PRECISE):
-            Ix, Iz = Decimal(moments[0]), Decimal(moments[1])
-            wx, wy, wz = (Decimal(rate) for rate in angular_velocity)
-            L = (Ix * wx, Ix * wy, Iz * wz)
-            size = sum((part * part for part in L), Decimal(0)).sqrt()
-            # p_psi (1/Iz - 1/Ix) without the difference of reciprocals, which would cancel for a
-            # body that is nearly a sphere.
-            c = wz * (Ix - Iz) / Ix
-            self.nutation_rate = size / Ix
-            self._phases = Phases(HALF * self.nutation_rate, HALF * c, -c)
-            # A top without angular momentum rests: then any axis does, and its own gives theta.
-            lx, ly, lz = (float(part / size) for part in L) if size else (0.0, 0.0, 1.0)
-        self._c = float(c)
+        Ix, Iz = Decimal(moments[0]), Decimal(moments[1])
+        wx, wy, wz = (Decimal(rate) for rate in angular_velocity)
+        L = (Ix * wx, Ix * wy, Iz * wz)
+        size = sum((part * part for part in L), Decimal(0)).sqrt()
+        # p_psi (1/Iz - 1/Ix) without the difference of reciprocals, which would cancel for a
+        # body that is nearly a sphere.
+        c = wz * (Ix - Iz) / Ix
+        self.nutation_rate = size / Ix
+        self._phases = Phases(HALF * self.nutation_rate, HALF * c, -c)
+        # A top without angular momentum rests: then any axis does, and its own gives theta.
+        lx, ly, lz = (float(part / size) for part in L) if size else (0.0, 0.0, 1.0)
+        self._c = c
         self._direction = lx, ly, lz
         norm = math.hypot(*orientation)
         w, x, y, z = (component / norm for component in orientation)
@@ -83,9 +82,9 @@ class FreeMotion:
         The circle of the axis about L goes round the upper pole, round the lower pole, or round
         neither. This decides how many turns of phi and psi belong to one turn about L.
         """
-        half = float(self.nutation_rate) / 2
+        half = HALF * self.nutation_rate
         upper, lower = self._turns
-        return (upper + lower) * half, (upper - lower) * half + self._c
+        return float((upper + lower) * half), float((upper - lower) * half + self._c)
 
     @property
     def precession_per_nutation(self) -> float:
@@ -101,10 +100,10 @@ class FreeMotion:
         return spin_reverses_free(self._tilt, self._cone, rate, omega_z)
 
     @property
-    def _turns(self) -> tuple[float, float]:
+    def _turns(self) -> tuple[int, int]:
         """Half turns of arg A and arg B in a turn about L, by the poles that are encircled."""
-        upper = math.copysign(1.0, math.pi - self._tilt - self._cone)
-        return upper, math.copysign(1.0, self._cone - self._tilt)
+        upper = 1 if self._tilt + self._cone <= math.pi else -1
+        return upper, 1 if self._cone >= self._tilt else -1
 
 
 def _angle_to_vertical(orientation: Quaternion, direction: Vector) -> float:

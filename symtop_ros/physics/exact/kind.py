@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from decimal import Decimal, localcontext
+from decimal import Decimal
 from typing import Literal
 
 from symtop_ros.physics.exact.nutation import Nutation, Roots
-from symtop_ros.physics.exact.precise import PRECISE
 from symtop_ros.physics.exact.quotients import Zeros
 from symtop_ros.physics.values import START_ROUNDING
 
@@ -21,7 +20,7 @@ Kind = Literal[
     "sleeping",
 ]
 
-ROUNDING = Decimal(START_ROUNDING)
+ROUNDING = Decimal.from_float(START_ROUNDING)
 
 
 def classify(nutation: Nutation, roots: Roots, zeros: Zeros) -> Kind:
@@ -30,20 +29,19 @@ def classify(nutation: Nutation, roots: Roots, zeros: Zeros) -> Kind:
     Numbers that differ by rounding of the start alone count as equal: a start that is computed to
     lie on a root of regular precession is regular, although its doubles miss the root.
     """
-    with localcontext(PRECISE):
-        above = zeros.B
-        if roots.s32 == 0:
-            return "spiralling"
-        if _is_regular(nutation):
-            return "regular"
-        rounding = ROUNDING * largest_precession(nutation, zeros)
-        lower_pole, upper_pole = abs(zeros.A.d), abs(above.d)
-        if lower_pole <= rounding or (upper_pole <= rounding and above.from_u2 <= above.from_u3):
-            return "through the pole"
-        lower, upper = nutation.b_minus_au_at(roots.s1), nutation.b_minus_au_at(roots.s2)
-        if min(abs(lower), abs(upper)) <= rounding:
-            return "cusps"
-        return "unidirectional" if (lower > 0) == (upper > 0) else "looping"
+    above = zeros.B
+    if roots.s32 == 0:
+        return "spiralling"
+    if _is_regular(nutation):
+        return "regular"
+    rounding = ROUNDING * largest_precession(nutation, zeros)
+    lower_pole, upper_pole = abs(zeros.A.d), abs(above.d)
+    if lower_pole <= rounding or (upper_pole <= rounding and above.from_u2 <= above.from_u3):
+        return "through the pole"
+    lower, upper = nutation.b_minus_au_at(roots.s1), nutation.b_minus_au_at(roots.s2)
+    if min(abs(lower), abs(upper)) <= rounding:
+        return "cusps"
+    return "unidirectional" if (lower > 0) == (upper > 0) else "looping"
 
 
 def largest_precession(nutation: Nutation, zeros: Zeros) -> Decimal:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from decimal import Decimal, localcontext
+from decimal import Decimal
 from functools import cached_property
 
 from scipy.special import elliprf
@@ -22,7 +22,8 @@ from symtop_ros.physics.exact.nutation import Nutation, Roots
 from symtop_ros.physics.exact.precise import (
     HALF,
     ONE,
-    PRECISE,
+    PI_HIGH,
+    PI_LOW,
     TWO,
     TWO_PI,
     ZERO,
@@ -38,7 +39,6 @@ STRETCHED = 1.5
 # From this share of |A|^2 or |B|^2 at the far turning point left at the near one, the rounding of a
 # phase counts: theta changes fast compared with itself.
 NEAR_POLE = Decimal("0.01")
-PI_HIGH, PI_LOW = split(TWO_PI * HALF)
 
 
 class NutationPhase:
@@ -54,8 +54,7 @@ class NutationPhase:
         self._nutation, self._roots, self._zeros, self._mean = nutation, roots, zeros, mean
         self.Omega = float(frequency) / 2
         self.K = math.pi / (2 * float(mean)) if mean else math.inf
-        with localcontext(PRECISE):
-            self.Kc = quarter_period(float((roots.s21 / roots.s31).sqrt()))
+        self.Kc = quarter_period(float((roots.s21 / roots.s31).sqrt()))
         # True near the separatrix, if K/K' is so large that the rounding of phases matters.
         self._is_stretched = STRETCHED * self.Kc < self.K
 
@@ -121,8 +120,7 @@ class NutationPhase:
         """exp(-pi K/(2 K')), right to rounding: of a double, pi K/(2 K') would be rounded."""
         if not self._exact_ratio:
             return math.exp(-math.pi / 2 * self.K / self.Kc)
-        with localcontext(PRECISE):
-            return float((-HALF * TWO_PI * HALF * self._exact_ratio).exp())
+        return float((-HALF * TWO_PI * HALF * self._exact_ratio).exp())
 
     @cached_property
     def _ratio(self) -> tuple[float, tuple[float, float]]:
@@ -135,16 +133,14 @@ class NutationPhase:
         """K/K' with all digits if phases are stretched, and 0 elsewhere."""
         if not (self._is_stretched and self._mean):
             return ZERO
-        with localcontext(PRECISE):
-            return compute_mean((self._roots.s21 / self._roots.s31).sqrt()) / self._mean
+        return compute_mean((self._roots.s21 / self._roots.s31).sqrt()) / self._mean
 
     @cached_property
     def _origin(self) -> tuple[bool, tuple[float, float]]:
         """The nearer turning point at t = 0 (True: the upper one), and the phase from there."""
         precise = self._is_stretched or self._comes_near_a_pole
-        with localcontext(PRECISE):
-            from_top, v = _starting_phase(self._nutation, self._roots, precise)
-            return from_top, split(TWO * (self._mean or ONE) * v)  # pi v/K, or 2 v for K' = pi/2
+        from_top, v = _starting_phase(self._nutation, self._roots, precise)
+        return from_top, split(TWO * (self._mean or ONE) * v)  # pi v/K, or 2 v for K' = pi/2
 
     @property
     def _comes_near_a_pole(self) -> bool:

@@ -21,10 +21,11 @@ from symtop_ros.physics.exact.precise import (
     PRECISE,
     TWO,
     TWO_PI,
+    TWO_PI_HIGH,
+    TWO_PI_LOW,
     ZERO,
     compute_cosine,
     split,
-    split_short,
 )
 from symtop_ros.physics.times import SECOND, ExactTimes
 
@@ -55,13 +56,12 @@ class Phases:
     """Several phases that grow at constant rates, at times in s or at exact times."""
 
     def __init__(self, *rates: Decimal) -> None:
-        with localcontext(PRECISE):
-            turns = [rate * PER_TURN for rate in rates]  # per s
-            fastest = float(max(map(abs, turns)))
-            exponent = math.frexp(fastest)[1] + TICK_BITS if fastest else 0
-            self._exponent = min(max(exponent, -1000), 1000)
-            tick = TURN / TWO**self._exponent  # 2^256 s per tick
-            self._steps = [int(each * tick) for each in turns]
+        turns = [rate * PER_TURN for rate in rates]  # per s
+        fastest = float(max(map(abs, turns)))
+        exponent = math.frexp(fastest)[1] + TICK_BITS if fastest else 0
+        self._exponent = min(max(exponent, -1000), 1000)
+        tick = TURN / TWO**self._exponent  # 2^256 s per tick
+        self._steps = [int(each * tick) for each in turns]
         self._ticks = 2.0**self._exponent  # per s
         self._limbs = [_split_step(step) for step in self._steps]
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]
@@ -218,17 +218,16 @@ class Phase(NamedTuple):
 def _list_entries() -> list[tuple[float, float, float, float]]:
     """Return cosine and sine of whole parts of a turn, and what their rounding left."""
     entries = []
-    with localcontext(PRECISE):
-        step = TWO_PI / ENTRIES
-        c, s = compute_cosine(step), compute_cosine(TWO_PI / 4 - step)
-        cosine, sine = ONE, ZERO
-        for _ in range(ENTRIES):
-            (high, low), (other_high, other_low) = split(cosine), split(sine)
-            entries.append((high, other_high, low, other_low))
-            cosine, sine = cosine * c - sine * s, cosine * s + sine * c
+    step = TWO_PI / ENTRIES
+    c, s = compute_cosine(step), compute_cosine(TWO_PI / 4 - step)
+    cosine, sine = ONE, ZERO
+    for _ in range(ENTRIES):
+        (high, low), (other_high, other_low) = split(cosine), split(sine)
+        entries.append((high, other_high, low, other_low))
+        cosine, sine = cosine * c - sine * s, cosine * s + sine * c
     return entries
 
 
-TWO_PI_HIGH, TWO_PI_LOW = split_short(TWO_PI)
-ROWS = _list_entries()
+with localcontext(PRECISE):
+    ROWS = _list_entries()
 COLUMNS = tuple(np.array(column) for column in zip(*ROWS, strict=True))

@@ -4,12 +4,15 @@ A motion is set up once and evaluated often. With Python's decimal module the se
 of microseconds more than with floats, and the constants of a motion are then those of exactly the
 doubles that were given: no error grows with time, and exponents have no limit.
 
+Every operation on decimals rounds to the context of its thread, which is the caller's: with 6
+digits there, states would be wrong. `Motion` therefore enters the context `PRECISE` before it calls
+anything in this folder, and what is computed at import is computed in it too.
 """
 
 from __future__ import annotations
 
 import math
-from decimal import Context, Decimal, DivisionByZero, InvalidOperation
+from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
 
 PRECISE = Context(prec=50, traps=[InvalidOperation, DivisionByZero])
 ZERO, HALF, ONE, TWO = Decimal(0), Decimal("0.5"), Decimal(1), Decimal(2)
@@ -61,3 +64,8 @@ def integrate_rf(x: Decimal, y: Decimal) -> Decimal:
     dz = -(dx + dy)
     e2, e3 = dx * dy - dz * dz, dx * dy * dz
     return (1 - e2 / 10 + e3 / 14 + e2 * e2 / 24 - 3 * e2 * e3 / 44) / mean.sqrt()
+
+
+with localcontext(PRECISE):
+    PI_HIGH, PI_LOW = split(TWO_PI * HALF)
+    TWO_PI_HIGH, TWO_PI_LOW = split_short(TWO_PI)

@@ -12,12 +12,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from decimal import Decimal, localcontext
+from decimal import Decimal
 from typing import Any
 
 from symtop_ros.physics.exact.kind import ROUNDING, largest_precession
 from symtop_ros.physics.exact.nutation import Nutation, Roots
-from symtop_ros.physics.exact.precise import PRECISE
 from symtop_ros.physics.exact.quotients import Zeros
 from symtop_ros.physics.values import START_ROUNDING
 
@@ -28,18 +27,17 @@ def spin_reverses(nutation: Nutation, roots: Roots, zeros: Zeros, omega_z: float
     A psi' that differs from zero by rounding of the start alone has no sign: a top that is started
     with psi' = 0 at a turning point does not reverse there.
     """
-    with localcontext(PRECISE):
-        spin, below, above = Decimal(omega_z), zeros.A, zeros.B
-        ends = [
-            spin * below.from_u1 * above.from_u1
-            - (nutation.u + roots.s1) * nutation.b_minus_au_at(roots.s1),
-            spin * below.from_u2 * above.from_u2
-            - (nutation.u + roots.s2) * nutation.b_minus_au_at(roots.s2),
-        ]
-        b = nutation.b_minus_au + nutation.a * nutation.u
-        vertex = _find_vertex(spin, nutation.a, b, nutation.u + roots.s1, nutation.u + roots.s2)
-        size = abs(spin) * zeros.largest_sine_squared + largest_precession(nutation, zeros)
-        return _has_both_signs([*ends, *vertex], ROUNDING * size)
+    spin, below, above = Decimal(omega_z), zeros.A, zeros.B
+    ends = [
+        spin * below.from_u1 * above.from_u1
+        - (nutation.u + roots.s1) * nutation.b_minus_au_at(roots.s1),
+        spin * below.from_u2 * above.from_u2
+        - (nutation.u + roots.s2) * nutation.b_minus_au_at(roots.s2),
+    ]
+    b = nutation.b_minus_au + nutation.a * nutation.u
+    vertex = _find_vertex(spin, nutation.a, b, nutation.u + roots.s1, nutation.u + roots.s2)
+    size = abs(spin) * zeros.largest_sine_squared + largest_precession(nutation, zeros)
+    return _has_both_signs([*ends, *vertex], ROUNDING * size)
 
 
 def spin_reverses_free(tilt_of_momentum: float, cone: float, rate: float, omega_z: float) -> bool:
