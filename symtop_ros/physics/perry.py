@@ -6,7 +6,8 @@ not kicked: phi' is multiplied by a factor while the spin rate or the spin momen
 - factor > 1 (hurried): the rule holds if theta'' is lower with the kick.
 - 0 <= factor < 1 (delayed): the rule holds if theta'' is higher with the kick.
 - The rule says nothing (None) if phi' = 0, if the factor is 1 or negative, about an angular
-  impulse, and on the vertical, where phi' is undefined.
+  impulse, if theta'' is the same with the kick as without it, and on the vertical, where phi' is
+  undefined.
 
 At a root of regular precession theta'' is 0 without the kick, so the hurried top rises if and only
 if the rule holds there. This is the article's case. Elsewhere the top may rise although the rule
@@ -28,6 +29,7 @@ from symtop_ros.physics.values import EPS
 
 Direction = Literal["rises", "falls", "stays"]
 NOTHING = "Perry's rule says nothing"
+STATE_ROUNDING = 8 * EPS  # cos(theta) of a quaternion: four squares, each rounded, and its norm
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +48,20 @@ class TiltAcceleration:
 
     @classmethod
     def of(cls, top: Top, state: State, hold: Hold) -> TiltAcceleration:
-        """Return theta'' of a state; `hold` decides what is held while phi' varies."""
+        """Return theta'' of a state; `hold` decides what is held while phi' varies.
+
+        A state has cos(theta) and psi' to some EPS of 1 and of its rates. What is smaller is zero:
+        else a horizontal axis without spin would rise or fall by the chance of its rounding.
+        """
         gx, gy, gz = state.vertical.tolist()
-        spin = state.angular_velocity[2] if hold == "spin_momentum" else state.euler_rates.psi
-        quadratic = TiltQuadratic.of(top, gz, float(spin), hold)
+        spin = float(state.angular_velocity[2])
+        if hold == "spin_rate":
+            spin = float(state.euler_rates.psi)
+        if abs(gz) <= STATE_ROUNDING:
+            gz = 0.0
+        if abs(spin) <= STATE_ROUNDING * float(np.abs(state.angular_velocity).max()):
+            spin = 0.0
+        quadratic = TiltQuadratic.of(top, gz, spin, hold)
         return cls(quadratic, float(np.hypot(gx, gy)) / top.Ix)
 
     def at(self, phi_dot: float) -> float:
@@ -120,7 +132,7 @@ class PrecessionChange:
     @property
     def expected_direction(self) -> Direction | None:
         """Direction in which theta'' changes; None if the rule says nothing."""
-        if self.silence or self._change == 0:
+        if self.silence:
             return None
         return "rises" if self._change < 0 else "falls"
 
@@ -133,7 +145,9 @@ class PrecessionChange:
             return "there is no precession to hurry or to delay"
         if self.factor == 1:
             return "the precession rate is unchanged"
-        return "the precession is reversed" if self.factor < 0 else ""
+        if self.factor < 0:
+            return "the precession is reversed"
+        return "" if self._change else "theta'' is the same with the kick as without it"
 
     def explain(self, link: str, place: str) -> str:
         """Return the sentence on Perry's rule.

@@ -29,8 +29,8 @@ class HurryEffect:
     before, after : ndarray (2, ...)
         Turning angles without the kick and with it, smallest theta first, in rad.
     rule_applies : ndarray (...) of bool
-        False where Perry's rule says nothing: for phi' = 0, on the vertical, and for a factor that
-        is 1 or negative.
+        False where Perry's rule says nothing: for phi' = 0, on the vertical, for a factor that is 1
+        or negative, and where theta'' is the same with the kick as without it.
     rule_holds : ndarray (...) of bool
         True where Perry's rule holds, as defined in `perrys_rule`.
 
@@ -105,7 +105,7 @@ def compare_hurried(
     before = find_other_turning_angle(top, theta, phi_dot, psi_dot)
     after = find_other_turning_angle(top, theta, factor * phi_dot, kicked_psi_dot)
     change = TiltQuadratic.of(top, u, spin, hold).change(phi_dot, factor * phi_dot)
-    applies = (phi_dot != 0) & (np.sin(theta) != 0) & (0 <= factor != 1)
+    applies = (phi_dot != 0) & (np.sin(theta) != 0) & (0 <= factor != 1) & (change != 0)
     holds = applies & (change * math.copysign(1.0, factor - 1) < 0)
     return HurryEffect(
         np.sort([before, theta], axis=0),

@@ -83,9 +83,13 @@ class TiltQuadratic:
         """Return at(after) - at(before), (...), in N m.
 
         The difference of the two values would lose all digits for a small change of the rate, and
-        Mgl would hide what is smaller than its rounding. As a product it is right to rounding.
+        Mgl would hide what is smaller than its rounding. As a product it is right to rounding, and
+        0 if its second factor is no more than that.
         """
-        return (after - before) * (self.a * (before + after) - self.b)
+        slope = self.a * (before + after) - self.b
+        largest = np.abs(self.a) * (np.abs(before) + np.abs(after)) + np.abs(self.b)
+        slope = np.where(np.abs(slope) <= START_ROUNDING * largest, 0.0, slope)[()]
+        return (after - before) * slope
 
     def is_balanced(self, phi_dot: float) -> bool:
         """Return True if the quadratic vanishes at a rate, up to rounding of its terms."""
