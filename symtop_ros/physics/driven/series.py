@@ -22,12 +22,18 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real
 from symtop_ros.physics.driven.equations import (
     FACTORS,
+    OMEGA_X,
+    OMEGA_Y,
     OMEGA_Z,
     QUATERNION,
     RATES,
     SPIN,
     DrivenEquations,
     Extended,
+    W,
+    X,
+    Y,
+    Z,
 )
 from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY
 
@@ -40,6 +46,9 @@ EXTENDED_TERMS = 6  # the largest ones, in extended precision
 # Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is
 # left out has the same sign in many steps, while rounding has not.
 LAST = 5e-19
+# The terms of an axis near the vertical may be larger than this by a factor, compared with its
+# tilt: so that steps do not become shorter at ordinary tilts.
+CLOSER = 8.0
 LONGEST = 16.0  # in units of about 1/rate; so the powers of a step stay in range
 # rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum, and
 # rounding with them.
@@ -207,17 +216,35 @@ class Stepper:
     def _find_length(self) -> float:
         """Return the length of the step in the unit of time, by the root test."""
         omega_x, omega_y, omega_z = self._series[0, RATES].tolist()
-        # The last two terms, of which one may be small by chance, are below LAST at this length.
         turn = math.hypot(omega_x, omega_y, self._equations.ratio * omega_z)
         length = LARGEST_TURN / max(turn, LARGEST_TURN / LONGEST)
         axial = max(1.0, abs(omega_z))  # the spin of a rod exceeds the rate
+        swing, size = self._find_swing()
+        # Of the last two terms one may be small by chance.
         for order in (TERMS - 1, TERMS):
-            *others, omega_z, _ = self._series[order].tolist()
-            largest = max(*map(abs, others), abs(omega_z) / axial)
+            row = self._series[order].tolist()
+            largest = max(
+                *map(abs, row[QUATERNION]),
+                abs(row[OMEGA_Z]) / axial,
+                max(abs(row[k]) for k in swing) / size,
+            )
             if largest:
                 length = min(length, (LAST / largest) ** (1 / order))
         fraction, exponent = math.frexp(length)
         return math.ldexp(math.floor(math.ldexp(fraction, LENGTH_BITS)), exponent - LENGTH_BITS)
+
+    def _find_swing(self) -> tuple[tuple[int, ...], float]:
+        """Return the variables that are small near the vertical, and their size in a step.
+
+        An axis near the vertical swings in proportion to its tilt. Its motion is right to rounding
+        of itself only if the terms left out are compared with it, not with 1.
+        """
+        first, *others = self._series[:4].tolist()
+        w, x, y, z = first[QUATERNION]
+        tilt = (X, Y) if w * w + z * z > x * x + y * y else (W, Z)
+        swing = (*tilt, OMEGA_X, OMEGA_Y)
+        size = max([abs(row[k]) for row in (first, *others) for k in swing])
+        return swing, min(1.0, CLOSER * size) or 1.0
 
 
 def _compute(orders: list[Order], products: NDArray[Any]) -> None:
