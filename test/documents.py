@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 PAGES = [
     *sorted(ROOT.glob("*.md"), key=lambda path: path.stem != "README"),
-    *ROOT.glob("docs/*.md"),
+    *sorted(ROOT.glob("docs/*.md")),
 ]
 BLOCK = re.compile(r"^ *```(\w+)\n(.*?)^ *```$(?:\n+```text\n(.*?)^```$)?", re.M | re.S)
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
