@@ -76,6 +76,7 @@ lint: style types
 style: $(VENV)/test
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+	@$(BIN)/codespell
 
 types: $(VENV)/test
 	@$(BIN)/mypy

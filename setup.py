@@ -82,6 +82,7 @@ LINT = [
     "mypy>=1.11",
     "ruff>=0.6",
     "scipy-stubs>=1.14",  # types for SciPy
+    "codespell>=2.2",
     "colcon-common-extensions>=0.3",  # a test builds the package in a workspace
 ]
 
@@ -103,7 +104,7 @@ setup(
         (f"lib/{NAME}", sorted(glob("resource/top_*"))),
     ],
     zip_safe=False,
-    python_requires=">=3.10",
+    python_requires=">=3.11",
     install_requires=[
         "numpy>=1.24",  # any NumPy of a supported ROS 2
         "scipy>=1.8",  # 1.8 has Carlson's elliptic integral R_F
@@ -141,4 +142,22 @@ setup(
     long_description=Path("README.md").read_text(encoding="utf-8"),
     long_description_content_type="text/markdown",
     license="Apache-2.0",
+    keywords=["symmetric top", "rigid body", "precession", "ground truth", "ROS 2"],
+    # placeholders, as in package.xml: the package has no public address yet
+    url="https://example.org/symtop_ros",
+    project_urls={"Source": "https://example.org/symtop_ros.git"},
+    classifiers=[
+        "Development Status :: 4 - Beta",
+        "Intended Audience :: Education",
+        "Intended Audience :: Science/Research",
+        "Operating System :: POSIX :: Linux",
+        "Programming Language :: Python :: 3",
+        "Programming Language :: Python :: 3 :: Only",
+        "Programming Language :: Python :: 3.11",
+        "Programming Language :: Python :: 3.12",
+        "Programming Language :: Python :: 3.13",
+        "Topic :: Education",
+        "Topic :: Scientific/Engineering :: Physics",
+        "Typing :: Typed",
+    ],
 )

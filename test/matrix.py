@@ -20,8 +20,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).parents[1]
 TESTS = ("test/node/test_services.py", "test/client/test_main.py", "test/log/test_check.py")
 DISTRIBUTIONS = {
-    "jazzy": ("3.10", "3.11", "3.12", "3.13"),
-    "kilted": ("3.10", "3.11", "3.12", "3.13", "3.14"),
+    "jazzy": ("3.11", "3.12", "3.13"),
+    "kilted": ("3.11", "3.12", "3.13", "3.14"),
 }
 NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
 PACKAGES = ("numpy", "scipy", "ros-rclpy")
@@ -44,7 +44,7 @@ def cells() -> Iterator[Cell]:
     for distribution, pythons in DISTRIBUTIONS.items():
         for python in pythons:
             for numpy in NUMPYS:
-                if numpy != "1" or python in ("3.10", "3.11", "3.12"):
+                if numpy != "1" or python in ("3.11", "3.12"):
                     yield Cell(distribution, python, numpy)
 
 

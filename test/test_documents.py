@@ -1,31 +1,244 @@
-"""The documents name files that exist, and the scenes by what their files say."""
+"""The documents: links resolve, programs and commands run, lists of names agree with the code."""
 
+import contextlib
+import importlib
+import io
 import re
+import shutil
 from pathlib import Path
 
 import pytest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from documents import LINK, PAGES, PATH, ROOT, anchors, blocks, commands, names, rows, same
+from domains import claim_domain
+from geometry_msgs.msg import WrenchStamped
+from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from log_files import Run
+from node.listener import Listener
+from node.running_top import RunningTop
+from programs import PATIENT, run, running_node
+from rcl_interfaces.msg import Parameter as ParameterMessage
 
-ROOT = Path(__file__).parents[1]
-DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
-LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-PATH = re.compile(r"(?<![\w/])((?:test|symtop_ros|config|docs)/[\w./]+\.(?:py|yaml|xml|md|json))")
+from symtop_ros.testset.score import read_problems
+
+pytestmark = pytest.mark.untraced
+DOMAIN = claim_domain()
+ROS_PAGE = ROOT / "docs/ros.md"
+LAUNCH_FILE = ROOT / "launch/top.launch.py"
+# The modules of programs whose options are parsed here; test/MODULE runs them.
+PARSED = {"top_report": "report", "top_panel": "panel", "top_live": "live"}
+MODULES = {**PARSED, "top_ctl": "client", "top_judge": "judge", "top_replay": "playback"}
+# These need a network, or a ROS 2 with security.
+NOT_RUN = (["git", "clone"], ["cd"], ["ros2", "security"], ["export"])
+# test_lesson.py runs the commands of the lesson, one step after the other.
+COMMANDS = [
+    pytest.param(words, output, id=f"{page.stem}: {' '.join(words)}")
+    for page in PAGES
+    if page.name != "lesson.md"
+    for words, output in commands(page)
+    if not any(words[: len(each)] == each for each in NOT_RUN)
+]
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
-def test_links_and_paths_in_a_document_lead_to_files(document):
-    text = document.read_text(encoding="utf-8")
-    links = {link for link in LINK.findall(text) if not link.startswith("http")}
-    missing = {link for link in links if not (document.parent / link).exists()}
-    assert missing | {path for path in PATH.findall(text) if not (ROOT / path).exists()} == set()
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_links_and_paths_lead_to_files_and_headings(page):
+    text = page.read_text(encoding="utf-8")
+    for link, anchor in LINK.findall(text):
+        if not link.startswith("http"):
+            target = page.parent / link if link else page
+            assert target.exists(), link
+            assert not anchor or anchor in anchors(target), f"{link}#{anchor}"
+    assert [path for path in PATH.findall(text) if not (ROOT / path).exists()] == []
 
 
-def test_the_documents_are_found():
-    names = {path.name for path in DOCUMENTS}
-    assert {"README.md", "CHANGELOG.md", "architecture.md", "reliability.md"} <= names
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if blocks(page, "python")], ids=lambda page: page.stem
+)
+def test_the_python_of_a_page_prints_what_the_page_shows(page):
+    variables = {}
+    for code, output in blocks(page, "python"):
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            exec(code, variables)
+        assert same(printed.getvalue(), output), printed.getvalue()
 
 
-@pytest.mark.parametrize("scene", sorted(ROOT.glob("config/*.yaml")), ids=lambda path: path.stem)
-def test_a_scene_is_described_as_in_its_file(scene):
-    comments = [line[2:] for line in scene.read_text().splitlines() if line.startswith("# ")]
-    row = f"| `{scene.stem}` | {' '.join(comments)} |"
-    assert row in (ROOT / "docs/ros.md").read_text()
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with the files that the commands name, while a node runs."""
+    folder = tmp_path_factory.mktemp("folder")
+    problem = read_problems()["cusps"].facts
+    states = zip(problem["times"], problem["orientations"], strict=True)
+    lines = ["t,w,x,y,z", *(",".join(map(str, (t, *q))) for t, q in states)]
+    (folder / "cusps").mkdir()
+    (folder / "cusps/trajectory.csv").write_text("\n".join(lines))
+    with running_node(DOMAIN, "scene:=hurry_slow", f"record.directory:={folder}/logs"):
+        yield folder
+
+
+@pytest.mark.parametrize(("words", "output"), COMMANDS)
+def test_a_command_works(words, output, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    if words[:3] == ["ros2", "run", "symtop_ros"]:
+        words = words[3:]
+    program, *rest = words
+    program = program.removeprefix(".venv/bin/")
+    printed = find_runner(program, rest)(program, rest)
+    assert not output or same(printed, output), printed
+
+
+def find_runner(program, words):
+    """Return the function that tries a command."""
+    if program in PARSED or {"--enclave", "--live", "--web"} & set(words):
+        return parse
+    return {
+        "make": check_target,
+        "pip": check_extra,
+        "ros2": call_ros2,
+        "top_ctl": call_node,
+        "top_judge": judge,
+        "top_model": run_program,
+        "top_node": start_node,
+        "top_replay": replay,
+    }[program]
+
+
+def check_target(_, words):
+    assert re.search(rf"^{words[0]}:", (ROOT / "Makefile").read_text(), re.MULTILINE)
+
+
+def check_extra(_, words):
+    (extra,) = re.findall(r"\[(\w+)\]", words[-1])
+    assert f'"{extra}": ' in (ROOT / "setup.py").read_text()
+
+
+def parse(program, words):
+    """Read the options of a program, but not those of ROS."""
+    if program != "top_node":  # which has no options
+        module = importlib.import_module(f"symtop_ros.{MODULES[program]}.main")
+        with contextlib.chdir(ROOT):
+            module._parser().parse_args(" ".join(words).partition("--ros-args")[0].split())
+
+
+def run_program(program, words):
+    result = run(program, *words, domain=DOMAIN)
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
+def call_node(program, words):
+    return run_program(program, [*PATIENT, *words])
+
+
+def judge(program, words):
+    if words[0] == "run.mcap":
+        truth, stamps = truth_and_stamps(200)
+        estimates = encode("sensor_msgs/msg/Imu", make_estimates(truth, stamps))
+        write_log(Path("run.mcap"), {"/imu/data": estimates})
+    return run_program(program, words)
+
+
+def start_node(_, words):
+    RunningTop(realtime=True, arguments=words).close()
+
+
+def replay(program, words):
+    shutil.move(Run(seconds=0.5).write(Path.cwd()), "run.mcap")
+    # without an option it would open a window: there is no screen
+    return run_program(program, words if words[1:] else [*words, "--save", "run.rrd"])
+
+
+def call_ros2(_, words):
+    """Do what `ros2 service`, `ros2 topic` or `ros2 launch` would; ros2cli is not on PyPI."""
+    {"service": call_service, "topic": publish_torque, "launch": check_arguments}[words[0]](
+        *words[2:]
+    )
+
+
+def call_service(name, kind, text="{}"):
+    package, _, message = kind.split("/")
+    service = getattr(importlib.import_module(f"{package}.srv"), message)
+    with Listener(DOMAIN) as listener:
+        client = listener.node.create_client(service, name)
+        listener.spin_until(client.service_is_ready)
+        future = client.call_async(fill(service.Request(), yaml.safe_load(text)))
+        listener.spin_until(future.done)
+    answer = str(future.result())
+    assert "success=True" in answer or "successful=True" in answer
+
+
+def fill(message, values):
+    """Set the fields of a message from YAML, as rosidl_runtime_py does it."""
+    for name, value in values.items():
+        if isinstance(value, dict):
+            fill(getattr(message, name), value)
+        elif name == "parameters":
+            message.parameters = [fill(ParameterMessage(), each) for each in value]
+        else:
+            setattr(message, name, type(getattr(message, name))(value))  # YAML: 5e-4 is text
+    return message
+
+
+def publish_torque(_, __, topic, kind, text):
+    assert kind == "geometry_msgs/msg/WrenchStamped"
+    message = fill(WrenchStamped(), yaml.safe_load(text))
+    with Listener(DOMAIN) as listener:
+        events = listener.collect(DiagnosticArray, "/top/events")
+        publisher = listener.node.create_publisher(WrenchStamped, topic, 10)
+        listener.spin_until(publisher.get_subscription_count)
+        listener.spin_until(lambda: "0.0 0.0 0.0005" in str(events) or publisher.publish(message))
+
+
+def check_arguments(_, *arguments):
+    for each in arguments:
+        assert f'("{each.partition(":=")[0]}", ' in LAUNCH_FILE.read_text()
+
+
+@pytest.fixture(scope="module")
+def top():
+    """A node with all its topics."""
+    switches = ("publish_clock", "publish_markers", "imu__enabled", "odometry__enabled")
+    running = RunningTop(realtime=True, **dict.fromkeys(switches, True))
+    yield running.top
+    running.close()
+
+
+def listed(section, kind):
+    """Names and types in the first two columns of a table of docs/ros.md."""
+    types = {name: row[1] for row in rows(ROS_PAGE, section) for name in names(row[0])}
+    return {
+        (name.replace("~", "/top"), text.split(",")[0].replace("/", f"/{kind}/"))
+        for name, text in types.items()
+    }
+
+
+def test_the_topics_of_the_page_on_ros_are_those_of_the_node(top):
+    pairs = [*top.get_publisher_names_and_types_by_node("top", "/")]
+    pairs += [*top.get_subscriber_names_and_types_by_node("top", "/")]
+    found = {
+        (name, kind) for name, (kind,) in pairs if name not in ("/rosout", "/parameter_events")
+    }
+    transforms = {(name, "tf2_msgs/msg/TFMessage") for name in ("/tf", "/tf_static")}
+    # without tf2_msgs they are not published
+    assert listed("Topics", "msg") == found | transforms
+
+
+def test_the_services_of_the_page_on_ros_are_those_of_the_node(top):
+    pairs = top.get_service_names_and_types_by_node("top", "/")
+    foreign = re.compile("parameter|type_description")
+    assert listed("Services", "srv") == {
+        (name, kind) for name, (kind,) in pairs if not foreign.search(name)
+    }
+
+
+def test_the_parameters_of_the_page_on_ros_are_those_of_the_node(top):
+    shown = {name for row in rows(ROS_PAGE, "Parameters") for name in names(row[0])}
+    found = set(top.get_parameters_by_prefix("")) - {"start_type_description_service"}
+    assert shown <= found
+    assert [name for name in found - shown if not name.startswith("qos_overrides.")] == []
+
+
+def test_the_programs_and_scenes_of_the_page_on_ros_are_those_of_the_package():
+    for section, pattern in (("Programs", "resource/top_*"), ("Scenes", "config/*.yaml")):
+        shown = [name for row in rows(ROS_PAGE, section) for name in names(row[0])]
+        assert sorted(shown) == sorted(path.stem for path in ROOT.glob(pattern))

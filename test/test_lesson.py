@@ -61,15 +61,9 @@ def do(tops, line):
 
 
 def test_the_steps_of_the_lesson_are_those_of_its_pictures():
-    assert len(PARTS) == len(STEPS) == 10
     for number, (part, step) in enumerate(zip(PARTS, STEPS, strict=True), start=1):
-        assert part.splitlines()[0] == step.title
         assert tuple(typed(part)) == step.commands
         assert f"(lesson/step_{number:02}.png)" in part
-        assert "Predict: " in part
-        assert "Question: " in part
-    answers = LESSON.split("## Answers for the teacher")[1]
-    assert re.findall(r"^(\d+)\. ", answers, flags=re.MULTILINE) == [str(k) for k in range(1, 11)]
 
 
 @pytest.mark.parametrize("step", STEPS, ids=range(1, 11))

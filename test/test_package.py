@@ -1,9 +1,11 @@
 """colcon and pip install the files that `ros2 run` looks for."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
+import tarfile
 from pathlib import Path
 
 import pytest
@@ -20,8 +22,12 @@ PARTS = (
     "setup.py",
     "setup.cfg",
     "package.xml",
+    "pyproject.toml",
+    "MANIFEST.in",
+    "LICENSE",
     "README.md",
 )
+OLDEST_PYTHON = 11  # 3.11
 CONFIG = sorted(path.name for path in (ROOT / "config").iterdir())
 
 
@@ -91,9 +97,35 @@ def test_pip_installs_the_same_tree(sources, tmp_path):
     assert_tree(tmp_path, tmp_path / "bin")
 
 
+def test_an_sdist_has_what_is_installed(sources, tmp_path):
+    setup = [sys.executable, "setup.py", "-q", "sdist", "-d", str(tmp_path)]
+    subprocess.run(setup, cwd=sources, check=True, timeout=60, capture_output=True)
+    with tarfile.open(next(tmp_path.glob("*.tar.gz"))) as archive:
+        packed = {name.partition("/")[2] for name in archive.getnames()}
+    parts = [path for part in PARTS[:4] for path in (sources / part).rglob("*") if path.is_file()]
+    needed = {str(path.relative_to(sources)) for path in parts if path.suffix != ".pyc"}
+    assert {*needed, *PARTS[4:]} <= packed
+    assert not any(name.startswith("test") for name in packed)
+
+
 def test_the_version_is_the_same_everywhere():
     assert f"<version>{__version__}</version>" in (ROOT / "package.xml").read_text()
-    assert f"## {__version__}" in (ROOT / "CHANGELOG.md").read_text()
+    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
+
+
+def test_the_oldest_python_is_the_same_everywhere():
+    places = {
+        "setup.py": r'python_requires=">=3\.(\d+)"|Python :: 3\.(\d+)"',
+        "pyproject.toml": r'target-version = "py3(\d+)"|python_version = "3\.(\d+)"',
+        "Makefile": r"version_info < \(3, (\d+)\)",
+        "README.md": r"Python 3\.(\d+) or later",
+        "CONTRIBUTING.md": r"Python 3\.(\d+) or later",
+    }
+    for name, pattern in places.items():
+        found = re.findall(pattern, (ROOT / name).read_text())
+        versions = [int("".join(each)) for each in found]
+        assert versions, name
+        assert min(versions) == OLDEST_PYTHON, name
 
 
 def test_nothing_but_the_extra_brings_ros_from_pypi():

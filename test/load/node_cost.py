@@ -111,16 +111,12 @@ def _measure_all(node: str, command: Command, seconds: float) -> Iterator[tuple[
 
 
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
-    """Return the table of docs/reliability.md and the sentences of the README by their names."""
+    """Return the table of docs/reliability.md by its name."""
     runs: Runs = facts["runs"]
     source = f"`make node-cost` on {facts['machine']}"
     spread = f"medians of {facts['count']} runs (lowest to highest), {len(TOPICS)} topics"
     table = _format_table(runs, (TOP, RECORDING, BARE, PREPARED))
-    short = {f"{row}, at 1000 Hz": runs[f"1000 Hz: {row}"] for row in (CPU, KICK, JITTER)}
-    return {
-        "node cost": f"{source}: {spread} with one subscriber each.\n\n{table}",
-        "node summary": _format_table(short, (TOP, BARE, PREPARED)),
-    }
+    return {"node cost": f"{source}: {spread} with one subscriber each.\n\n{table}"}
 
 
 def _format_table(runs: Runs, nodes: tuple[str, ...]) -> str:

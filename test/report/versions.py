@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 # The oldest of which PyPI has wheels for this Python, and the newest.
-OLDEST = {(3, 10): ("1.24.0", "1.8.0"), (3, 11): ("1.24.0", "1.9.2"), (3, 12): ("1.26.0", "1.11.2")}
+OLDEST = {(3, 11): ("1.24.0", "1.9.2"), (3, 12): ("1.26.0", "1.11.2")}
 NEWEST = ("", "")
 # Prints the CPU features for which NumPy has code apart from its baseline. Their names depend on
 # its version, and names that it does not know are ignored.
@@ -28,7 +28,7 @@ import numpy
 core = getattr(numpy, "_core", None) or numpy.core
 print(*core._multiarray_umath.__cpu_dispatch__)
 """
-# Prints the versions, the largest error in eps, and a digest of all states on the way.
+# Prints the versions, the largest error (an angle) in eps, and a digest of all states on the way.
 PROGRAM = """
 import hashlib, warnings
 import numpy, scipy
@@ -39,7 +39,7 @@ reference, largest, digest = Reference.read(), 0.0, hashlib.sha256()
 for problem in [*reference.article[:7], *reference.hard]:
     motion = Motion(problem.task.top, problem.task.start)
     for t in problem.times:
-        largest = max(largest, problem.error(t, motion.at(t).orientation) / 2)
+        largest = max(largest, problem.error(t, motion.at(t).orientation))
     states = motion.at(spread_times(10.0))
     digest.update(states.orientation.tobytes() + states.angular_velocity.tobytes())
 print(numpy.__version__, scipy.__version__, f"{largest / EPS:.2f}", digest.hexdigest()[:12])

@@ -1,0 +1,59 @@
+"""What the documents contain that can be tried: code blocks, links, and names in tables."""
+
+from __future__ import annotations
+
+import math
+import re
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PAGES = [
+    *sorted(ROOT.glob("*.md"), key=lambda path: path.stem != "README"),
+    *sorted(ROOT.glob("docs/*.md")),
+]
+BLOCK = re.compile(r"^ *```(\w+)\n(.*?)^ *```$(?:\n+```text\n(.*?)^```$)?", re.M | re.S)
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]+))?\)")
+PATH = re.compile(r"(?<![\w/])((?:test|symtop_ros|config|docs)/[\w./]+\.(?:py|yaml|xml|md|json))")
+
+
+def blocks(page: Path, language: str) -> list[tuple[str, str]]:
+    """Return the blocks of a page in a language, each with the output directly below it."""
+    found = BLOCK.findall(page.read_text(encoding="utf-8"))
+    return [(code, output) for kind, code, output in found if kind == language]
+
+
+def commands(page: Path) -> Iterator[tuple[list[str], str]]:
+    """Yield the words of each shell command of a page, and the output that is shown for it."""
+    for code, output in blocks(page, "sh"):
+        for line in code.replace("\\\n", " ").splitlines():
+            if words := shlex.split(line, comments=True):
+                yield words, output
+
+
+def anchors(page: Path) -> set[str]:
+    """Return the anchors of the headings of a page, as a forge makes them."""
+    headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w -]", "", each.lower()).replace(" ", "-") for each in headings}
+
+
+def rows(page: Path, section: str) -> list[list[str]]:
+    """Return the cells of the first table of a section, without its head."""
+    text = page.read_text(encoding="utf-8").split(f"\n## {section}\n")[1].split("\n## ")[0]
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines[2:]]
+
+
+def names(cell: str) -> list[str]:
+    """Return the names that a cell of a table has in backticks."""
+    return re.findall(r"`([^`]+)`", cell)
+
+
+def same(printed: str, shown: str) -> bool:
+    """Compare an output with that of a document: equal words, and numbers to nine digits."""
+    if NUMBER.sub("#", printed).split() != NUMBER.sub("#", shown).split():
+        return False
+    pairs = zip(NUMBER.findall(printed), NUMBER.findall(shown), strict=True)
+    return all(math.isclose(float(a), float(b), rel_tol=1e-9, abs_tol=1e-9) for a, b in pairs)
