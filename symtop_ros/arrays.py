@@ -1,7 +1,5 @@
 """Types of arrays and of short tuples that all folders share."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """The demonstration behind `make demo`: a top on cusps, hurried by its service, and its replay."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The ROS 2 distribution: its name, and what differs between distributions."""
 
-from __future__ import annotations
-
 import os
 from importlib import metadata
 

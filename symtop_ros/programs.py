@@ -1,7 +1,5 @@
 """Entry points of the programs. If a package is missing they name it in one line."""
 
-from __future__ import annotations
-
 import gc
 import importlib
 import os

@@ -1,7 +1,5 @@
 """Products of quaternions (w, x, y, z), and rotations by them; for one or for many."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from symtop_ros.arrays import Real

@@ -1,7 +1,5 @@
 """Orderly shutdown of a ROS program by SIGINT and SIGTERM."""
 
-from __future__ import annotations
-
 import os
 import signal
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Values for a request from words of the command line, name=value."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A connection to a running top: service calls and subscriptions, with time-outs."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """The keys of `top_ctl keys`: each one is a request."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

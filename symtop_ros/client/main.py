@@ -1,7 +1,5 @@
 """Entry point of `top_ctl`: call the services of a running top from the command line."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -1,7 +1,5 @@
 """The live line of `top_ctl watch`."""
 
-from __future__ import annotations
-
 import math
 import sys
 import time

@@ -1,7 +1,5 @@
 """Subscriptions to a running top; messages are decoded as those of a log."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Collection
 from functools import partial

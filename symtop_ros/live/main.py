@@ -1,7 +1,5 @@
 """Entry point of `top_live`: stream a running top to a Rerun viewer."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import socket

@@ -3,8 +3,6 @@
 A bag of any kind is read like one `McapFile`, as a `MessageSource`.
 """
 
-from __future__ import annotations
-
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence

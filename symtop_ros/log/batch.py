@@ -1,7 +1,5 @@
 """Messages of a top, from a log or a running node, decoded into arrays and events."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -24,7 +22,7 @@ class Columns:
     numbers: NDArray[np.float64]  # the doubles of the messages, as in `simulation.topics`
     places: NDArray[np.int64]  # their places among the messages of the batch
 
-    def select(self, chosen: NDArray[np.bool_]) -> Columns:
+    def select(self, chosen: NDArray[np.bool_]) -> "Columns":
         """Return the samples for which `chosen` (n,) is True."""
         return Columns(self.stamps[chosen], self.numbers[chosen], self.places[chosen])
 

@@ -1,7 +1,5 @@
 """Check of a log: the whole run is computed again from its events and compared."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

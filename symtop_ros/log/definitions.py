@@ -4,8 +4,6 @@ They are shipped in definitions.json, so that a log can be written without ROS. 
 with those of the installed ROS 2.
 """
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from importlib.resources import files

@@ -4,8 +4,6 @@ A file that was cut, a damaged chunk or a nonsensical length loses only what it 
 stays bounded by the largest chunk. The readers of the mcap package stop at the first of these.
 """
 
-from __future__ import annotations
-
 import struct
 import zlib
 from bisect import bisect_right

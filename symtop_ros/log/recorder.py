@@ -4,8 +4,6 @@ The caller never waits: messages that do not fit into the queue are dropped and 
 begins with the current latched messages, so that it can be read alone.
 """
 
-from __future__ import annotations
-
 import threading
 import time
 from collections import deque

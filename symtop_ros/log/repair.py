@@ -1,7 +1,5 @@
 """Repair of a damaged log: everything readable is written to a new, complete file."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path

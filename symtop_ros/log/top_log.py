@@ -4,8 +4,6 @@ Topics are recognised by the last part of their names and by their types, so tha
 other topics in the file do not matter. Topics that are missing are missing in the batches.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from mcap.records import Message

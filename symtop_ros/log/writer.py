@@ -1,7 +1,5 @@
 """One MCAP file from its first byte to its index; what was flushed survives any failure."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Other nodes that have the name of this node: a request reaches any of them."""
 
-from __future__ import annotations
-
 from rclpy.node import Node
 
 from symtop_ros.session.diagnostics import make_status

@@ -1,7 +1,5 @@
 """The node as the host of a session: publishers, messages to the user, markers, duplicate nodes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from rclpy.node import Node

@@ -1,7 +1,5 @@
 """Entry point of `top_node`."""
 
-from __future__ import annotations
-
 import argparse
 import gc
 import sys

@@ -3,8 +3,6 @@
 They are drawn from the samples, when somebody subscribes, and are not logged.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Sequence
 from math import hypot

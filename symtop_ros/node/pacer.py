@@ -4,8 +4,6 @@ A timer of rclpy would do, but an executor rebuilds its wait set for each of its
 that takes 50 % CPU (one core).
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 

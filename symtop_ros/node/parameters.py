@@ -4,8 +4,6 @@ They are declared with dynamic typing, so that `publish_rate:=500` is accepted l
 bad value is refused with the message of the package, at start-up as well as later.
 """
 
-from __future__ import annotations
-
 import difflib
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Translation between ROS services and the requests of a simulation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

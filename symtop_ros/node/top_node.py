@@ -1,7 +1,5 @@
 """The node: ROS around a simulation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, cast
 

@@ -1,7 +1,5 @@
 """The acts of the page's users: each is a request of the interface, whatever top is behind it."""
 
-from __future__ import annotations
-
 import math
 import threading
 from collections.abc import Callable, Mapping

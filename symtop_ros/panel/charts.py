@@ -1,7 +1,5 @@
 """The charts of the page: effective potential, series over time, and the constants of motion."""
 
-from __future__ import annotations
-
 import math
 from html import escape
 

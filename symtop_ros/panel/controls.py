@@ -1,7 +1,5 @@
 """The controls of the page: what a user can press, move and choose, and what it says."""
 
-from __future__ import annotations
-
 import math
 import re
 import time

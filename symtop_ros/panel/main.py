@@ -1,7 +1,5 @@
 """Entry point of `top_panel`: a page in the browser to play with a top."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import signal

@@ -1,7 +1,5 @@
 """A running node as the top of the page: its topics and services. Needs ROS."""
 
-from __future__ import annotations
-
 import contextlib
 import threading
 import time

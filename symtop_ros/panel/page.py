@@ -1,7 +1,5 @@
 """The page: scene, controls and charts around one top, drawn 60 times a second while watched."""
 
-from __future__ import annotations
-
 import threading
 import time
 

@@ -1,7 +1,5 @@
 """The run that the page shows: its history, motion, ghost, trace and series."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Mapping

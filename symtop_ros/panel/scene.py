@@ -1,7 +1,5 @@
 """The 3D scene of the page. Handles are made once; a frame only sets their attributes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

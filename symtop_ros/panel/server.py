@@ -7,8 +7,6 @@ here (DNS rebinding), the Origin header of a WebSocket is this Host, and the pag
 no other server, nor stand in a frame of another page.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import gzip

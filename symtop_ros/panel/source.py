@@ -3,8 +3,6 @@
 Both take the same requests and send the same events, so that the page need not know which it has.
 """
 
-from __future__ import annotations
-
 import threading
 import time
 from collections import deque

@@ -1,7 +1,5 @@
 """Balances of a motion over a stretch of time: how well it obeys its equations of motion."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

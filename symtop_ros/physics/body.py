@@ -5,8 +5,6 @@ on the distance of its centre from the pivot (the arm) too, and these are not gi
 chosen here that exists for every top for which any exists.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -59,7 +57,7 @@ class Body:
     gravity: float
 
     @classmethod
-    def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> Body:
+    def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> "Body":
         """Return the body that is chosen for a top.
 
         Parameters

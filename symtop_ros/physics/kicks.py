@@ -5,8 +5,6 @@ the world's vertical). If theta' and the axial momentum are held, only the part 
 axis is added. Neither divides by sin(theta), except to find the present phi'.
 """
 
-from __future__ import annotations
-
 from typing import Any, Literal
 
 import numpy as np

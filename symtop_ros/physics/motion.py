@@ -1,7 +1,5 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
-from __future__ import annotations
-
 import math
 from decimal import localcontext
 from typing import Any, Literal, Protocol

@@ -14,8 +14,6 @@ if the rule holds there. This is the article's case. Elsewhere the top may rise 
 fails, and the reverse. The answer to a kick says so.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 
@@ -47,7 +45,7 @@ class TiltAcceleration:
     sine_per_moment: float
 
     @classmethod
-    def of(cls, top: Top, state: State, hold: Hold) -> TiltAcceleration:
+    def of(cls, top: Top, state: State, hold: Hold) -> "TiltAcceleration":
         """Return theta'' of a state; `hold` decides what is held while phi' varies.
 
         A state has cos(theta) and psi' to some EPS of 1 and of its rates. What is smaller is zero:
@@ -108,7 +106,9 @@ class PrecessionChange:
     factor: float | None
 
     @classmethod
-    def between(cls, top: Top, before: State, after: State, hold: Hold | None) -> PrecessionChange:
+    def between(
+        cls, top: Top, before: State, after: State, hold: Hold | None
+    ) -> "PrecessionChange":
         """Return the kick that leads from one state to another of the same attitude.
 
         The kick has rounded the angular velocity. A rate or a change of this size is no rate and

@@ -5,8 +5,6 @@ With theta' = 0 the present tilt is one turning angle, u0 = cos(theta). The cubi
 quadratic that remains. So a map needs neither elliptic functions nor a solver for each point.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

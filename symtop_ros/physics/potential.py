@@ -5,8 +5,6 @@ theta where E' >= U_eff(theta), or u = cos(theta) where f(u) >= 0 (Goldstein, Cl
 section 5.7).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,7 +45,7 @@ class EffectivePotential:
     energy: float
 
     @classmethod
-    def of(cls, top: Top, state: State) -> EffectivePotential:
+    def of(cls, top: Top, state: State) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
         axial = float(top.axial_momentum(state))
         wx, wy, _ = state.angular_velocity.tolist()

@@ -17,8 +17,6 @@ spin momentum    Ix cos(theta)           p_psi = Iz omega_z
 At the same state both give the same theta''.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
@@ -58,7 +56,7 @@ class TiltQuadratic:
     Mgl: float
 
     @classmethod
-    def of(cls, top: Top, cosine: Any, spin: Any, hold: Hold = "spin_rate") -> TiltQuadratic:
+    def of(cls, top: Top, cosine: Any, spin: Any, hold: Hold = "spin_rate") -> "TiltQuadratic":
         """Return the quadratic of one tilt or many.
 
         Parameters

@@ -1,7 +1,5 @@
 """The state of the top: a unit quaternion and a body angular velocity, for one instant or many."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -99,7 +97,7 @@ class State:
         self._set(q, _normalize(q), omega)
 
     @classmethod
-    def wrap(cls, orientation: Real, angular_velocity: Real) -> State:
+    def wrap(cls, orientation: Real, angular_velocity: Real) -> "State":
         """Return the state of arrays that are known to be valid, without copying them.
 
         The arrays become read-only. This skips the validation of many computed states.
@@ -130,7 +128,7 @@ class State:
         theta_dot: float = 0.0,
         phi_dot: float = 0.0,
         psi_dot: float = 0.0,
-    ) -> State:
+    ) -> "State":
         """Return the state with these Euler angles z-x-z and rates.
 
         The quaternion and the angular velocity are rounded to doubles once. The motion then starts

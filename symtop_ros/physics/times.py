@@ -5,8 +5,6 @@ last bit. As a double of seconds it would be rounded: after a day by 7 ps, in wh
 rad/s turns by 7 million EPS. The integers are therefore kept until phases are reduced to one turn.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -101,7 +99,7 @@ class ExactTimes:
         """Seconds, a float or (n,), up to a few roundings; much faster than `seconds`."""
         return float(self.elapsed / SECOND) + self.factor * (self.nanoseconds * 1e-9)
 
-    def select(self, part: slice | NDArray[np.bool_]) -> ExactTimes:
+    def select(self, part: slice | NDArray[np.bool_]) -> "ExactTimes":
         """Return a part of an array of times.
 
         Parameters

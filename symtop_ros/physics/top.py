@@ -1,7 +1,5 @@
 """The top and its friction: moments of inertia, gravity, and what follows from a state."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -3,8 +3,6 @@
 Every refused argument raises a ValueError of one form: "NAME must be CONDITION, got VALUE".
 """
 
-from __future__ import annotations
-
 import math
 import numbers
 from typing import Any

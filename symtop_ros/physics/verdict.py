@@ -1,7 +1,5 @@
 """The consequences of a state or a kick in words: direction, turning angles, Perry's rule."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

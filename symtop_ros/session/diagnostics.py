@@ -1,7 +1,5 @@
 """The statuses of /diagnostics: the motion, its pace, the log and balances."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder

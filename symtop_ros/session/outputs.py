@@ -3,8 +3,6 @@
 A topic without a subscriber is not computed unless it is logged.
 """
 
-from __future__ import annotations
-
 from contextlib import AbstractContextManager
 from typing import Protocol
 

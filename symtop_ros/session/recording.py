@@ -1,7 +1,5 @@
 """Recordings of a simulation: begun, ended and failed, each with a sentence and an event."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from datetime import datetime, timezone
 from pathlib import Path

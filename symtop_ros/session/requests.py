@@ -1,7 +1,5 @@
 """The meaning of each request: it is validated, changes the simulation and returns its answer."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from typing import Any

@@ -4,8 +4,6 @@ The node offers what this table says, the page and `top_ctl` call it. It imports
 `top_ctl` starts without the library.
 """
 
-from __future__ import annotations
-
 from typing import Literal, NamedTuple
 
 ServiceKind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument

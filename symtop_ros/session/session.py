@@ -3,8 +3,6 @@
 The node and the page are hosts of a session. They translate: ROS, or what is pressed in a browser.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any

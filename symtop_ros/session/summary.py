@@ -1,7 +1,5 @@
 """The current motion in numbers and words, as `~/get_state` and `/diagnostics` report it."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Samples of consecutive stamps, computed together: in arrays each costs a fraction."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -26,7 +24,7 @@ class Block:
         self._numbers: dict[str, list[list[float]]] = {}
         self._requested: set[str] = set()
 
-    def continue_with(self, segment: Segment, stamps: Sequence[int]) -> Block:
+    def continue_with(self, segment: Segment, stamps: Sequence[int]) -> "Block":
         """Return the next block, with the topics computed that were requested from this one."""
         block = Block(segment, stamps)
         for name in self._requested:

@@ -4,8 +4,6 @@ A `StepBudget` limits the steps that are taken for one request or one log. A `Co
 the CPU time of a run, and says how fast the motion can be followed.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import NamedTuple

@@ -3,8 +3,6 @@
 Numbers are written in decimals that read back to the same doubles.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -52,7 +50,7 @@ class Event:
         before: State,
         following: Segment,
         top_frame: str = "top",
-    ) -> Event:
+    ) -> "Event":
         """Return the event after which the segment `following` holds.
 
         `top_frame` is the child frame of the top on /tf, which is shared by many publishers.

@@ -1,7 +1,5 @@
 """Initial conditions: the `initial.*` parameters, overridden by the fields of a request."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

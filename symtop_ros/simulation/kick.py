@@ -1,7 +1,5 @@
 """The kick that a request asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

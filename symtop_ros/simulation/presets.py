@@ -1,7 +1,5 @@
 """Scene presets: ROS parameter files in share/symtop_ros/config, chosen by name. Needs no ROS."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator, Mapping

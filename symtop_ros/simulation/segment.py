@@ -6,8 +6,6 @@ number of pauses, steps and changes of the real-time factor. An event contains e
 segment holds, so that any state of a run can be computed again from the events, bit for bit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -33,7 +31,7 @@ class Segment:
     rig: Rig = NO_RIG  # gravity and the sensor on the top
 
     @classmethod
-    def begin(cls, motion: Motion, stamp: int, factor: float, rig: Rig = NO_RIG) -> Segment:
+    def begin(cls, motion: Motion, stamp: int, factor: float, rig: Rig = NO_RIG) -> "Segment":
         """Return the first segment of a motion that starts at a stamp."""
         return cls(motion, stamp, START, factor, running=True, rig=rig)
 
@@ -58,7 +56,7 @@ class Segment:
         """Return the state at a stamp (ns) or an array of them; one state if paused."""
         return self.motion.at(self.times_at(stamp))
 
-    def restart(self, start: State, stamp: int) -> Segment:
+    def restart(self, start: State, stamp: int) -> "Segment":
         """Continue from another state."""
         motion = self.motion
         following = Motion(motion.top, start, motion.friction, motion.applied_torque)
@@ -70,7 +68,7 @@ class Segment:
         top: Top | None = None,
         friction: Friction | None = None,
         torque: Sequence[float] | None = None,
-    ) -> Segment:
+    ) -> "Segment":
         """Continue from the state at a stamp with another top, friction or applied torque."""
         motion = self.motion
         following = Motion(
@@ -81,35 +79,35 @@ class Segment:
         )
         return self.replace_motion(following, stamp)
 
-    def replace_motion(self, motion: Motion, stamp: int) -> Segment:
+    def replace_motion(self, motion: Motion, stamp: int) -> "Segment":
         """Continue with another motion from its start."""
         return replace(self, motion=motion, stamp=stamp, elapsed=START)
 
-    def pause(self, stamp: int) -> Segment:
+    def pause(self, stamp: int) -> "Segment":
         """Stop the motion at its state at a stamp."""
         return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp), running=False)
 
-    def resume(self, stamp: int) -> Segment:
+    def resume(self, stamp: int) -> "Segment":
         """Continue a paused motion from where it stopped."""
         return replace(self, stamp=stamp, running=True)
 
-    def step(self, duration: float, stamp: int) -> Segment:
+    def step(self, duration: float, stamp: int) -> "Segment":
         """Advance a paused motion by `duration` (s of the motion)."""
         return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp) + to_nanoseconds(duration))
 
-    def move(self, stamp: int, to: int) -> Segment:
+    def move(self, stamp: int, to: int) -> "Segment":
         """Continue the state of one stamp at the stamp `to`: the clock jumped."""
         return replace(self, stamp=to, elapsed=self.elapsed_at(stamp))
 
-    def set_factor(self, factor: float, stamp: int) -> Segment:
+    def set_factor(self, factor: float, stamp: int) -> "Segment":
         """Continue at another real-time factor."""
         return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp), factor=factor)
 
-    def equip(self, rig: Rig) -> Segment:
+    def equip(self, rig: Rig) -> "Segment":
         """Continue with another gravity or sensor."""
         return replace(self, rig=rig)
 
-    def slow_down(self, reached: float, factor: float, stamp: int) -> Segment:
+    def slow_down(self, reached: float, factor: float, stamp: int) -> "Segment":
         """Continue at another factor, from the time (s) that the integration has reached."""
         elapsed = min(to_nanoseconds(reached), self.elapsed_at(stamp))
         return replace(self, stamp=stamp, elapsed=elapsed, factor=factor)

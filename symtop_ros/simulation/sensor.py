@@ -4,8 +4,6 @@ Noise is a function of the seed and of the stamp, not of what was computed befor
 computed again from any of its files, whatever samples were missed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -126,7 +124,7 @@ class Rig:
         return values
 
     @classmethod
-    def from_values(cls, values: Mapping[str, str]) -> Rig:
+    def from_values(cls, values: Mapping[str, str]) -> "Rig":
         """Return the rig of an event."""
         gravity = float(values["gravity"])
         if not 0 < gravity < math.inf:

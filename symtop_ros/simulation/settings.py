@@ -1,7 +1,5 @@
 """The parameters of a simulation: default, meaning, unit and range of each, and their values."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sized
 from dataclasses import dataclass, replace
@@ -222,7 +220,7 @@ class Settings:
     top_frame: str
 
     @classmethod
-    def from_values(cls, values: Mapping[str, Any]) -> Settings:
+    def from_values(cls, values: Mapping[str, Any]) -> "Settings":
         """Validate raw values; parameters that are missing get their defaults."""
         clean = {
             name: parameter.validate(name, values.get(name, parameter.default))
@@ -260,7 +258,7 @@ class Settings:
         return not switch or bool(self.values[switch])
 
     @classmethod
-    def from_scene(cls, name: object, **changes: Any) -> Settings:
+    def from_scene(cls, name: object, **changes: Any) -> "Settings":
         """Return the settings of a scene, with changes (`__` for the dots in their names)."""
         named = {key.replace("__", "."): value for key, value in changes.items()}
         return cls.from_values({**load_scene(name), **named})

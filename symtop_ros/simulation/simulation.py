@@ -5,8 +5,6 @@ old motion, samples from it on to the new one. What a change is says the `timeli
 takes effect, and what is published.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager

@@ -1,7 +1,5 @@
 """The grid of stamps: tick k is at start + k/rate, whenever it is published."""
 
-from __future__ import annotations
-
 from symtop_ros.wire.layout import NANOSECONDS
 
 CATCH_UP = 0.1  # s; ticks that are later are dropped, so that a stopped process sends no burst

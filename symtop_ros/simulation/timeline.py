@@ -4,8 +4,6 @@ A command gives a `Change`: the timeline that follows, and the event that tells 
 has a clock, a lock or a side effect; `simulation` decides at which stamp a change takes effect.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -37,7 +35,7 @@ class Timeline:
     torque_end: int = 0  # stamp in ns at which the held torque ends
 
     @classmethod
-    def begin(cls, settings: Settings, stamp: int) -> Timeline:
+    def begin(cls, settings: Settings, stamp: int) -> "Timeline":
         """Return the timeline that starts at a stamp (ns) from the initial conditions."""
         start = initial_state(settings.top, settings.initial, {})
         motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
@@ -51,11 +49,11 @@ class Timeline:
         motion = self.segment.motion
         return f"{motion.kind}: {perrys_rule(motion.top, motion.start)}"
 
-    def report(self, name: str, verdict: str, request: Request, stamp: int) -> Change:
+    def report(self, name: str, verdict: str, request: Request, stamp: int) -> "Change":
         """Return a change of nothing: an event that only reports."""
         return self._follow(name, self.segment, stamp, request, verdict)
 
-    def restart(self, stamp: int, values: Request | None = None) -> Change:
+    def restart(self, stamp: int, values: Request | None = None) -> "Change":
         """Restart from named initial conditions, or without them from the last ones."""
         start, name = self.start, "reset"
         if values is not None:
@@ -64,7 +62,7 @@ class Timeline:
         following = replace(self, start=start, segment=self.segment.restart(start, stamp))
         return self._lead_to(following, name, stamp, values or {}, lambda: following.verdict)
 
-    def kick(self, stamp: int, values: Request) -> Change:
+    def kick(self, stamp: int, values: Request) -> "Change":
         """Kick by named values; see `plan_kick`."""
         before = self.segment.state_at(stamp)
         motion, hold = plan_kick(self.segment.motion, before, values)
@@ -74,19 +72,19 @@ class Timeline:
         )
         return replace(change, before=before)
 
-    def pause(self, stamp: int, paused: bool) -> Change:
+    def pause(self, stamp: int, paused: bool) -> "Change":
         """Stop the motion, or continue it from where it stopped."""
         name = "pause" if paused else "resume"
         segment = (self.segment.pause if paused else self.segment.resume)(stamp)
         return self._follow(name, segment, stamp, {}, f"{name}d at {_seconds(segment)}")
 
-    def step(self, stamp: int, duration: float) -> Change:
+    def step(self, stamp: int, duration: float) -> "Change":
         """Advance a paused motion by a duration in s."""
         segment = self.segment.step(duration, stamp)
         verdict = f"stepped to {_seconds(segment)}"
         return self._follow("step", segment, stamp, {"duration": duration}, verdict)
 
-    def move(self, stamp: int, now: int) -> Change:
+    def move(self, stamp: int, now: int) -> "Change":
         """Continue the state of a stamp at the time (ns) to which the clock jumped."""
         change = self._follow(
             "clock",
@@ -98,7 +96,7 @@ class Timeline:
         moved = replace(change.following, torque_end=self.torque_end + now - stamp)
         return replace(change, following=moved, stamp=now, before=self.segment.state_at(stamp))
 
-    def slow_down(self, stamp: int, shortfall: Shortfall) -> Change:
+    def slow_down(self, stamp: int, shortfall: Shortfall) -> "Change":
         """Continue at a real-time factor that can be kept, from the time that was reached."""
         segment = self.segment.slow_down(shortfall.reached, shortfall.factor, stamp)
         verdict = (
@@ -108,7 +106,7 @@ class Timeline:
         change = self._follow("pace", segment, stamp, {"reached": shortfall.reached}, verdict)
         return replace(change, before=self.segment.motion.at(shortfall.reached))
 
-    def speed_up(self, stamp: int) -> Change:
+    def speed_up(self, stamp: int) -> "Change":
         """Continue at up to twice the real-time factor, as far as the settings ask for it."""
         current, factor = self.segment.factor, self.settings.real_time_factor
         if self.segment.motion.is_driven:
@@ -116,7 +114,7 @@ class Timeline:
         verdict = f"real-time factor {current:.3g} -> {factor:.3g}"
         return self._follow("pace", self.segment.set_factor(factor, stamp), stamp, {}, verdict)
 
-    def hold_torque(self, stamp: int, torque: Sequence[float], frame: str = "") -> Change:
+    def hold_torque(self, stamp: int, torque: Sequence[float], frame: str = "") -> "Change":
         """Apply a torque (3,) in N m until its time-out."""
         world = self.settings.world_frame
         if frame not in ("", world):
@@ -126,12 +124,12 @@ class Timeline:
         held = replace(self, held_torque=(x, y, z), torque_end=end)
         return held._apply_torque(stamp, "the applied torque changed")
 
-    def release_torque(self, stamp: int) -> Change:
+    def release_torque(self, stamp: int) -> "Change":
         """Continue without the held torque."""
         released = replace(self, held_torque=NO_TORQUE)
         return released._apply_torque(stamp, "the applied torque timed out")
 
-    def _apply_torque(self, stamp: int, verdict: str) -> Change:
+    def _apply_torque(self, stamp: int, verdict: str) -> "Change":
         a, b, c = self.settings.steady_torque
         x, y, z = self.held_torque
         total, segment = (a + x, b + y, c + z), self.segment
@@ -139,7 +137,7 @@ class Timeline:
             segment = segment.change(stamp, torque=total)
         return self._follow("torque", segment, stamp, {"torque": total}, verdict)
 
-    def change_settings(self, settings: Settings, stamp: int) -> list[Change]:
+    def change_settings(self, settings: Settings, stamp: int) -> list["Change"]:
         """Continue from the current state with other settings."""
         old = self.settings
         changes = {
@@ -169,18 +167,18 @@ class Timeline:
         stamp: int,
         request: Request,
         verdict: str | Callable[[], str],
-    ) -> Change:
+    ) -> "Change":
         """Return the change to another segment."""
         return self._lead_to(replace(self, segment=segment), name, stamp, request, verdict)
 
     def _lead_to(
         self,
-        following: Timeline,
+        following: "Timeline",
         name: str,
         stamp: int,
         request: Request,
         verdict: str | Callable[[], str],
-    ) -> Change:
+    ) -> "Change":
         if following.segment.motion is not self.segment.motion:
             following = replace(following, since=_describe_origin(name, stamp))
         is_new = following.segment is not self.segment

@@ -4,8 +4,6 @@ The node publishes what this table says, the recorder logs it, and logs are read
 it. World frame, SI units, radians.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -69,7 +67,7 @@ class Samples:
     state: State  # at these stamps; one state for all of them while paused
 
     @classmethod
-    def at(cls, segment: Segment, stamps: Any) -> Samples:
+    def at(cls, segment: Segment, stamps: Any) -> "Samples":
         """Return the samples of a segment at a stamp (ns) or an array of stamps."""
         return cls(segment, stamps, segment.state_at(stamps))
 

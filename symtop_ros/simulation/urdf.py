@@ -6,8 +6,6 @@ joined to the world by a floating joint, which robot_state_publisher leaves alon
 joints ends in an empty link. If the node does not publish /tf, the chain ends in the body.
 """
 
-from __future__ import annotations
-
 import math
 from xml.sax.saxutils import escape
 

@@ -3,8 +3,6 @@
 Every refusal reads "NAME must be CONDITION, got VALUE", in one printable line.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Collection, Mapping

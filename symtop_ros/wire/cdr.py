@@ -4,8 +4,6 @@ Numbers are aligned to their size, counted from the end of the 4-byte header (OM
 DDS-RTPS 2.5, section 10.2).
 """
 
-from __future__ import annotations
-
 import struct
 
 HEADER = b"\x00\x01\x00\x00"

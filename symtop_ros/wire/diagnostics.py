@@ -1,7 +1,5 @@
 """Encoding and decoding of diagnostic_msgs/DiagnosticArray."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 

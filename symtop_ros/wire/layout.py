@@ -5,8 +5,6 @@ copy of a template with a few numbers written into it, and many messages are dec
 two-dimensional array of bytes.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Doubles are in the order of the message: quaternions x, y, z, w; linear (or forc
 (or torque); positions before velocities.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate

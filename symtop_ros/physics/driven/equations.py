@@ -11,8 +11,6 @@ polynomial of degree 2:
   and friction is linear in omega.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

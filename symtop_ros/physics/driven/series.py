@@ -11,8 +11,6 @@ state between two steps, the largest terms of the series and the constants have 
 64 bits or more where NumPy has them (Linux), 53 elsewhere.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

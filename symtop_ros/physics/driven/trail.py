@@ -1,7 +1,5 @@
 """The motion with friction or an applied torque: no closed form, integrated as far as needed."""
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left
 from collections import deque

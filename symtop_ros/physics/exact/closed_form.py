@@ -5,8 +5,6 @@ their phases grow linearly in time except for a periodic part. So nothing is div
 and no error accumulates (Klein & Sommerfeld, The Theory of the Top, chapter VI).
 """
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from functools import cached_property

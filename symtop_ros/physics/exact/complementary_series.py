@@ -12,8 +12,6 @@ with expm1; what remains of the sum is called the cofactor here. So the digits o
 relative to its own size there.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Sequence

@@ -8,8 +8,6 @@ are products of sin(delta/2). So the digits of a quotient are relative to its ow
 tilt of an axis that passes a pole is right to rounding of itself.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Sequence

@@ -7,8 +7,6 @@ takes a tenth of the time of an array with one number. Complex numbers are pairs
 NumPy may round their products in another way than Python does.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple, TypeAlias
 

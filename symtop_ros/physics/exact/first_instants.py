@@ -5,8 +5,6 @@ rounding of the largest angular velocity of the motion; the first, small angular
 differences of large numbers there. The series has them to rounding of themselves.
 """
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 

@@ -1,7 +1,5 @@
 """The free motion, without a torque that turns the axis: Mgl = 0, or a resting vertical axis."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 

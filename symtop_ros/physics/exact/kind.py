@@ -1,7 +1,5 @@
 """The kind of a motion: the sign of phi' at the two turning angles of theta."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from typing import Literal

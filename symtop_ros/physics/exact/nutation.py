@@ -27,8 +27,6 @@ it the last two numbers decide on everything, and all digits of their terms may 
 then computed in fractions of integers, exactly.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from decimal import Decimal
@@ -59,7 +57,7 @@ class Nutation:
     alpha_minus_beta: Decimal
 
     @classmethod
-    def of(cls, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> Nutation:
+    def of(cls, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> "Nutation":
         """Return the nutation of a top (Ix, Iz, Mgl) that starts at a state."""
         Ix, Iz, Mgl = (Decimal(x) for x in moments)
         w, x, y, z = (Decimal(c) for c in orientation)

@@ -1,7 +1,5 @@
 """The place in the nutation: the phase since a turning point, and the distances from both."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from functools import cached_property

@@ -5,8 +5,6 @@ after whole turns, which is the reduction itself: it is exact however many turns
 the product rate * t in doubles would have an error of EPS times the whole phase.
 """
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal, localcontext
 from typing import Any, NamedTuple
@@ -67,7 +65,7 @@ class Phases:
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]
         self._farthest = math.ldexp(1.0, min(COUNT_BITS - self._exponent, 1023))
 
-    def at(self, times: Number | ExactTimes) -> list[Phase]:
+    def at(self, times: Number | ExactTimes) -> list["Phase"]:
         """Return the phases at times in s, or at exact times."""
         if isinstance(times, ExactTimes):
             return self._at_exact(times)
@@ -88,7 +86,7 @@ class Phases:
             for limbs, rate in zip(self._limbs, self._rest_rates, strict=True)
         ]
 
-    def _at_exact(self, times: ExactTimes) -> list[Phase]:
+    def _at_exact(self, times: ExactTimes) -> list["Phase"]:
         ticks, seconds = times.factor.as_integer_ratio()
         elapsed, parts = times.elapsed.as_integer_ratio()
         counts, phases = _Counts(times.nanoseconds), []
@@ -105,7 +103,7 @@ class Phases:
             return (turns_by_tick << shift) // seconds
         return turns_by_tick // (seconds << -shift)
 
-    def _at_far(self, times: Real, far: NDArray[np.bool_]) -> list[Phase]:
+    def _at_far(self, times: Real, far: NDArray[np.bool_]) -> list["Phase"]:
         """Return the phases at times of which some are too long for a count of ticks."""
         phases = self.at(np.where(far, 0.0, times))
         for n in np.flatnonzero(far).tolist():
@@ -113,7 +111,7 @@ class Phases:
                 phase.turns[n] = own.turns
         return phases
 
-    def _at_far_time(self, time: float) -> list[Phase]:
+    def _at_far_time(self, time: float) -> list["Phase"]:
         elapsed, parts = time.as_integer_ratio()
         turns = [self._scale(step * elapsed, parts) for step in self._steps]
         return [Phase(_wrap_turns(each)) for each in turns]

@@ -9,8 +9,6 @@ digits there, states would be wrong. `Motion` therefore enters the context `PREC
 anything in this folder, and what is computed at import is computed in it too.
 """
 
-from __future__ import annotations
-
 import math
 from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
 

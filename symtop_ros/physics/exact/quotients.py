@@ -13,8 +13,6 @@ whole energy would be potential. There f(u_P) = -d^2 with d = b - a u_P (Goldste
 the same way for all three.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from decimal import Decimal

@@ -8,8 +8,6 @@ which is quadratic in u. Its largest and smallest values between the turning poi
 turning points, or at its vertex if that is between them.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from decimal import Decimal

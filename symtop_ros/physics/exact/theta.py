@@ -11,8 +11,6 @@ no nome exceeds exp(-pi) = 0.043, and the first term left out is below 1e-16 of 
 issue 8480).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Protocol
 
