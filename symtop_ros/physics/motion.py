@@ -41,9 +41,8 @@ class Engine(Protocol):
     def nutation_period(self) -> float:
         """Period of theta in s."""
 
-    @property
-    def turning_angles(self) -> tuple[float, float]:
-        """Smallest and largest theta in rad."""
+    def turning_angles(self, from_below: bool) -> tuple[float, float]:
+        """Return the smallest and the largest angle in rad from the upper or the lower pole."""
 
     @property
     def mean_rates(self) -> tuple[float, float]:
@@ -210,7 +209,8 @@ class Motion:
 
     def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
         """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
-        with localcontext(PRECISE):
+        # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
+        with localcontext(PRECISE), np.errstate(under="ignore"):
             (w, z), (x, y), (wx, wy) = self._engine.cayley_klein(times)
         if self._is_turned_over:
             w, x, y, z = x, -w, z, -y
@@ -304,8 +304,7 @@ class Motion:
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
         with localcontext(PRECISE):
-            low, high = self._engine.turning_angles
-        return (math.pi - high, math.pi - low) if self._is_turned_over else (low, high)
+            return self._engine.turning_angles(self._is_turned_over)
 
     @property
     def mean_precession_rate(self) -> float:

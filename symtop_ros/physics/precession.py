@@ -29,7 +29,9 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.exact.precise import PRECISE, ZERO, compute_cosine
 from symtop_ros.physics.kicks import Hold
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import EPS, START_ROUNDING, validate_number
+from symtop_ros.physics.values import EPS, START_ROUNDING, refuse, validate_number
+
+LARGEST_TILT = 1e15  # rad
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +127,8 @@ def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[fl
     Raises
     ------
     ValueError
-        If an argument is not a finite number.
+        If an argument is not a finite number, or if theta exceeds 1e15 rad: whole turns are taken
+        off with 50 digits of pi.
 
     Examples
     --------
@@ -136,6 +139,8 @@ def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[fl
     """
     theta = validate_number("theta", theta, "rad")
     psi_dot = validate_number("psi_dot", psi_dot, "rad/s")
+    if abs(theta) > LARGEST_TILT:
+        raise refuse("theta", f"at most {LARGEST_TILT:g} rad in size", theta)
     with localcontext(PRECISE) as context:
         context.prec = 120
         Ix, Iz, Mgl, spin = (Decimal(value) for value in (*top.moments, psi_dot))

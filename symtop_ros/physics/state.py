@@ -131,8 +131,8 @@ class State:
     ) -> "State":
         """Return the state with these Euler angles z-x-z and rates.
 
-        The quaternion and the angular velocity are rounded to doubles once. The motion then starts
-        from exactly these doubles.
+        The quaternion and the angular velocity are right to some rounding of doubles. The motion
+        then starts from exactly these doubles.
 
         Parameters
         ----------
@@ -161,9 +161,9 @@ class State:
             validate_number(f"{name}_dot", value, "rad/s")
             for name, value in (("phi", phi_dot), ("theta", theta_dot), ("psi", psi_dot))
         )
-        plus, minus = (phi + psi) / 2, (phi - psi) / 2
+        (cos_plus, sin_plus), (cos_minus, sin_minus) = _half_sum(phi, psi), _half_sum(phi, -psi)
         c, s = np.cos(theta / 2), np.sin(theta / 2)
-        orientation = c * np.cos(plus), s * np.cos(minus), s * np.sin(minus), c * np.sin(plus)
+        orientation = c * cos_plus, s * cos_minus, s * sin_minus, c * sin_plus
         sine = np.sin(theta)
         omega = (
             phi_dot * sine * np.sin(psi) + theta_dot * np.cos(psi),
@@ -265,6 +265,15 @@ class State:
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _half_sum(a: float, b: float) -> tuple[float, float]:
+    """Return cosine and sine of (a + b)/2; the rounding of a large sum is made good."""
+    total = a + b
+    part = total - a
+    lost = ((a - (total - part)) + (b - part)) / 2  # Knuth's two-sum
+    c, s = np.cos(total / 2), np.sin(total / 2)
+    return c - s * lost, s + c * lost
 
 
 def _flush_tiny(array: Real) -> Real:

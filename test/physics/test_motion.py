@@ -258,3 +258,33 @@ def test_the_mean_precession_of_a_fast_top_keeps_its_digits(top, psi_dot):
         expected = phi / period
     # a rounding of the period, one of the rate, and start doubles with theta = 0.5 to an eps
     assert abs(motion.mean_precession_rate / expected - 1) <= 4 * EPS
+
+
+@pytest.mark.parametrize("top", [ARTICLE, Top(2e-4, 3e-4, -0.05)])
+def test_the_start_has_the_same_signs_of_zero_alone_and_among_others(top):
+    start = State((0.0, -1.0, 0.0, 0.0), (0.0, 1e-3, -0.0))
+    motion = Motion(top, start)
+    alone, among = motion.at(0.0), motion.at([0.0, 1e-9, 1.0])
+    assert np.signbit(alone.orientation).tolist() == np.signbit(among.orientation[0]).tolist()
+    assert alone.orientation.tolist() == among.orientation[0].tolist()
+
+
+def test_tiny_turning_angles_of_a_top_with_its_weight_below_are_right_to_rounding_of_themselves():
+    start = State.from_euler(theta=1e-14, phi_dot=0.3, psi_dot=300.0)
+    motion = Motion(Top(2e-4, 1e-4, -0.05), start)
+    low, high = motion.turning_angles
+    angles = motion.at(np.linspace(0, motion.nutation_period, 4001)).euler_angles.theta
+    assert low * (1 - 8 * EPS) <= angles.min() <= angles.max() <= high * (1 + 8 * EPS)
+    # between two of the samples theta changes by the square of a phase of 2 pi/4000, 2e-6 of it
+    assert angles.min() == pytest.approx(low, rel=1e-5)
+    assert angles.max() == pytest.approx(high, rel=1e-5)
+
+
+def test_states_do_not_depend_on_how_numpy_treats_underflow():
+    motion = Motion(Top(1.0, 1.0, 1.0), State((0, 1, 0, 0), (2, 0, 0)))
+    times = np.array([1.0, 1e3, 1e6])
+    expected = motion.at(times)
+    with np.errstate(all="raise"):
+        assert motion.at(times) == expected
+        one = motion.at(1e6)
+    assert one.orientation.tolist() == expected.orientation[2].tolist()

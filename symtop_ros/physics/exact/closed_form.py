@@ -75,18 +75,18 @@ class ClosedFormMotion:
         rate = float(self.nutation_rate)
         return 2 * math.pi / rate if rate else math.inf
 
-    @property
-    def turning_angles(self) -> tuple[float, float]:
-        """Smallest and largest theta in rad.
+    def turning_angles(self, from_below: bool) -> tuple[float, float]:
+        """Return the smallest and the largest angle in rad from the upper or the lower pole.
 
         tan(theta/2)^2 = (1 - u)/(1 + u): both distances are known to all digits, while the arc
-        cosine of u loses half of them near a pole.
+        cosine of u loses half of them near a pole, and pi - theta those of a small angle.
         """
-        below, above = self.zeros.A, self.zeros.B
-        return (
-            2 * math.atan2(math.sqrt(above.from_u2), math.sqrt(below.from_u2)),
-            2 * math.atan2(math.sqrt(above.from_u1), math.sqrt(below.from_u1)),
-        )
+        near, far = self.zeros.B, self.zeros.A
+        if from_below:
+            near, far = far, near
+        first = 2 * math.atan2(math.sqrt(near.from_u2), math.sqrt(far.from_u2))
+        second = 2 * math.atan2(math.sqrt(near.from_u1), math.sqrt(far.from_u1))
+        return (second, first) if from_below else (first, second)
 
     @property
     def mean_rates(self) -> tuple[float, float]:
@@ -111,12 +111,22 @@ class ClosedFormMotion:
         is_first = find_size(seconds) <= self._first_end
         if isinstance(is_first, np.ndarray):
             if is_first.any() and not is_first.all():
-                first = self._first_instants.cayley_klein(_select(t, is_first))
+                first = self._begin(_select(t, is_first))
                 return _merge(is_first, first, self._evaluate(_select(t, ~is_first)))
             is_first = bool(is_first.any())
         elif seconds == 0:
             return self._return_start()  # as the first instants do, without their coefficients
-        return self._first_instants.cayley_klein(t) if is_first else self._evaluate(t)
+        return self._begin(t) if is_first else self._evaluate(t)
+
+    def _begin(self, t: Number | ExactTimes) -> Components:
+        """Return the values near t = 0, and at t = 0 those of the start, with their signs of 0."""
+        values = self._first_instants.cayley_klein(t)
+        is_start = (t.rough_seconds if isinstance(t, ExactTimes) else t) == 0
+        if isinstance(is_start, np.ndarray) and is_start.any():
+            for parts, start in zip(values, self._return_start(), strict=True):
+                for part, number in zip(parts, start, strict=True):
+                    part[is_start] = number  # type: ignore[index]
+        return values
 
     def _return_start(self) -> Components:
         _, (w, x, y, z), (wx, wy, _) = self._arguments

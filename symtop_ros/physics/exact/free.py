@@ -67,11 +67,13 @@ class FreeMotion:
         rate = float(self.nutation_rate)
         return math.inf if self.kind == "sleeping" or rate == 0 else 2 * math.pi / rate
 
-    @property
-    def turning_angles(self) -> tuple[float, float]:
-        """Smallest and largest theta in rad."""
+    def turning_angles(self, from_below: bool) -> tuple[float, float]:
+        """Return the smallest and the largest angle in rad from the upper or the lower pole."""
         far = self._tilt + self._cone
-        return abs(self._tilt - self._cone), min(far, 2 * math.pi - far)
+        low, high = abs(self._tilt - self._cone), min(far, 2 * math.pi - far)
+        if from_below:
+            low, high = math.pi - high, math.pi - low
+        return (low, high) if low <= high else (high, low)  # equal angles, each rounded
 
     @property
     def mean_rates(self) -> tuple[float, float]:
