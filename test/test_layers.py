@@ -94,7 +94,7 @@ def test_every_folder_is_in_the_table():
 
 def test_the_arrows_have_no_circle():
     below = {folder: own & set(ARROWS) for folder, (own, _) in ARROWS.items()}
-    # `top_report --article` starts the article's part from the report's command line
+    # `top_report article` starts the article's part from the report's command line
     below["report"] -= {"article"}
     while below:
         lowest = {folder for folder, others in below.items() if not others & set(below)}

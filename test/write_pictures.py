@@ -1,7 +1,7 @@
 """Render docs/replay.png and docs/six_rates.png: `python test/write_pictures.py`.
 
 The first is a top on cusps that is hurried, as `top_replay` shows it; the second a scene of
-`top_report --article`.
+`top_report article`.
 """
 
 from __future__ import annotations

@@ -6,7 +6,6 @@ import argparse
 import json
 import math
 import shutil
-import signal
 import sys
 from pathlib import Path
 
@@ -20,14 +19,13 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.testset import score
 
-INTERRUPTED = 130
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events."""
 REMOVABLE = ("offset", "delay")
 
 
 def main(args: list[str] | None = None) -> int:
-    """Judge; return 0 (good), 1 (failed, or above --max-error), 2 (usage) or 130."""
+    """Judge; return 0 (good), 1 (failed, or above --max-error) or 2 (usage)."""
     parser = _parser()
     arguments = sys.argv[1:] if args is None else args
     # The rest belongs to ROS (--ros-args ...), which only --live needs.
@@ -38,8 +36,6 @@ def main(args: list[str] | None = None) -> int:
     if options.testset is None and not (has_estimates and (options.live or options.files)):
         parser.error("LOG with --topic or --estimates, --live with --topic, or --testset is needed")
     try:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.default_int_handler)
         return _run(options, rest)
     except (LogError, ValueError) as error:
         print(f"top_judge: {one_line(error)}", file=sys.stderr)
@@ -47,11 +43,6 @@ def main(args: list[str] | None = None) -> int:
         print(
             f"top_judge: {one_line(error.filename or 'output')}: {error.strerror}", file=sys.stderr
         )
-    except ModuleNotFoundError as error:
-        needed = "source a ROS 2, or pip install 'symtop_ros[ros]'"
-        print(f"top_judge: {error.name} is missing: {needed}", file=sys.stderr)
-    except KeyboardInterrupt:
-        return INTERRUPTED
     return 1
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -15,22 +14,15 @@ from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.validation import one_line
 
-INTERRUPTED = 130  # exit status after Ctrl-C, as shells have it
-
 
 def main(args: list[str] | None = None) -> int:
-    """Replay, check or repair a log; return 0 (success), 1 (failure), 2 (usage) or 130."""
+    """Replay, check or repair a log; return 0 (success), 1 (failure) or 2 (usage)."""
     options = _parser().parse_args(args)
     try:
-        # Both signals raise KeyboardInterrupt, so that an incomplete file is removed.
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.default_int_handler)
         return _run(options)
     except LogError as error:
         print(f"top_replay: {one_line(error)}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
-        return INTERRUPTED
 
 
 def add_view_options(parser: argparse.ArgumentParser) -> None:
@@ -123,13 +115,11 @@ def _row(topic: str, deviation: Deviation) -> str:
 
 
 def _show(log: TopLog, options: argparse.Namespace) -> int:
-    try:
-        from symtop_ros.playback import viewer
-        from symtop_ros.playback.replay import replay
-        from symtop_ros.playback.view.view import ViewOptions
-    except ModuleNotFoundError as error:
-        msg = f"{error.name} is missing: pip install 'symtop_ros[playback]'"
-        raise LogError(msg) from None
+    # Rerun, which a check and a repair do without
+    from symtop_ros.playback import viewer
+    from symtop_ros.playback.replay import replay
+    from symtop_ros.playback.view.view import ViewOptions
+
     drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
     save: Path | None = options.save
     if save:
@@ -156,7 +146,3 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
 def _print_problems(problems: list[str]) -> None:
     for problem in list_problems(problems):
         print(f"top_replay: {problem}", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-import sys
+import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -49,7 +49,7 @@ NOISE = (2.4e-4, 1e-5, 1.7e-3, 1e-4)
 FILTERS = ("AngularRate", "Complementary", "Madgwick", "Mahony", "AQUA", "EKF", "UKF")
 SHOWN = ("Madgwick", "Mahony", "EKF", "AngularRate")  # in the plot
 PLOTTED = ("cusps", "in the pivot")
-SECTION, PLOT = "filters", "filters"
+NAME = "filters"  # of the files, and of the section in the documentation
 
 
 @dataclass(frozen=True)
@@ -150,18 +150,13 @@ def judge_filters(folder: Path, docs: Path | None = None) -> int:
                 if (scene, mount) == PLOTTED and name in SHOWN:
                     curves[name] = errors
     facts = {"trials": [asdict(trial) for trial in trials]}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "filters.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-        (folder / "filters.md").write_text(format_trials(facts) + "\n", encoding="utf-8")
-        for place in filter(None, (folder, docs)):
-            write_figures({PLOT: lambda: draw(curves)}, place)
-        if docs:
-            (docs / f"{PLOT}.png").unlink()
-            publish_figures({"filters": facts}, {SECTION: format_trials(facts)}, docs)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
-        return 1
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "filters.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+    (folder / "filters.md").write_text(format_trials(facts) + "\n", encoding="utf-8")
+    write_figures({NAME: lambda: draw(curves)}, folder)
+    if docs:
+        shutil.copy(folder / f"{NAME}.svg", docs)
+        publish_figures({NAME: facts}, {NAME: format_trials(facts)}, docs)
     print(f"{folder / 'filters.md'}, filters.json and a plot")
     return 0
 

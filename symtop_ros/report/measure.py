@@ -27,18 +27,13 @@ PACKAGES = (
 
 def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
     """Write report.md, report.json and the plots; return the exit status."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        peers, missing = installed()
-        versions = _find_versions()
-        environment = Environment(command, find_machine(), versions, missing, scope.limit)
-        results = _run(scope, peers)
-        _write(folder, results, environment)
-        if docs:
-            publish(folder, docs)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
-        return 1
+    folder.mkdir(parents=True, exist_ok=True)
+    peers, missing = installed()
+    environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
+    results = _run(scope, peers)
+    _write(folder, results, environment)
+    if docs:
+        publish(folder, docs)
     print(f"{folder / 'report.md'}, report.json and plots")
     failures = results.list_failures()
     for failure in failures:

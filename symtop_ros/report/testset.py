@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import statistics
-import sys
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -61,16 +60,12 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
         for peer, problem in progress:
             progress.set_description(f"{peer.name}: {problem.facts['name']:24.24}")
             entries += measure(peer, problem, limit)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        facts = {"limit": limit, "entries": [asdict(entry) for entry in entries]}
-        (folder / "testset.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-        (folder / "testset.md").write_text(format_scores(facts) + "\n", encoding="utf-8")
-        if docs:
-            publish_scores(facts, docs)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
-        return 1
+    folder.mkdir(parents=True, exist_ok=True)
+    facts = {"limit": limit, "entries": [asdict(entry) for entry in entries]}
+    (folder / "testset.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+    (folder / "testset.md").write_text(format_scores(facts) + "\n", encoding="utf-8")
+    if docs:
+        publish_scores(facts, docs)
     print(f"{folder / 'testset.md'} and testset.json")
     return 0
 

@@ -16,6 +16,7 @@ from symtop_ros.playback import main as module
 RUN = Run()
 SITE = Path(sysconfig.get_paths()["purelib"])
 ROOT = Path(__file__).parents[2]
+PROGRAM = "import sys; from symtop_ros.programs import top_replay; sys.exit(top_replay())"
 
 
 @pytest.fixture
@@ -56,7 +57,7 @@ def laptop(tmp_path_factory):
 def replay(python, *arguments):
     """Run top_replay in a separate environment, which inherits no ROS."""
     return subprocess.run(
-        [python, "-m", "symtop_ros.playback.main", *map(str, arguments)],
+        [python, "-c", PROGRAM, *map(str, arguments)],
         env={"PATH": "/usr/bin:/bin"},
         capture_output=True,
         text=True,
@@ -149,10 +150,9 @@ def test_wrong_usage_is_status_2(arguments):
 
 
 def test_a_missing_rerun_is_reported_with_the_extra_that_installs_it(log):
-    code = "import sys; sys.modules['rerun_cli'] = None; "
-    code += "from symtop_ros.playback.main import main; sys.exit(main(sys.argv[1:]))"
+    hidden = "import sys; sys.modules['rerun_cli'] = None; "
     result = subprocess.run(
-        [sys.executable, "-c", code, str(log), "--save", "x.rrd"],
+        [sys.executable, "-c", hidden + PROGRAM, str(log), "--save", "x.rrd"],
         capture_output=True,
         text=True,
         check=False,
