@@ -52,12 +52,12 @@ def _run(scope: Scope, peers: Sequence[Peer]) -> Results:
 
 
 def _write(folder: Path, results: Results, environment: Environment) -> None:
-    problem = Reference.read().article[0]
-    text = format_document(results, problem, environment)
+    motion = Reference.read().article[0]
+    text = format_document(results, motion, environment)
     (folder / "report.md").write_text(text, encoding="utf-8")
     facts = json.dumps(collect_facts(results, environment), indent=1)
     (folder / "report.json").write_text(facts + "\n", encoding="utf-8")
-    write_plots(results, problem, folder)
+    write_plots(results, motion, folder)
 
 
 def find_machine() -> str:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.article.style import GREY, INK, RED, new_figure, write_figures
 from symtop_ros.report.benchmarks import SPAN, HardCase, Results
 from symtop_ros.report.peers import CLOSED_FORM
-from symtop_ros.report.reference import EPS, Problem
+from symtop_ros.report.reference import EPS, ReferenceMotion
 from symtop_ros.report.sweep import Curve
 
 PACKAGES = {  # colours that differ in grey, and markers that differ without any
@@ -34,14 +34,14 @@ ERROR = "largest error of the attitude (rad)"
 Looks = dict[str, dict[str, Any]]
 
 
-def write_plots(results: Results, problem: Problem, folder: Path) -> None:
+def write_plots(results: Results, motion: ReferenceMotion, folder: Path) -> None:
     """Write every plot as SVG and PNG."""
     names = list(dict.fromkeys([*(c.peer for c in results.curves), *results.checks]))
     looks = _choose_looks(names)
     drawings: tuple[Callable[[], Figure], ...] = (
-        lambda: draw_work_precision(results, problem, looks),
+        lambda: draw_work_precision(results, motion, looks),
         lambda: draw_motions(results, looks),
-        lambda: draw_long_times(results, problem, looks),
+        lambda: draw_long_times(results, motion, looks),
         lambda: draw_arrays(results, looks),
         lambda: draw_hard_cases(results.hard),
     )
@@ -62,15 +62,15 @@ def _choose_looks(names: Iterable[str]) -> Looks:
     return looks
 
 
-def draw_work_precision(results: Results, problem: Problem, looks: Looks) -> Figure:
+def draw_work_precision(results: Results, motion: ReferenceMotion, looks: Looks) -> Figure:
     """Draw error against seconds per simulated second."""
     figure = new_figure(4.6, width=8.2)
     axes = figure.subplots()
-    curves = [curve for curve in results.curves if curve.motion == problem.name]
+    curves = [curve for curve in results.curves if curve.motion == motion.name]
     _draw_curves(axes, curves, looks)
-    _mark_limit(axes, problem.limit(SPAN))
+    _mark_limit(axes, motion.limit(SPAN))
     axes.set_ylabel(ERROR)
-    axes.set_title(f"the article's top, {problem.name}, after {SPAN:g} s", loc="left")
+    axes.set_title(f"the article's top, {motion.name}, after {SPAN:g} s", loc="left")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -107,15 +107,15 @@ def draw_motions(results: Results, looks: Looks) -> Figure:
     return figure
 
 
-def draw_long_times(results: Results, problem: Problem, looks: Looks) -> Figure:
+def draw_long_times(results: Results, motion: ReferenceMotion, looks: Looks) -> Figure:
     """Draw the growth of the errors with time."""
     figure = new_figure(4.2, width=8.2)
     axes = figure.subplots()
     for each in results.growth:
         errors = np.maximum(each.errors, SMALLEST)
         axes.loglog(each.times, errors, **{**looks[each.peer], "lw": 1.2})
-    times = [t for t in problem.times if t >= SPAN]
-    limits = [problem.limit(t) for t in times]
+    times = [t for t in motion.times if t >= SPAN]
+    limits = [motion.limit(t) for t in times]
     axes.loglog(times, limits, color=GREY, lw=1, ls=(0, (6, 3)), label="rounding of the input")
     axes.set_xlabel("simulated time (s)")
     axes.set_ylabel("error of the attitude at the end (rad)")

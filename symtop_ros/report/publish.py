@@ -34,10 +34,10 @@ def read_facts(facts: dict[str, Any]) -> tuple[Results, Environment]:
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     """Return the text of each section by its name."""
     results, environment = read_facts(facts)
-    problem = Reference.read().article[0]
+    motion = Reference.read().article[0]
     return {
-        "chapters": format_chapters(results, problem, environment),
-        "summary": format_summary(results, problem),
+        "chapters": format_chapters(results, motion, environment),
+        "summary": format_summary(results, motion),
     }
 
 

@@ -30,8 +30,8 @@ SHARE_OF_RADIUS = Decimal(-2).exp()
 HALF = Decimal("0.5")
 
 
-class Step(NamedTuple):
-    """Start in s, and the series of w, x, y, z from there on."""
+class Expansion(NamedTuple):
+    """A time in s, and the series of w, x, y, z in the time since then."""
 
     t: Decimal
     series: tuple[Series, ...]
@@ -45,12 +45,11 @@ class TaylorMotion:
         with localcontext(self._context):
             self._moments = tuple(Decimal(each) for each in task.top.moments)
             self._friction = Decimal(task.friction.axial), Decimal(task.friction.transverse)
-            q, omega = _split([Decimal(each) for each in initial_values(task)])
+            *q, wx, wy, wz = (Decimal(each) for each in initial_values(task))
             size = sum(map(mul, q, q), Decimal(0)).sqrt()
-            self._state = [*(each / size for each in q), *omega]
+            self._state = [*(each / size for each in q), wx, wy, wz]
         self._t = Decimal(0)
-        self._steps: list[Step] = []
-        self._starts: list[Decimal] = []
+        self._steps: list[Expansion] = []
         self._known: dict[float, tuple[list[float], list[float]]] = {}
 
     def at(self, times: Sequence[float] | Real) -> tuple[Real, Real]:
@@ -66,7 +65,7 @@ class TaylorMotion:
     def _evaluate(self, t: Decimal) -> tuple[list[float], list[float]]:
         while self._t <= t:
             self._advance()
-        start, series = self._steps[bisect_right(self._starts, t) - 1]
+        start, series = self._steps[bisect_right(self._steps, t, key=lambda step: step.t) - 1]
         exact = [_sum_series(each, t - start) for each in series]
         high = [float(each) for each in exact]
         return high, [float(e - Decimal(h)) for e, h in zip(exact, high, strict=True)]
@@ -76,8 +75,7 @@ class TaylorMotion:
         series = self._expand()
         radius = min(_estimate_radius(series, n) for n in (ORDER - 1, ORDER))
         step = SHARE_OF_RADIUS * radius
-        self._steps.append(Step(self._t, tuple(series[:4])))
-        self._starts.append(self._t)
+        self._steps.append(Expansion(self._t, tuple(series[:4])))
         self._state = [_sum_series(each, step) for each in series]
         self._t += step
 
@@ -114,10 +112,6 @@ class TaylorMotion:
         )
 
 
-def _split(values: list[Decimal]) -> tuple[list[Decimal], list[Decimal]]:
-    return values[:4], values[4:]
-
-
 def _multiply(a: Series, b: Series) -> Decimal:
     """Return the last coefficient of the product of two series of the same length."""
     return sum(map(mul, a, reversed(b)), Decimal(0))
@@ -138,12 +132,8 @@ def _estimate_radius(series: list[Series], n: int) -> Decimal:
     """
     ratios = (
         max(abs(each[n]) for each in part) / max(abs(each[0]) for each in part)
-        for part in _split_series(series)
+        for part in (series[:4], series[4:])
         if any(each[0] for each in part)
     )
     largest = max(ratios, default=Decimal(0))
     return (-largest.ln() / n).exp() if largest else Decimal(1)
-
-
-def _split_series(series: list[Series]) -> tuple[list[Series], list[Series]]:
-    return series[:4], series[4:]
