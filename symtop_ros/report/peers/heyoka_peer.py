@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import heyoka as hy
 import numpy as np
@@ -17,14 +17,13 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     Arrays,
+    Form,
     Peer,
     Solution,
     Task,
-    body_rates,
-    euler_rates,
     from_euler_angles,
-    initial_values,
-    normalize,
+    on_euler_angles,
+    on_quaternion,
     spread_times,
 )
 
@@ -32,27 +31,7 @@ DEFAULT = 2.0**-52
 SETTINGS = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, DEFAULT, 1e-17, 1e-18)
 
 
-class Form(NamedTuple):
-    """Variables, their values at the start, their rates, and how an orientation is read."""
-
-    names: tuple[str, ...]
-    start: list[float]
-    rates: Callable[[Any], list[Any]]
-    read: Callable[[Real], Real]
-
-
-def on_quaternion(task: Task) -> Form:
-    """Return the quaternion and the body's angular velocity as variables."""
-    names = ("w", "x", "y", "z", "wx", "wy", "wz")
-    return Form(names, initial_values(task), partial(body_rates, task, 0.0), _read_quaternion)
-
-
-def on_euler_angles(task: Task) -> Form:
-    """Return the Euler angles and their rates as variables: the article's equations."""
-    names = ("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot")
-    start = [*task.start.euler_angles, *task.start.euler_rates]
-    rates = partial(euler_rates, task, 0.0, sin=hy.sin, cos=hy.cos)
-    return Form(names, start, rates, _read_angles)
+on_angles = partial(on_euler_angles, sin=hy.sin, cos=hy.cos)
 
 
 def on_constants_of_motion(task: Task) -> Form:
@@ -63,7 +42,7 @@ def on_constants_of_motion(task: Task) -> Form:
     momentum = task.top.angular_momentum(task.start)[2] / Ix
     a = Iz * wz / Ix
 
-    def rates(variables: Any) -> list[Any]:
+    def rates(_: float, variables: Any) -> list[Any]:
         _, theta, _, theta_dot = variables
         c, s = hy.cos(theta), hy.sin(theta)
         phi_dot = (momentum - a * c) / (s * s)
@@ -71,23 +50,15 @@ def on_constants_of_motion(task: Task) -> Form:
         return [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
 
     start = [phi, theta, psi, task.start.euler_rates[1]]
-    return Form(("phi", "theta", "psi", "theta_dot"), start, rates, _read_angles)
-
-
-def _read_quaternion(states: Real) -> Real:
-    return normalize(states[:, :4])
-
-
-def _read_angles(states: Real) -> Real:
-    return from_euler_angles(states[:, :3])
+    return Form(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
 def integrator(form: Form, tolerance: float) -> Any:
     """Return the compiled integrator at the start."""
-    variables = hy.make_vars(*form.names)
+    variables = hy.make_vars(*(f"y{k}" for k in range(len(form.start))))
     rates = [
         rate if isinstance(rate, hy.expression) else hy.expression(rate)
-        for rate in form.rates(variables)
+        for rate in form.rates(0.0, variables)
     ]
     equations = list(zip(variables, rates, strict=True))
     return hy.taylor_adaptive(equations, form.start, tol=tolerance)
@@ -131,12 +102,12 @@ PEERS = [
         SETTINGS,
         partial(prepare, form),
         "also" if form is on_quaternion else "no",
-        None if form is on_euler_angles else partial(prepare_arrays, form),
+        None if form is on_angles else partial(prepare_arrays, form),
         "every motion",
     )
     for name, form in (
         ("quaternion", on_quaternion),
-        ("Euler angles", on_euler_angles),
+        ("Euler angles", on_angles),
         ("Euler angles, two constants", on_constants_of_motion),
     )
 ]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import cos, sin
 from typing import Any, Literal, NamedTuple
 
@@ -45,6 +46,47 @@ class Solution(NamedTuple):
     # returns times in (0, t] and the orientations there, with the same steps: errors are
     # taken from it, and it is not timed
     record: Record
+
+    @classmethod
+    def of_steps(
+        cls,
+        reach: Callable[[float], Real],
+        run: Callable[[float], tuple[Real, Real]],
+        read: Callable[[Real], Real],
+    ) -> Solution:
+        """Return a solution from an integrator's own steps, without its interpolation.
+
+        `reach` returns the variables (1, k) at a time; `run` returns the times (n,) of all steps,
+        with the start, and the variables (n, k) there; `read` is that of a `Form`.
+        """
+
+        def record(t: float) -> tuple[Real, Real]:
+            times, states = run(t)
+            # From the end back: the time t itself is always among them.
+            chosen = choose_steps(len(times) - 1)
+            return times[:0:-1][chosen], read(states[:0:-1][chosen])
+
+        return cls(lambda t: np.asarray(read(reach(t))[0]), record)
+
+
+class Form(NamedTuple):
+    """Variables of a motion, for a general integrator."""
+
+    start: list[float]  # their values
+    rates: Callable[..., list[Any]]  # rates of change, from the time in s and the variables
+    read: Callable[[Real], Real]  # variables (n, k) -> orientations (n, 4)
+
+
+def on_quaternion(task: Task) -> Form:
+    """Return the quaternion and the body's angular velocity as variables."""
+    return Form(initial_values(task), partial(body_rates, task), lambda y: normalize(y[:, :4]))
+
+
+def on_euler_angles(task: Task, **functions: Any) -> Form:
+    """Return the Euler angles and their rates as variables; `functions` may be sin and cos."""
+    start = [*task.start.euler_angles, *task.start.euler_rates]
+    rates = partial(euler_rates, task, **functions)
+    return Form(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
 @dataclass(frozen=True)
