@@ -21,7 +21,7 @@ from log_files import ARTICLE, CUSPS  # noqa: E402
 from pictures import pause_at, picture, running_viewer, views  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from symtop_ros.article.side_by_side import six_rates, write_scene  # noqa: E402
+from symtop_ros.article.recordings import six_rates, write_scene  # noqa: E402
 from symtop_ros.log.batch import Batch, Columns  # noqa: E402
 from symtop_ros.physics import Motion, hurry, kick_verdict, perrys_rule  # noqa: E402
 from symtop_ros.playback.view import entities  # noqa: E402

@@ -13,8 +13,8 @@ from symtop_ros.article.nutation import claims_on_nutation
 from symtop_ros.article.pivot import claims_on_pivot
 from symtop_ros.article.rates import claims_on_rates
 from symtop_ros.article.recordings import write_recordings
-from symtop_ros.article.style import write_figures
 from symtop_ros.article.torque import claims_on_torque
+from symtop_ros.drawing.style import write_figures
 from symtop_ros.physics import Top
 
 

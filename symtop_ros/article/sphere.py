@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
 from symtop_ros.article.motions import precession_period
-from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion
 
 Axes3D = Any  # matplotlib has no types for its 3D axes

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from tqdm import tqdm
 
 from symtop_ros.arrays import Real
-from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
 from symtop_ros.judge.compare import NONE, Errors, compare, invert
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth

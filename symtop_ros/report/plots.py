@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.article.style import GREY, INK, RED, new_figure, write_figures
+from symtop_ros.drawing.style import GREY, INK, RED, new_figure, write_figures
 from symtop_ros.report.benchmarks import SPAN, HardCase, Results
 from symtop_ros.report.peers import CLOSED_FORM
 from symtop_ros.report.reference import EPS, ReferenceMotion
@@ -69,8 +69,7 @@ def draw_work_precision(results: Results, motion: ReferenceMotion, looks: Looks)
     curves = [curve for curve in results.curves if curve.motion == motion.name]
     _draw_curves(axes, curves, looks)
     _mark_limit(axes, motion.limit(SPAN))
-    axes.set_ylabel(ERROR)
-    axes.set_title(f"the article's top, {motion.name}, after {SPAN:g} s", loc="left")
+    axes.set(ylabel=ERROR, title=f"the article's top, {motion.name}, after {SPAN:g} s")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -100,7 +99,7 @@ def draw_motions(results: Results, looks: Looks) -> Figure:
     ).ravel()
     for axes, name in zip(grid, names, strict=False):
         _draw_curves(axes, [c for c in results.curves if c.motion == name], looks)
-        axes.set_title(name, loc="left")
+        axes.set_title(name)
     for axes in grid[len(names) :]:
         axes.remove()
     figure.supylabel("error (rad)", fontsize=10)
@@ -117,9 +116,8 @@ def draw_long_times(results: Results, motion: ReferenceMotion, looks: Looks) -> 
     times = [t for t in motion.times if t >= SPAN]
     limits = [motion.limit(t) for t in times]
     axes.loglog(times, limits, color=GREY, lw=1, ls=(0, (6, 3)), label="rounding of the input")
-    axes.set_xlabel("simulated time (s)")
-    axes.set_ylabel("error of the attitude at the end (rad)")
-    axes.set_title("each at its best setting for ten seconds", loc="left")
+    axes.set(xlabel="simulated time (s)", ylabel="error of the attitude at the end (rad)")
+    axes.set_title("each at its best setting for ten seconds")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -131,8 +129,7 @@ def draw_arrays(results: Results, looks: Looks) -> Figure:
     for each in results.states:
         cost = np.array(each.seconds) / np.array(each.numbers) * 1e6
         axes.loglog(each.numbers, cost, **{**looks[each.peer], "lw": 1.2})
-    axes.set_xlabel(f"number of states within {SPAN:g} s")
-    axes.set_ylabel("us per state, set-up included")
+    axes.set(xlabel=f"number of states within {SPAN:g} s", ylabel="us per state, set-up included")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -168,4 +165,4 @@ def _draw_family(axes: Axes, cases: list[HardCase]) -> None:
         axes.loglog(*np.array(points).T, marker, color=color, ms=4, label=name)
     limits = [case.limit for case in cases]
     axes.loglog(near, limits, color=INK, lw=1, ls="--", label="rounding of the input")
-    axes.set_title(cases[0].family, loc="left", fontsize=8.5)
+    axes.set_title(cases[0].family, fontsize=8.5)

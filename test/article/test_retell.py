@@ -9,10 +9,9 @@ from rerun.chunk import RrdReader
 from symtop_ros.article import retell as article
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.figures import FIGURES, LOOKS
-from symtop_ros.article.recordings import MOTIONS, SCENES
+from symtop_ros.article.recordings import MOTIONS, RATE, SCENES, SPAN
 from symtop_ros.article.retell import check_claims, retell
-from symtop_ros.article.side_by_side import RATE, SPAN
-from symtop_ros.article.style import BLUE, GOLD, INK, RED
+from symtop_ros.drawing.style import BLUE, GOLD, INK, RED
 from symtop_ros.playback.view import entities
 from symtop_ros.report import main as report
 

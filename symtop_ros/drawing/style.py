@@ -18,6 +18,7 @@ SETTINGS: Any = {
     "font.size": 9.5,
     "axes.labelsize": 10,
     "axes.titlesize": 10,
+    "axes.titlelocation": "left",
     "axes.edgecolor": GREY,
     "axes.labelcolor": INK,
     "axes.titlecolor": INK,
