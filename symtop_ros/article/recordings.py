@@ -35,7 +35,6 @@ from symtop_ros.physics import Motion, State, Top, hurry, perrys_rule, regular_p
 from symtop_ros.playback.replay import create_recording
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
-from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace, create_stand, parallel, turning_circles
@@ -134,9 +133,9 @@ def write_scene(exhibits: Sequence[Exhibit], file: Path) -> None:
 def _send(stream: Stream, exhibit: Exhibit) -> None:
     root, top = exhibit.root, exhibit.run.pieces[0][1].top
     stream.log(root, rr.Transform3D(translation=(*exhibit.place, 0.0)), static=True)
-    stream.log(f"{root}/top", to_mesh3d(create_body(top)), static=True)
+    stream.log_mesh(f"{root}/top", create_body(top), static=True)
     if top.Mgl > 0:
-        stream.log(f"{root}/stand", create_stand(), static=True)
+        stream.log_mesh(f"{root}/stand", create_stand(), static=True)
     grid = [parallel(angle) for angle in np.radians([15, 30, 45, 60, 75, 90])]
     stream.log(f"{root}/sphere", rr.LineStrips3D(grid, colors=[GREY], radii=[0.003]), static=True)
     label = rr.Points3D(
@@ -157,13 +156,11 @@ def _send_motion(stream: Stream, exhibit: Exhibit) -> None:
     stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
     states = exhibit.run.at(np.asarray(stamps * 1e-9))
     quaternions = states.orientation[:, [1, 2, 3, 0]]
-    stream.send(f"{root}/top", stamps, rr.Transform3D.columns(quaternion=quaternions))
+    stream.send_turns(f"{root}/top", stamps, quaternions)
     trace = Trace()
     trace.length = TRACE
-    times, strips = trace.strips(stamps, states.to_world([0.0, 0.0, 1.0]))
-    style = rr.LineStrips3D.from_fields(colors=[exhibit.color], radii=[0.012])
-    stream.log(f"{root}/trace", style, static=True)
-    stream.send(f"{root}/trace", times, rr.LineStrips3D.columns(strips=list(strips)))
+    stream.style_lines(f"{root}/trace", exhibit.color, 0.012)
+    stream.send_lines(f"{root}/trace", *trace.strips(stamps, states.to_world([0.0, 0.0, 1.0])))
     curve = f"/{exhibit.group}/{exhibit.name}"
     line = rr.SeriesLines(names=[exhibit.label], colors=[exhibit.color], widths=[2.0])
     stream.log(curve, line, static=True)

@@ -15,7 +15,6 @@ from symtop_ros.arrays import Real
 from symtop_ros.drawing.mesh import create_lathe
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import BLUE, GREEN
 from symtop_ros.playback.view.stream import Stream
 
@@ -65,7 +64,7 @@ def _log_cone(
         stream.log(f"{entity}/rim", rr.Clear(recursive=False))
         return
     profile = sorted([(0.0, 0.0), (radius, height)], key=lambda point: point[1])
-    stream.log(f"{entity}/cone", to_mesh3d(create_lathe(profile, (colors[1],) * 2), OPACITY))
+    stream.log_mesh(f"{entity}/cone", create_lathe(profile, (colors[1],) * 2), OPACITY)
     rim = np.stack(
         [radius * np.cos(AROUND), radius * np.sin(AROUND), np.full_like(AROUND, height)], axis=1
     )

@@ -13,6 +13,7 @@ from symtop_ros.physics import EffectivePotential, Motion, Top
 from symtop_ros.playback.view import entities, quantities
 from symtop_ros.playback.view.energy import EnergyBook
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE
+from symtop_ros.playback.view.inertial import Torques
 from symtop_ros.playback.view.potential import PotentialView
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.simulation.events import Event
@@ -77,7 +78,7 @@ class Plots:
 
     def _send_drift(self, columns: Mapping[str, Columns], top: Top) -> None:
         found = quantities.constants(columns, top)
-        if found and len(found[0]):
+        if found:
             stamps, values = found
             if self._reference is None:
                 self._reference = values[0]
@@ -99,9 +100,10 @@ class Plots:
                 self._stream.send(f"{entity}/state", euler.stamps[::step], positions)
             if motion.is_integrated:
                 self._send_drifting_curves(euler, motion)
+        parts = Torques.of(columns)
         for entity, found in (
             (entities.ENERGY, self._energy.rows(columns, motion)),
-            (entities.NODES_TORQUE, quantities.torques_along_nodes(columns)),
+            (entities.NODES_TORQUE, (parts[0], parts[1].along_nodes()) if parts else None),
         ):
             if found:
                 self._stream.send_scalars(entity, *found)
