@@ -153,6 +153,16 @@ def slope(function: Callable[[Real], Real], times: Real, step: float = STEP) -> 
     return Slope(fine, float(np.abs(coarse - fine).max()))
 
 
+def measure_acceleration(motion: Motion, share: float | None = None) -> float:
+    """Return theta'' in rad/s^2 at the start of a motion, by differentiating theta'.
+
+    The step is `STEP`, or a share of the nutation period.
+    """
+    step = STEP if share is None else share * motion.nutation_period
+    found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta), np.zeros(1), step)
+    return float(found.values[0])
+
+
 def _difference(function: Callable[[Real], Real], times: Real, step: float) -> Real:
     total = np.zeros_like(function(times))
     for k, weight in enumerate(WEIGHTS, start=1):

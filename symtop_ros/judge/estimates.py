@@ -95,7 +95,7 @@ TRANSFORM_STAMPED = Format(
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class AttitudeType:
     """A message type, and where its doubles hold x, y, z, w and the angular velocity."""
 
     format: Format
@@ -107,12 +107,12 @@ class Kind:
 KINDS = {
     kind.format.type: kind
     for kind in (
-        Kind(QUATERNION, 0),
-        Kind(IMU, 0, rates=13, covariance=4),
-        Kind(stamped("geometry_msgs/msg/PoseStamped", 7), 3),
-        Kind(stamped("geometry_msgs/msg/PoseWithCovarianceStamped", 43), 3),
-        Kind(TRANSFORM_STAMPED, 3),
-        Kind(ODOMETRY, 3, rates=46),
+        AttitudeType(QUATERNION, 0),
+        AttitudeType(IMU, 0, rates=13, covariance=4),
+        AttitudeType(stamped("geometry_msgs/msg/PoseStamped", 7), 3),
+        AttitudeType(stamped("geometry_msgs/msg/PoseWithCovarianceStamped", 43), 3),
+        AttitudeType(TRANSFORM_STAMPED, 3),
+        AttitudeType(ODOMETRY, 3, rates=46),
     )
 }
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from symtop_ros.judge.compare import NONE, compare, find_offset
 from symtop_ros.judge.estimates import CSV, Estimates, read_csv, read_topic
+from symtop_ros.judge.judgement import Judgement
 from symtop_ros.judge.truth import Truth, read_truth
-from symtop_ros.judge.verdict import Verdict
 from symtop_ros.log.bag import open_run
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
@@ -102,37 +102,42 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
 
         return judge_live(options, ["top_judge", *rest])
     truth = read_truth(TopLog(open_run(options.files), options.node))
-    verdict = judge(_read_estimates(options), truth, _name(options), tuple(options.remove))
-    print(verdict.format())
+    judgement = judge(
+        _read_estimates(options),
+        truth,
+        options.topic or str(options.estimates),
+        tuple(options.remove),
+    )
+    print(judgement.format())
     if options.output:
-        _write(verdict, options.output)
-    if options.max_error and verdict.largest > options.max_error:
+        _write(judgement, options.output)
+    if options.max_error and judgement.largest > options.max_error:
         limit = f"{options.max_error:g} rad"
         print(
-            f"top_judge: the attitude is off by {verdict.largest:.3g} rad, limit {limit}",
+            f"top_judge: the attitude is off by {judgement.largest:.3g} rad, limit {limit}",
             file=sys.stderr,
         )
         return 1
     return 0
 
 
-def _write(verdict: Verdict, folder: Path) -> None:
+def _write(judgement: Judgement, folder: Path) -> None:
     """Write judge.json, and the plot if Matplotlib is installed."""
     folder.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(verdict.facts(), indent=1)
+    text = json.dumps(judgement.facts(), indent=1)
     (folder / "judge.json").write_text(text + "\n", encoding="utf-8")
     try:
         from symtop_ros.judge.plots import write_plot
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:
-        write_plot(verdict.errors, folder)
+        write_plot(judgement.errors, folder)
 
 
 def judge(
     estimates: Estimates, truth: Truth, source: str, removed: tuple[str, ...] = ()
-) -> Verdict:
-    """Return the verdict on estimates."""
+) -> Judgement:
+    """Return the judgement of estimates."""
     found = find_offset(estimates, truth)
     taken = NONE
     if set(removed) == set(REMOVABLE):
@@ -145,7 +150,7 @@ def judge(
         count = len(estimates)
         msg = f"{source} must have an attitude at a stamp within the run, got none of {count}"
         raise LogError(msg)
-    return Verdict(source, errors, found, removed, estimates.left_out)
+    return Judgement(source, errors, found, removed, estimates.left_out)
 
 
 def _read_estimates(options: argparse.Namespace) -> Estimates:
@@ -156,10 +161,6 @@ def _read_estimates(options: argparse.Namespace) -> Estimates:
         msg = f"--topic must name the estimates in {other}, got none"
         raise LogError(msg)
     return read_topic(open_run([other] if other else options.files), options.topic, options.frame)
-
-
-def _name(options: argparse.Namespace) -> str:
-    return options.topic or str(options.estimates)
 
 
 def _score(options: argparse.Namespace) -> int:

@@ -113,7 +113,10 @@ class Results:
         footprint = facts["footprint"]
         return cls(
             facts["checks"],
-            [_read_curve(each) for each in facts["curves"]],
+            [
+                Curve(**{**each, "points": tuple(Measurement(**p) for p in each["points"])})
+                for each in facts["curves"]
+            ],
             [Growth(**_freeze(each)) for each in facts["growth"]],
             [ArrayCost(**_freeze(each)) for each in facts["states"]],
             [HardCase(**each) for each in facts["hard"]],
@@ -155,10 +158,6 @@ class Results:
         for case in self.driven:
             if case.errors[SPLITTING] > LARGEST_DRIVEN_ERROR:
                 yield f"{case.family}: error {case.errors[SPLITTING]:.1e}"
-
-
-def _read_curve(facts: dict[str, Any]) -> Curve:
-    return Curve(**{**facts, "points": tuple(Measurement(**each) for each in facts["points"])})
 
 
 def _freeze(facts: dict[str, Any]) -> dict[str, Any]:

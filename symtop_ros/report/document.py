@@ -24,6 +24,8 @@ SUMMARY = (
     "Drake RK5, quaternion",
 )
 ARRAY = 100_000  # states of the column on arrays
+BEST = ["", "largest error", "mean error", "at times", "ms", "x ours"]
+BEST += [f"ms for {level:.0e}" for level in LEVELS]
 
 
 @dataclass(frozen=True)
@@ -72,12 +74,8 @@ def format_summary(results: Results, motion: ReferenceMotion) -> str:
 
 def format_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a Markdown table; the first column is aligned left, the others right."""
-    lines = [_row(head), _row(["---", *["--:"] * (len(head) - 1)]), *map(_row, rows)]
-    return "\n".join(lines)
-
-
-def _row(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+    lines = [head, ["---", *["--:"] * (len(head) - 1)], *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
 def _format_environment(environment: Environment) -> str:
@@ -99,9 +97,7 @@ def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str
     curves = [curve for curve in results.curves if curve.motion == motion.name]
     ours = results.find_curve(CLOSED_FORM, motion.name).best
     costs = {each.peer: each for each in results.states}
-    head = ["", "largest error", "mean error", "at times", "ms", "x ours"]
-    head += [f"ms for {level:.0e}" for level in LEVELS]
-    head += ["us a state, array", "to build, ms", "sweep ended at", "model"]
+    head = [*BEST, "us a state, array", "to build, ms", "sweep ended at", "model"]
     rows = [
         [
             *(curve.peer, *_format_best(curve, ours.seconds)),
@@ -170,10 +166,8 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
 def _format_friction(results: Results) -> str:
     curves = [curve for curve in results.curves if curve.motion == FRICTION]
     ours = results.find_curve(SPLITTING, FRICTION).best
-    head = ["", "largest error", "mean error", "at times", "ms", "x ours"]
-    head += [f"ms for {level:.0e}" for level in LEVELS]
     rows = [[curve.peer, *_format_best(curve, ours.seconds)] for curve in curves]
-    return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(head, rows)}"
+    return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(BEST, rows)}"
 
 
 def _format_driven(cases: list[DrivenCase]) -> str:

@@ -7,7 +7,6 @@ start from the exact attitude, so that nothing but the motion and the noise is j
 from __future__ import annotations
 
 import json
-import math
 import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -17,6 +16,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 from tqdm import tqdm
 
 from symtop_ros.arrays import Real
@@ -59,28 +59,23 @@ class Trial:
     filter: str
     scene: str
     mount: str
-    tilt: float  # root mean squares of the errors in the second half of the run, in rad
-    attitude: float  # root mean squares of the errors in the second half of the run, in rad
+    # root mean squares of the errors in the second half of the run, in rad
+    tilt: float
+    attitude: float
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class SensorRecord:
     """Measurements of a sensor on a top, and the exact motion of the sensor."""
 
     stamps: NDArray[np.int64]  # in ns
-    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
-    # force
-    orientations: Real
-    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
-    # force
-    rates: Real
-    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
-    # force
-    forces: Real
+    orientations: Real  # exact attitudes (n, 4): w, x, y, z, sensor to world
+    rates: Real  # measured angular velocities in rad/s, in the frame of the sensor, (n, 3)
+    forces: Real  # measured specific forces in m/s^2, in the frame of the sensor, (n, 3)
     truth: Truth
 
 
-def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> Recording:
+def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> SensorRecord:
     """Return what a sensor at a place on the top of a scene measures."""
     settings = Settings.from_scene(scene)
     start = initial_state(settings.top, settings.initial, {})
@@ -91,10 +86,10 @@ def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> Reco
     numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, stamps))
     truth = Truth([Event.of(0, "start", "", {}, start, segment)])
     q = numbers[:, [3, 0, 1, 2]]
-    return Recording(stamps, q, numbers[:, 13:16], numbers[:, 25:28], truth)
+    return SensorRecord(stamps, q, numbers[:, 13:16], numbers[:, 25:28], truth)
 
 
-def run_filter(name: str, recording: Recording) -> Errors:
+def run_filter(name: str, recording: SensorRecord) -> Errors:
     """Return the errors of a filter.
 
     The authors of filters do not agree whether a quaternion turns the sensor or the world. Both
@@ -104,14 +99,15 @@ def run_filter(name: str, recording: Recording) -> Errors:
     return min(found, key=lambda errors: float(np.median(errors.total)))
 
 
-def _run(name: str, recording: Recording, turn: Callable[[Real], Real]) -> Errors:
+def _run(name: str, recording: SensorRecord, turn: Callable[[Real], Real]) -> Errors:
     import ahrs
 
     options: dict[str, Any] = {"gyr": recording.rates, "frequency": float(RATE)}
     if name != "AngularRate":
         options["acc"] = recording.forces
     if name == "Complementary":
-        options["w0"] = _roll_pitch_yaw(recording.orientations[0])
+        turn_at_start = Rotation.from_quat(recording.orientations[0][[1, 2, 3, 0]])
+        options["w0"] = turn_at_start.as_euler("ZYX")[::-1]  # roll, pitch and yaw
     else:
         options["q0"] = turn(recording.orientations[0])
     with np.errstate(all="ignore"):
@@ -119,17 +115,6 @@ def _run(name: str, recording: Recording, turn: Callable[[Real], Real]) -> Error
     q = np.nan_to_num(turn(q))
     q[np.linalg.norm(q, axis=1) < 0.5] = (1.0, 0.0, 0.0, 0.0)  # a filter that has broken down
     return compare(Estimates.of(recording.stamps, q), recording.truth, NONE)
-
-
-def _roll_pitch_yaw(q: Real) -> Real:
-    w, x, y, z = q.tolist()
-    return np.array(
-        [
-            math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
-            math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x)))),
-            math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
-        ]
-    )
 
 
 def judge_filters(folder: Path, docs: Path | None = None) -> int:

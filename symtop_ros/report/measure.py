@@ -13,7 +13,7 @@ from tqdm import tqdm
 
 from symtop_ros.report.benchmarks import Results, Scope, list_steps
 from symtop_ros.report.document import Environment, format_document
-from symtop_ros.report.peers import installed
+from symtop_ros.report.peers import find_peers
 from symtop_ros.report.peers.peer import Peer
 from symtop_ros.report.plots import write_plots
 from symtop_ros.report.publish import collect_facts, publish
@@ -28,7 +28,7 @@ PACKAGES = (
 def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
     """Write report.md, report.json and the plots; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
-    peers, missing = installed()
+    peers, missing = find_peers()
     environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
     results = _run(scope, peers)
     _write(folder, results, environment)

@@ -68,7 +68,11 @@ def draw_work_precision(results: Results, motion: ReferenceMotion, looks: Looks)
     axes = figure.subplots()
     curves = [curve for curve in results.curves if curve.motion == motion.name]
     _draw_curves(axes, curves, looks)
-    _mark_limit(axes, motion.limit(SPAN))
+    limit = motion.limit(SPAN)  # what rounding of the input changes
+    axes.axhline(limit, color=GREY, lw=1, ls=(0, (6, 3)))
+    axes.annotate("what rounding of the input changes", (0.99, limit), (0, 3),
+                  ("axes fraction", "data"), "offset points",
+                  ha="right", fontsize=8, color=GREY)  # fmt: skip
     axes.set(ylabel=ERROR, title=f"the article's top, {motion.name}, after {SPAN:g} s")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
@@ -80,13 +84,6 @@ def _draw_curves(axes: Axes, curves: Iterable[Curve], looks: Looks) -> None:
         errors = [max(point.error, SMALLEST) for point in curve.points]
         axes.loglog(seconds, errors, **{**looks[curve.peer], "lw": 1.2})
     axes.set_xlabel("seconds per simulated second")
-
-
-def _mark_limit(axes: Axes, limit: float) -> None:
-    axes.axhline(limit, color=GREY, lw=1, ls=(0, (6, 3)))
-    text = "what rounding of the input changes"
-    axes.annotate(text, (0.99, limit), (0, 3), ("axes fraction", "data"), "offset points",
-                  ha="right", fontsize=8, color=GREY)  # fmt: skip
 
 
 def draw_motions(results: Results, looks: Looks) -> Figure:

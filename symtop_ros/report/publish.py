@@ -26,14 +26,12 @@ def collect_facts(results: Results, environment: Environment) -> dict[str, Any]:
     return {"environment": asdict(environment), "results": asdict(results)}
 
 
-def read_facts(facts: dict[str, Any]) -> tuple[Results, Environment]:
-    """Return what `collect_facts` has turned into values of a JSON file."""
-    return Results.from_facts(facts["results"]), Environment(**facts["environment"])
-
-
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     """Return the text of each section by its name."""
-    results, environment = read_facts(facts)
+    results, environment = (
+        Results.from_facts(facts["results"]),
+        Environment(**facts["environment"]),
+    )
     motion = Reference.read().article[0]
     return {
         "chapters": format_chapters(results, motion, environment),

@@ -19,7 +19,7 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import Task, initial_values
 
-Series = list[Decimal]  # coefficients of powers of the time since the start of a step
+PowerSeries = list[Decimal]  # coefficients of powers of the time since the start of a step
 
 DIGITS = 32
 # Order and step of a Taylor integration with a relative error of 10^-26 in each step: the order is
@@ -30,11 +30,11 @@ SHARE_OF_RADIUS = Decimal(-2).exp()
 HALF = Decimal("0.5")
 
 
-class Expansion(NamedTuple):
+class TaylorStep(NamedTuple):
     """A time in s, and the series of w, x, y, z in the time since then."""
 
     t: Decimal
-    series: tuple[Series, ...]
+    series: tuple[PowerSeries, ...]
 
 
 class TaylorMotion:
@@ -49,7 +49,7 @@ class TaylorMotion:
             size = sum(map(mul, q, q), Decimal(0)).sqrt()
             self._state = [*(each / size for each in q), wx, wy, wz]
         self._t = Decimal(0)
-        self._steps: list[Expansion] = []
+        self._steps: list[TaylorStep] = []
         self._known: dict[float, tuple[list[float], list[float]]] = {}
 
     def at(self, times: Sequence[float] | Real) -> tuple[Real, Real]:
@@ -75,11 +75,11 @@ class TaylorMotion:
         series = self._expand()
         radius = min(_estimate_radius(series, n) for n in (ORDER - 1, ORDER))
         step = SHARE_OF_RADIUS * radius
-        self._steps.append(Expansion(self._t, tuple(series[:4])))
+        self._steps.append(TaylorStep(self._t, tuple(series[:4])))
         self._state = [_sum_series(each, step) for each in series]
         self._t += step
 
-    def _expand(self) -> list[Series]:
+    def _expand(self) -> list[PowerSeries]:
         """Return the series of the seven variables about the present state.
 
         Coefficient n + 1 of a variable is coefficient n of its rate divided by n + 1, and
@@ -91,7 +91,7 @@ class TaylorMotion:
                 each.append(rate / (n + 1))
         return series
 
-    def _rates(self, series: list[Series]) -> Iterator[Decimal]:
+    def _rates(self, series: list[PowerSeries]) -> Iterator[Decimal]:
         """Return the last known coefficients of the rates: q' = q omega/2 and Euler's equations."""
         (Ix, Iz, Mgl), (axial, transverse) = self._moments, self._friction
         w, x, y, z, wx, wy, wz = series
@@ -112,12 +112,12 @@ class TaylorMotion:
         )
 
 
-def _multiply(a: Series, b: Series) -> Decimal:
+def _multiply(a: PowerSeries, b: PowerSeries) -> Decimal:
     """Return the last coefficient of the product of two series of the same length."""
     return sum(map(mul, a, reversed(b)), Decimal(0))
 
 
-def _sum_series(series: Series, t: Decimal) -> Decimal:
+def _sum_series(series: PowerSeries, t: Decimal) -> Decimal:
     """Return the sum of a power series, by Horner's rule."""
     total = Decimal(0)
     for coefficient in reversed(series):
@@ -125,7 +125,7 @@ def _sum_series(series: Series, t: Decimal) -> Decimal:
     return total
 
 
-def _estimate_radius(series: list[Series], n: int) -> Decimal:
+def _estimate_radius(series: list[PowerSeries], n: int) -> Decimal:
     """Return the radius of convergence in s, from coefficient n of all variables (root test).
 
     Orientation and angular velocity have different sizes, so each is divided by its own.

@@ -15,7 +15,7 @@ import numpy as np
 from tqdm import tqdm
 
 from symtop_ros.report.document import format_table
-from symtop_ros.report.peers import CLOSED_FORM, installed
+from symtop_ros.report.peers import CLOSED_FORM, find_peers
 from symtop_ros.report.peers.peer import Peer
 from symtop_ros.report.publish import replace_section, write_figures
 from symtop_ros.report.reference import ReferenceMotion, read_testset
@@ -54,7 +54,7 @@ class Entry:
 
 def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) -> int:
     """Write testset.md and testset.json; return the exit status."""
-    peers, _ = installed()
+    peers, _ = find_peers()
     motions = read_testset()
     chosen = [peer for peer in peers if peer.name in PROGRAMS]
     work = [(peer, motion) for peer in chosen for motion in motions]

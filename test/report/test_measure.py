@@ -16,7 +16,7 @@ from symtop_ros.report.benchmarks import (
 )
 from symtop_ros.report.main import main
 from symtop_ros.report.measure import measure
-from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, installed
+from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, find_peers
 from symtop_ros.report.plots import NAMES
 from symtop_ros.report.reference import Reference
 
@@ -55,7 +55,7 @@ def test_the_splitting_is_as_good_as_promised(facts):
 
 
 def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, folder):
-    peers, missing = installed()
+    peers, missing = find_peers()
     chosen = [peer for peer in peers if SMALL.includes(peer, 0)]
     frictionless = [peer for peer in chosen if peer.friction != "only"]
     assert set(facts["checks"]) == {peer.name for peer in frictionless}

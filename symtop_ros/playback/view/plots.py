@@ -52,7 +52,8 @@ class Plots:
         """Take over an event; a new motion has another potential."""
         self._reference = None
         self._energy.follow(event, before, after)
-        if before is None or not _is_same(before.motion, after.motion):
+        old, new = before.motion if before else None, after.motion
+        if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
             potential = EffectivePotential.of(after.motion.top, after.motion.start)
             self._potential.log_motion(after.motion, potential)
 
@@ -114,7 +115,3 @@ class Plots:
         for entity, strips in self._potential.draw(potentials).items():
             lines = rr.LineStrips2D.columns(strips=strips)
             self._stream.send(entity, euler.stamps[instants], lines)
-
-
-def _is_same(one: Motion, other: Motion) -> bool:
-    return (one.top, one.friction) == (other.top, other.friction) and one.start == other.start

@@ -124,8 +124,13 @@ class View:
         asked = event.values.get("request", "")
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
+        scales = {
+            arrow.label: f"{self._scales[name]:g} {arrow.unit}"
+            for name, arrow in ARROWS.items()
+            if name in self._scales
+        }
         equations = inertial.EQUATIONS if self._options.torques else {}
-        text = describe_motion(self._segment, event.state(), self._scale_texts(), equations)
+        text = describe_motion(self._segment, event.state(), scales, equations)
         self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
 
     def _send_cones(self, motion: Motion, state: State) -> None:
@@ -178,13 +183,6 @@ class View:
                 self._scales[name] = float(f"{lengths.max() / arrow.length:.2g}") or 1.0
                 if name == SENSOR:
                     self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
-
-    def _scale_texts(self) -> dict[str, str]:
-        return {
-            arrow.label: f"{self._scales[name]:g} {arrow.unit}"
-            for name, arrow in ARROWS.items()
-            if name in self._scales
-        }
 
     def _send_layout(self, framing: Framing) -> None:
         self._trace.length = framing.trace

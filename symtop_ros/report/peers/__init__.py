@@ -46,7 +46,7 @@ OWN = [
 ]
 
 
-def installed() -> tuple[list[Peer], list[str]]:
+def find_peers() -> tuple[list[Peer], list[str]]:
     """Return the package's engines and the peers that can be imported, and the missing packages."""
     modules, missing = [import_module(f"{__name__}.scipy_peer")], []
     for package, file in OPTIONAL.items():

@@ -12,7 +12,7 @@ from CyRK import nb_diffeq_addr, nbsolve2_ivp
 
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
-    Form,
+    Equations,
     Peer,
     Solution,
     Task,
@@ -25,7 +25,7 @@ SETTINGS = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14, 1e-15, 2.0**-52)
 Rates = Callable[..., None]
 
 
-def compile_quaternion(task: Task) -> tuple[Rates, Form]:
+def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
     """Return the rates of quaternion and angular velocity, as CyRK takes them, and their form."""
     Ix, Iz, Mgl = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
@@ -44,7 +44,7 @@ def compile_quaternion(task: Task) -> tuple[Rates, Form]:
     return rates, on_quaternion(task)
 
 
-def compile_euler_angles(task: Task) -> tuple[Rates, Form]:
+def compile_euler_angles(task: Task) -> tuple[Rates, Equations]:
     """Return the same for phi, theta, psi and their rates: the article's equations."""
     Ix, Iz, Mgl = task.top.moments
 
@@ -59,10 +59,12 @@ def compile_euler_angles(task: Task) -> tuple[Rates, Form]:
     return rates, on_euler_angles(task)
 
 
-def prepare(form: Callable[[Task], tuple[Rates, Form]], task: Task, tolerance: float) -> Solution:
+def prepare(
+    form: Callable[[Task], tuple[Rates, Equations]], task: Task, tolerance: float
+) -> Solution:
     """Compile; each solution starts anew."""
-    rates, variables = form(task)
-    address, start = nb_diffeq_addr(rates), np.array(variables.start)
+    rates, equations = form(task)
+    address, start = nb_diffeq_addr(rates), np.array(equations.start)
 
     def run(t: float) -> tuple[Real, Real]:
         """Return the times (n,) and the variables (n, k) of all steps."""
@@ -74,7 +76,7 @@ def prepare(form: Callable[[Task], tuple[Rates, Form]], task: Task, tolerance: f
         return times, states
 
     run(1e-3)  # compiles the solver itself, once
-    return Solution.of_steps(lambda t: run(t)[1][-1:], run, variables.read)
+    return Solution.of_steps(lambda t: run(t)[1][-1:], run, equations.read)
 
 
 FORMS: tuple[tuple[str, Callable[..., Any], Literal["no", "also"]], ...] = (

@@ -17,7 +17,7 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     Arrays,
-    Form,
+    Equations,
     Peer,
     Solution,
     Task,
@@ -34,7 +34,7 @@ SETTINGS = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, DEFAULT, 1e-17, 1e-18)
 on_angles = partial(on_euler_angles, sin=hy.sin, cos=hy.cos)
 
 
-def on_constants_of_motion(task: Task) -> Form:
+def on_constants_of_motion(task: Task) -> Equations:
     """Return phi, theta, psi and theta' as variables, with p_phi and p_psi as constants."""
     Ix, Iz, Mgl = task.top.moments
     phi, theta, psi = task.start.euler_angles
@@ -50,50 +50,51 @@ def on_constants_of_motion(task: Task) -> Form:
         return [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
 
     start = [phi, theta, psi, task.start.euler_rates[1]]
-    return Form(start, rates, lambda y: from_euler_angles(y[:, :3]))
+    return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
-def integrator(form: Form, tolerance: float) -> Any:
+def integrator(equations: Equations, tolerance: float) -> Any:
     """Return the compiled integrator at the start."""
-    variables = hy.make_vars(*(f"y{k}" for k in range(len(form.start))))
+    variables = hy.make_vars(*(f"y{k}" for k in range(len(equations.start))))
     rates = [
         rate if isinstance(rate, hy.expression) else hy.expression(rate)
-        for rate in form.rates(0.0, variables)
+        for rate in equations.rates(0.0, variables)
     ]
-    equations = list(zip(variables, rates, strict=True))
-    return hy.taylor_adaptive(equations, form.start, tol=tolerance)
+    return hy.taylor_adaptive(
+        list(zip(variables, rates, strict=True)), equations.start, tol=tolerance
+    )
 
 
-def prepare(make_form: Callable[[Task], Form], task: Task, tolerance: float) -> Solution:
+def prepare(make: Callable[[Task], Equations], task: Task, tolerance: float) -> Solution:
     """Compile; each solution starts anew."""
-    form = make_form(task)
-    taylor, start = integrator(form, tolerance), np.array(form.start)
+    equations = make(task)
+    taylor, start = integrator(equations, tolerance), np.array(equations.start)
 
     def reach(t: float) -> Real:
         taylor.time = 0.0
         taylor.state[:] = start
         taylor.propagate_until(t)
-        return np.asarray(form.read(taylor.state[np.newaxis])[0])
+        return np.asarray(equations.read(taylor.state[np.newaxis])[0])
 
     def record(t: float) -> tuple[Real, Real]:
         times = spread_times(t)
-        return times, _run_over(taylor, form, times)
+        return times, _run_over(taylor, equations, times)
 
     return Solution(reach, record)
 
 
-def prepare_arrays(make_form: Callable[[Task], Form], task: Task) -> Arrays:
+def prepare_arrays(make: Callable[[Task], Equations], task: Task) -> Arrays:
     """Compile at the default tolerance; states at many times come from dense output."""
-    form = make_form(task)
-    return partial(_run_over, integrator(form, DEFAULT), form)
+    equations = make(task)
+    return partial(_run_over, integrator(equations, DEFAULT), equations)
 
 
-def _run_over(taylor: Any, form: Form, times: Real) -> Real:
+def _run_over(taylor: Any, equations: Equations, times: Real) -> Real:
     """Return the orientations (n, 4) at times (n,) from the Taylor series of the steps."""
     taylor.time = 0.0
-    taylor.state[:] = form.start
+    taylor.state[:] = equations.start
     grid = np.concatenate([[0.0], times])  # heyoka wants its own time first
-    return form.read(taylor.propagate_grid(grid)[-1][1:])
+    return equations.read(taylor.propagate_grid(grid)[-1][1:])
 
 
 PEERS = [

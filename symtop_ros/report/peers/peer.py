@@ -16,8 +16,6 @@ import numpy as np
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Friction, State, Top
 
-Solve = Callable[[float], Real]  # t in s -> orientation (w, x, y, z), from the start each time
-Record = Callable[[float], tuple[Real, Real]]  # t -> times (n,) in (0, t], orientations (n, 4)
 Arrays = Callable[[Real], Real]  # times (n,) in s -> orientations (n, 4)
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 # solve_ivp takes no relative tolerance below 100 eps, the last one here.
@@ -41,11 +39,12 @@ class Task:
 class Solution(NamedTuple):
     """A model that is built, and what it computes from the start, anew each time."""
 
-    # returns the orientation at a time in s, and stores nothing on the way: this is timed
-    reach: Solve
-    # returns times in (0, t] and the orientations there, with the same steps: errors are
-    # taken from it, and it is not timed
-    record: Record
+    # returns the orientation (w, x, y, z) at a time in s, and stores nothing on the way: this is
+    # timed
+    reach: Callable[[float], Real]
+    # returns times (n,) in (0, t] and the orientations (n, 4) there, with the same steps: errors
+    # are taken from it, and it is not timed
+    record: Callable[[float], tuple[Real, Real]]
 
     @classmethod
     def of_steps(
@@ -57,7 +56,7 @@ class Solution(NamedTuple):
         """Return a solution from an integrator's own steps, without its interpolation.
 
         `reach` returns the variables (1, k) at a time; `run` returns the times (n,) of all steps,
-        with the start, and the variables (n, k) there; `read` is that of a `Form`.
+        with the start, and the variables (n, k) there; `read` is that of a `Equations`.
         """
 
         def record(t: float) -> tuple[Real, Real]:
@@ -69,24 +68,24 @@ class Solution(NamedTuple):
         return cls(lambda t: np.asarray(read(reach(t))[0]), record)
 
 
-class Form(NamedTuple):
-    """Variables of a motion, for a general integrator."""
+class Equations(NamedTuple):
+    """Equations of motion in some variables, for a general integrator."""
 
-    start: list[float]  # their values
-    rates: Callable[..., list[Any]]  # rates of change, from the time in s and the variables
+    start: list[float]  # the variables at t = 0
+    rates: Callable[..., list[Any]]  # their rates of change, from the time in s and the variables
     read: Callable[[Real], Real]  # variables (n, k) -> orientations (n, 4)
 
 
-def on_quaternion(task: Task) -> Form:
+def on_quaternion(task: Task) -> Equations:
     """Return the quaternion and the body's angular velocity as variables."""
-    return Form(initial_values(task), partial(body_rates, task), lambda y: normalize(y[:, :4]))
+    return Equations(initial_values(task), partial(body_rates, task), lambda y: normalize(y[:, :4]))
 
 
-def on_euler_angles(task: Task, **functions: Any) -> Form:
+def on_euler_angles(task: Task, **functions: Any) -> Equations:
     """Return the Euler angles and their rates as variables; `functions` may be sin and cos."""
     start = [*task.start.euler_angles, *task.start.euler_rates]
     rates = partial(euler_rates, task, **functions)
-    return Form(start, rates, lambda y: from_euler_angles(y[:, :3]))
+    return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
 @dataclass(frozen=True)

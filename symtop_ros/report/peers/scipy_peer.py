@@ -13,7 +13,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     TOLERANCES,
     Arrays,
-    Form,
+    Equations,
     Peer,
     Solution,
     Task,
@@ -27,11 +27,15 @@ METHODS: tuple[Method, ...] = ("DOP853", "LSODA", "Radau")
 
 
 def integrate(
-    method: Method, form: Form, tolerance: float, t: float, times: Real | list[float] | None = None
+    method: Method,
+    equations: Equations,
+    tolerance: float,
+    t: float,
+    times: Real | list[float] | None = None,
 ) -> tuple[Real, Real]:
     """Return the times (n,) asked for, or those of all steps, and the variables (n, k)."""
     solution = solve_ivp(
-        *(form.rates, (0.0, t), form.start),
+        *(equations.rates, (0.0, t), equations.start),
         method=method,
         rtol=tolerance,
         atol=tolerance,
@@ -41,19 +45,19 @@ def integrate(
 
 
 def prepare(
-    method: Method, make_form: Callable[[Task], Form], task: Task, tolerance: float
+    method: Method, make: Callable[[Task], Equations], task: Task, tolerance: float
 ) -> Solution:
-    """Return a solution that integrates the variables of a form."""
-    form = make_form(task)
-    run = partial(integrate, method, form, tolerance)
-    return Solution.of_steps(lambda t: run(t, [t])[1], run, form.read)
+    """Return a solution that integrates equations of motion."""
+    equations = make(task)
+    run = partial(integrate, method, equations, tolerance)
+    return Solution.of_steps(lambda t: run(t, [t])[1], run, equations.read)
 
 
 def prepare_arrays(task: Task) -> Arrays:
     """Return states at many times, from the dense output of DOP853 at its best tolerance."""
-    form = on_quaternion(task)
-    run = partial(integrate, "DOP853", form, TOLERANCES[-1])
-    return lambda times: form.read(run(float(times[-1]), times)[1])
+    equations = on_quaternion(task)
+    run = partial(integrate, "DOP853", equations, TOLERANCES[-1])
+    return lambda times: equations.read(run(float(times[-1]), times)[1])
 
 
 def _make_peers() -> list[Peer]:
