@@ -38,8 +38,8 @@ class PerryMap:
     """One map: a grid of n precession rates and m spin rates or tilts."""
 
     name: str  # "spin" or "tilt", in the names of its files
-    title: str  # the quantity that is held, and the label of the horizontal axis
-    label: str  # the quantity that is held, and the label of the horizontal axis
+    title: str  # the quantity that is held
+    label: str  # of the horizontal axis
     across: Real  # values along the horizontal axis: psi' in rad/s, or theta in rad
     phi_dot: Real  # precession rates before the kick, along the vertical axis, in rad/s
     effect: HurryEffect  # effect of the kick, (n, m)
@@ -49,20 +49,23 @@ class PerryMap:
 
 def map_spin(points: int) -> PerryMap:
     """Return the map of points x points over psi' and phi', at the article's tilt."""
-    phi_dot, psi_dot = np.linspace(*PHI_DOTS, points), np.linspace(*PSI_DOTS, points)
-    grid = THETA, phi_dot[:, np.newaxis], psi_dot
-    effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
-    title = f"theta = {THETA:g} rad"
-    return PerryMap("spin", title, "spin rate psi' (rad/s)", psi_dot, phi_dot, effect, torque)
+    psi_dot = np.linspace(*PSI_DOTS, points)
+    names = "spin", f"theta = {THETA:g} rad", "spin rate psi' (rad/s)"
+    return _map(names, psi_dot, THETA, psi_dot)
 
 
 def map_tilt(points: int) -> PerryMap:
     """Return the map of points x points over theta and phi', at the article's spin."""
-    phi_dot, theta = np.linspace(*PHI_DOTS, points), np.linspace(*THETAS, points)
-    grid = theta, phi_dot[:, np.newaxis], PSI_DOT
+    theta = np.linspace(*THETAS, points)
+    names = "tilt", f"psi' = {PSI_DOT:g} rad/s", "tilt theta (rad)"
+    return _map(names, theta, theta, PSI_DOT)
+
+
+def _map(names: tuple[str, str, str], across: Real, theta: Any, psi_dot: Any) -> PerryMap:
+    phi_dot = np.linspace(*PHI_DOTS, len(across))
+    grid = theta, phi_dot[:, np.newaxis], psi_dot
     effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
-    title = f"psi' = {PSI_DOT:g} rad/s"
-    return PerryMap("tilt", title, "tilt theta (rad)", theta, phi_dot, effect, torque)
+    return PerryMap(*names, across, phi_dot, effect, torque)
 
 
 def write_maps(folder: Path, points: int) -> int:

