@@ -9,7 +9,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from symtop_ros.judge.compare import NONE, compare, find_offset
+from symtop_ros.judge.compare import compare, find_offset
 from symtop_ros.judge.estimates import CSV, Estimates, read_csv, read_topic
 from symtop_ros.judge.judgement import Judgement
 from symtop_ros.judge.truth import Truth, read_truth
@@ -139,12 +139,8 @@ def judge(
 ) -> Judgement:
     """Return the judgement of estimates."""
     found = find_offset(estimates, truth)
-    taken = NONE
-    if set(removed) == set(REMOVABLE):
-        taken = found
-    elif removed:
-        wanted = {"rotations": "offset" in removed, "delay": "delay" in removed}
-        taken = find_offset(estimates, truth, **wanted)
+    wanted = {"rotations": "offset" in removed, "delay": "delay" in removed}
+    taken = found if all(wanted.values()) else find_offset(estimates, truth, **wanted)
     errors = compare(estimates, truth, taken)
     if not len(errors.total):
         count = len(estimates)

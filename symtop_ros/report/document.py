@@ -41,7 +41,7 @@ class Environment:
 
 def format_document(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
     """Return the whole report; its first chapters are on the motion of `motion`."""
-    return f"# Speed against error\n\n{format_chapters(results, motion, environment)}\n"
+    return f"# Speed against error\n\n{format_chapters(results, motion, environment)}"
 
 
 def format_chapters(results: Results, motion: ReferenceMotion, environment: Environment) -> str:

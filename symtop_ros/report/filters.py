@@ -6,7 +6,7 @@ start from the exact attitude, so that nothing but the motion and the noise is j
 
 from __future__ import annotations
 
-import json
+import math
 import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -17,7 +17,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
-from tqdm import tqdm
 
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
@@ -26,7 +25,7 @@ from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
 from symtop_ros.physics import Motion
 from symtop_ros.report.document import format_table
-from symtop_ros.report.publish import write_figures as publish_figures
+from symtop_ros.report.publish import track, write_results
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.segment import Segment
@@ -122,34 +121,26 @@ def judge_filters(folder: Path, docs: Path | None = None) -> int:
 
     It needs the package `ahrs`, of the extra `peers`.
     """
+    folder.mkdir(parents=True, exist_ok=True)
     trials: list[Trial] = []
     curves: dict[str, Errors] = {}
     work = [(scene, mount) for mount in MOUNTS for scene in SCENES]
-    with tqdm(work, unit="", leave=False, disable=None) as progress:
-        for scene, mount in progress:
-            recording = record(scene, MOUNTS[mount])
-            for name in FILTERS:
-                progress.set_description(f"{name}: {scene}, {mount}"[:60])
-                errors = run_filter(name, recording)
-                trials.append(_summarize(name, scene, mount, errors))
-                if (scene, mount) == PLOTTED and name in SHOWN:
-                    curves[name] = errors
+    for scene, mount in track(work, ", ".join):
+        recording = record(scene, MOUNTS[mount])
+        for name in FILTERS:
+            errors = run_filter(name, recording)
+            half = len(errors.total) // 2
+            parts = errors.tilt[half:], errors.total[half:]
+            trials.append(Trial(name, scene, mount, *(math.sqrt((x**2).mean()) for x in parts)))
+            if (scene, mount) == PLOTTED and name in SHOWN:
+                curves[name] = errors
     facts = {"trials": [asdict(trial) for trial in trials]}
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "filters.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    (folder / "filters.md").write_text(format_trials(facts) + "\n", encoding="utf-8")
+    write_results(NAME, facts, format_trials(facts), folder, docs)
     write_figures({NAME: lambda: draw(curves)}, folder)
     if docs:
         shutil.copy(folder / f"{NAME}.svg", docs)
-        publish_figures({NAME: facts}, {NAME: format_trials(facts)}, docs)
     print(f"{folder / 'filters.md'}, filters.json and a plot")
     return 0
-
-
-def _summarize(name: str, scene: str, mount: str, errors: Errors) -> Trial:
-    half = len(errors.total) // 2
-    rms = [float(np.sqrt((each[half:] ** 2).mean())) for each in (errors.tilt, errors.total)]
-    return Trial(name, scene, mount, *rms)
 
 
 def format_trials(facts: dict[str, Any]) -> str:

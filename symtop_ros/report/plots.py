@@ -89,18 +89,22 @@ def _draw_curves(axes: Axes, curves: Iterable[Curve], looks: Looks) -> None:
 def draw_motions(results: Results, looks: Looks) -> Figure:
     """Draw error against seconds for every motion that was measured."""
     names = list(dict.fromkeys(curve.motion for curve in results.curves))
-    rows = -(-len(names) // 4)
-    figure = new_figure(2.6 * rows, width=10)
-    grid = figure.subplots(
-        rows, min(4, len(names)), squeeze=False, sharex=True, sharey=True
-    ).ravel()
-    for axes, name in zip(grid, names, strict=False):
+    figure, grid = _new_grid(len(names), 2.6, sharex=True)
+    for axes, name in zip(grid, names, strict=True):
         _draw_curves(axes, [c for c in results.curves if c.motion == name], looks)
         axes.set_title(name)
-    for axes in grid[len(names) :]:
+    return figure
+
+
+def _new_grid(count: int, height: float, sharex: bool = False) -> tuple[Figure, list[Axes]]:
+    """Return a figure with axes in rows of four, each so high in inches."""
+    rows = -(-count // 4)
+    figure = new_figure(height * rows, width=10)
+    grid = figure.subplots(rows, min(4, count), squeeze=False, sharex=sharex, sharey=True).ravel()
+    for axes in grid[count:]:
         axes.remove()
     figure.supylabel("error (rad)", fontsize=10)
-    return figure
+    return figure, list(grid[:count])
 
 
 def draw_long_times(results: Results, motion: ReferenceMotion, looks: Looks) -> Figure:
@@ -134,16 +138,11 @@ def draw_arrays(results: Results, looks: Looks) -> Figure:
 def draw_hard_cases(cases: list[HardCase]) -> Figure:
     """Draw the errors of each family against the distance from its singular case."""
     families = list(dict.fromkeys(case.family for case in cases))
-    rows = -(-len(families) // 4)
-    figure = new_figure(2.1 * rows, width=10)
-    grid = figure.subplots(rows, 4, squeeze=False, sharey=True).ravel()
-    for axes, family in zip(grid, families, strict=False):
+    figure, grid = _new_grid(len(families), 2.1)
+    for axes, family in zip(grid, families, strict=True):
         _draw_family(axes, [case for case in cases if case.family == family])
-    for axes in grid[len(families) :]:
-        axes.remove()
-    figure.supylabel("error (rad)", fontsize=10)
-    handles, labels = grid[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
+    looks = grid[0].get_legend_handles_labels()
+    figure.legend(*looks, loc="outside lower center", ncols=4, fontsize=8)
     return figure
 
 

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from tqdm import tqdm
 
 from symtop_ros.report.benchmarks import Results
 from symtop_ros.report.document import Environment, format_chapters, format_summary
@@ -18,6 +21,7 @@ from symtop_ros.report.plots import NAMES
 from symtop_ros.report.reference import Reference
 
 FIGURES = "figures.json"
+Work = TypeVar("Work")
 END = "<!-- end of figures -->"
 
 
@@ -59,6 +63,24 @@ def publish(folder: Path, docs: Path) -> None:
     write_figures(facts, format_sections(facts), docs)
     for name in NAMES:
         shutil.copy(folder / f"{name}.svg", docs)
+
+
+def write_results(
+    name: str, facts: dict[str, Any], text: str, folder: Path, docs: Path | None = None
+) -> None:
+    """Write figures as NAME.json and their text as NAME.md, and both into the documentation."""
+    (folder / f"{name}.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+    (folder / f"{name}.md").write_text(text + "\n", encoding="utf-8")
+    if docs:
+        write_figures({name: facts}, {name: text}, docs)
+
+
+def track(work: Sequence[Work], describe: Callable[[Work], str]) -> Iterator[Work]:
+    """Yield pieces of work, with a progress bar on a terminal."""
+    with tqdm(work, unit="", leave=False, disable=None) as progress:
+        for each in progress:
+            progress.set_description(f"{describe(each):60.60}")
+            yield each
 
 
 def write_figures(facts: dict[str, Any], sections: dict[str, str], docs: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import statistics
 from dataclasses import asdict, dataclass
@@ -12,12 +11,11 @@ from timeit import timeit
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
 from symtop_ros.report.document import format_table
 from symtop_ros.report.peers import CLOSED_FORM, find_peers
 from symtop_ros.report.peers.peer import Peer
-from symtop_ros.report.publish import replace_section, write_figures
+from symtop_ros.report.publish import replace_section, track, write_results
 from symtop_ros.report.reference import ReferenceMotion, read_testset
 from symtop_ros.report.sweep import Measurement, sweep
 from symtop_ros.testset.score import FILE
@@ -36,7 +34,7 @@ PROGRAMS = (
 )
 PROBE = 1.0  # s of the motion
 LEVELS = (1, 2, 3, 4, 5)
-SECTION = "testset"
+NAME = "testset"  # of the files, and of the section in the documentation
 
 
 @dataclass(frozen=True)
@@ -54,21 +52,23 @@ class Entry:
 
 def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) -> int:
     """Write testset.md and testset.json; return the exit status."""
+    folder.mkdir(parents=True, exist_ok=True)
     peers, _ = find_peers()
     motions = read_testset()
     chosen = [peer for peer in peers if peer.name in PROGRAMS]
     work = [(peer, motion) for peer in chosen for motion in motions]
-    entries: list[Entry] = []
-    with tqdm(work, unit="", leave=False, disable=None) as progress:
-        for peer, motion in progress:
-            progress.set_description(f"{peer.name}: {motion.name:24.24}")
-            entries += measure(peer, motion, limit)
-    folder.mkdir(parents=True, exist_ok=True)
-    facts = {"limit": limit, "entries": [asdict(entry) for entry in entries]}
-    (folder / "testset.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-    (folder / "testset.md").write_text(format_scores(facts) + "\n", encoding="utf-8")
+    entries = [
+        asdict(entry)
+        for peer, motion in track(work, lambda each: f"{each[0].name}: {each[1].name}")
+        for entry in measure(peer, motion, limit)
+    ]
+    facts = {"limit": limit, "entries": entries}
+    table = format_scores(facts)
+    write_results(NAME, facts, table, folder, docs)
     if docs:
-        publish_scores(facts, docs)
+        readme = FILE.parent / "README.md"
+        text = replace_section(readme.read_text(encoding="utf-8"), NAME, table)
+        readme.write_text(text, encoding="utf-8")
     print(f"{folder / 'testset.md'} and testset.json")
     return 0
 
@@ -121,12 +121,3 @@ def _summarize(angles: list[float]) -> str:
     if not angles:
         return "-"
     return f"{statistics.median(angles):.0e}, {max(angles):.0e}"
-
-
-def publish_scores(facts: dict[str, Any], docs: Path) -> None:
-    """Write the table into the documentation and into the README of the test set."""
-    table = format_scores(facts)
-    write_figures({"testset": facts}, {SECTION: table}, docs)
-    path = FILE.parent / "README.md"
-    text = replace_section(path.read_text(encoding="utf-8"), SECTION, table)
-    path.write_text(text, encoding="utf-8")
