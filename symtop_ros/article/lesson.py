@@ -71,7 +71,7 @@ class LessonStep:
 
 
 def _follow(words: list[str], runs: dict[str, KickedMotion]) -> None:
-    """Do what a command says: begin a run, or hurry the last one."""
+    """Apply a command: begin a run, or hurry the last one."""
     name = words[words.index("--node") + 1] if "--node" in words else "/top"
     top, defaults = SCENES[name]
     if "hurry" in words:
@@ -90,7 +90,7 @@ def _follow(words: list[str], runs: dict[str, KickedMotion]) -> None:
 
 
 def draw_step(step: LessonStep) -> Figure:
-    """Draw a step: the end of the axis from above, and what the step is about."""
+    """Draw a step: the end of the axis from above, and the quantity that the step explains."""
     figure = new_figure(2.9)
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
     runs = step.runs()

@@ -73,18 +73,18 @@ DISC_HURRIED = HurryCase(
 
 @dataclass(frozen=True, slots=True)
 class KickedMotion:
-    """A motion that may be kicked: motions, each from its begin to that of the next."""
+    """A motion that may be kicked: its pieces, each from its begin to that of the next."""
 
     # the time in s at which each motion begins, ascending from 0, and the motion from there
     pieces: tuple[tuple[float, Motion], ...]
 
     @classmethod
     def of(cls, motion: Motion) -> KickedMotion:
-        """Return the run of a motion that is not kicked."""
+        """Return a motion that is not kicked."""
         return cls(((0.0, motion),))
 
     def kick(self, time: float, change: Callable[[State], State]) -> KickedMotion:
-        """Return the run whose state is changed at a time in s, after all other kicks."""
+        """Return the motion with a kick at a time in s, after all other kicks."""
         begin, motion = self.pieces[-1]
         after = Motion(motion.top, change(motion.at(time - begin)))
         return KickedMotion((*self.pieces, (time, after)))

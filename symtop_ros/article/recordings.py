@@ -77,7 +77,7 @@ class Exhibit:
 
     @property
     def root(self) -> str:
-        """Path of the entity that has all of it in the scene."""
+        """Path of the entity above all entities of the top."""
         return f"/tops/{self.name}"
 
 
@@ -220,7 +220,7 @@ def _record(motion: Motion, options: ViewOptions, file: Path) -> None:
 
 
 def _sample(motion: Motion) -> Batch:
-    """Return the start of a motion and its samples in the form in which a log is read."""
+    """Return the start of a motion and its samples, as `TopLog` reads them from a log."""
     segment = Segment.begin(motion, 0, 1.0)
     stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
     samples, places = Samples.at(segment, stamps), 1 + np.arange(len(stamps))

@@ -20,10 +20,11 @@ ABOVE, LEAST = 1.0, 0.02
 class Chart:
     """A box of the scene that shows a range of x and of y."""
 
-    left: float  # range of the data
-    right: float  # range of the data
-    bottom: float  # range of the data
-    top: float  # range of the data
+    # smallest and largest x, then smallest and largest y
+    left: float
+    right: float
+    bottom: float
+    top: float
 
     def place(self, x: Real | float, y: Real | float) -> Real:
         """Return points (n, 2) of the scene; what lies outside is moved to the edge."""

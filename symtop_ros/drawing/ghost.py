@@ -24,7 +24,7 @@ class Ghost:
         self.segment: Segment | None = None
 
     def follow(self, name: str, before: Segment | None, after: Segment) -> None:
-        """Take over what an event changes."""
+        """Take over the change of an event, between the segments before and after it."""
         if name in RESTARTS or before is None:
             self.segment = None
         elif name == "kick":

@@ -26,7 +26,7 @@ MAX_DELAY = 0.1  # s
 # Delays are tried in steps in which the fastest turn is so many rad; the best one is refined.
 GRID_STEP = 0.5  # rad
 MOST_DELAYS = 2001
-WORTHWHILE = 1.001  # a delay that explains less than this is none
+WORTHWHILE = 1.001  # a delay counts if it makes the mean square smaller by this factor
 ROUNDING = 1e-30  # mean square of errors that are rounding
 PERCENTILES = (50, 90, 99, 100)
 WINDOWS = 10  # of the run, for the growth of the error
@@ -36,8 +36,9 @@ WINDOWS = 10  # of the run, for the growth of the error
 class Offset:
     """A constant rotation of the world and one of the body, and a delay."""
 
-    world: Real  # quaternions w, x, y, z
-    body: Real  # quaternions w, x, y, z
+    # quaternions w, x, y, z
+    world: Real
+    body: Real
     delay: float = 0.0  # time in s by which the estimates are late
 
     @property
@@ -55,10 +56,8 @@ class Errors:
 
     stamps: NDArray[np.int64]  # in ns
     total: Real  # angle of the rotation that would correct the attitude, in rad
-    # its parts: by how much the vertical is wrong, and the turn about it (swing and twist)
-    tilt: Real
-    # its parts: by how much the vertical is wrong, and the turn about it (swing and twist)
-    heading: Real
+    tilt: Real  # its part that turns the vertical (swing), in rad
+    heading: Real  # its part about the vertical (twist), in rad, with its sign
     rate: Real | None  # |omega_est - omega| in rad/s
     unknown: int  # estimates at stamps of which the exact motion is not known
 
@@ -78,7 +77,7 @@ class Errors:
 
 
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:
-    """Return the errors of estimates after an offset and a delay are taken away."""
+    """Return the errors of estimates after an offset and its delay are removed."""
     stamps = estimates.stamps - round(offset.delay * NANOSECONDS)
     exact, rates, known = truth.states_at(stamps)
     chosen, exact, rates = estimates.select(known), exact[known], rates[known]

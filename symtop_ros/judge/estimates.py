@@ -118,7 +118,7 @@ KINDS = {
 
 
 def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = None) -> Estimates:
-    """Decode messages of one type."""
+    """Decode messages of a type; with a child frame, only those of that frame."""
     if kind == TF_TYPE:
         return _decode_transforms(messages, frame)
     if kind not in KINDS:
@@ -165,7 +165,7 @@ def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ..
 
 
 def read_topic(source: Source, topic: str, frame: str | None = None) -> Estimates:
-    """Return the estimates on a topic of a log."""
+    """Return the estimates on a topic of a log, or LogError; /tf needs the child frame."""
     messages: list[bytes] = []
     for chunk in source.chunks():
         numbers = {n for n, channel in source.channels.items() if channel.topic == topic}

@@ -29,7 +29,7 @@ BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFOR
 
 
 class Court:
-    """Subscriptions to the events of a top and to the estimates."""
+    """Collects the events of a top and the estimates, and compares them."""
 
     def __init__(self, node: Node, top: str, topic: str, kind: str, frame: str | None) -> None:
         self.truth = Truth()

@@ -137,7 +137,7 @@ def _write(judgement: Judgement, folder: Path) -> None:
 def judge(
     estimates: Estimates, truth: Truth, source: str, removed: tuple[str, ...] = ()
 ) -> Judgement:
-    """Return the judgement of estimates."""
+    """Compare estimates with the exact motion; `removed` may name "offset" and "delay"."""
     found = find_offset(estimates, truth)
     wanted = {"rotations": "offset" in removed, "delay": "delay" in removed}
     taken = found if all(wanted.values()) else find_offset(estimates, truth, **wanted)

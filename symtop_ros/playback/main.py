@@ -26,7 +26,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def add_view_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options of what is drawn: those of `ViewOptions`, which needs Rerun."""
+    """Add the options for parts of the scene: those of `ViewOptions`, which needs Rerun."""
     parser.add_argument(
         "--no-ghost", action="store_true", help="do not draw the top that was not kicked"
     )

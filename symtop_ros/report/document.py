@@ -32,15 +32,15 @@ BEST += [f"ms for {level:.0e}" for level in LEVELS]
 class Environment:
     """The command, the machine and the packages of a measurement."""
 
-    command: str  # command to measure again; processor and system
-    machine: str  # command to measure again; processor and system
+    command: str  # to measure again
+    machine: str  # processor and system
     versions: dict[str, str]  # versions of Python and of every package that was measured
     missing: list[str]  # peers that are not installed
     limit: float  # seconds that one run of a peer could take
 
 
 def format_document(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
-    """Return the whole report; its first chapters are on the motion of `motion`."""
+    """Return the whole report; its first chapters are on one motion."""
     return f"# Speed against error\n\n{format_chapters(results, motion, environment)}"
 
 
@@ -61,7 +61,7 @@ def format_chapters(results: Results, motion: ReferenceMotion, environment: Envi
 
 
 def format_summary(results: Results, motion: ReferenceMotion) -> str:
-    """Return the table of the README: the best form of each program on the motion of `motion`."""
+    """Return the table of the README: the best form of each program on one motion."""
     head = ["", "largest error, rad", "ms", f"ms for {LEVELS[1]:.0e}"]
     rows = []
     for name in SUMMARY:

@@ -53,7 +53,7 @@ NAME = "filters"  # of the files, and of the section in the documentation
 
 @dataclass(frozen=True)
 class Trial:
-    """A filter on a scene with a place of the sensor."""
+    """Errors of a filter on a scene, with the sensor at one place."""
 
     filter: str
     scene: str
@@ -75,7 +75,7 @@ class SensorRecord:
 
 
 def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> SensorRecord:
-    """Return what a sensor at a place on the top of a scene measures."""
+    """Return what a sensor measures at a place (m, body frame) on the top of a scene."""
     settings = Settings.from_scene(scene)
     start = initial_state(settings.top, settings.initial, {})
     imu = Imu(place, (0.0, 0.0, 0.0, 1.0), *NOISE, seed=seed, rate=float(RATE))

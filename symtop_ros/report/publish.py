@@ -26,7 +26,7 @@ END = "<!-- end of figures -->"
 
 
 def collect_facts(results: Results, environment: Environment) -> dict[str, Any]:
-    """Return everything that was measured, as values of a JSON file."""
+    """Return all measurements, as values of a JSON file."""
     return {"environment": asdict(environment), "results": asdict(results)}
 
 
@@ -44,7 +44,7 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
 
 
 def find_section(text: str, name: str) -> str | None:
-    r"""Return what a text has between the comments of a section, or None."""
+    r"""Return the text between the comments of a section, or None."""
     _, begin, rest = text.partition(f"<!-- figures: {name} -->")
     return rest.partition(END)[0].strip() if begin else None
 

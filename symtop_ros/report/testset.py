@@ -74,7 +74,7 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
 
 
 def measure(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Entry]:
-    """Return the best run of a peer within the limit of time, as a list; empty if none is."""
+    """Return the best run of a peer within the limit of time (s), in a list; empty without one."""
     end, places = motion.times[-1], [motion.times[k] for k in PLACES]
     in_limits: dict[float, float] = {}  # by the setting
 

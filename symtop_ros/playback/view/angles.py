@@ -30,7 +30,7 @@ BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
 
 
 def log_frames(stream: Stream) -> None:
-    """Log what does not change: both frames, and the styles of the arcs."""
+    """Log the static parts: both frames, and the styles of the arcs."""
     for entity, lengths, color, mark in (
         (f"{entities.ANGLES}/world", (WORLD_AXES,) * 3, WHITE, "'"),
         (f"{entities.BODY}/axes", BODY_AXES, VIOLET, ""),

@@ -39,7 +39,7 @@ class EnergyBook:
         self._segment_energy, self._segment_work, self._last = energy, 0.0, None
 
     def _settle(self, segment: Segment, energy: float) -> None:
-        """Book what happened in a segment that ends with an energy."""
+        """Book the work and the loss of a segment, from its energy (J) at the end."""
         gained = energy - self._segment_energy
         work = self._segment_work if segment.motion.friction else gained
         self._work += work

@@ -27,7 +27,7 @@ class GhostView(Ghost):
         stream.style_lines(GHOST_TRACE, (*WHITE, 150), 0.004)
 
     def follow(self, name: str, before: Segment | None, after: Segment) -> None:
-        """Take over what an event changes; a kick begins a new trace."""
+        """Take over the change of an event, and draw it; a kick begins a new trace."""
         old = self.segment
         super().follow(name, before, after)
         if name == "kick":

@@ -38,7 +38,7 @@ LINES = {
 
 
 class Plots:
-    """Everything of a recording that is a curve."""
+    """The plots and the charts of the potential in a recording."""
 
     def __init__(self, stream: Stream) -> None:
         self._stream = stream
@@ -58,7 +58,7 @@ class Plots:
             self._potential.log_motion(after.motion, potential)
 
     def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
-        """Send the samples of a segment; None: its top is unknown."""
+        """Send the samples of a segment; without it (None) the top is unknown."""
         if "euler_angles" in columns:
             euler = columns["euler_angles"]
             for entity, column in (

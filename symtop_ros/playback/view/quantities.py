@@ -64,7 +64,7 @@ def find_step(stamps: Stamps, rate: float) -> int:
 
 
 def join(samples: ColumnsByTopic, *topics: str) -> tuple[Stamps, list[Real]] | None:
-    """Return the common stamps of topics, and the doubles of each there; None if there are none."""
+    """Return the common stamps of topics, and their doubles there; None without a common stamp."""
     if not all(name in samples for name in topics):
         return None
     chosen = [samples[name] for name in topics]

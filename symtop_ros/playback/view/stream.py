@@ -1,4 +1,4 @@
-"""What is logged and sent to a recording, whose timeline begins with the first sample."""
+"""Columns of values and shapes for a recording, whose timeline begins with the first sample."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Stream:
     def style_arrows(self, entity: str, color: Color, radius: float, label: str) -> None:
         """Set the look of an arrow, and the text of its label.
 
-        The label is a point of its own: that of an arrow would be drawn at its middle.
+        The label is a separate point: the label of an arrow would be drawn at its middle.
         """
         self.log(entity, rr.Arrows3D.from_fields(colors=[color], radii=[radius]), static=True)
         self.log_labels(f"{entity}/name", [label], color)

@@ -35,7 +35,7 @@ def prepare(task: Task, _: float) -> Solution:
 
 
 def prepare_arrays(task: Task) -> Arrays:
-    """Return the same for many times."""
+    """Return a function for the orientations at many times."""
     given = task.top, task.start, task.friction, task.torque
     return lambda times: Motion(*given).at(times).orientation
 

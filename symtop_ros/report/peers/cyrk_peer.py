@@ -26,7 +26,7 @@ Rates = Callable[..., None]
 
 
 def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
-    """Return the rates of quaternion and angular velocity, as CyRK takes them, and their form."""
+    """Return rates for quaternion and angular velocity that CyRK compiles, and the equations."""
     Ix, Iz, Mgl = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
 
@@ -45,7 +45,7 @@ def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
 
 
 def compile_euler_angles(task: Task) -> tuple[Rates, Equations]:
-    """Return the same for phi, theta, psi and their rates: the article's equations."""
+    """Return rates for Euler angles and their rates that CyRK compiles, and the equations."""
     Ix, Iz, Mgl = task.top.moments
 
     def rates(slopes: Any, _t: float, y: Any, _arguments: Any) -> None:

@@ -37,7 +37,7 @@ class Task:
 
 
 class Solution(NamedTuple):
-    """A model that is built, and what it computes from the start, anew each time."""
+    """A model that is built; both functions compute from the start, each time they are called."""
 
     # returns the orientation (w, x, y, z) at a time in s, and stores nothing on the way: this is
     # timed

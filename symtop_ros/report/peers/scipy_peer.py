@@ -47,7 +47,7 @@ def integrate(
 def prepare(
     method: Method, make: Callable[[Task], Equations], task: Task, tolerance: float
 ) -> Solution:
-    """Return a solution that integrates equations of motion."""
+    """Return a solution by a method at a tolerance; `make` returns the equations of a task."""
     equations = make(task)
     run = partial(integrate, method, equations, tolerance)
     return Solution.of_steps(lambda t: run(t, [t])[1], run, equations.read)
