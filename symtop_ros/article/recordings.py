@@ -14,6 +14,7 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
+from symtop_ros.arrays import Stamps
 from symtop_ros.article.motions import (
     DISC_HURRIED,
     FAST,
@@ -214,20 +215,19 @@ def write_recordings(folder: Path) -> None:
 def _record(motion: Motion, options: ViewOptions, file: Path) -> None:
     """Write the scene of a motion as `top_replay` draws it from a log."""
     recording = create_recording(file, file.stem)
-    View(recording, options=options).send(_sample(motion))
+    segment = Segment.begin(motion, 0, 1.0)
+    stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
+    verdict = str(perrys_rule(motion.top, motion.start))
+    View(recording, options=options).send(sample("start", verdict, motion.start, segment, stamps))
     recording.flush()
     recording.disconnect()
 
 
-def _sample(motion: Motion) -> Batch:
-    """Return the start of a motion and its samples, as `TopLog` reads them from a log."""
-    segment = Segment.begin(motion, 0, 1.0)
-    stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
+def sample(name: str, verdict: str, before: State, segment: Segment, stamps: Stamps) -> Batch:
+    """Return an event and the samples that follow it, as `TopLog` reads them from a log."""
     samples, places = Samples.at(segment, stamps), 1 + np.arange(len(stamps))
     columns = {
-        name: Columns(stamps, topic.compute(samples), places)
-        for name, topic in STATE_TOPICS.items()
+        topic: Columns(stamps, each.compute(samples), places)
+        for topic, each in STATE_TOPICS.items()
     }
-    verdict = str(perrys_rule(motion.top, motion.start))
-    event = Event.of(0, "start", verdict, {}, motion.start, segment)
-    return Batch(columns, [(0, event)])
+    return Batch(columns, [(0, Event.of(int(stamps[0]), name, verdict, {}, before, segment))])

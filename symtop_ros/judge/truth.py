@@ -43,7 +43,7 @@ class Truth:
         return self._events[0].stamp if self._events else None
 
     def states_at(self, stamps: Stamps) -> tuple[Real, Real, NDArray[np.bool_]]:
-        """Return quaternions (n, 4), body rates (n, 3) and which are known (n,), at stamps in ns."""
+        """Return quaternions (n, 4), body rates (n, 3) and the mask of those known, at stamps."""
         orientations, rates = np.zeros((len(stamps), 4)), np.zeros((len(stamps), 3))
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)

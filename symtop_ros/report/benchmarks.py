@@ -13,7 +13,7 @@ import numpy as np
 
 from symtop_ros.report.footprint import Footprint, measure_footprint
 from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, prepare
-from symtop_ros.report.peers.peer import Arrays, Peer, Solution, Task, spread_times
+from symtop_ros.report.peers.peer import Peer, PrepareArrays, Solution, Task, spread_times
 from symtop_ros.report.reference import EPS, Reference, ReferenceMotion
 from symtop_ros.report.sweep import REPEATS, Curve, Measurement, sweep_motion, time_call
 
@@ -185,11 +185,11 @@ def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterato
         if peer.friction != "no" and scope.includes(peer, 1):
             work = partial(_sweep, peer, with_friction, scope, results)
             yield f"{peer.name}: {with_friction.name}", work
-    for peer in frictionless:
-        if scope.includes(peer, 1):
-            yield f"{peer.name}: long times", partial(_lengthen, peer, first, scope, results)
-    for peer in frictionless:
-        if peer.prepare_arrays and scope.includes(peer, 1):
+    every = [peer for peer in frictionless if scope.includes(peer, 1)]
+    for peer in every:
+        yield f"{peer.name}: long times", partial(_lengthen, peer, first, scope, results)
+    for peer in every:
+        if peer.prepare_arrays:
             work = partial(_time_arrays, peer.name, peer.prepare_arrays, first, scope, results)
             yield f"{peer.name}: arrays", work
     tried = [peer for peer in peers if peer.name in scope.hard_peers]
@@ -239,13 +239,9 @@ def _lengthen(peer: Peer, motion: ReferenceMotion, scope: Scope, results: Result
 
 
 def _time_arrays(
-    name: str,
-    prepare_arrays: Callable[[Task], Arrays],
-    motion: ReferenceMotion,
-    scope: Scope,
-    results: Results,
+    name: str, prepare: PrepareArrays, motion: ReferenceMotion, scope: Scope, results: Results
 ) -> None:
-    arrays, seconds = prepare_arrays(motion.task), []
+    arrays, seconds = prepare(motion.task), []
     times = spread_times(SPAN)
     error = float(motion.errors(times, arrays(times)).max())
     for number in scope.states:

@@ -43,12 +43,11 @@ class Arrow(NamedTuple):
     first: int  # index of the vector among the doubles of its topic
 
 
-SENSOR = "imu"
 ARROWS = {
     "angular_momentum": Arrow(entities.MOMENTUM, "L", "N m s", BLUE, 1.45, 0),
     "angular_velocity": Arrow(entities.VELOCITY, "omega", "rad/s", GREEN, 1.2, 3),
     "torque": Arrow(entities.TORQUE, "torque", "N m", RED, 0.6, 3),
-    SENSOR: Arrow(entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", VIOLET, 0.8, 25),
+    "imu": Arrow(entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", VIOLET, 0.8, 25),
 }
 
 
@@ -171,7 +170,7 @@ class View:
         self._plots.send(columns, self._segment)
 
     def _choose_scales(self, columns: Mapping[str, Columns]) -> None:
-        """Choose the scale of each arrow by its first vectors."""
+        """Choose the scale of each arrow by its first vectors, and log its style."""
         if self._options.torques and "torque" not in self._scales:
             # One scale for all torques, so that their sum can be seen.
             parts = inertial.Torques.of(columns)
@@ -181,8 +180,7 @@ class View:
             if name in columns and name not in self._scales:
                 lengths = np.linalg.norm(_vectors(columns[name], arrow), axis=1)
                 self._scales[name] = float(f"{lengths.max() / arrow.length:.2g}") or 1.0
-                if name == SENSOR:
-                    self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
+                self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
 
     def _send_layout(self, framing: Framing) -> None:
         self._trace.length = framing.trace
@@ -193,9 +191,6 @@ class View:
             angles.log_frames(self._stream)
         if self._options.torques:
             inertial.log_styles(self._stream)
-        for name, arrow in ARROWS.items():
-            if name != SENSOR:  # most tops have none
-                self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
         self._stream.style_lines(entities.TRACE, GOLD, 0.007)
         self._stream.style_lines(entities.NODES, ORANGE, 0.005)
 

@@ -88,6 +88,9 @@ def on_euler_angles(task: Task, **functions: Any) -> Equations:
     return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
+PrepareArrays = Callable[[Task], Arrays]
+
+
 @dataclass(frozen=True)
 class Peer:
     """An integrator with one method."""
@@ -100,7 +103,7 @@ class Peer:
     # friction along and across the axis: not modelled, modelled, or the only use of the peer
     friction: Literal["no", "also", "only"] = "no"
     # builds a model, at the best setting, that computes the states at many times at once
-    prepare_arrays: Callable[[Task], Arrays] | None = None
+    prepare_arrays: PrepareArrays | None = None
     # part in the quick report, which must not take long: the best form of each program is in
     # it
     quick: Literal["every motion", "first motion", "no"] = "no"
