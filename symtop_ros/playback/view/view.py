@@ -171,16 +171,15 @@ class View:
 
     def _choose_scales(self, columns: Mapping[str, Columns]) -> None:
         """Choose the scale of each arrow by its first vectors, and log its style."""
-        if self._options.torques and "torque" not in self._scales:
-            # One scale for all torques, so that their sum can be seen.
-            parts = inertial.Torques.of(columns)
-            if parts:
-                self._scales["torque"] = parts[1].find_scale()
         for name, arrow in ARROWS.items():
             if name in columns and name not in self._scales:
                 lengths = np.linalg.norm(_vectors(columns[name], arrow), axis=1)
                 self._scales[name] = float(f"{lengths.max() / arrow.length:.2g}") or 1.0
                 self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
+                if name == "torque" and self._options.torques:
+                    # One scale for all torques, so that their sum can be seen.
+                    parts = inertial.Torques.of(columns)
+                    self._scales[name] = parts[1].find_scale() if parts else self._scales[name]
 
     def _send_layout(self, framing: Framing) -> None:
         self._trace.length = framing.trace

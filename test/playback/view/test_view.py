@@ -5,6 +5,7 @@ import pytest
 import rerun as rr
 from log_files import ARTICLE, BEGIN, Run
 from playback.view.rows import rows
+from rerun.chunk import RrdReader
 
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.log.reader import McapFile
@@ -12,7 +13,7 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import ExactTimes, Motion, State, specific_force
 from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.view import View
+from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor import Imu, Rig
@@ -180,3 +181,18 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
     scale = np.linalg.norm(world, axis=1).max() / np.linalg.norm(drawn, axis=1).max()
     # the scale is rounded to two digits for the panel
     assert np.abs(drawn * float(f"{scale:.2g}") - world).max() <= 2 * FLOAT * np.abs(world).max()
+
+
+@pytest.mark.parametrize("torques", [False, True])
+def test_every_arrow_that_is_drawn_has_a_colour_and_a_label(torques, tmp_path):
+    target = tmp_path / "run.rrd"
+    replay(TopLog(McapFile(Run().write(tmp_path))), target, ViewOptions(torques=torques))
+    drawn, styled = set(), set()
+    for chunk in RrdReader(target).stream():
+        columns = chunk.to_record_batch().schema.names
+        if "Arrows3D:vectors" in columns:
+            drawn |= {chunk.entity_path, f"{chunk.entity_path}/name"}
+        if chunk.is_static and {"Arrows3D:colors", "Points3D:labels"} & set(columns):
+            styled.add(chunk.entity_path)
+    assert len(drawn) == (12 if torques else 6)
+    assert drawn <= styled
