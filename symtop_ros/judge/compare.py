@@ -115,8 +115,8 @@ def find_offset(
         if len(q) < max(2, len(some) // 2):
             return np.inf, NONE
         found = _fit_rotations(q, exact) if rotations else NONE
-        rest = multiply(multiply(found.world, exact), found.body)
-        cost = float((_subtract(q, rest) ** 2).sum(axis=1).mean())
+        modelled = multiply(multiply(found.world, exact), found.body)
+        cost = float((_subtract(q, modelled) ** 2).sum(axis=1).mean())
         return cost, replace(found, delay=seconds)
 
     if not delay:

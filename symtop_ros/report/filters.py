@@ -23,7 +23,7 @@ from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, row
 from symtop_ros.judge.compare import NONE, Errors, compare, invert
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.physics import Motion
+from symtop_ros.physics import STANDARD_GRAVITY, Motion
 from symtop_ros.report.document import format_table
 from symtop_ros.report.publish import track, write_results
 from symtop_ros.simulation.events import Event
@@ -35,7 +35,6 @@ from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.wire.layout import NANOSECONDS
 
 RATE, SPAN = 1000, 20  # Hz, s
-GRAVITY = 9.81
 SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
 MOUNTS = {  # m, in the body frame
     "in the pivot": (0.0, 0.0, 0.0),
@@ -80,7 +79,7 @@ def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> Sens
     start = initial_state(settings.top, settings.initial, {})
     imu = Imu(place, (0.0, 0.0, 0.0, 1.0), *NOISE, seed=seed, rate=float(RATE))
     motion = Motion(settings.top, start)
-    segment = Segment.begin(motion, 0, 1.0, Rig(GRAVITY, imu))
+    segment = Segment.begin(motion, 0, 1.0, Rig(STANDARD_GRAVITY, imu))
     stamps = np.arange(RATE * SPAN) * (NANOSECONDS // RATE)
     numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, stamps))
     truth = Truth([Event.of(0, "start", "", {}, start, segment)])
