@@ -83,7 +83,7 @@ def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> Pe
     seconds = time.perf_counter() - began
     stem = folder / f"perry_{perry_map.name}"
     for suffix in ("png", "svg"):
-        draw(perry_map, stem.with_suffix(f".{suffix}"))
+        draw_map(perry_map, stem.with_suffix(f".{suffix}"))
     write_table(perry_map, stem.with_suffix(".parquet"))
     share = perry_map.effect.rule_holds.mean()
     print(f"{perry_map.title}: {points} x {points} points in {seconds:.2f} s; ", end="")
@@ -91,7 +91,7 @@ def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> Pe
     return perry_map
 
 
-def draw(perry_map: PerryMap, target: Path | BinaryIO) -> None:
+def draw_map(perry_map: PerryMap, target: Path | BinaryIO) -> None:
     """Draw the change of the highest and of the lowest point; PNG, or the format of a suffix."""
     figure = Figure(figsize=(11, 5), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
@@ -142,7 +142,7 @@ def write_recording(maps: list[PerryMap], file: Path) -> None:
         recording.save(file, default_blueprint=_blueprint(maps))
         for each in maps:
             picture = io.BytesIO()
-            draw(each, picture)
+            draw_map(each, picture)
             image = rr.EncodedImage(contents=picture.getvalue(), media_type="image/png")
             recording.log(f"{each.name}/map", image, static=True)
             recording.log(f"{each.name}/relief", _relief(each), static=True)

@@ -135,7 +135,7 @@ def judge_filters(folder: Path, docs: Path | None = None) -> int:
                 curves[name] = errors
     facts = {"trials": [asdict(trial) for trial in trials]}
     write_results(NAME, facts, format_trials(facts), folder, docs)
-    write_figures({NAME: lambda: draw(curves)}, folder)
+    write_figures({NAME: lambda: draw_tilt_errors(curves)}, folder)
     if docs:
         shutil.copy(folder / f"{NAME}.svg", docs)
     print(f"{folder / 'filters.md'}, filters.json and a plot")
@@ -158,7 +158,7 @@ def format_trials(facts: dict[str, Any]) -> str:
     return "\n\n".join(parts)
 
 
-def draw(curves: dict[str, Errors]) -> Figure:
+def draw_tilt_errors(curves: dict[str, Errors]) -> Figure:
     """Draw the tilt error of some filters against time."""
     figure = new_figure(3.2)
     (axes,) = rows(figure, 1)

@@ -60,7 +60,7 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
     entries = [
         asdict(entry)
         for peer, motion in track(work, lambda each: f"{each[0].name}: {each[1].name}")
-        for entry in measure(peer, motion, limit)
+        for entry in find_best_run(peer, motion, limit)
     ]
     facts = {"limit": limit, "entries": entries}
     table = format_scores(facts)
@@ -73,7 +73,7 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
     return 0
 
 
-def measure(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Entry]:
+def find_best_run(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Entry]:
     """Return the best run of a peer within the limit of time (s), in a list; empty without one."""
     end, places = motion.times[-1], [motion.times[k] for k in PLACES]
     in_limits: dict[float, float] = {}  # by the setting

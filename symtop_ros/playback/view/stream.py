@@ -11,8 +11,6 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.drawing.mesh import Mesh
 from symtop_ros.playback.view.entities import TIMELINE, lighten
 
-Color = tuple[int, ...]
-
 
 class Stream:
     """A recording with the stamp at which its time is zero."""
@@ -56,12 +54,12 @@ class Stream:
         self.send(entity, stamps, rr.Arrows3D.columns(vectors=vectors, origins=origins))
         self.send(f"{entity}/name", stamps, rr.Points3D.columns(positions=places))
 
-    def style_lines(self, entity: str, color: Color, radius: float) -> None:
+    def style_lines(self, entity: str, color: tuple[int, ...], radius: float) -> None:
         """Set the look of the lines of an entity."""
         style = rr.LineStrips3D.from_fields(colors=[color], radii=[radius])
         self.log(entity, style, static=True)
 
-    def style_arrows(self, entity: str, color: Color, radius: float, label: str) -> None:
+    def style_arrows(self, entity: str, color: tuple[int, ...], radius: float, label: str) -> None:
         """Set the look of an arrow, and the text of its label.
 
         The label is a separate point: the label of an arrow would be drawn at its middle.
@@ -70,7 +68,7 @@ class Stream:
         self.log_labels(f"{entity}/name", [label], color)
 
     def log_labels(
-        self, entity: str, labels: list[str], color: Color, positions: Real | None = None
+        self, entity: str, labels: list[str], color: tuple[int, ...], positions: Real | None = None
     ) -> None:
         """Log texts at points that are too small to be seen."""
         points = rr.Points3D.from_fields(
