@@ -140,8 +140,7 @@ def draw_horizontal_momentum_squared() -> Figure:
     for title, (color, dash) in looks.items():
         motion = COMPARED[title]
         lower.plot(TIMES, motion.at(TIMES).euler_angles.theta, color=color, ls=dash)
-        square = 1e6 * horizontal_square(motion, TIMES)
-        upper.plot(TIMES, square, color=color, ls=dash, label=title)
+        upper.plot(TIMES, 1e6 * horizontal_square(motion, TIMES), color=color, ls=dash, label=title)
     upper.set(ylabel="$L^2 - {L_{z'}}^2$ ($10^{-6}$ N$^2$ m$^2$ s$^2$)", xmargin=0)
     lower.set_ylabel(r"$\theta$ (rad)")
     upper.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)

@@ -107,8 +107,7 @@ def _draw_from_above(axes: Axes, runs: dict[str, KickedMotion]) -> None:
         for angle in motion.turning_angles:
             rim = np.sin(angle)
             axes.plot(rim * np.cos(around), rim * np.sin(around), color=GREY, lw=0.7, ls=":")
-        length = min(TRACE, TURNS * precession_period(motion))
-        times = np.linspace(begin, begin + length, 3001)
+        times = np.linspace(begin, begin + min(TRACE, TURNS * precession_period(motion)), 3001)
         ends = run.at(times).to_world([0.0, 0.0, 1.0])
         axes.plot(ends[:, 0], ends[:, 1], color=color, ls=dash, lw=1.4)
     axes.plot(0, 0, "+", color=INK)

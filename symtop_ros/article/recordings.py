@@ -156,8 +156,7 @@ def _send_motion(stream: Stream, exhibit: Exhibit) -> None:
     root = exhibit.root
     stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
     states = exhibit.run.at(np.asarray(stamps * 1e-9))
-    quaternions = states.orientation[:, [1, 2, 3, 0]]
-    stream.send_turns(f"{root}/top", stamps, quaternions)
+    stream.send_turns(f"{root}/top", stamps, states.orientation[:, [1, 2, 3, 0]])
     trace = Trace()
     trace.length = TRACE
     stream.style_lines(f"{root}/trace", exhibit.color, 0.012)

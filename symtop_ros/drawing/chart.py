@@ -42,8 +42,7 @@ class Chart:
 
     def frame(self) -> Real:
         """Return the edges of the box."""
-        corners = [(0, -HEIGHT), (0, 0), (WIDTH, 0)]
-        return np.array(corners, dtype=float)
+        return np.array([(0, -HEIGHT), (0, 0), (WIDTH, 0)], dtype=float)
 
 
 def frame_potential(motion: Motion, potential: EffectivePotential) -> Chart:

@@ -87,8 +87,7 @@ def write_figures(facts: dict[str, Any], sections: dict[str, str], docs: Path) -
     """Write figures into the documentation; those of other commands stay."""
     path = docs / FIGURES
     others = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    text = json.dumps({**others, **facts}, indent=1) + "\n"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(json.dumps({**others, **facts}, indent=1) + "\n", encoding="utf-8")
     for page in (*docs.glob("*.md"), docs.parent / "README.md"):
         before = after = page.read_text(encoding="utf-8")
         for name, content in sections.items():

@@ -49,8 +49,7 @@ class Framing:
 
 def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
     """Return the layout for a motion; a live view follows the newest data."""
-    after = 0.0 if live else framing.window
-    window = around_cursor(-framing.window, after)
+    window = around_cursor(-framing.window, 0.0 if live else framing.window)
     plots = [
         rrb.TimeSeriesView(
             origin=entity,

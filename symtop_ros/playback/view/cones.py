@@ -68,8 +68,7 @@ def _log_cone(
     rim = np.stack(
         [radius * np.cos(AROUND), radius * np.sin(AROUND), np.full_like(AROUND, height)], axis=1
     )
-    lines = rr.LineStrips3D([rim], colors=[colors[0]], radii=[0.006])
-    stream.log(f"{entity}/rim", lines)
+    stream.log(f"{entity}/rim", rr.LineStrips3D([rim], colors=[colors[0]], radii=[0.006]))
 
 
 def _turn_up_to(direction: Real) -> Real:

@@ -99,5 +99,4 @@ def send_arrows(stream: Stream, stamps: Stamps, torques: Torques, scale: float) 
         origins = tails - [0.0, 0.0, ARROWS[name].depth]
         along, up = ARROWS[name].place
         places = along * torques.nodes[::step] + [0.0, 0.0, up]
-        entity = f"{entities.INERTIAL}/{name}"
-        stream.send_arrows(entity, stamps[::step], vectors, places, origins)
+        stream.send_arrows(f"{entities.INERTIAL}/{name}", stamps[::step], vectors, places, origins)

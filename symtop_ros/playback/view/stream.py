@@ -56,8 +56,7 @@ class Stream:
 
     def style_lines(self, entity: str, color: tuple[int, ...], radius: float) -> None:
         """Set the look of the lines of an entity."""
-        style = rr.LineStrips3D.from_fields(colors=[color], radii=[radius])
-        self.log(entity, style, static=True)
+        self.log(entity, rr.LineStrips3D.from_fields(colors=[color], radii=[radius]), static=True)
 
     def style_arrows(self, entity: str, color: tuple[int, ...], radius: float, label: str) -> None:
         """Set the look of an arrow, and the text of its label.

@@ -118,8 +118,7 @@ class View:
             self._ghost.follow(event.name, previous, self._segment)
         self._send_cones(motion, event.state())
         self._plots.follow(event, previous, self._segment)
-        circles = surroundings.turning_circles(motion.turning_angles)
-        self._stream.log(entities.CIRCLES, circles)
+        self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = event.values.get("request", "")
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
