@@ -86,7 +86,7 @@ docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warni
 	@echo "wrote site/README.html"
 
 report: $(VENV)/report  ## speed against error on this machine (3 minutes); plots in report/
-	@$(BIN)/top_report
+	@$(BIN)/top_report speed
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
 	@$(BIN)/python test/load/stress.py

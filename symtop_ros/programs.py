@@ -5,11 +5,19 @@ import importlib
 import os
 import signal
 import sys
-from typing import NoReturn
+from typing import Any, NoReturn
 
-BROKEN_PIPE = 141  # status of a program that SIGPIPE has ended: its output is no longer read
+# Statuses of programs that a signal has ended, as shells have them: SIGINT, and SIGPIPE, which says
+# that the output is no longer read.
+INTERRUPTED, BROKEN_PIPE = 130, 141
 TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 PYPI = {"mcap", "numpy", "scipy", "yaml"}  # packages that pip installs under one name
+EXTRAS = {
+    **dict.fromkeys(("rerun", "rerun_cli"), "playback"),
+    **dict.fromkeys(("viser", "websockets", "imageio"), "panel"),
+    **dict.fromkeys(("matplotlib", "tqdm", "pyarrow", "PIL"), "report"),
+    "ahrs": "peers",
+}
 
 
 def top_node() -> int:
@@ -25,7 +33,7 @@ def top_ctl() -> int:
 
 def top_replay() -> int:
     """Play, check or repair a log (needs Rerun only to play)."""
-    return _run("top_replay", "symtop_ros.playback.main")
+    return _run("top_replay", "symtop_ros.playback.main", interruptible=True)
 
 
 def top_live() -> int:
@@ -40,7 +48,7 @@ def top_panel() -> int:
 
 def top_report() -> int:
     """Measure speed against error, and draw the figures of the article."""
-    return _run("top_report", "symtop_ros.report.main")
+    return _run("top_report", "symtop_ros.report.main", interruptible=True)
 
 
 def top_model() -> int:
@@ -50,7 +58,7 @@ def top_model() -> int:
 
 def top_judge() -> int:
     """Compare estimates with the exact motion; score trajectories of the test set."""
-    return _run("top_judge", "symtop_ros.judge.main")
+    return _run("top_judge", "symtop_ros.judge.main", interruptible=True)
 
 
 def _use_udp_only() -> None:
@@ -74,34 +82,40 @@ def _leave(status: int) -> NoReturn:
     os._exit(status)
 
 
-def _run(name: str, module: str) -> int:
-    """Run a program. A signal before or after it ends the process without a traceback."""
-    _restore_signals()
+def _run(name: str, module: str, interruptible: bool = False) -> int:
+    """Run a program. A signal before or after it ends the process without a traceback.
+
+    Both signals raise KeyboardInterrupt in an interruptible program, so that it removes incomplete
+    files and ends what it has started. The other programs handle signals themselves.
+    """
+    _set_signals(signal.SIG_DFL)
     try:
         main = importlib.import_module(module).main
-    except ModuleNotFoundError as error:
-        print(f"{name}: {error.name} is missing: {_remedy(error.name)}", file=sys.stderr)
-        return 1
-    try:
+        if interruptible:
+            _set_signals(signal.default_int_handler)
         return int(main())
+    except ModuleNotFoundError as error:
+        package = str(error.name).partition(".")[0]
+        print(f"{name}: {package} is missing: {_remedy(package)}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return INTERRUPTED
     except BrokenPipeError:
         # What is left of the output goes nowhere; else Python would report it at the exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
     finally:
-        _restore_signals()
+        _set_signals(signal.SIG_DFL)
 
 
-def _restore_signals() -> None:
+def _set_signals(handler: Any) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_DFL)
+        signal.signal(number, handler)
 
 
-def _remedy(module: str | None) -> str:
-    if module in PYPI:
-        return f"pip install {'pyyaml' if module == 'yaml' else module}"
-    if module and module.startswith("rerun"):
-        return "pip install 'symtop_ros[playback]'"
-    if module in {"viser", "websockets", "imageio"}:
-        return "pip install 'symtop_ros[panel]'"
+def _remedy(package: str) -> str:
+    if package in PYPI:
+        return f"pip install {'pyyaml' if package == 'yaml' else package}"
+    if package in EXTRAS:
+        return f"pip install 'symtop_ros[{EXTRAS[package]}]'"
     return "source a ROS 2, or pip install 'symtop_ros[ros]'"

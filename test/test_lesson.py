@@ -13,11 +13,12 @@ from domains import claim_domain
 from PIL import Image
 from programs import running_node
 
-from symtop_ros.article.lesson import STEPS, save_step, write_lesson
+from symtop_ros.article.lesson import STEPS, save_step
 from symtop_ros.client import main as client
 from symtop_ros.client.arguments import parse_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.live import main as live
+from symtop_ros.report import main as report
 
 ROOT = Path(__file__).parents[1]
 LESSON = (ROOT / "docs/lesson.md").read_text(encoding="utf-8")
@@ -103,5 +104,5 @@ def test_a_picture_is_what_the_command_draws(number, tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("in the way")
-    assert write_lesson(tmp_path / "file") == 1
+    assert report.main(["lesson", str(tmp_path / "file")]) == 1
     assert capsys.readouterr().err == f"top_report: {tmp_path / 'file'}: File exists\n"

@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from symtop_ros import programs
+from symtop_ros.report import main as report
 
 
 @pytest.fixture(autouse=True)
@@ -30,6 +31,7 @@ ROS = "source a ROS 2, or pip install 'symtop_ros[ros]'"
         (programs.top_live, "rerun", "pip install 'symtop_ros[playback]'"),
         (programs.top_panel, "viser", "pip install 'symtop_ros[panel]'"),
         (programs.top_replay, "mcap", "pip install mcap"),
+        (programs.top_judge, "mcap", "pip install mcap"),
     ],
 )
 def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, capsys):
@@ -46,6 +48,21 @@ def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, c
     monkeypatch.setattr(builtins, "__import__", without)
     assert program() == 1
     assert f"{missing} is missing: {remedy}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_is_status_130_after_the_program_has_tidied_up(number, monkeypatch):
+    tidied = []
+
+    def main():
+        try:
+            signal.raise_signal(number)
+        finally:
+            tidied.append(number)
+
+    monkeypatch.setattr(report, "main", main)
+    assert programs.top_report() == 130
+    assert tidied == [number]
 
 
 @pytest.mark.parametrize(

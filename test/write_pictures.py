@@ -1,7 +1,7 @@
 """Render docs/replay.png and docs/six_rates.png: `python test/write_pictures.py`.
 
 The first is a top on cusps that is hurried, as `top_replay` shows it; the second a scene of
-`top_report --article`.
+`top_report article`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import time
 from pathlib import Path
 
 import numpy as np
-import rerun as rr
 
 ROOT = Path(__file__).parents[1]
 sys.path += [str(ROOT), str(ROOT / "test"), str(ROOT / "test/load")]
@@ -21,14 +20,12 @@ from log_files import ARTICLE, CUSPS  # noqa: E402
 from pictures import pause_at, picture, running_viewer, views  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from symtop_ros.article.side_by_side import six_rates, write_scene  # noqa: E402
-from symtop_ros.log.batch import Batch, Columns  # noqa: E402
+from symtop_ros.article.recordings import sample, six_rates, write_scene  # noqa: E402
 from symtop_ros.physics import Motion, hurry, kick_verdict, perrys_rule  # noqa: E402
+from symtop_ros.playback.replay import create_recording  # noqa: E402
 from symtop_ros.playback.view import entities  # noqa: E402
 from symtop_ros.playback.view.view import View  # noqa: E402
-from symtop_ros.simulation.events import Event  # noqa: E402
 from symtop_ros.simulation.segment import Segment  # noqa: E402
-from symtop_ros.simulation.topics import STATE_TOPICS, Samples  # noqa: E402
 
 KICK, END = 1_520_000_000, 3_000_000_000  # ns
 PERIOD = 2_000_000  # ns between samples
@@ -39,31 +36,16 @@ COLORS = 256
 
 def write_replay(file: Path) -> None:
     """Record a top on cusps that is hurried where it precesses fastest."""
-    recording = rr.RecordingStream("symtop_ros", recording_id="replay")
-    recording.save(file)
+    recording = create_recording(file, "replay")
     view, start = View(recording), Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
-    view.send(_batch("start", str(perrys_rule(ARTICLE, CUSPS)), start, start, 0, KICK))
+    verdict, stamps = str(perrys_rule(ARTICLE, CUSPS)), np.arange(0, END, PERIOD)
+    view.send(sample("start", verdict, CUSPS, start, stamps[stamps < KICK]))
     before = start.state_at(KICK)
     kicked = start.restart(hurry(before, factor=1.4), KICK)
     verdict = kick_verdict(kicked.motion, before, "spin_rate")
-    view.send(_batch("kick", verdict, start, kicked, KICK, END))
+    view.send(sample("kick", verdict, before, kicked, stamps[stamps >= KICK]))
     recording.flush()
     recording.disconnect()
-
-
-def _batch(
-    name: str, verdict: str, before: Segment, segment: Segment, begin: int, end: int
-) -> Batch:
-    """An event and the samples that follow it."""
-    stamps = np.arange(begin, end, PERIOD)
-    samples, places = Samples.at(segment, stamps), 1 + np.arange(len(stamps))
-    columns = {
-        topic: Columns(stamps, each.compute(samples), places)
-        for topic, each in STATE_TOPICS.items()
-    }
-    return Batch(
-        columns, [(0, Event.of(begin, name, verdict, {}, before.state_at(begin), segment))]
-    )
 
 
 def render(recording: Path, seconds: float, target: Path) -> None:

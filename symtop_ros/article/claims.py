@@ -1,12 +1,12 @@
 """A claim of the article with the value that was measured for it, and tables of claims."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 
 WIDTH = 96  # characters in a line
+# Characters that Markdown would read as cell borders or emphasis
+ESCAPES = str.maketrans({character: f"\\{character}" for character in "\\|*_"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,10 +40,11 @@ def table(claims: Sequence[Claim]) -> str:
 
 def markdown(claims: Sequence[Claim]) -> str:
     """Return the claims as a Markdown table."""
-    rows = [
-        f"| {number} | {' | '.join(map(_cell, _texts(claim)))} | {claim.verdict} |"
-        for number, claim in enumerate(claims, start=1)
-    ]
+    rows = []
+    for number, claim in enumerate(claims, start=1):
+        texts = claim.sentence, claim.equation, claim.measured, claim.tolerance
+        cells = [text.translate(ESCAPES) for text in texts]
+        rows.append(f"| {number} | {' | '.join(cells)} | {claim.verdict} |")
     head = ["| | claim | equation | measured | tolerance | |", "|--:|---|---|---|---|---|"]
     return "\n".join([*head, *rows, "", summarize(claims), ""])
 
@@ -51,14 +52,3 @@ def markdown(claims: Sequence[Claim]) -> str:
 def summarize(claims: Sequence[Claim]) -> str:
     """Return the number of claims that hold, as a sentence."""
     return f"{sum(claim.holds for claim in claims)} of {len(claims)} claims hold."
-
-
-def _texts(claim: Claim) -> tuple[str, str, str, str]:
-    return claim.sentence, claim.equation, claim.measured, claim.tolerance
-
-
-def _cell(text: str) -> str:
-    """Escape the characters that Markdown would read as cell borders or emphasis."""
-    for character in "\\|*_":
-        text = text.replace(character, f"\\{character}")
-    return text

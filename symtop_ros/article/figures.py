@@ -1,11 +1,8 @@
 """The article's figures: angles, rates and angular momentum against time, and the parabola."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.article.kinds import DISC
@@ -17,7 +14,6 @@ from symtop_ros.article.motions import (
     SLOW,
     THETA,
     TOP,
-    Rate,
     cusps,
     precession_period,
     regular,
@@ -26,8 +22,8 @@ from symtop_ros.article.motions import (
 from symtop_ros.article.nutation import horizontal_square
 from symtop_ros.article.pivot import pivot_forces
 from symtop_ros.article.sphere import draw_sphere
-from symtop_ros.article.style import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from symtop_ros.article.torque import split_torque
+from symtop_ros.drawing.style import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -37,6 +33,8 @@ from symtop_ros.physics import (
 
 TIMES = np.linspace(0.0, 0.5, 2001)  # s; three nutations of cusps
 PHI_DOTS = np.linspace(-8.0, 85.0, 400)  # rad/s
+DEPTH = r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)"
+COMPARED = {"regular precession": regular(), "cusps": cusps()}
 LOOKS = {"falls": (RED, "--"), "stays": (INK, "-"), "rises": (BLUE, "-.")}
 
 
@@ -53,16 +51,11 @@ def draw_cusps_against_time() -> Figure:
     }
     for axes, (label, values) in zip(rows(figure, 4), curves.items(), strict=True):
         axes.plot(TIMES, values, color=BLUE)
-        axes.set_ylabel(label)
-        axes.margins(x=0)
-        _mark_cusps(axes, motion)
+        axes.set(ylabel=label, xmargin=0)
+        for time in np.arange(0.0, TIMES[-1], motion.nutation_period):
+            axes.axvline(time, color=GREY, lw=0.9, ls=":")
     figure.axes[0].set_title("dotted: at the cusps", loc="right")
     return figure
-
-
-def _mark_cusps(axes: Axes, motion: Motion) -> None:
-    for time in np.arange(0.0, TIMES[-1], motion.nutation_period):
-        axes.axvline(time, color=GREY, lw=0.9, ls=":")
 
 
 def draw_six_rates() -> Figure:
@@ -72,17 +65,12 @@ def draw_six_rates() -> Figure:
         for rate in rates:
             color, dash = LOOKS[rate.direction]
             theta = Motion(TOP, start(rate.phi_dot)).at(TIMES).euler_angles.theta
-            axes.plot(TIMES, theta, color=color, ls=dash, label=_label(rate))
-        axes.set_xlabel("$t$ (s)")
-        axes.margins(x=0)
+            label = f"{rate.phi_dot:#.3g} rad/s: {rate.direction}"
+            axes.plot(TIMES, theta, color=color, ls=dash, label=label)
+        axes.set(xlabel="$t$ (s)", xmargin=0)
         axes.legend(loc="upper left", title=r"$\dot\phi(0)$")
-    figure.axes[0].set_ylabel(r"$\theta$ (rad)")
-    figure.axes[0].set_ylim(THETA - 0.08, THETA + 0.2)
+    figure.axes[0].set(ylabel=r"$\theta$ (rad)", ylim=(THETA - 0.08, THETA + 0.2))
     return figure
-
-
-def _label(rate: Rate) -> str:
-    return f"{rate.phi_dot:#.3g} rad/s: {rate.direction}"
 
 
 def draw_theta_acceleration() -> Figure:
@@ -91,55 +79,35 @@ def draw_theta_acceleration() -> Figure:
     axes = figure.subplots()
     axes.axhline(0.0, color=INK, lw=0.9)
     axes.plot(PHI_DOTS, theta_acceleration(TOP, THETA, PHI_DOTS, PSI_DOT), color=BLUE)
-    _mark_rates(axes)
-    _mark_roots(axes)
-    _mark_sides(axes)
-    axes.set_xlabel(r"$\dot\phi$ (rad/s)")
-    axes.set_ylabel(r"$\ddot\theta$ (rad/s$^2$)")
-    axes.margins(x=0)
-    axes.legend(loc="upper center")
-    return figure
-
-
-def _mark_rates(axes: Axes) -> None:
     rates = np.array([rate.phi_dot for rate in RATES if rate.direction != "stays"])
     values = theta_acceleration(TOP, THETA, rates, PSI_DOT)
     axes.plot(rates, values, "s", color=INK, ms=5, label="the article's other rates", zorder=3)
-
-
-def _mark_roots(axes: Axes) -> None:
-    axes.plot(
-        [SLOW, FAST], [0, 0], "o", color=RED, ms=7, label="regular precession: it stays", zorder=3
-    )
-    for root, printed, side in ((SLOW, PRINTED_ROOTS[0], -1), (FAST, PRINTED_ROOTS[1], 1)):
-        axes.annotate(
-            f"{printed} rad/s",
-            (root, 0),
-            (9 * side, -14),
-            textcoords="offset points",
-            ha="right" if side < 0 else "left",
-        )
-
-
-def _mark_sides(axes: Axes) -> None:
+    label = "regular precession: it stays"
+    axes.plot([SLOW, FAST], [0, 0], "o", color=RED, ms=7, label=label, zorder=3)
+    for root, printed, side in (
+        (SLOW, PRINTED_ROOTS[0], "right"),
+        (FAST, PRINTED_ROOTS[1], "left"),
+    ):
+        offset = (-9 if side == "right" else 9, -14)
+        axes.annotate(f"{printed} rad/s", (root, 0), offset, textcoords="offset points", ha=side)
     axes.axvspan(SLOW, FAST, color=PALE, alpha=0.35, lw=0)
     middle = (SLOW + FAST) / 2
     for place, word in ((middle, "the top rises"), (-1.0, "it falls"), (77.5, "it falls")):
         axes.text(place, -205, word, ha="center", style="italic")
+    axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ (rad/s$^2$)", xmargin=0)
+    axes.legend(loc="upper center")
+    return figure
 
 
 def draw_angular_momentum() -> Figure:
     """Draw the components of L of regular precession and of cusps."""
     figure = new_figure(4.6)
     times = np.linspace(0.0, 1.5, 3001)
-    titles = {"regular precession": regular(), "cusps": cusps()}
-    for axes, (title, motion) in zip(rows(figure, 2), titles.items(), strict=True):
+    for axes, (title, motion) in zip(rows(figure, 2), COMPARED.items(), strict=True):
         L = 1e3 * motion.top.angular_momentum(motion.at(times))
         for part, color, dash in zip(range(3), (BLUE, RED, INK), ("-", "--", "-"), strict=True):
             axes.plot(times, L[:, part], color=color, ls=dash, label=f"$L_{{{'xyz'[part]}'}}$")
-        axes.set_ylabel("$L$ ($10^{-3}$ N m s)")
-        axes.set_title(title, loc="left")
-        axes.margins(x=0)
+        axes.set(ylabel="$L$ ($10^{-3}$ N m s)", title=title, xmargin=0)
     figure.axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3)
     return figure
 
@@ -147,20 +115,17 @@ def draw_angular_momentum() -> Figure:
 def draw_horizontal_momentum() -> Figure:
     """Draw the end of L from above, over one turn of the precession."""
     figure = new_figure(3.4)
-    titles = {"regular precession": regular(), "cusps": cusps()}
     both = columns(figure, 2, sharex=True, sharey=True)
-    for axes, (title, motion) in zip(both, titles.items(), strict=True):
+    for axes, (title, motion) in zip(both, COMPARED.items(), strict=True):
         times = np.linspace(0.0, precession_period(motion), 3001)
         L = 1e3 * motion.top.angular_momentum(motion.at(times))
         axes.plot(L[:, 0], L[:, 1], color=BLUE)
         axes.plot(*L[0, :2], "o", color=RED)
         axes.annotate("start", (L[0, 0], L[0, 1]), (0, 8), textcoords="offset points", ha="center")
         axes.plot(0, 0, "+", color=INK)
-        axes.set_aspect("equal")
-        axes.set_xticks(range(-6, 7, 2))
-        axes.set_yticks(range(-6, 7, 2))
+        ticks = range(-6, 7, 2)
+        axes.set(aspect="equal", xticks=ticks, yticks=ticks, title=title)
         axes.set_xlabel("$L_{x'}$ ($10^{-3}$ N m s)")
-        axes.set_title(title, loc="left")
     both[0].set_ylabel("$L_{y'}$ ($10^{-3}$ N m s)")
     return figure
 
@@ -169,14 +134,13 @@ def draw_horizontal_momentum_squared() -> Figure:
     """Draw L^2 - L_z'^2 and theta of regular precession and of cusps."""
     figure = new_figure(4.6)
     upper, lower = rows(figure, 2)
-    titles = {"cusps": (cusps(), BLUE, "-"), "regular precession": (regular(), RED, "--")}
-    for title, (motion, color, dash) in titles.items():
+    looks = {"cusps": (BLUE, "-"), "regular precession": (RED, "--")}
+    for title, (color, dash) in looks.items():
+        motion = COMPARED[title]
         lower.plot(TIMES, motion.at(TIMES).euler_angles.theta, color=color, ls=dash)
-        square = 1e6 * horizontal_square(motion, TIMES)
-        upper.plot(TIMES, square, color=color, ls=dash, label=title)
-    upper.set_ylabel("$L^2 - {L_{z'}}^2$ ($10^{-6}$ N$^2$ m$^2$ s$^2$)")
+        upper.plot(TIMES, 1e6 * horizontal_square(motion, TIMES), color=color, ls=dash, label=title)
+    upper.set(ylabel="$L^2 - {L_{z'}}^2$ ($10^{-6}$ N$^2$ m$^2$ s$^2$)", xmargin=0)
     lower.set_ylabel(r"$\theta$ (rad)")
-    upper.margins(x=0)
     upper.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
     return figure
 
@@ -184,24 +148,20 @@ def draw_horizontal_momentum_squared() -> Figure:
 def draw_inertial_torque() -> Figure:
     """Draw the torque, dL/dt in the body frame and omega x L, along the line of nodes."""
     figure = new_figure(3.4)
-    titles = {"regular precession": regular(), "cusps": cusps()}
-    looks = ((INK, "-"), (BLUE, "--"), (RED, "-."))
-    times = TIMES[:1401]
-    for axes, (title, motion) in zip(columns(figure, 2, sharey=True), titles.items(), strict=True):
-        for (name, part), (color, dash) in zip(
-            split_torque(motion, times).items(), looks, strict=True
-        ):
-            axes.plot(times, part, color=color, ls=dash, label=_in_math(name))
-        axes.set_title(title, loc="left")
-        axes.set_xlabel("$t$ (s)")
-        axes.margins(x=0)
-    figure.axes[0].set_ylabel("along the line of nodes (N m)")
-    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    looks = {
+        "torque": (INK, "-"),
+        "$dL/dt$ in the body frame": (BLUE, "--"),
+        r"$\omega \times L$": (RED, "-."),
+    }
+    times, both = TIMES[:1401], columns(figure, 2, sharey=True)
+    for axes, (title, motion) in zip(both, COMPARED.items(), strict=True):
+        parts = split_torque(motion, times).values()
+        for (label, (color, dash)), part in zip(looks.items(), parts, strict=True):
+            axes.plot(times, part, color=color, ls=dash, label=label)
+        axes.set(title=title, xlabel="$t$ (s)", xmargin=0)
+    both[0].set_ylabel("along the line of nodes (N m)")
+    figure.legend(*both[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
-
-
-def _in_math(name: str) -> str:
-    return name.replace("dL/dt", "$dL/dt$").replace("omega x L", r"$\omega \times L$")
 
 
 def draw_same_accelerations() -> Figure:
@@ -217,12 +177,8 @@ def draw_same_accelerations() -> Figure:
         depth = 1e3 * (potential.at(theta) - potential.energy)
         right.plot(theta, depth, color=color, ls=dash)
         right.plot([low, high], [0, 0], "o", color=color, ms=5)
-    left.set_xlabel("$t$ (s)")
-    left.set_ylabel(r"$\theta$ (rad)")
-    left.margins(x=0)
-    right.set_xlabel(r"$\theta$ (rad)")
-    right.set_ylabel(r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)")
-    right.set_ylim(-2.4, 2.4)
+    left.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)", xmargin=0)
+    right.set(xlabel=r"$\theta$ (rad)", ylabel=DEPTH, ylim=(-2.4, 2.4))
     right.axhline(0.0, color=INK, lw=0.9)
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
@@ -240,10 +196,8 @@ def draw_parabola_downward() -> Figure:
     axes.plot([low, high], [0, 0], "o", color=RED, ms=7, zorder=3)
     for place, word in ((low - 75, "rises"), ((low + high) / 2, "falls"), (high + 75, "rises")):
         axes.text(place, 7.0, f"it {word}", ha="center", style="italic")
-    axes.set_xlabel(r"$\dot\phi$ (rad/s)")
-    axes.set_ylabel(r"$\ddot\theta$ ($10^3$ rad/s$^2$)")
-    axes.set_title(f"a disc, $I_z > I_x$: roots {low:.0f} and {high:.2f} rad/s", loc="left")
-    axes.margins(x=0)
+    axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ ($10^3$ rad/s$^2$)", xmargin=0)
+    axes.set_title(f"a disc, $I_z > I_x$: roots {low:.0f} and {high:.2f} rad/s")
     return figure
 
 
@@ -258,10 +212,7 @@ def draw_pivot_force() -> Figure:
         axes.plot(times, vertical, color=BLUE, label="vertical")
         axes.plot(times, horizontal, color=RED, ls="--", label="horizontal")
         axes.axhline(vertical.mean(), color=GREY, lw=0.9, ls=":", label="weight")
-        axes.set_title(title, loc="left")
-        axes.set_xlabel("$t$ (s)")
-        axes.set_ylim(0.0, None)
-        axes.margins(x=0)
+        axes.set(title=title, xlabel="$t$ (s)", ylim=(0.0, None), xmargin=0)
     figure.axes[0].set_ylabel("force of the pivot (N)")
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure

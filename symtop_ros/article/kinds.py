@@ -4,8 +4,6 @@ theta'' at the start is one number. The kind of the motion depends on phi' at bo
 and the second of these is known from the constants of motion alone.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from symtop_ros.article.claims import Claim
@@ -17,7 +15,7 @@ from symtop_ros.article.motions import (
     SLOW,
     THETA,
     accelerations,
-    slope,
+    measure_acceleration,
     start,
 )
 from symtop_ros.physics import (
@@ -126,7 +124,10 @@ def parabola_opens_downward(name: str, top: Top, theta: float) -> Claim:
         return Claim(sentence, f"{len(roots)} roots", holds=False)
     low, high = sorted(roots)
     rates = np.array([low - 5.0, (low + high) / 2, high + 5.0])
-    found = np.array([_measure_acceleration(top, theta, rate) for rate in rates.tolist()])
+    starts = [
+        State.from_euler(theta=theta, phi_dot=rate, psi_dot=PSI_DOT) for rate in rates.tolist()
+    ]
+    found = np.array([measure_acceleration(Motion(top, each), STEP_SHARE) for each in starts])
     off = max(abs((low + high) * a / b - 1), abs(low * high * a / top.Mgl - 1))
     good = np.array_equal(np.sign(found), [-1, 1, -1]) and np.allclose(
         found, theta_acceleration(top, theta, rates, PSI_DOT), rtol=1e-9
@@ -141,11 +142,3 @@ def parabola_opens_downward(name: str, top: Top, theta: float) -> Claim:
         "phi'_1 phi'_2 = Mgl/((Ix - Iz) cos(theta))",
         f"{VIETA:g}: rounding of the roots; theta'' by differences within 1e-9",
     )
-
-
-def _measure_acceleration(top: Top, theta: float, phi_dot: float) -> float:
-    """Return theta'' at the start of a motion with theta' = 0, by differentiating theta'."""
-    motion = Motion(top, State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=PSI_DOT))
-    step = STEP_SHARE * motion.nutation_period
-    found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta), np.zeros(1), step)
-    return float(found.values[0])

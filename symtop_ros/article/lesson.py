@@ -4,11 +4,8 @@ The commands are those of `top_ctl` that a class types. A start begins a run; a 
 run. Regular precession is the only motion that is hurried, so that the time of the kick is free.
 """
 
-from __future__ import annotations
-
 import io
 import shlex
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,9 +16,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.article.motions import HANGING_DISC, PSI_DOT, THETA, TOP, Run, precession_period
+from symtop_ros.article.figures import DEPTH
+from symtop_ros.article.motions import (
+    HANGING_DISC,
+    PSI_DOT,
+    THETA,
+    TOP,
+    KickedMotion,
+    precession_period,
+)
 from symtop_ros.article.rates import FACTOR
-from symtop_ros.article.style import BLUE, GREY, INK, RED, SETTINGS, new_figure
+from symtop_ros.drawing.style import BLUE, GREY, INK, RED, SETTINGS, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -44,27 +49,27 @@ SCENES = {  # tops and initial conditions of the nodes
         InitialConditions(theta=0.5, psi_dot=-120.0, precession="slow"),
     ),
 }
-Draw = Callable[[Axes, dict[str, Run]], None]
+Draw = Callable[[Axes, dict[str, KickedMotion]], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class LessonStep:
     """One step of the lesson."""
 
     title: str  # as in the headline of the step
     commands: tuple[str, ...]  # as one types them
     draw: Draw  # draws the right half of the picture
 
-    def runs(self) -> dict[str, Run]:
+    def runs(self) -> dict[str, KickedMotion]:
         """Return the runs of the step by their labels."""
-        runs: dict[str, Run] = {}
+        runs: dict[str, KickedMotion] = {}
         for command in self.commands:
             _follow(shlex.split(command), runs)
         return runs
 
 
-def _follow(words: list[str], runs: dict[str, Run]) -> None:
-    """Do what a command says: begin a run, or hurry the last one."""
+def _follow(words: list[str], runs: dict[str, KickedMotion]) -> None:
+    """Apply a command: begin a run, or hurry the last one."""
     name = words[words.index("--node") + 1] if "--node" in words else "/top"
     top, defaults = SCENES[name]
     if "hurry" in words:
@@ -79,11 +84,11 @@ def _follow(words: list[str], runs: dict[str, Run]) -> None:
         motion = Motion(top, initial_state(top, defaults, request))
         rates = motion.start.euler_rates
         label = f"$\\dot\\phi$ = {rates.phi:.3g}, $\\dot\\psi$ = {rates.psi:.4g} rad/s"
-        runs[label] = Run.of(motion)
+        runs[label] = KickedMotion.of(motion)
 
 
-def draw_step(step: Step) -> Figure:
-    """Draw a step: the end of the axis from above, and what the step is about."""
+def draw_step(step: LessonStep) -> Figure:
+    """Draw a step: the end of the axis from above, and the quantity that the step explains."""
     figure = new_figure(2.9)
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
     runs = step.runs()
@@ -93,24 +98,22 @@ def draw_step(step: Step) -> Figure:
     return figure
 
 
-def _draw_from_above(axes: Axes, runs: dict[str, Run]) -> None:
+def _draw_from_above(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     around = np.linspace(0.0, 2 * np.pi, 181)
     for (color, dash), run in zip(LOOKS, runs.values(), strict=False):
         begin, motion = run.pieces[-1]
         for angle in motion.turning_angles:
             rim = np.sin(angle)
             axes.plot(rim * np.cos(around), rim * np.sin(around), color=GREY, lw=0.7, ls=":")
-        length = min(TRACE, TURNS * precession_period(motion))
-        times = np.linspace(begin, begin + length, 3001)
+        times = np.linspace(begin, begin + min(TRACE, TURNS * precession_period(motion)), 3001)
         ends = run.at(times).to_world([0.0, 0.0, 1.0])
         axes.plot(ends[:, 0], ends[:, 1], color=color, ls=dash, lw=1.4)
     axes.plot(0, 0, "+", color=INK)
-    axes.set_aspect("equal")
+    axes.set(aspect="equal", title="end of the axis, from above")
     axes.set_axis_off()
-    axes.set_title("end of the axis, from above", loc="left")
 
 
-def draw_tilt(axes: Axes, runs: dict[str, Run]) -> None:
+def draw_tilt(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     """Draw theta against time."""
     times = np.linspace(0.0, SPAN, 1601)
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
@@ -119,14 +122,13 @@ def draw_tilt(axes: Axes, runs: dict[str, Run]) -> None:
         axes.axvline(KICK, color=GREY, lw=0.9, ls=":")
     low, high = axes.get_ylim()
     room = max(high - low, 0.003)  # regular precession is a line, not rounding
+    axes.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)")
     axes.set_ylim(low - 0.05 * room, low + 1.45 * room)
-    axes.set_xlabel("$t$ (s)")
-    axes.set_ylabel(r"$\theta$ (rad)")
     axes.set_title(r"smaller $\theta$: higher", loc="right")
     axes.legend(loc="upper left")
 
 
-def draw_momentum(axes: Axes, runs: dict[str, Run]) -> None:
+def draw_momentum(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     """Draw the components of L in the world frame, and the one along the axis."""
     times = np.linspace(0.0, SPAN, 1601)
     (run,) = runs.values()
@@ -140,13 +142,11 @@ def draw_momentum(axes: Axes, runs: dict[str, Run]) -> None:
     }
     for label, (values, color, dash) in curves.items():
         axes.plot(times, values, color=color, ls=dash, label=label)
-    axes.set_ylim(-8.5, 17.5)
-    axes.set_xlabel("$t$ (s)")
-    axes.set_ylabel("$L$ ($10^{-3}$ N m s)")
+    axes.set(xlabel="$t$ (s)", ylabel="$L$ ($10^{-3}$ N m s)", ylim=(-8.5, 17.5))
     axes.legend(loc="upper center", ncols=4, columnspacing=1.0, handlelength=1.6)
 
 
-def draw_potential(axes: Axes, runs: dict[str, Run]) -> None:
+def draw_potential(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     """Draw the effective potentials, from which the turning angles can be read."""
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
         motion = run.pieces[0][1]
@@ -156,13 +156,11 @@ def draw_potential(axes: Axes, runs: dict[str, Run]) -> None:
         axes.plot(theta, depth, color=color, ls=dash, label=label)
         axes.plot(motion.turning_angles, [0, 0], "o", color=color, ms=5)
     axes.axhline(0.0, color=INK, lw=0.9)
-    axes.set_ylim(-6.0, 11.0)
-    axes.set_xlabel(r"$\theta$ (rad)")
-    axes.set_ylabel(r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)")
+    axes.set(xlabel=r"$\theta$ (rad)", ylabel=DEPTH, ylim=(-6.0, 11.0))
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
 
 
-def draw_parabola(axes: Axes, runs: dict[str, Run]) -> None:
+def draw_parabola(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     """Draw theta'' against phi', with the roots of regular precession and the run's place."""
     rates = np.linspace(-10.0, 88.0, 400)
     axes.axhline(0.0, color=INK, lw=0.9)
@@ -171,21 +169,23 @@ def draw_parabola(axes: Axes, runs: dict[str, Run]) -> None:
     axes.plot(roots, [0, 0], "o", color="white", mec=INK, ms=7)
     for (color, _), run in zip(LOOKS, runs.values(), strict=False):
         axes.plot(run.pieces[0][1].start.euler_rates.phi, 0, "o", color=color, ms=7, zorder=3)
-    axes.text(38, -260, "the top rises", ha="center", style="italic")
-    axes.text(80, 330, "falls", ha="right", style="italic")
-    axes.text(-4, 300, "falls", ha="left", style="italic")
-    axes.set_xlabel(r"$\dot\phi$ (rad/s)")
-    axes.set_ylabel(r"$\ddot\theta$ (rad/s$^2$)")
+    for x, y, word, side in (
+        (38, -260, "the top rises", "center"),
+        (80, 330, "falls", "right"),
+        (-4, 300, "falls", "left"),
+    ):
+        axes.text(x, y, word, ha=side, style="italic")
+    axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ (rad/s$^2$)")
 
 
 STEPS = (
-    Step("Let go at rest", ("top_ctl start theta=0.5 psi_dot=200",), draw_tilt),
-    Step(
+    LessonStep("Let go at rest", ("top_ctl start theta=0.5 psi_dot=200",), draw_tilt),
+    LessonStep(
         "Three numbers that stay",
         ("top_ctl start theta=0.5 psi_dot=200", "top_ctl state"),
         draw_momentum,
     ),
-    Step(
+    LessonStep(
         "How deep does it fall?",
         (
             "top_ctl start theta=0.5 psi_dot=150",
@@ -193,17 +193,17 @@ STEPS = (
         ),
         draw_potential,
     ),
-    Step(
+    LessonStep(
         "A push that stops the nodding",
         ("top_ctl start theta=0.5 psi_dot=200 precession=slow",),
         draw_parabola,
     ),
-    Step(
+    LessonStep(
         "One torque, two precessions",
         ("top_ctl start theta=0.5 psi_dot=200 precession=fast",),
         draw_parabola,
     ),
-    Step(
+    LessonStep(
         "Two starts that begin alike",
         (
             "top_ctl start theta=0.5 psi_dot=200 phi_dot=0",
@@ -211,7 +211,7 @@ STEPS = (
         ),
         draw_tilt,
     ),
-    Step(
+    LessonStep(
         "Below the root and above it",
         (
             "top_ctl start theta=0.5 psi_dot=200 phi_dot=3",
@@ -219,17 +219,17 @@ STEPS = (
         ),
         draw_tilt,
     ),
-    Step(
+    LessonStep(
         "Hurry on the precession, and the body rises",
         ("top_ctl start theta=0.5 psi_dot=200 precession=slow", "top_ctl hurry"),
         draw_tilt,
     ),
-    Step(
+    LessonStep(
         "The same hurry on the fast root",
         ("top_ctl start theta=0.5 psi_dot=200 precession=fast", "top_ctl hurry"),
         draw_tilt,
     ),
-    Step(
+    LessonStep(
         "Perry's rule fails on the slow root too",
         ("top_ctl --node /disc reset", "top_ctl --node /disc hurry"),
         draw_tilt,
@@ -239,18 +239,14 @@ STEPS = (
 
 def write_lesson(folder: Path) -> int:
     """Write the pictures step_01.png to step_10.png; return the exit status."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for number, step in enumerate(STEPS, start=1):
-            save_step(step, folder / f"step_{number:02}.png")
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror or error}", file=sys.stderr)
-        return 1
+    folder.mkdir(parents=True, exist_ok=True)
+    for number, step in enumerate(STEPS, start=1):
+        save_step(step, folder / f"step_{number:02}.png")
     print(f"wrote {len(STEPS)} pictures to {folder}")
     return 0
 
 
-def save_step(step: Step, file: Path) -> None:
+def save_step(step: LessonStep, file: Path) -> None:
     """Draw a step into a PNG with a palette, which has a third of the size."""
     memory = io.BytesIO()
     with rc_context(SETTINGS):

@@ -4,10 +4,7 @@ Two maps of the article's top, precession rate against spin rate and against til
 Parquet tables, and as one Rerun recording.
 """
 
-from __future__ import annotations
-
 import io
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -39,8 +36,8 @@ class PerryMap:
     """One map: a grid of n precession rates and m spin rates or tilts."""
 
     name: str  # "spin" or "tilt", in the names of its files
-    title: str  # the quantity that is held, and the label of the horizontal axis
-    label: str  # the quantity that is held, and the label of the horizontal axis
+    title: str  # the quantity that is held
+    label: str  # of the horizontal axis
     across: Real  # values along the horizontal axis: psi' in rad/s, or theta in rad
     phi_dot: Real  # precession rates before the kick, along the vertical axis, in rad/s
     effect: HurryEffect  # effect of the kick, (n, m)
@@ -50,31 +47,30 @@ class PerryMap:
 
 def map_spin(points: int) -> PerryMap:
     """Return the map of points x points over psi' and phi', at the article's tilt."""
-    phi_dot, psi_dot = np.linspace(*PHI_DOTS, points), np.linspace(*PSI_DOTS, points)
-    grid = THETA, phi_dot[:, np.newaxis], psi_dot
-    effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
-    title = f"theta = {THETA:g} rad"
-    return PerryMap("spin", title, "spin rate psi' (rad/s)", psi_dot, phi_dot, effect, torque)
+    psi_dot = np.linspace(*PSI_DOTS, points)
+    names = "spin", f"theta = {THETA:g} rad", "spin rate psi' (rad/s)"
+    return _map(names, psi_dot, THETA, psi_dot)
 
 
 def map_tilt(points: int) -> PerryMap:
     """Return the map of points x points over theta and phi', at the article's spin."""
-    phi_dot, theta = np.linspace(*PHI_DOTS, points), np.linspace(*THETAS, points)
-    grid = theta, phi_dot[:, np.newaxis], PSI_DOT
+    theta = np.linspace(*THETAS, points)
+    names = "tilt", f"psi' = {PSI_DOT:g} rad/s", "tilt theta (rad)"
+    return _map(names, theta, theta, PSI_DOT)
+
+
+def _map(names: tuple[str, str, str], across: Real, theta: Any, psi_dot: Any) -> PerryMap:
+    phi_dot = np.linspace(*PHI_DOTS, len(across))
+    grid = theta, phi_dot[:, np.newaxis], psi_dot
     effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
-    title = f"psi' = {PSI_DOT:g} rad/s"
-    return PerryMap("tilt", title, "tilt theta (rad)", theta, phi_dot, effect, torque)
+    return PerryMap(*names, across, phi_dot, effect, torque)
 
 
 def write_maps(folder: Path, points: int) -> int:
     """Write both maps of points x points into a folder; return the exit status."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        maps = [_write_map(make, folder, points) for make in (map_spin, map_tilt)]
-        write_recording(maps, folder / "perry.rrd")
-    except OSError as error:
-        print(f"top_report: {folder}: {error.strerror or error}", file=sys.stderr)
-        return 1
+    folder.mkdir(parents=True, exist_ok=True)
+    maps = [_write_map(make, folder, points) for make in (map_spin, map_tilt)]
+    write_recording(maps, folder / "perry.rrd")
     print(f"in Rerun: rerun {folder / 'perry.rrd'}")
     return 0
 
@@ -85,7 +81,7 @@ def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> Pe
     seconds = time.perf_counter() - began
     stem = folder / f"perry_{perry_map.name}"
     for suffix in ("png", "svg"):
-        draw(perry_map, stem.with_suffix(f".{suffix}"))
+        draw_map(perry_map, stem.with_suffix(f".{suffix}"))
     write_table(perry_map, stem.with_suffix(".parquet"))
     share = perry_map.effect.rule_holds.mean()
     print(f"{perry_map.title}: {points} x {points} points in {seconds:.2f} s; ", end="")
@@ -93,7 +89,7 @@ def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> Pe
     return perry_map
 
 
-def draw(perry_map: PerryMap, target: Path | BinaryIO) -> None:
+def draw_map(perry_map: PerryMap, target: Path | BinaryIO) -> None:
     """Draw the change of the highest and of the lowest point; PNG, or the format of a suffix."""
     figure = Figure(figsize=(11, 5), layout="constrained")
     left, right = figure.subplots(1, 2, sharey=True)
@@ -144,7 +140,7 @@ def write_recording(maps: list[PerryMap], file: Path) -> None:
         recording.save(file, default_blueprint=_blueprint(maps))
         for each in maps:
             picture = io.BytesIO()
-            draw(each, picture)
+            draw_map(each, picture)
             image = rr.EncodedImage(contents=picture.getvalue(), media_type="image/png")
             recording.log(f"{each.name}/map", image, static=True)
             recording.log(f"{each.name}/relief", _relief(each), static=True)

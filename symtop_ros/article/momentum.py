@@ -1,7 +1,5 @@
 """Claims on the constants of motion, gravity's torque, and the equations of motion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -147,7 +145,10 @@ def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
     times = TIMES[::10]
     found = slope(lambda t: motion.at(t).orientation, times)
     q, omega = motion.at(times)
-    turned = Slope(2 * _vector_of_product(q, found.values), 2 * found.error)
+    # The vector part of conj(q) q', for quaternions w, x, y, z
+    p, axis = found.values, q[:, 1:]
+    vector = q[:, :1] * p[:, 1:] - p[:, :1] * axis - np.cross(axis, p[:, 1:])
+    turned = Slope(2 * vector, 2 * found.error)
     off, error = _relative(turned, omega)
     return Claim(
         "L and E belong to the attitude: it turns with the angular velocity in them "
@@ -158,12 +159,6 @@ def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
         "omega = 2 conj(q) dq/dt",
         DIFFERENCE,
     )
-
-
-def _vector_of_product(q: Real, p: Real) -> Real:
-    """Return the vector part of conj(q) p (n, 3), for quaternions w, x, y, z (n, 4)."""
-    scalar, vector = q[:, :1], q[:, 1:]
-    return np.asarray(scalar * p[:, 1:] - p[:, :1] * vector - np.cross(vector, p[:, 1:]))
 
 
 def _relative(found: Slope, expected: Real) -> tuple[float, float]:

@@ -4,8 +4,6 @@ Every start has theta = 0.5 rad, theta' = 0 and psi' = 200 rad/s; the precession
 start decides what follows.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -72,22 +70,22 @@ DISC_HURRIED = HurryCase(
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
-    """A motion that may be kicked: motions, each from its begin to that of the next."""
+class KickedMotion:
+    """A motion that may be kicked: its pieces, each from its begin to that of the next."""
 
     # the time in s at which each motion begins, ascending from 0, and the motion from there
     pieces: tuple[tuple[float, Motion], ...]
 
     @classmethod
-    def of(cls, motion: Motion) -> Run:
-        """Return the run of a motion that is not kicked."""
+    def of(cls, motion: Motion) -> "KickedMotion":
+        """Return a motion that is not kicked."""
         return cls(((0.0, motion),))
 
-    def kick(self, time: float, change: Callable[[State], State]) -> Run:
-        """Return the run whose state is changed at a time in s, after all other kicks."""
+    def kick(self, time: float, change: Callable[[State], State]) -> "KickedMotion":
+        """Return the motion with a kick at a time in s, after all other kicks."""
         begin, motion = self.pieces[-1]
         after = Motion(motion.top, change(motion.at(time - begin)))
-        return Run((*self.pieces, (time, after)))
+        return KickedMotion((*self.pieces, (time, after)))
 
     def at(self, times: Real) -> State:
         """Return the states (n,) at times in s, in ascending order from 0."""
@@ -151,6 +149,16 @@ def slope(function: Callable[[Real], Real], times: Real, step: float = STEP) -> 
     """Differentiate a function by central differences of order 8."""
     fine, coarse = _difference(function, times, step), _difference(function, times, 2 * step)
     return Slope(fine, float(np.abs(coarse - fine).max()))
+
+
+def measure_acceleration(motion: Motion, share: float | None = None) -> float:
+    """Return theta'' in rad/s^2 at the start of a motion, by differentiating theta'.
+
+    The step is `STEP`, or a share of the nutation period.
+    """
+    step = STEP if share is None else share * motion.nutation_period
+    found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta), np.zeros(1), step)
+    return float(found.values[0])
 
 
 def _difference(function: Callable[[Real], Real], times: Real, step: float) -> Real:

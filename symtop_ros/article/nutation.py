@@ -3,8 +3,6 @@
 The equations are those of the constants of motion, of which the accelerations know nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -82,7 +80,9 @@ def precession_stops_at_the_cusps(motion: Motion) -> Claim:
     times = times_of_smallest_tilt(motion)
     if len(times) < 2:
         return Claim(sentence, "theta has no minima", holds=False)
-    at_cusps, elsewhere = motion.at(times), motion.at(_between(times))
+    # Elsewhere: the hundredths of the way from each cusp to the next.
+    between = times[:-1, None] + np.diff(times)[:, None] * np.linspace(0.01, 0.99, 99)
+    at_cusps, elsewhere = motion.at(times), motion.at(between.ravel())
     largest = np.abs(elsewhere.euler_rates.phi).max()
     stopped = np.abs(at_cusps.euler_rates.phi).max() / largest
     slowest = np.abs(elsewhere.euler_rates.phi).min() / largest
@@ -104,17 +104,11 @@ def times_of_smallest_tilt(motion: Motion) -> Real:
     times = DENSE_TIMES[1:]
     rates = np.asarray(motion.at(times).euler_rates.theta)
     rising = np.flatnonzero((rates[:-1] < 0) & (rates[1:] >= 0))
-    return np.array([_zero_of_theta_dot(motion, times[k], times[k + 1]) for k in rising])
 
+    def rate(t: float) -> float:
+        return float(motion.at(t).euler_rates.theta)
 
-def _zero_of_theta_dot(motion: Motion, before: float, after: float) -> float:
-    return brentq(lambda t: float(motion.at(t).euler_rates.theta), before, after, xtol=1e-15)
-
-
-def _between(times: Real) -> Real:
-    """Return the hundredths of the way from each time to the next, without the times themselves."""
-    steps = np.linspace(0.01, 0.99, 99)
-    return np.asarray((times[:-1, None] + np.diff(times)[:, None] * steps).ravel())
+    return np.array([brentq(rate, times[k], times[k + 1], xtol=1e-15) for k in rising])
 
 
 def fall_is_fastest_at_zero_acceleration(motion: Motion) -> Claim:

@@ -3,8 +3,6 @@
 The motion does not depend on mass and arm, the force does. `symtop_ros.physics.Body` chooses them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.optimize import brentq
 

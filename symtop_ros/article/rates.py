@@ -1,12 +1,9 @@
 """Claims on precession rates: the two roots, the six rates, the parabola, Perry's rule."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
-from symtop_ros.arrays import Real
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.motions import (
     DISC_HURRIED,
@@ -19,7 +16,7 @@ from symtop_ros.article.motions import (
     THETA,
     HurryCase,
     Rate,
-    slope,
+    measure_acceleration,
     start,
 )
 from symtop_ros.physics import (
@@ -66,7 +63,7 @@ class Departure:
     turning: tuple[float, float]  # smallest and largest theta minus theta at the start, in rad
 
     @classmethod
-    def of(cls, motion: Motion) -> Departure:
+    def of(cls, motion: Motion) -> "Departure":
         """Measure a motion that starts with theta' = 0."""
         top, theta, rates = motion.top, motion.start.euler_angles.theta, motion.start.euler_rates
         after = SHORT * motion.nutation_period
@@ -152,7 +149,9 @@ def rate_decides(top: Top, rate: Rate) -> Claim:
 
 def acceleration_is_a_parabola(top: Top) -> Claim:
     """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots."""
-    measured = measured_accelerations(top, PARABOLA)
+    measured = np.array(
+        [measure_acceleration(Motion(top, start(rate))) for rate in PARABOLA.tolist()]
+    )
     parabola = np.polynomial.Polynomial.fit(PARABOLA, measured, 2)
     off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
     zeros, roots = np.sort(parabola.roots().real), _roots(top)
@@ -167,16 +166,6 @@ def acceleration_is_a_parabola(top: Top) -> Claim:
         ACCELERATION,
         f"{FITTED:g}: differences and the fit are good to 1e-11",
     )
-
-
-def measured_accelerations(top: Top, phi_dots: Real) -> Real:
-    """Return theta'' (n,) in rad/s^2 at the start of n motions, by differentiating theta'."""
-    return np.array([_acceleration(Motion(top, start(rate))) for rate in phi_dots.tolist()])
-
-
-def _acceleration(motion: Motion) -> float:
-    found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta), np.zeros(1))
-    return float(found.values[0])
 
 
 def hurrying_decides(top: Top, case: HurryCase) -> Claim:

@@ -1,8 +1,5 @@
 """Retell the article in a folder: its claims with numbers, its figures, and its motions in 3D."""
 
-from __future__ import annotations
-
-import sys
 from pathlib import Path
 
 from symtop_ros.article.claims import Claim, markdown, table
@@ -14,29 +11,20 @@ from symtop_ros.article.nutation import claims_on_nutation
 from symtop_ros.article.pivot import claims_on_pivot
 from symtop_ros.article.rates import claims_on_rates
 from symtop_ros.article.recordings import write_recordings
-from symtop_ros.article.style import write_figures
 from symtop_ros.article.torque import claims_on_torque
+from symtop_ros.drawing.style import write_figures
 from symtop_ros.physics import Top
 
 
 def retell(folder: Path) -> int:
-    """Write figures, recordings and claims.md; print the claims."""
-    try:
-        claims = _write(folder)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror or error}", file=sys.stderr)
-        return 1
-    print(table(claims))
-    return 0 if all(claim.holds for claim in claims) else 1
-
-
-def _write(folder: Path) -> list[Claim]:
+    """Write figures, recordings and claims.md; print the claims; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     claims = check_claims()
     (folder / "claims.md").write_text(markdown(claims), encoding="utf-8")
     write_figures(FIGURES, folder)
     write_recordings(folder)
-    return claims
+    print(table(claims))
+    return 0 if all(claim.holds for claim in claims) else 1
 
 
 def check_claims(top: Top = TOP) -> list[Claim]:

@@ -1,7 +1,5 @@
 """A 3D view of the curve that the end of the axis draws on the unit sphere."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -9,14 +7,15 @@ from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
 from symtop_ros.article.motions import precession_period
-from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.drawing.mesh import draw_meridian, draw_parallel
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion
 
 Axes3D = Any  # matplotlib has no types for its 3D axes
 ELEVATION, AZIMUTH = 34.0, -52.0  # degrees, of the line of sight
 UP, AROUND_UP = np.radians(ELEVATION), np.radians(AZIMUTH)
 EYE = np.array([np.cos(UP) * np.cos(AROUND_UP), np.cos(UP) * np.sin(AROUND_UP), np.sin(UP)])
-AROUND = np.linspace(0.0, 2 * np.pi, 181)
+COUNT = 181  # points of a circle
 POINTS = 3000
 ROUNDING = 1e-9  # rad; turning angles closer than this count as equal
 GRID, FAR = "#b4bac3", "#e4e7ea"
@@ -37,7 +36,8 @@ def draw_sphere(motion: Motion) -> Figure:
     _draw_globe(axes)
     _draw_axis(axes, motion)
     _draw_vectors(axes, motion)
-    _frame(axes)
+    side, upwards = (-REACH, REACH), (-REACH + 0.5, REACH + 0.5)
+    axes.set(xlim=side, ylim=side, zlim=upwards, box_aspect=(1, 1, 1))
     axes.legend(loc="upper left", bbox_to_anchor=(0.11, 0.872), handlelength=1.8)
     return figure
 
@@ -45,9 +45,9 @@ def draw_sphere(motion: Motion) -> Figure:
 def _draw_globe(axes: Axes3D) -> None:
     """Draw circles every 15 degrees of tilt, meridians every 30, the outline, and the axes."""
     for tilt in np.radians(np.arange(15, 91, 15)):
-        _grid(axes, _parallel(tilt))
+        _grid(axes, draw_parallel(tilt, COUNT))
     for phi in np.radians(np.arange(0, 180, 30)):
-        _grid(axes, _meridian(phi))
+        _grid(axes, draw_meridian(phi, np.pi / 2, 91))
     _line(axes, _outline(), color=GREY, lw=0.9)
     for name, end in (("x", (1.25, 0, 0)), ("y", (0, 1.42, 0)), ("z", (0, 0, 1.3))):
         _line(axes, np.array([(0, 0, 0), end]), color=GREY, lw=0.9)
@@ -64,8 +64,9 @@ def _grid(axes: Axes3D, points: Real) -> None:
 def _draw_axis(axes: Axes3D, motion: Motion) -> None:
     low, high = motion.turning_angles
     if high - low > ROUNDING:
-        _line(axes, _parallel(low), color=RED, lw=1.1, ls="--", label="turning angles")
-        _line(axes, _parallel(high), color=RED, lw=1.1, ls="--")
+        circles = [draw_parallel(angle, COUNT) for angle in (low, high)]
+        _line(axes, circles[0], color=RED, lw=1.1, ls="--", label="turning angles")
+        _line(axes, circles[1], color=RED, lw=1.1, ls="--")
     times = np.linspace(0.0, precession_period(motion), POINTS)
     ends = motion.at(times).to_world([0.0, 0.0, 1.0])
     _line(axes, ends, color=INK, lw=2.0, label="end of the top's axis, one turn")
@@ -77,46 +78,22 @@ def _draw_vectors(axes: Axes3D, motion: Motion) -> None:
     momentum, torque = motion.top.angular_momentum(state), motion.top.gravity_torque(state)
     axis = state.to_world([0.0, 0.0, 1.0])
     _line(axes, np.stack([np.zeros(3), axis]), color=INK, lw=1.2)
-    _arrow(axes, 1.2 * momentum / np.linalg.norm(momentum), BLUE, "$L$ at the start (direction)")
-    _arrow(
-        axes, TORQUE_LENGTH * torque / np.linalg.norm(torque), GOLD, "gravity's torque (direction)"
-    )
-
-
-def _arrow(axes: Axes3D, vector: Real, color: str, label: str) -> None:
-    axes.quiver(
-        0, 0, 0, *vector, color=color, lw=2.4, arrow_length_ratio=0.12, label=label, zorder=4
-    )
-
-
-def _frame(axes: Axes3D) -> None:
-    axes.set_xlim(-REACH, REACH)
-    axes.set_ylim(-REACH, REACH)
-    axes.set_zlim(-REACH + 0.5, REACH + 0.5)
-    axes.set_box_aspect((1, 1, 1))
+    for vector, length, color, label in (
+        (momentum, 1.2, BLUE, "$L$ at the start (direction)"),
+        (torque, TORQUE_LENGTH, GOLD, "gravity's torque (direction)"),
+    ):
+        tip = length * vector / np.linalg.norm(vector)
+        look = {"color": color, "lw": 2.4, "arrow_length_ratio": 0.12, "zorder": 4}
+        axes.quiver(0, 0, 0, *tip, label=label, **look)
 
 
 def _line(axes: Axes3D, points: Real, **style: Any) -> None:
-    axes.plot(points[:, 0], points[:, 1], points[:, 2], **style)
+    axes.plot(*points.T, **style)
 
 
 def _outline() -> Real:
     """Return the outline of the sphere above the horizon, as seen from `EYE`."""
     side = np.cross([0.0, 0.0, 1.0], EYE)
     side /= np.linalg.norm(side)
-    half = AROUND[:, None] / 2
+    half = np.linspace(0.0, np.pi, COUNT)[:, None]
     return np.asarray(np.cos(half) * side + np.sin(half) * np.cross(EYE, side))
-
-
-def _parallel(theta: float) -> Real:
-    """Return the circle of constant tilt theta (rad)."""
-    rim = np.sin(theta)
-    height = np.full_like(AROUND, np.cos(theta))
-    return np.stack([rim * np.cos(AROUND), rim * np.sin(AROUND), height], axis=1)
-
-
-def _meridian(phi: float) -> Real:
-    """Return the arc from the horizon over the pole to the other side."""
-    tilt = np.linspace(-np.pi / 2, np.pi / 2, 91)
-    side = np.sin(tilt)
-    return np.stack([side * np.cos(phi), side * np.sin(phi), np.cos(tilt)], axis=1)

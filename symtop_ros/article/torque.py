@@ -4,8 +4,6 @@ The frames are the fixed one (`world`), the body's, and that of the line of node
 the precession and the tilt but not the spin.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from symtop_ros.arrays import Real
@@ -126,12 +124,6 @@ def fixed_frame_agrees_with_euler(top: Top) -> Claim:
     )
 
 
-def along_nodes(motion: Motion, times: Real, vectors: Real) -> Real:
-    """Return the components (n,) of world-frame vectors (n, 3) along the line of nodes."""
-    phi = motion.at(times).euler_angles.phi
-    return np.asarray(vectors[:, 0] * np.cos(phi) + vectors[:, 1] * np.sin(phi))
-
-
 def split_torque(motion: Motion, times: Real) -> dict[str, Real]:
     """Return components (n,) along the line of nodes in N m, by the frame that they belong to."""
     top, states = motion.top, motion.at(times)
@@ -142,7 +134,9 @@ def split_torque(motion: Motion, times: Real) -> dict[str, Real]:
         "dL/dt in the body frame": states.to_world(change.values),
         "omega x L": np.cross(omega, top.angular_momentum(states)),
     }
-    return {name: along_nodes(motion, times, vectors) for name, vectors in parts.items()}
+    phi = states.euler_angles.phi
+    nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
+    return {name: np.asarray((vectors * nodes).sum(axis=1)) for name, vectors in parts.items()}
 
 
 def inertial_torque_is_the_difference(motion: Motion) -> Claim:

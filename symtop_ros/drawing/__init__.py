@@ -1,1 +1,1 @@
-"""Drawings as arrays: the body, the ghost and the charts. Needs no viewer."""
+"""Drawings as arrays (the body, the ghost, the charts), and the look of figures; no viewer."""

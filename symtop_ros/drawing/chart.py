@@ -1,7 +1,5 @@
 """Charts of the effective potential and of the cubic f(u): a box, and what is placed in it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,10 +18,11 @@ ABOVE, LEAST = 1.0, 0.02
 class Chart:
     """A box of the scene that shows a range of x and of y."""
 
-    left: float  # range of the data
-    right: float  # range of the data
-    bottom: float  # range of the data
-    top: float  # range of the data
+    # smallest and largest x, then smallest and largest y
+    left: float
+    right: float
+    bottom: float
+    top: float
 
     def place(self, x: Real | float, y: Real | float) -> Real:
         """Return points (n, 2) of the scene; what lies outside is moved to the edge."""
@@ -41,8 +40,7 @@ class Chart:
 
     def frame(self) -> Real:
         """Return the edges of the box."""
-        corners = [(0, -HEIGHT), (0, 0), (WIDTH, 0)]
-        return np.array(corners, dtype=float)
+        return np.array([(0, -HEIGHT), (0, 0), (WIDTH, 0)], dtype=float)
 
 
 def frame_potential(motion: Motion, potential: EffectivePotential) -> Chart:

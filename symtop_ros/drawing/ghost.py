@@ -5,8 +5,6 @@ same stamps. Whatever else happens to the run (parameters, torques, pauses, step
 factor) happens to both.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from symtop_ros.physics import Motion
@@ -25,7 +23,7 @@ class Ghost:
         self.segment: Segment | None = None
 
     def follow(self, name: str, before: Segment | None, after: Segment) -> None:
-        """Take over what an event changes."""
+        """Take over the change of an event, between the segments before and after it."""
         if name in RESTARTS or before is None:
             self.segment = None
         elif name == "kick":

@@ -3,8 +3,6 @@
 Lengths are in scene units: the pivot is the origin, and the axis ends on the unit sphere.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import pairwise
@@ -13,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics import Top
 
 SECTORS = 6  # three pairs of colours: after half a turn the colours are exchanged
@@ -31,6 +30,20 @@ class Mesh(NamedTuple):
     normals: NDArray[np.float32]
     colors: NDArray[np.uint8]
     triangles: NDArray[np.uint32]
+
+
+def draw_parallel(theta: float, count: int = 97) -> Real:
+    """Return points (count, 3) on the circle of a tilt on the unit sphere."""
+    around = np.linspace(0.0, 2 * np.pi, count)
+    rim = np.sin(theta) * np.stack([np.cos(around), np.sin(around)], axis=1)
+    return np.column_stack([rim, np.full(count, np.cos(theta))])
+
+
+def draw_meridian(phi: float, depth: float, count: int = 97) -> Real:
+    """Return points (count, 3) on the line over the pole that ends at a tilt on both sides."""
+    tilts = np.linspace(-depth, depth, count)
+    side = np.sin(tilts)
+    return np.column_stack([np.cos(phi) * side, np.sin(phi) * side, np.cos(tilts)])
 
 
 def create_body(top: Top | None) -> Mesh:

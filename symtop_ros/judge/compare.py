@@ -4,8 +4,6 @@ An estimate is modelled as q_est(t) = W q(t - delay) M with constant rotations W
 heading that no gyroscope knows) and M of the body (how the sensor is mounted).
 """
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import dataclass, replace
 
@@ -17,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from symtop_ros.arrays import Real
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.sensor import multiply
+from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
@@ -26,7 +24,7 @@ MAX_DELAY = 0.1  # s
 # Delays are tried in steps in which the fastest turn is so many rad; the best one is refined.
 GRID_STEP = 0.5  # rad
 MOST_DELAYS = 2001
-WORTHWHILE = 1.001  # a delay that explains less than this is none
+WORTHWHILE = 1.001  # a delay counts if it makes the mean square smaller by this factor
 ROUNDING = 1e-30  # mean square of errors that are rounding
 PERCENTILES = (50, 90, 99, 100)
 WINDOWS = 10  # of the run, for the growth of the error
@@ -36,8 +34,9 @@ WINDOWS = 10  # of the run, for the growth of the error
 class Offset:
     """A constant rotation of the world and one of the body, and a delay."""
 
-    world: Real  # quaternions w, x, y, z
-    body: Real  # quaternions w, x, y, z
+    # quaternions w, x, y, z
+    world: Real
+    body: Real
     delay: float = 0.0  # time in s by which the estimates are late
 
     @property
@@ -55,10 +54,8 @@ class Errors:
 
     stamps: NDArray[np.int64]  # in ns
     total: Real  # angle of the rotation that would correct the attitude, in rad
-    # its parts: by how much the vertical is wrong, and the turn about it (swing and twist)
-    tilt: Real
-    # its parts: by how much the vertical is wrong, and the turn about it (swing and twist)
-    heading: Real
+    tilt: Real  # its part that turns the vertical (swing), in rad
+    heading: Real  # its part about the vertical (twist), in rad, with its sign
     rate: Real | None  # |omega_est - omega| in rad/s
     unknown: int  # estimates at stamps of which the exact motion is not known
 
@@ -78,12 +75,12 @@ class Errors:
 
 
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:
-    """Return the errors of estimates after an offset and a delay are taken away."""
+    """Return the errors of estimates after an offset and its delay are removed."""
     stamps = estimates.stamps - round(offset.delay * NANOSECONDS)
     exact, rates, known = truth.states_at(stamps)
     chosen, exact, rates = estimates.select(known), exact[known], rates[known]
-    q = multiply(multiply(invert(offset.world), chosen.orientations), invert(offset.body))
-    wrong = multiply(q, invert(exact))
+    q = compose(compose(invert(offset.world), chosen.orientations), invert(offset.body))
+    wrong = compose(q, invert(exact))
     # |q - exact| is 2 sin(angle/4). An arccosine of their product would lose half of the digits.
     sine = np.linalg.norm(_subtract(q, exact), axis=1) / 2
     total = 4 * np.arcsin(np.minimum(sine, 1.0))
@@ -116,8 +113,8 @@ def find_offset(
         if len(q) < max(2, len(some) // 2):
             return np.inf, NONE
         found = _fit_rotations(q, exact) if rotations else NONE
-        rest = multiply(multiply(found.world, exact), found.body)
-        cost = float((_subtract(q, rest) ** 2).sum(axis=1).mean())
+        modelled = compose(compose(found.world, exact), found.body)
+        cost = float((_subtract(q, modelled) ** 2).sum(axis=1).mean())
         return cost, replace(found, delay=seconds)
 
     if not delay:
@@ -144,15 +141,15 @@ def _fit_rotations(q: Real, exact: Real) -> Offset:
     (a singular value decomposition). The signs of the quaternions follow from a first guess.
     """
     guess = _guess_rotations(q, exact)
-    images = multiply(multiply(guess.world, exact), guess.body)
+    images = compose(compose(guess.world, exact), guess.body)
     signs = np.where((images * q).sum(axis=1) < 0, -1.0, 1.0)
     u, _, vt = np.linalg.svd((q * signs[:, np.newaxis]).T @ exact)
     u[:, -1] *= np.sign(np.linalg.det(u @ vt))  # a rotation, not a reflection
     # The images of 1, i, j, k: (W i M) (W 1 M)^-1 = W i W^-1 is a column of W's matrix.
     images = (u @ vt).T
-    columns = multiply(images[1:], invert(images[0]))[:, 1:]
+    columns = compose(images[1:], invert(images[0]))[:, 1:]
     world = _to_quaternion(Rotation.from_matrix(columns.T))
-    body = multiply(invert(world), images[0])
+    body = compose(invert(world), images[0])
     return Offset(world, body * np.copysign(1.0, body[0]))
 
 
@@ -163,12 +160,12 @@ def _guess_rotations(q: Real, exact: Real) -> Offset:
     M has turned (the hand-eye problem, Park and Martin 1994). W is then a mean of rotations, the
     eigenvector of the largest eigenvalue (Markley et al. 2007).
     """
-    ours = _to_rotation(multiply(invert(q[:-1]), q[1:])).as_rotvec()
-    theirs = _to_rotation(multiply(invert(exact[:-1]), exact[1:])).as_rotvec()
+    ours = _to_rotation(compose(invert(q[:-1]), q[1:])).as_rotvec()
+    theirs = _to_rotation(compose(invert(exact[:-1]), exact[1:])).as_rotvec()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a top at rest leaves M open
         body = _to_quaternion(Rotation.align_vectors(theirs, ours)[0])
-    left = multiply(q, invert(multiply(exact, body)))
+    left = compose(q, invert(compose(exact, body)))
     return Offset(np.linalg.eigh(left.T @ left)[1][:, -1], body)
 
 
@@ -181,11 +178,6 @@ def _to_quaternion(rotation: Rotation) -> Real:
     x, y, z, w = rotation.as_quat()
     q: Real = np.array((w, x, y, z)) * np.copysign(1.0, w)
     return q
-
-
-def invert(q: Real) -> Real:
-    """Return the inverse rotations, (..., 4)."""
-    return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
 
 
 def _subtract(q: Real, p: Real) -> Real:

@@ -1,7 +1,5 @@
 """Estimates of attitude and angular velocity: from topics of a log, or from CSV files."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -12,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.log.bag import Source
+from symtop_ros.log.bag import MessageSource
 from symtop_ros.log.reader import LogError
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.cdr import DecodeError, Reader
@@ -24,7 +22,7 @@ from symtop_ros.wire.messages import (
     TRANSFORM,
     Format,
     decode_messages,
-    stamped,
+    define_stamped,
 )
 
 CSV = ".csv"
@@ -53,7 +51,7 @@ class Estimates:
         orientations: Sequence[Sequence[float]] | Real,
         angular_velocities: Real | None = None,
         left_out: int = 0,
-    ) -> Estimates:
+    ) -> "Estimates":
         """Return estimates sorted by stamp, without numbers that are no attitude."""
         times = np.asarray(stamps, dtype=np.int64)
         q = np.asarray(orientations, dtype=float).reshape(-1, 4)
@@ -76,7 +74,7 @@ class Estimates:
         """Return the number of estimates."""
         return len(self.stamps)
 
-    def select(self, chosen: NDArray[np.bool_]) -> Estimates:
+    def select(self, chosen: NDArray[np.bool_]) -> "Estimates":
         """Return the estimates for which `chosen` (n,) is True."""
         rates = self.angular_velocities
         return Estimates(
@@ -89,51 +87,42 @@ class Estimates:
 
 TRANSFORM_STAMPED = Format(
     "geometry_msgs/msg/TransformStamped",
+    TRANSFORM.quantities,
     lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(7)),
     ODOMETRY.read_names,
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Kind:
-    """A message type, and where its doubles hold x, y, z, w and the angular velocity."""
-
-    format: Format
-    quaternion: int
-    rates: int | None = None
-    covariance: int | None = None
-
-
-KINDS = {
-    kind.format.type: kind
-    for kind in (
-        Kind(QUATERNION, 0),
-        Kind(IMU, 0, rates=13, covariance=4),
-        Kind(stamped("geometry_msgs/msg/PoseStamped", 7), 3),
-        Kind(stamped("geometry_msgs/msg/PoseWithCovarianceStamped", 43), 3),
-        Kind(TRANSFORM_STAMPED, 3),
-        Kind(ODOMETRY, 3, rates=46),
-    )
+POSE = define_stamped("geometry_msgs/msg/PoseStamped", position=3, orientation=4)
+POSE_WITH_COVARIANCE = define_stamped(
+    "geometry_msgs/msg/PoseWithCovarianceStamped", position=3, orientation=4, pose_covariance=36
+)
+FORMATS = {
+    form.type: form
+    for form in (QUATERNION, IMU, POSE, POSE_WITH_COVARIANCE, TRANSFORM_STAMPED, ODOMETRY)
 }
 
 
 def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = None) -> Estimates:
-    """Decode messages of one type."""
+    """Decode messages of a type; with a child frame, only those of that frame."""
     if kind == TF_TYPE:
         return _decode_transforms(messages, frame)
-    if kind not in KINDS:
-        known = ", ".join(name.rpartition("/")[2] for name in (*KINDS, TF_TYPE))
-        msg = f"topic must have a type with an attitude ({known}), got {one_line(kind)}"
-        raise LogError(msg)
-    entry = KINDS[kind]
-    parts, refused = decode_messages(entry.format, messages)
+    if kind not in FORMATS:
+        known = ", ".join(name.rpartition("/")[2] for name in (*FORMATS, TF_TYPE))
+        raise LogError(f"topic must have a type with an attitude ({known}), got {one_line(kind)}")
+    form = FORMATS[kind]
+    parts, refused = decode_messages(form, messages)
     parts = [part for part in parts if frame is None or frame == part.names[-1]]
-    numbers = np.concatenate([part.numbers for part in parts] or [np.empty((0, 85))])
+    numbers = np.concatenate([part.numbers for part in parts] or [np.empty((0, form.width))])
     stamps = np.concatenate([part.stamps for part in parts] or [np.empty(0, dtype=np.int64)])
-    q = numbers[:, entry.quaternion : entry.quaternion + 4][:, [3, 0, 1, 2]].copy()
-    if entry.covariance is not None:
-        q[numbers[:, entry.covariance] == NO_ORIENTATION] = 0.0
-    rates = None if entry.rates is None else numbers[:, entry.rates : entry.rates + 3]
+
+    def find(*names: str) -> Real | None:
+        """Return the first of some quantities that the messages have."""
+        places = [form.quantities[name] for name in names if name in form.quantities]
+        return numbers[:, places[0]] if places else None
+
+    q = np.asarray(find("orientation", "rotation"))[:, [3, 0, 1, 2]].copy()
+    covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
+    if covariance is not None:
+        q[covariance[:, 0] == NO_ORIENTATION] = 0.0
     return Estimates.of(stamps, q, rates, len(refused))
 
 
@@ -148,8 +137,7 @@ def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimate
         except DecodeError:
             refused += 1
     if frame is None and len(found) > 1:
-        msg = f"--frame must be one of {', '.join(sorted(found)[:20])}, got none"
-        raise LogError(msg)
+        raise LogError(f"--frame must be one of {', '.join(sorted(found)[:20])}, got none")
     chosen = found.get(frame, []) if frame else next(iter(found.values()), [])
     return Estimates.of([stamp for stamp, _ in chosen], [q for _, q in chosen], None, refused)
 
@@ -164,20 +152,20 @@ def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ..
         yield child, seconds * NANOSECONDS + nanoseconds, (w, x, y, z)
 
 
-def read_topic(source: Source, topic: str, frame: str | None = None) -> Estimates:
-    """Return the estimates on a topic of a log."""
+def read_topic(source: MessageSource, topic: str, frame: str | None = None) -> Estimates:
+    """Return the estimates on a topic of a log, or LogError; /tf needs the child frame."""
     messages: list[bytes] = []
     for chunk in source.chunks():
         numbers = {n for n, channel in source.channels.items() if channel.topic == topic}
         messages += [bytes(each.data) for each in chunk if each.channel_id in numbers]
         if len(messages) > MAX_ESTIMATES:
-            msg = f"{topic} must have at most {MAX_ESTIMATES} messages, got more"
-            raise LogError(msg)
+            raise LogError(f"{topic} must have at most {MAX_ESTIMATES} messages, got more")
     channels = [channel for channel in source.channels.values() if channel.topic == topic]
     if not channels:
         known = sorted({one_line(channel.topic) for channel in source.channels.values()})
-        msg = f"--topic must be one of {', '.join(known[:20]) or 'none'}, got {one_line(topic)}"
-        raise LogError(msg)
+        raise LogError(
+            f"--topic must be one of {', '.join(known[:20]) or 'none'}, got {one_line(topic)}"
+        )
     schema = source.schemas.get(channels[0].schema_id)
     return decode_estimates(schema.name if schema else "unknown", messages, frame)
 
@@ -188,22 +176,21 @@ def read_csv(path: Path) -> Estimates:
         with path.open(encoding="utf-8", newline="") as file:
             return _read_rows(path, csv.DictReader(file))
     except OSError as error:
-        msg = f"cannot open {path}: {error.strerror}"
-        raise LogError(msg) from None
+        raise LogError(f"cannot open {path}: {error.strerror}") from None
     except (csv.Error, UnicodeDecodeError, ValueError) as error:
         if isinstance(error, LogError):
             raise
-        msg = f"cannot read {path}: not a CSV file ({one_line(error)})"
-        raise LogError(msg) from None
+        raise LogError(f"cannot read {path}: not a CSV file ({one_line(error)})") from None
 
 
-def _read_rows(path: Path, rows: csv.DictReader[str]) -> Estimates:
+def _read_rows(path: Path, rows: "csv.DictReader[str]") -> Estimates:
     names = rows.fieldnames or ()
     time = "stamp" if "stamp" in names else "t"
     missing = [name for name in (time, *COLUMNS) if name not in names]
     if missing:
-        msg = f"{path} must have the columns stamp (ns) or t (s), w, x, y, z; got no {missing[0]}"
-        raise LogError(msg)
+        raise LogError(
+            f"{path} must have the columns stamp (ns) or t (s), w, x, y, z; got no {missing[0]}"
+        )
     to_ns: Callable[[str], int] = int if time == "stamp" else _to_nanoseconds
     wanted = [*COLUMNS, *(RATES if set(RATES) <= set(names) else ())]
     stamps, numbers = [], []
@@ -212,8 +199,9 @@ def _read_rows(path: Path, rows: csv.DictReader[str]) -> Estimates:
             stamps.append(min(max(to_ns(row[time]), -1), MAX_STAMP))
             numbers.append([float(row[name]) for name in wanted])
         except (TypeError, ValueError, InvalidOperation, OverflowError):
-            msg = f"line {line} of {path} must consist of numbers, got {one_line(dict(row))}"
-            raise LogError(msg) from None
+            raise LogError(
+                f"line {line} of {path} must consist of numbers, got {one_line(dict(row))}"
+            ) from None
     table = np.array(numbers, dtype=float).reshape(-1, len(wanted))
     return Estimates.of(stamps, table[:, :4], table[:, 4:] if len(wanted) > 4 else None)
 

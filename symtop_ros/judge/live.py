@@ -1,7 +1,5 @@
 """`top_judge --live`: estimates on a topic, judged while the top runs."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time
@@ -29,7 +27,7 @@ BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFOR
 
 
 class Court:
-    """Subscriptions to the events of a top and to the estimates."""
+    """Collects the events of a top and the estimates, and compares them."""
 
     def __init__(self, node: Node, top: str, topic: str, kind: str, frame: str | None) -> None:
         self.truth = Truth()
@@ -99,8 +97,7 @@ def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
         if found:
             return str(found[0])
         _spin(executor, time.monotonic() + 0.1)
-    msg = f"--topic must be a topic that is published, got {one_line(topic)}"
-    raise LogError(msg)
+    raise LogError(f"--topic must be a topic that is published, got {one_line(topic)}")
 
 
 def _spin(executor: SingleThreadedExecutor, until: float) -> None:

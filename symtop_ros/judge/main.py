@@ -1,33 +1,29 @@
 """Entry point of `top_judge`: estimates in logs, live topics, and the test set."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import math
 import shutil
-import signal
 import sys
 from pathlib import Path
 
-from symtop_ros.judge.compare import NONE, compare, find_offset
+from symtop_ros.judge.compare import compare, find_offset
 from symtop_ros.judge.estimates import CSV, Estimates, read_csv, read_topic
+from symtop_ros.judge.judgement import Judgement
 from symtop_ros.judge.truth import Truth, read_truth
-from symtop_ros.judge.verdict import Verdict
 from symtop_ros.log.bag import open_run
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.testset import score
 
-INTERRUPTED = 130
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events."""
 REMOVABLE = ("offset", "delay")
 
 
 def main(args: list[str] | None = None) -> int:
-    """Judge; return 0 (good), 1 (failed, or above --max-error), 2 (usage) or 130."""
+    """Judge; return 0 (good), 1 (failed, or above --max-error) or 2 (usage)."""
     parser = _parser()
     arguments = sys.argv[1:] if args is None else args
     # The rest belongs to ROS (--ros-args ...), which only --live needs.
@@ -38,8 +34,6 @@ def main(args: list[str] | None = None) -> int:
     if options.testset is None and not (has_estimates and (options.live or options.files)):
         parser.error("LOG with --topic or --estimates, --live with --topic, or --testset is needed")
     try:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.default_int_handler)
         return _run(options, rest)
     except (LogError, ValueError) as error:
         print(f"top_judge: {one_line(error)}", file=sys.stderr)
@@ -47,11 +41,6 @@ def main(args: list[str] | None = None) -> int:
         print(
             f"top_judge: {one_line(error.filename or 'output')}: {error.strerror}", file=sys.stderr
         )
-    except ModuleNotFoundError as error:
-        needed = "source a ROS 2, or pip install 'symtop_ros[ros]'"
-        print(f"top_judge: {error.name} is missing: {needed}", file=sys.stderr)
-    except KeyboardInterrupt:
-        return INTERRUPTED
     return 1
 
 
@@ -98,8 +87,7 @@ def _angle(text: str) -> float:
     except ValueError:
         value = math.nan
     if not 0 < value < math.inf:
-        msg = f"must be a number above 0, got {one_line(text)}"
-        raise argparse.ArgumentTypeError(msg)
+        raise argparse.ArgumentTypeError(f"must be a number above 0, got {one_line(text)}")
     return value
 
 
@@ -111,50 +99,52 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
 
         return judge_live(options, ["top_judge", *rest])
     truth = read_truth(TopLog(open_run(options.files), options.node))
-    verdict = judge(_read_estimates(options), truth, _name(options), tuple(options.remove))
-    print(verdict.format())
+    judgement = judge(
+        _read_estimates(options),
+        truth,
+        options.topic or str(options.estimates),
+        tuple(options.remove),
+    )
+    print(judgement.format())
     if options.output:
-        _write(verdict, options.output)
-    if options.max_error and verdict.largest > options.max_error:
+        _write(judgement, options.output)
+    if options.max_error and judgement.largest > options.max_error:
         limit = f"{options.max_error:g} rad"
         print(
-            f"top_judge: the attitude is off by {verdict.largest:.3g} rad, limit {limit}",
+            f"top_judge: the attitude is off by {judgement.largest:.3g} rad, limit {limit}",
             file=sys.stderr,
         )
         return 1
     return 0
 
 
-def _write(verdict: Verdict, folder: Path) -> None:
+def _write(judgement: Judgement, folder: Path) -> None:
     """Write judge.json, and the plot if Matplotlib is installed."""
     folder.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(verdict.facts(), indent=1)
+    text = json.dumps(judgement.facts(), indent=1)
     (folder / "judge.json").write_text(text + "\n", encoding="utf-8")
     try:
         from symtop_ros.judge.plots import write_plot
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:
-        write_plot(verdict.errors, folder)
+        write_plot(judgement.errors, folder)
 
 
 def judge(
     estimates: Estimates, truth: Truth, source: str, removed: tuple[str, ...] = ()
-) -> Verdict:
-    """Return the verdict on estimates."""
+) -> Judgement:
+    """Compare estimates with the exact motion; `removed` may name "offset" and "delay"."""
     found = find_offset(estimates, truth)
-    taken = NONE
-    if set(removed) == set(REMOVABLE):
-        taken = found
-    elif removed:
-        wanted = {"rotations": "offset" in removed, "delay": "delay" in removed}
-        taken = find_offset(estimates, truth, **wanted)
+    wanted = {"rotations": "offset" in removed, "delay": "delay" in removed}
+    taken = found if all(wanted.values()) else find_offset(estimates, truth, **wanted)
     errors = compare(estimates, truth, taken)
     if not len(errors.total):
         count = len(estimates)
-        msg = f"{source} must have an attitude at a stamp within the run, got none of {count}"
-        raise LogError(msg)
-    return Verdict(source, errors, found, removed, estimates.left_out)
+        raise LogError(
+            f"{source} must have an attitude at a stamp within the run, got none of {count}"
+        )
+    return Judgement(source, errors, found, removed, estimates.left_out)
 
 
 def _read_estimates(options: argparse.Namespace) -> Estimates:
@@ -162,13 +152,8 @@ def _read_estimates(options: argparse.Namespace) -> Estimates:
     if other and other.suffix == CSV:
         return read_csv(other)
     if not options.topic:
-        msg = f"--topic must name the estimates in {other}, got none"
-        raise LogError(msg)
+        raise LogError(f"--topic must name the estimates in {other}, got none")
     return read_topic(open_run([other] if other else options.files), options.topic, options.frame)
-
-
-def _name(options: argparse.Namespace) -> str:
-    return options.topic or str(options.estimates)
 
 
 def _score(options: argparse.Namespace) -> int:

@@ -1,14 +1,12 @@
 """The plot of `top_judge`; needs Matplotlib."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from symtop_ros.article.style import BLUE, GOLD, INK, RED, new_figure, rows, write_figures
+from symtop_ros.drawing.style import BLUE, GOLD, INK, RED, new_figure, rows, write_figures
 from symtop_ros.judge.compare import Errors
 
 POINTS = 5000
@@ -16,10 +14,10 @@ POINTS = 5000
 
 def write_plot(errors: Errors, folder: Path) -> None:
     """Write judge.svg and judge.png into a folder: the errors against time."""
-    write_figures({"judge": lambda: draw(errors)}, folder)
+    write_figures({"judge": lambda: draw_errors(errors)}, folder)
 
 
-def draw(errors: Errors) -> Figure:
+def draw_errors(errors: Errors) -> Figure:
     """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one."""
     figure = new_figure(3.6 if errors.rate is None else 4.8)
     axes = rows(figure, 1 if errors.rate is None else 2)

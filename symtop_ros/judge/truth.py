@@ -1,16 +1,14 @@
 """The exact motion of a run, at any stamps, from the events of the run."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.log.check import StepLimit
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
@@ -26,7 +24,7 @@ class Truth:
     def __init__(self, events: Sequence[Event] = ()) -> None:
         self._events: list[Event] = []
         self._segments: dict[int, Segment] = {}  # by the number of the event
-        self._limit = StepLimit()
+        self._budget = StepBudget(SPARE_STEPS)
         for event in events:
             self.add(event)
 
@@ -43,7 +41,7 @@ class Truth:
         return self._events[0].stamp if self._events else None
 
     def states_at(self, stamps: Stamps) -> tuple[Real, Real, NDArray[np.bool_]]:
-        """Return the exact states at stamps in ns, and where they are known."""
+        """Return quaternions (n, 4), body rates (n, 3) and the mask of those known, at stamps."""
         orientations, rates = np.zeros((len(stamps), 4)), np.zeros((len(stamps), 3))
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)
@@ -52,9 +50,7 @@ class Truth:
         for number in np.unique(owners[owners >= 0]).tolist():
             chosen = owners == number
             segment = self._segment(number)
-            ends = stamps[chosen].min(), stamps[chosen].max()
-            times = tuple(segment.time_at(int(end)) for end in ends)
-            if self._limit.allows(segment.motion, times, int(chosen.sum())):
+            if self._budget.reach_stamps(segment, stamps[chosen]):
                 orientations[chosen], rates[chosen] = segment.state_at(stamps[chosen])
                 known[chosen] = True
         return orientations, rates, known
@@ -69,6 +65,5 @@ def read_truth(log: TopLog) -> Truth:
     """Return the exact motion of the run in a log."""
     truth = Truth([event for batch in log.batches() for _, event in batch.events])
     if truth.begin is None:
-        msg = f"{log.file.path} must have the events of a top (~/events), got none"
-        raise LogError(msg)
+        raise LogError(f"{log.file.path} must have the events of a top (~/events), got none")
     return truth

@@ -7,7 +7,7 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.simulation.budget import StepBudget
+from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
@@ -15,11 +15,6 @@ from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 # differ in the last place, and a motion next to the separatrix amplifies that: the largest
 # difference seen was 12 eps, and the bound leaves a factor of five.
 BOUND = 64 * float(np.finfo(float).eps)
-# Steps of the integration that a check of a driven motion may take. A hostile log could ask for a
-# motion that takes years to integrate.
-FREE_STEPS = 1500  # for the samples of one event in a batch: about a tenth of a second
-STEPS_PER_SAMPLE = 60  # a node may have taken as many for each sample
-SPARE_STEPS = 3_000_000  # for what precedes the log
 
 
 @dataclass
@@ -64,7 +59,7 @@ def check_log(log: TopLog) -> dict[str, Deviation]:
             segment = event.segment() if event else segment
             for name, columns in samples.items():
                 deviation = deviations.setdefault(name, Deviation())
-                if segment and _is_reachable(segment, columns, budget):
+                if segment and budget.reach_stamps(segment, columns.stamps):
                     with np.errstate(all="ignore"):
                         _compare(deviation, name, columns, segment)
                 elif segment:
@@ -72,12 +67,6 @@ def check_log(log: TopLog) -> dict[str, Deviation]:
                 else:
                     deviation.unchecked += len(columns.stamps)
     return deviations
-
-
-def _is_reachable(segment: Segment, columns: Columns, budget: StepBudget) -> bool:
-    free = FREE_STEPS + STEPS_PER_SAMPLE * len(columns.stamps)
-    ends = columns.stamps.min(), columns.stamps.max()
-    return all(budget.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
 
 
 def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment) -> None:

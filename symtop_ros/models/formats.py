@@ -4,8 +4,6 @@ All of them hold the body that `physics.Body` chooses, with its doubles in full.
 applied torques are left out: no format has friction that differs along and across the axis.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,5 @@
 """Entry point of `top_model`: a top as URDF, SDF or MJCF."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path
@@ -23,15 +21,22 @@ def main(args: list[str] | None = None) -> int:
         gravity = number("gravity", options.gravity, "m/s^2", 1e-3, LARGEST_GRAVITY)
         start = initial_state(settings.top, settings.initial, {})
         text = FORMATS[options.format](settings.top, start, gravity)
-        _write(text, options.output)
+        if options.output:
+            options.output.write_text(text, encoding="utf-8")
+        else:
+            print(text, end="")
     except (RefusedError, ValueError) as error:
         print(f"top_model: {one_line(error)}", file=sys.stderr)
         return 1
     except OSError as error:
         print(f"top_model: {one_line(error.filename)}: {error.strerror}", file=sys.stderr)
         return 1
-    for left_out in _list_left_out(settings):
-        print(f"top_model: left out: {left_out}", file=sys.stderr)
+    for name, is_set in (
+        ("friction", bool(settings.friction)),
+        ("steady_torque", any(settings.steady_torque)),
+    ):
+        if is_set:
+            print(f"top_model: left out: {name}", file=sys.stderr)
     return 0
 
 
@@ -48,15 +53,3 @@ def _parser() -> argparse.ArgumentParser:
         "-o", "--output", type=Path, metavar="FILE", help="default: standard output"
     )
     return parser
-
-
-def _write(text: str, path: Path | None) -> None:
-    if path:
-        path.write_text(text, encoding="utf-8")
-    else:
-        print(text, end="")
-
-
-def _list_left_out(settings: Settings) -> list[str]:
-    left = ["friction"] if settings.friction else []
-    return left + (["steady_torque"] if any(settings.steady_torque) else [])

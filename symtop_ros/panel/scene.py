@@ -213,7 +213,7 @@ def _vectors(segment: Segment, state: State) -> dict[str, Real]:
         "omega": state.to_world(state.angular_velocity),
         "torque": motion.total_torque(state),
     }
-    if rig.imu and rig.gravity:  # without its noise, which could not be seen
+    if rig.imu:  # without its noise, which could not be seen
         force = specific_force(motion, state, rig.imu.position, rig.gravity)
         vectors[SENSOR] = state.to_world(force)
     return vectors

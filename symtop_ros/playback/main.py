@@ -1,9 +1,6 @@
 """Entry point of `top_replay`: play a log in Rerun, check it or repair it."""
 
-from __future__ import annotations
-
 import argparse
-import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -15,26 +12,19 @@ from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.validation import one_line
 
-INTERRUPTED = 130  # exit status after Ctrl-C, as shells have it
-
 
 def main(args: list[str] | None = None) -> int:
-    """Replay, check or repair a log; return 0 (success), 1 (failure), 2 (usage) or 130."""
+    """Replay, check or repair a log; return 0 (success), 1 (failure) or 2 (usage)."""
     options = _parser().parse_args(args)
     try:
-        # Both signals raise KeyboardInterrupt, so that an incomplete file is removed.
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.default_int_handler)
         return _run(options)
     except LogError as error:
         print(f"top_replay: {one_line(error)}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
-        return INTERRUPTED
 
 
 def add_view_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options of what is drawn: those of `ViewOptions`, which needs Rerun."""
+    """Add the options for parts of the scene: those of `ViewOptions`, which needs Rerun."""
     parser.add_argument(
         "--no-ghost", action="store_true", help="do not draw the top that was not kicked"
     )
@@ -80,8 +70,7 @@ def _parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace) -> int:
     if options.repair:
         if len(options.files) > 1:
-            msg = f"--repair must be given one log, got {len(options.files)}"
-            raise LogError(msg)
+            raise LogError(f"--repair must be given one log, got {len(options.files)}")
         file = McapFile(options.files[0])
         count = repair(file, options.repair)
         _print_problems(file.problems)
@@ -100,14 +89,12 @@ def _check(log: TopLog) -> int:
         print(_row(log.topics[name], deviation))
     unreached = sum(each.unreached for each in deviations.values())
     if unreached:
-        msg = (
+        raise LogError(
             f"{unreached} samples cannot be checked: "
             "the motion is too fast or too long to integrate"
         )
-        raise LogError(msg)
     if not any(each.samples for each in deviations.values()):
-        msg = "nothing can be checked: no sample follows an event"
-        raise LogError(msg)
+        raise LogError("nothing can be checked: no sample follows an event")
     good = all(each.is_rounding for each in deviations.values())
     print(f"the samples {'agree' if good else 'DO NOT agree'} with the events")
     return 0 if good else 1
@@ -123,29 +110,25 @@ def _row(topic: str, deviation: Deviation) -> str:
 
 
 def _show(log: TopLog, options: argparse.Namespace) -> int:
-    try:
-        from symtop_ros.playback import viewer
-        from symtop_ros.playback.replay import replay
-        from symtop_ros.playback.view.view import ViewOptions
-    except ModuleNotFoundError as error:
-        msg = f"{error.name} is missing: pip install 'symtop_ros[playback]'"
-        raise LogError(msg) from None
+    # Rerun, which a check and a repair do without
+    from symtop_ros.playback import viewer
+    from symtop_ros.playback.replay import replay
+    from symtop_ros.playback.view.view import ViewOptions
+
     drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
     save: Path | None = options.save
     if save:
         if save.suffix != ".rrd":
-            msg = f"--save must be a name that ends in .rrd, got {save}"
-            raise LogError(msg)
+            raise LogError(f"--save must be a name that ends in .rrd, got {save}")
         replay(log, save, drawn)
         _print_problems(log.problems)
         print(f"wrote {save}; open it with: rerun {save}")
         return 0
     if not options.web and not viewer.has_screen():
-        msg = (
+        raise LogError(
             "no screen for the viewer: use --save OUT.rrd to write a recording, or --web for a "
             "browser"
         )
-        raise LogError(msg)
     with tempfile.TemporaryDirectory() as folder:
         recording = Path(folder, f"{log.file.path.stem}.rrd")
         replay(log, recording, drawn)
@@ -156,7 +139,3 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
 def _print_problems(problems: list[str]) -> None:
     for problem in list_problems(problems):
         print(f"top_replay: {problem}", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

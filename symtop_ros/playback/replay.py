@@ -1,7 +1,5 @@
 """Conversion of a log into a Rerun recording."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 
@@ -18,13 +16,12 @@ BAR_LENGTH = 40  # characters
 
 def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) -> None:
     """Write a log as a Rerun recording; problems of the log are listed with its events."""
-    recording = rr.RecordingStream(APPLICATION, recording_id=log.file.path.stem)
     try:
-        target.open("wb").close()  # Rerun itself only warns if it cannot write
-        recording.save(target)
+        recording = create_recording(target, log.file.path.stem)
     except (OSError, RuntimeError) as error:
-        msg = f"cannot write {target}: {getattr(error, 'strerror', None) or error}"
-        raise LogError(msg) from None
+        raise LogError(
+            f"cannot write {target}: {getattr(error, 'strerror', None) or error}"
+        ) from None
     view = View(recording, options=options)
     for batch in log.batches():
         view.send(batch)
@@ -33,6 +30,14 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
         view.log_text(problem)
     recording.flush()
     recording.disconnect()
+
+
+def create_recording(file: Path, name: str) -> rr.RecordingStream:
+    """Return a recording that is written to a file; OSError if that is not possible."""
+    file.open("wb").close()  # Rerun itself only warns if it cannot write
+    recording = rr.RecordingStream(APPLICATION, recording_id=name)
+    recording.save(file)
+    return recording
 
 
 def _show_progress(done: int, size: int) -> None:

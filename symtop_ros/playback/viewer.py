@@ -1,7 +1,5 @@
 """The Rerun viewer: on the screen, or in a browser on this machine."""
 
-from __future__ import annotations
-
 import os
 import signal
 import socket

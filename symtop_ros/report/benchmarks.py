@@ -1,22 +1,19 @@
 """The benchmarks of the report and their results, as plain data."""
 
-from __future__ import annotations
-
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from math import inf
+from timeit import repeat
 from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
 from symtop_ros.report.footprint import Footprint, measure_footprint
 from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, prepare
-from symtop_ros.report.peers.peer import Arrays, Peer, Task, spread_times
-from symtop_ros.report.reference import EPS, Problem, Reference
-from symtop_ros.report.sweep import REPEATS, Curve, Point, sweep, time_median, time_reaching
+from symtop_ros.report.peers.peer import Peer, PrepareArrays, Solution, Task, spread_times
+from symtop_ros.report.reference import EPS, Reference, ReferenceMotion
+from symtop_ros.report.sweep import REPEATS, Curve, Measurement, sweep_motion, time_call
 
 SPAN = 10.0  # s
 CHECK = 2.0**-5  # s on which a peer's model must be right at its finest setting
@@ -109,12 +106,15 @@ class Results:
     footprint: Footprint | None = None
 
     @classmethod
-    def from_facts(cls, facts: dict[str, Any]) -> Results:
+    def from_facts(cls, facts: dict[str, Any]) -> "Results":
         """Return the results that `dataclasses.asdict` turned into the values of a JSON file."""
         footprint = facts["footprint"]
         return cls(
             facts["checks"],
-            [_read_curve(each) for each in facts["curves"]],
+            [
+                Curve(**{**each, "points": tuple(Measurement(**p) for p in each["points"])})
+                for each in facts["curves"]
+            ],
             [Growth(**_freeze(each)) for each in facts["growth"]],
             [ArrayCost(**_freeze(each)) for each in facts["states"]],
             [HardCase(**each) for each in facts["hard"]],
@@ -158,10 +158,6 @@ class Results:
                 yield f"{case.family}: error {case.errors[SPLITTING]:.1e}"
 
 
-def _read_curve(facts: dict[str, Any]) -> Curve:
-    return Curve(**{**facts, "points": tuple(Point(**each) for each in facts["points"])})
-
-
 def _freeze(facts: dict[str, Any]) -> dict[str, Any]:
     """Return facts with tuples for lists."""
     return {key: tuple(v) if isinstance(v, list) else v for key, v in facts.items()}
@@ -179,60 +175,59 @@ def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterato
     yield "footprint", partial(_measure_footprint, scope, results)
     for peer in frictionless:
         yield f"{peer.name}: model", partial(_check, peer, first, results)
-    for number, problem in enumerate(reference.article[: scope.motions]):
+    for number, motion in enumerate(reference.article[: scope.motions]):
         for peer in frictionless:
             if scope.includes(peer, number):
-                work = partial(_sweep, peer, problem, scope, results)
-                yield f"{peer.name}: {problem.name}", work
+                yield f"{peer.name}: {motion.name}", partial(_sweep, peer, motion, scope, results)
     for peer in chosen:
         if peer.friction != "no" and scope.includes(peer, 1):
             work = partial(_sweep, peer, with_friction, scope, results)
             yield f"{peer.name}: {with_friction.name}", work
-    for peer in frictionless:
-        if scope.includes(peer, 1):
-            yield f"{peer.name}: long times", partial(_lengthen, peer, first, scope, results)
-    for peer in frictionless:
-        if peer.prepare_arrays and scope.includes(peer, 1):
+    every = [peer for peer in frictionless if scope.includes(peer, 1)]
+    for peer in every:
+        yield f"{peer.name}: long times", partial(_lengthen, peer, first, scope, results)
+    for peer in every:
+        if peer.prepare_arrays:
             work = partial(_time_arrays, peer.name, peer.prepare_arrays, first, scope, results)
             yield f"{peer.name}: arrays", work
     tried = [peer for peer in peers if peer.name in scope.hard_peers]
-    for problem in reference.hard:
-        yield problem.name, partial(_try, problem, tried, results)
-    for problem in reference.driven[:: scope.driven]:
-        compared = [
-            *(peer for peer in peers if peer.name == SPLITTING),
-            *(peer for peer in tried if peer.name == DRIVEN_PEER),
-        ]
-        yield problem.name, partial(_drive, problem, compared, results)
+    for motion in reference.hard:
+        yield motion.name, partial(_try, motion, tried, results)
+    compared = [
+        *(peer for peer in peers if peer.name == SPLITTING),
+        *(peer for peer in tried if peer.name == DRIVEN_PEER),
+    ]
+    for motion in reference.driven[:: scope.driven]:
+        yield motion.name, partial(_drive, motion, compared, results)
 
 
 def _measure_footprint(scope: Scope, results: Results) -> None:
     results.footprint = measure_footprint(scope.states[-1])
 
 
-def _check(peer: Peer, problem: Problem, results: Results) -> None:
-    record = peer.prepare(problem.task, peer.settings[-1]).record(CHECK)
-    results.checks[peer.name] = float(problem.errors(*record).max())
+def _check(peer: Peer, motion: ReferenceMotion, results: Results) -> None:
+    record = peer.prepare(motion.task, peer.settings[-1]).record(CHECK)
+    results.checks[peer.name] = float(motion.errors(*record).max())
 
 
-def _sweep(peer: Peer, problem: Problem, scope: Scope, results: Results) -> None:
-    results.curves.append(sweep(peer, problem, SPAN, scope.limit))
+def _sweep(peer: Peer, motion: ReferenceMotion, scope: Scope, results: Results) -> None:
+    results.curves.append(sweep_motion(peer, motion, SPAN, scope.limit))
 
 
-def _lengthen(peer: Peer, problem: Problem, scope: Scope, results: Results) -> None:
+def _lengthen(peer: Peer, motion: ReferenceMotion, scope: Scope, results: Results) -> None:
     """Measure motions ten times as long each time, within the limit of time."""
-    best = results.find_curve(peer.name, problem.name).best
-    solution = peer.prepare(problem.task, best.setting)
+    best = results.find_curve(peer.name, motion.name).best
+    solution = peer.prepare(motion.task, best.setting)
     times, errors, seconds = [], [], []
-    for t in (t for t in problem.times if t >= SPAN):
+    for t in (t for t in motion.times if t >= SPAN):
         # Each peer fails in its own way if a motion is too long for it, so that no narrower
         # exception is possible. The shorter motions are reported.
         try:
-            errors.append(problem.error(t, solution.reach(t)))
+            errors.append(motion.error(t, solution.reach(t)))
         except Exception:
             break
         times.append(t)
-        seconds.append(time_reaching(solution, t))
+        seconds.append(time_call(partial(solution.reach, t)))
         # The time of the closed form does not grow. Another program may take the processor in the
         # middle of a measurement, and must not cut its curve short.
         if peer.name != CLOSED_FORM and 10 * seconds[-1] > scope.growth_limit:
@@ -242,53 +237,41 @@ def _lengthen(peer: Peer, problem: Problem, scope: Scope, results: Results) -> N
 
 
 def _time_arrays(
-    name: str,
-    prepare_arrays: Callable[[Task], Arrays],
-    problem: Problem,
-    scope: Scope,
-    results: Results,
+    name: str, prepare: PrepareArrays, motion: ReferenceMotion, scope: Scope, results: Results
 ) -> None:
-    arrays, seconds = prepare_arrays(problem.task), []
+    arrays, seconds = prepare(motion.task), []
     times = spread_times(SPAN)
-    error = float(problem.errors(times, arrays(times)).max())
+    error = float(motion.errors(times, arrays(times)).max())
     for number in scope.states:
         times = np.linspace(0.0, SPAN, number + 1)[1:]
-        seconds.append(_time_array(arrays, times, scope.limit))
+        seconds.append(time_call(partial(arrays, times), scope.limit / REPEATS))
     results.states.append(ArrayCost(name, scope.states, tuple(seconds), error))
 
 
-def _time_array(arrays: Arrays, times: Real, limit: float) -> float:
-    """Return the median seconds of several calls, or those of one if it is long."""
-    began = time.perf_counter()
-    arrays(times)
-    first = time.perf_counter() - began
-    return first if first > limit / REPEATS else time_median(lambda: arrays(times))
+def _try(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> None:
+    (t,) = motion.times
+    error, limit = motion.error(t, prepare(motion.task, 0.0).reach(t)), motion.limit(t)
+    in_reach = np.linalg.norm(motion.task.start.angular_velocity) * t < LARGEST_PHASE
+    errors = {
+        peer.name: motion.error(t, _prepare_default(peer, motion.task).reach(t))
+        for peer in peers
+        if in_reach
+    }
+    results.hard.append(HardCase(motion.name, motion.small or 0.0, limit, error, errors))
 
 
-def _try(problem: Problem, peers: Sequence[Peer], results: Results) -> None:
-    (t,) = problem.times
-    error, limit = problem.error(t, prepare(problem.task, 0.0).reach(t)), problem.limit(t)
-    errors: dict[str, float] = {}
-    for peer in peers:
-        if np.linalg.norm(problem.task.start.angular_velocity) * t < LARGEST_PHASE:
-            solution = peer.prepare(
-                problem.task, 2.0**-52 if "heyoka" in peer.name else peer.settings[-1]
-            )
-            errors[peer.name] = problem.error(t, solution.reach(t))
-    results.hard.append(HardCase(problem.name, problem.small or 0.0, limit, error, errors))
-
-
-def _drive(problem: Problem, peers: Sequence[Peer], results: Results) -> None:
+def _drive(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> None:
     """Measure a motion with friction or an applied torque, each peer at its default."""
     errors: dict[str, float] = {}
     seconds: dict[str, float] = {}
     for peer in peers:
-        solution = peer.prepare(problem.task, 2.0**-52 if peer.name == DRIVEN_PEER else 0.0)
-        errors[peer.name] = max(problem.error(t, solution.reach(t)) for t in problem.times)
-        runs = []
-        for _ in range(DRIVEN_RUNS):
-            began = time.perf_counter()
-            solution.reach(problem.times[-1])
-            runs.append(time.perf_counter() - began)
-        seconds[peer.name] = min(runs)
-    results.driven.append(DrivenCase(problem.name, errors, seconds))
+        solution = _prepare_default(peer, motion.task)
+        errors[peer.name] = max(motion.error(t, solution.reach(t)) for t in motion.times)
+        reach = partial(solution.reach, motion.times[-1])
+        seconds[peer.name] = min(repeat(reach, number=1, repeat=DRIVEN_RUNS))
+    results.driven.append(DrivenCase(motion.name, errors, seconds))
+
+
+def _prepare_default(peer: Peer, task: Task) -> Solution:
+    """Return the solution at the finest setting of a peer, or at the default of heyoka."""
+    return peer.prepare(task, EPS if "heyoka" in peer.name else peer.settings[-1])

@@ -1,7 +1,5 @@
 """The text of the report, in Markdown."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
@@ -9,7 +7,7 @@ from statistics import median
 from symtop_ros.report.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
 from symtop_ros.report.footprint import Footprint
 from symtop_ros.report.peers import CLOSED_FORM, SPLITTING
-from symtop_ros.report.reference import EPS, Problem
+from symtop_ros.report.reference import EPS, ReferenceMotion
 from symtop_ros.report.sweep import Curve
 
 LEVELS = (1e-6, 1e-9, 1e-12)
@@ -24,33 +22,35 @@ SUMMARY = (
     "Drake RK5, quaternion",
 )
 ARRAY = 100_000  # states of the column on arrays
+BEST = ["", "largest error", "mean error", "at times", "ms", "x ours"]
+BEST += [f"ms for {level:.0e}" for level in LEVELS]
 
 
 @dataclass(frozen=True)
 class Environment:
     """The command, the machine and the packages of a measurement."""
 
-    command: str  # command to measure again; processor and system
-    machine: str  # command to measure again; processor and system
+    command: str  # to measure again
+    machine: str  # processor and system
     versions: dict[str, str]  # versions of Python and of every package that was measured
     missing: list[str]  # peers that are not installed
     limit: float  # seconds that one run of a peer could take
 
 
-def format_document(results: Results, problem: Problem, environment: Environment) -> str:
-    """Return the whole report; its first chapters are on the motion of `problem`."""
-    return f"# Speed against error\n\n{format_chapters(results, problem, environment)}\n"
+def format_document(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
+    """Return the whole report; its first chapters are on one motion."""
+    return f"# Speed against error\n\n{format_chapters(results, motion, environment)}"
 
 
-def format_chapters(results: Results, problem: Problem, environment: Environment) -> str:
+def format_chapters(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
     """Return the report without its title."""
     parts = [
         _format_environment(environment),
-        _format_work(results, problem, environment.limit),
-        _format_other_motions(results, problem),
+        _format_work(results, motion, environment.limit),
+        _format_other_motions(results, motion),
         _format_friction(results),
         _format_driven(results.driven),
-        _format_long_times(results, problem),
+        _format_long_times(results, motion),
         _format_arrays(results),
         _format_hard_cases(results.hard),
         _format_ahead(results),
@@ -58,12 +58,12 @@ def format_chapters(results: Results, problem: Problem, environment: Environment
     return "\n\n".join(part for part in parts if part)
 
 
-def format_summary(results: Results, problem: Problem) -> str:
-    """Return the table of the README: the best form of each program on the motion of `problem`."""
+def format_summary(results: Results, motion: ReferenceMotion) -> str:
+    """Return the table of the README: the best form of each program on one motion."""
     head = ["", "largest error, rad", "ms", f"ms for {LEVELS[1]:.0e}"]
     rows = []
     for name in SUMMARY:
-        curve = results.find_curve(name, problem.name)
+        curve = results.find_curve(name, motion.name)
         cheapest = curve.find_cheapest(LEVELS[1])
         cells = [f"{curve.best.error:.0e}", _ms(curve.best.seconds)]
         rows.append([name, *cells, _ms(cheapest.seconds) if cheapest else "-"])
@@ -72,12 +72,8 @@ def format_summary(results: Results, problem: Problem) -> str:
 
 def format_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a Markdown table; the first column is aligned left, the others right."""
-    lines = [_row(head), _row(["---", *["--:"] * (len(head) - 1)]), *map(_row, rows)]
-    return "\n".join(lines)
-
-
-def _row(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+    lines = [head, ["---", *["--:"] * (len(head) - 1)], *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
 def _format_environment(environment: Environment) -> str:
@@ -95,13 +91,11 @@ def _format_environment(environment: Environment) -> str:
     )
 
 
-def _format_work(results: Results, problem: Problem, limit: float) -> str:
-    curves = [curve for curve in results.curves if curve.motion == problem.name]
-    ours = results.find_curve(CLOSED_FORM, problem.name).best
+def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str:
+    curves = [curve for curve in results.curves if curve.motion == motion.name]
+    ours = results.find_curve(CLOSED_FORM, motion.name).best
     costs = {each.peer: each for each in results.states}
-    head = ["", "largest error", "mean error", "at times", "ms", "x ours"]
-    head += [f"ms for {level:.0e}" for level in LEVELS]
-    head += ["us a state, array", "to build, ms", "sweep ended at", "model"]
+    head = [*BEST, "us a state, array", "to build, ms", "sweep ended at", "model"]
     rows = [
         [
             *(curve.peer, *_format_best(curve, ours.seconds)),
@@ -113,7 +107,7 @@ def _format_work(results: Results, problem: Problem, limit: float) -> str:
         for curve in curves
     ]
     return (
-        f"## The article's top, {problem.name}, {SPAN:g} s\n\n"
+        f"## The article's top, {motion.name}, {SPAN:g} s\n\n"
         f"![work and precision](work_precision.svg)\n\n"
         f"Each at its best setting within {limit:g} s of computing time for a run.\n\n"
         f"{format_table(head, rows)}\n\n"
@@ -123,7 +117,7 @@ def _format_work(results: Results, problem: Problem, limit: float) -> str:
         "the limit, or the program takes no finer one. "
         f"Model: the error within {CHECK:g} s at the finest setting, which shows that it is the "
         f"same top. Array: of {ARRAY:g} states in one call, set-up included. "
-        f"Rounding of the input changes the state at the end by {problem.limit(SPAN):.1e} rad."
+        f"Rounding of the input changes the state at the end by {motion.limit(SPAN):.1e} rad."
     )
 
 
@@ -151,9 +145,9 @@ def _ms(seconds: float) -> str:
     return f"{seconds * 1e3:.3g}"
 
 
-def _format_other_motions(results: Results, problem: Problem) -> str:
+def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
     """Return a table of the best error of each peer on each motion, with its time."""
-    others = [c for c in results.curves if c.motion not in (problem.name, FRICTION)]
+    others = [c for c in results.curves if c.motion not in (motion.name, FRICTION)]
     names = list(dict.fromkeys(curve.motion for curve in others))
     if not names:
         return ""
@@ -170,10 +164,8 @@ def _format_other_motions(results: Results, problem: Problem) -> str:
 def _format_friction(results: Results) -> str:
     curves = [curve for curve in results.curves if curve.motion == FRICTION]
     ours = results.find_curve(SPLITTING, FRICTION).best
-    head = ["", "largest error", "mean error", "at times", "ms", "x ours"]
-    head += [f"ms for {level:.0e}" for level in LEVELS]
     rows = [[curve.peer, *_format_best(curve, ours.seconds)] for curve in curves]
-    return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(head, rows)}"
+    return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(BEST, rows)}"
 
 
 def _format_driven(cases: list[DrivenCase]) -> str:
@@ -203,8 +195,8 @@ def _format_driven(cases: list[DrivenCase]) -> str:
     )
 
 
-def _format_long_times(results: Results, problem: Problem) -> str:
-    times = [t for t in problem.times if t >= SPAN]
+def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
+    times = [t for t in motion.times if t >= SPAN]
     rows = []
     for each in results.growth:
         cells = [
@@ -212,7 +204,7 @@ def _format_long_times(results: Results, problem: Problem) -> str:
             for error, seconds in zip(each.errors, each.seconds, strict=True)
         ]
         rows.append([each.peer, *cells, *["-"] * (len(times) - len(cells))])
-    rows.append(["rounding of the input", *(f"{problem.limit(t):.0e}" for t in times)])
+    rows.append(["rounding of the input", *(f"{motion.limit(t):.0e}" for t in times)])
     return (
         "## Long times\n\n![growth of the errors](long_times.svg)\n\n"
         "Each at its best setting for ten seconds, within a limit of computing time: the error at "

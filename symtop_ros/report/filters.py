@@ -4,11 +4,8 @@ The filters are those of the package `ahrs`, as their authors made them, with de
 start from the exact attitude, so that nothing but the motion and the noise is judged.
 """
 
-from __future__ import annotations
-
-import json
 import math
-import sys
+import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -17,16 +14,17 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from tqdm import tqdm
+from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
-from symtop_ros.article.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
-from symtop_ros.judge.compare import NONE, Errors, compare, invert
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
+from symtop_ros.judge.compare import NONE, Errors, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.physics import Motion
+from symtop_ros.physics import STANDARD_GRAVITY, Motion
+from symtop_ros.quaternions import invert
 from symtop_ros.report.document import format_table
-from symtop_ros.report.publish import write_figures as publish_figures
+from symtop_ros.report.publish import track, write_results
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.segment import Segment
@@ -34,9 +32,10 @@ from symtop_ros.simulation.sensor import Imu, Rig
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.wire.layout import NANOSECONDS
+from symtop_ros.wire.messages import IMU
 
+MEASURED = ("angular_velocity", "linear_acceleration")
 RATE, SPAN = 1000, 20  # Hz, s
-GRAVITY = 9.81
 SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
 MOUNTS = {  # m, in the body frame
     "in the pivot": (0.0, 0.0, 0.0),
@@ -49,52 +48,48 @@ NOISE = (2.4e-4, 1e-5, 1.7e-3, 1e-4)
 FILTERS = ("AngularRate", "Complementary", "Madgwick", "Mahony", "AQUA", "EKF", "UKF")
 SHOWN = ("Madgwick", "Mahony", "EKF", "AngularRate")  # in the plot
 PLOTTED = ("cusps", "in the pivot")
-SECTION, PLOT = "filters", "filters"
+NAME = "filters"  # of the files, and of the section in the documentation
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A filter on a scene with a place of the sensor."""
+    """Errors of a filter on a scene, with the sensor at one place."""
 
     filter: str
     scene: str
     mount: str
-    tilt: float  # root mean squares of the errors in the second half of the run, in rad
-    attitude: float  # root mean squares of the errors in the second half of the run, in rad
+    # root mean squares of the errors in the second half of the run, in rad
+    tilt: float
+    attitude: float
 
 
 @dataclass(frozen=True, eq=False)
-class Recording:
+class SensorRecord:
     """Measurements of a sensor on a top, and the exact motion of the sensor."""
 
     stamps: NDArray[np.int64]  # in ns
-    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
-    # force
-    orientations: Real
-    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
-    # force
-    rates: Real
-    # exact attitude (w, x, y, z, sensor to world); measured angular velocity and specific
-    # force
-    forces: Real
+    orientations: Real  # exact attitudes (n, 4): w, x, y, z, sensor to world
+    rates: Real  # measured angular velocities in rad/s, in the frame of the sensor, (n, 3)
+    forces: Real  # measured specific forces in m/s^2, in the frame of the sensor, (n, 3)
     truth: Truth
 
 
-def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> Recording:
-    """Return what a sensor at a place on the top of a scene measures."""
+def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> SensorRecord:
+    """Return what a sensor measures at a place (m, body frame) on the top of a scene."""
     settings = Settings.from_scene(scene)
     start = initial_state(settings.top, settings.initial, {})
     imu = Imu(place, (0.0, 0.0, 0.0, 1.0), *NOISE, seed=seed, rate=float(RATE))
     motion = Motion(settings.top, start)
-    segment = Segment.begin(motion, 0, 1.0, Rig(GRAVITY, imu))
+    segment = Segment.begin(motion, 0, 1.0, Rig(STANDARD_GRAVITY, imu))
     stamps = np.arange(RATE * SPAN) * (NANOSECONDS // RATE)
     numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, stamps))
     truth = Truth([Event.of(0, "start", "", {}, start, segment)])
     q = numbers[:, [3, 0, 1, 2]]
-    return Recording(stamps, q, numbers[:, 13:16], numbers[:, 25:28], truth)
+    rates, forces = (numbers[:, IMU.quantities[name]] for name in MEASURED)
+    return SensorRecord(stamps, q, rates, forces, truth)
 
 
-def run_filter(name: str, recording: Recording) -> Errors:
+def run_filter(name: str, recording: SensorRecord) -> Errors:
     """Return the errors of a filter.
 
     The authors of filters do not agree whether a quaternion turns the sensor or the world. Both
@@ -104,14 +99,15 @@ def run_filter(name: str, recording: Recording) -> Errors:
     return min(found, key=lambda errors: float(np.median(errors.total)))
 
 
-def _run(name: str, recording: Recording, turn: Callable[[Real], Real]) -> Errors:
+def _run(name: str, recording: SensorRecord, turn: Callable[[Real], Real]) -> Errors:
     import ahrs
 
     options: dict[str, Any] = {"gyr": recording.rates, "frequency": float(RATE)}
     if name != "AngularRate":
         options["acc"] = recording.forces
     if name == "Complementary":
-        options["w0"] = _roll_pitch_yaw(recording.orientations[0])
+        turn_at_start = Rotation.from_quat(recording.orientations[0][[1, 2, 3, 0]])
+        options["w0"] = turn_at_start.as_euler("ZYX")[::-1]  # roll, pitch and yaw
     else:
         options["q0"] = turn(recording.orientations[0])
     with np.errstate(all="ignore"):
@@ -121,55 +117,31 @@ def _run(name: str, recording: Recording, turn: Callable[[Real], Real]) -> Error
     return compare(Estimates.of(recording.stamps, q), recording.truth, NONE)
 
 
-def _roll_pitch_yaw(q: Real) -> Real:
-    w, x, y, z = q.tolist()
-    return np.array(
-        [
-            math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
-            math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x)))),
-            math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
-        ]
-    )
-
-
 def judge_filters(folder: Path, docs: Path | None = None) -> int:
     """Write filters.md, filters.json and a plot; return the exit status.
 
     It needs the package `ahrs`, of the extra `peers`.
     """
+    folder.mkdir(parents=True, exist_ok=True)
     trials: list[Trial] = []
     curves: dict[str, Errors] = {}
     work = [(scene, mount) for mount in MOUNTS for scene in SCENES]
-    with tqdm(work, unit="", leave=False, disable=None) as progress:
-        for scene, mount in progress:
-            recording = record(scene, MOUNTS[mount])
-            for name in FILTERS:
-                progress.set_description(f"{name}: {scene}, {mount}"[:60])
-                errors = run_filter(name, recording)
-                trials.append(_summarize(name, scene, mount, errors))
-                if (scene, mount) == PLOTTED and name in SHOWN:
-                    curves[name] = errors
+    for scene, mount in track(work, ", ".join):
+        recording = record(scene, MOUNTS[mount])
+        for name in FILTERS:
+            errors = run_filter(name, recording)
+            half = len(errors.total) // 2
+            parts = errors.tilt[half:], errors.total[half:]
+            trials.append(Trial(name, scene, mount, *(math.sqrt((x**2).mean()) for x in parts)))
+            if (scene, mount) == PLOTTED and name in SHOWN:
+                curves[name] = errors
     facts = {"trials": [asdict(trial) for trial in trials]}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "filters.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-        (folder / "filters.md").write_text(format_trials(facts) + "\n", encoding="utf-8")
-        for place in filter(None, (folder, docs)):
-            write_figures({PLOT: lambda: draw(curves)}, place)
-        if docs:
-            (docs / f"{PLOT}.png").unlink()
-            publish_figures({"filters": facts}, {SECTION: format_trials(facts)}, docs)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
-        return 1
+    write_results(NAME, facts, format_trials(facts), folder, docs)
+    write_figures({NAME: lambda: draw_tilt_errors(curves)}, folder)
+    if docs:
+        shutil.copy(folder / f"{NAME}.svg", docs)
     print(f"{folder / 'filters.md'}, filters.json and a plot")
     return 0
-
-
-def _summarize(name: str, scene: str, mount: str, errors: Errors) -> Trial:
-    half = len(errors.total) // 2
-    rms = [float(np.sqrt((each[half:] ** 2).mean())) for each in (errors.tilt, errors.total)]
-    return Trial(name, scene, mount, *rms)
 
 
 def format_trials(facts: dict[str, Any]) -> str:
@@ -188,7 +160,7 @@ def format_trials(facts: dict[str, Any]) -> str:
     return "\n\n".join(parts)
 
 
-def draw(curves: dict[str, Errors]) -> Figure:
+def draw_tilt_errors(curves: dict[str, Errors]) -> Figure:
     """Draw the tilt error of some filters against time."""
     figure = new_figure(3.2)
     (axes,) = rows(figure, 1)

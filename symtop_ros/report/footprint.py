@@ -1,7 +1,5 @@
 """Import time of the library, and its memory with many states, measured in fresh processes."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from dataclasses import dataclass

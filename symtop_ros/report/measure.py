@@ -1,22 +1,17 @@
 """The measurement behind `top_report`: runs the benchmarks, and writes tables and plots."""
 
-from __future__ import annotations
-
-import json
 import platform
 import sys
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from tqdm import tqdm
-
 from symtop_ros.report.benchmarks import Results, Scope, list_steps
 from symtop_ros.report.document import Environment, format_document
-from symtop_ros.report.peers import installed
+from symtop_ros.report.peers import find_peers
 from symtop_ros.report.peers.peer import Peer
 from symtop_ros.report.plots import write_plots
-from symtop_ros.report.publish import collect_facts, publish
+from symtop_ros.report.publish import collect_facts, publish, track, write_results
 from symtop_ros.report.reference import Reference
 
 PACKAGES = (
@@ -27,18 +22,13 @@ PACKAGES = (
 
 def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
     """Write report.md, report.json and the plots; return the exit status."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        peers, missing = installed()
-        versions = _find_versions()
-        environment = Environment(command, find_machine(), versions, missing, scope.limit)
-        results = _run(scope, peers)
-        _write(folder, results, environment)
-        if docs:
-            publish(folder, docs)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
-        return 1
+    folder.mkdir(parents=True, exist_ok=True)
+    peers, missing = find_peers()
+    environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
+    results = _run(scope, peers)
+    _write(folder, results, environment)
+    if docs:
+        publish(folder, docs)
     print(f"{folder / 'report.md'}, report.json and plots")
     failures = results.list_failures()
     for failure in failures:
@@ -48,21 +38,16 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
 
 def _run(scope: Scope, peers: Sequence[Peer]) -> Results:
     results = Results()
-    steps = list(list_steps(scope, peers, results))
-    with tqdm(steps, unit="", leave=False, disable=None) as progress:  # on a terminal only
-        for name, step in progress:
-            progress.set_description(f"{name:40.40}")
-            step()
+    for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
+        work()
     return results
 
 
 def _write(folder: Path, results: Results, environment: Environment) -> None:
-    problem = Reference.read().article[0]
-    text = format_document(results, problem, environment)
-    (folder / "report.md").write_text(text, encoding="utf-8")
-    facts = json.dumps(collect_facts(results, environment), indent=1)
-    (folder / "report.json").write_text(facts + "\n", encoding="utf-8")
-    write_plots(results, problem, folder)
+    motion = Reference.read().article[0]
+    text = format_document(results, motion, environment)
+    write_results("report", collect_facts(results, environment), text, folder)
+    write_plots(results, motion, folder)
 
 
 def find_machine() -> str:

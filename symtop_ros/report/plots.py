@@ -1,7 +1,5 @@
 """The report's plots, as SVG and PNG."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -10,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.article.style import GREY, INK, RED, new_figure, write_figures
+from symtop_ros.drawing.style import GREY, INK, RED, new_figure, write_figures
 from symtop_ros.report.benchmarks import SPAN, HardCase, Results
 from symtop_ros.report.peers import CLOSED_FORM
-from symtop_ros.report.reference import EPS, Problem
+from symtop_ros.report.reference import EPS, ReferenceMotion
 from symtop_ros.report.sweep import Curve
 
 PACKAGES = {  # colours that differ in grey, and markers that differ without any
@@ -34,14 +32,14 @@ ERROR = "largest error of the attitude (rad)"
 Looks = dict[str, dict[str, Any]]
 
 
-def write_plots(results: Results, problem: Problem, folder: Path) -> None:
+def write_plots(results: Results, motion: ReferenceMotion, folder: Path) -> None:
     """Write every plot as SVG and PNG."""
     names = list(dict.fromkeys([*(c.peer for c in results.curves), *results.checks]))
     looks = _choose_looks(names)
     drawings: tuple[Callable[[], Figure], ...] = (
-        lambda: draw_work_precision(results, problem, looks),
+        lambda: draw_work_precision(results, motion, looks),
         lambda: draw_motions(results, looks),
-        lambda: draw_long_times(results, problem, looks),
+        lambda: draw_long_times(results, motion, looks),
         lambda: draw_arrays(results, looks),
         lambda: draw_hard_cases(results.hard),
     )
@@ -62,15 +60,18 @@ def _choose_looks(names: Iterable[str]) -> Looks:
     return looks
 
 
-def draw_work_precision(results: Results, problem: Problem, looks: Looks) -> Figure:
+def draw_work_precision(results: Results, motion: ReferenceMotion, looks: Looks) -> Figure:
     """Draw error against seconds per simulated second."""
     figure = new_figure(4.6, width=8.2)
     axes = figure.subplots()
-    curves = [curve for curve in results.curves if curve.motion == problem.name]
+    curves = [curve for curve in results.curves if curve.motion == motion.name]
     _draw_curves(axes, curves, looks)
-    _mark_limit(axes, problem.limit(SPAN))
-    axes.set_ylabel(ERROR)
-    axes.set_title(f"the article's top, {problem.name}, after {SPAN:g} s", loc="left")
+    limit = motion.limit(SPAN)  # what rounding of the input changes
+    axes.axhline(limit, color=GREY, lw=1, ls=(0, (6, 3)))
+    axes.annotate("what rounding of the input changes", (0.99, limit), (0, 3),
+                  ("axes fraction", "data"), "offset points",
+                  ha="right", fontsize=8, color=GREY)  # fmt: skip
+    axes.set(ylabel=ERROR, title=f"the article's top, {motion.name}, after {SPAN:g} s")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -83,43 +84,39 @@ def _draw_curves(axes: Axes, curves: Iterable[Curve], looks: Looks) -> None:
     axes.set_xlabel("seconds per simulated second")
 
 
-def _mark_limit(axes: Axes, limit: float) -> None:
-    axes.axhline(limit, color=GREY, lw=1, ls=(0, (6, 3)))
-    text = "what rounding of the input changes"
-    axes.annotate(text, (0.99, limit), (0, 3), ("axes fraction", "data"), "offset points",
-                  ha="right", fontsize=8, color=GREY)  # fmt: skip
-
-
 def draw_motions(results: Results, looks: Looks) -> Figure:
     """Draw error against seconds for every motion that was measured."""
     names = list(dict.fromkeys(curve.motion for curve in results.curves))
-    rows = -(-len(names) // 4)
-    figure = new_figure(2.6 * rows, width=10)
-    grid = figure.subplots(
-        rows, min(4, len(names)), squeeze=False, sharex=True, sharey=True
-    ).ravel()
-    for axes, name in zip(grid, names, strict=False):
+    figure, grid = _new_grid(len(names), 2.6, sharex=True)
+    for axes, name in zip(grid, names, strict=True):
         _draw_curves(axes, [c for c in results.curves if c.motion == name], looks)
-        axes.set_title(name, loc="left")
-    for axes in grid[len(names) :]:
-        axes.remove()
-    figure.supylabel("error (rad)", fontsize=10)
+        axes.set_title(name)
     return figure
 
 
-def draw_long_times(results: Results, problem: Problem, looks: Looks) -> Figure:
+def _new_grid(count: int, height: float, sharex: bool = False) -> tuple[Figure, list[Axes]]:
+    """Return a figure with axes in rows of four, each so high in inches."""
+    rows = -(-count // 4)
+    figure = new_figure(height * rows, width=10)
+    grid = figure.subplots(rows, min(4, count), squeeze=False, sharex=sharex, sharey=True).ravel()
+    for axes in grid[count:]:
+        axes.remove()
+    figure.supylabel("error (rad)", fontsize=10)
+    return figure, list(grid[:count])
+
+
+def draw_long_times(results: Results, motion: ReferenceMotion, looks: Looks) -> Figure:
     """Draw the growth of the errors with time."""
     figure = new_figure(4.2, width=8.2)
     axes = figure.subplots()
     for each in results.growth:
         errors = np.maximum(each.errors, SMALLEST)
         axes.loglog(each.times, errors, **{**looks[each.peer], "lw": 1.2})
-    times = [t for t in problem.times if t >= SPAN]
-    limits = [problem.limit(t) for t in times]
+    times = [t for t in motion.times if t >= SPAN]
+    limits = [motion.limit(t) for t in times]
     axes.loglog(times, limits, color=GREY, lw=1, ls=(0, (6, 3)), label="rounding of the input")
-    axes.set_xlabel("simulated time (s)")
-    axes.set_ylabel("error of the attitude at the end (rad)")
-    axes.set_title("each at its best setting for ten seconds", loc="left")
+    axes.set(xlabel="simulated time (s)", ylabel="error of the attitude at the end (rad)")
+    axes.set_title("each at its best setting for ten seconds")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -131,8 +128,7 @@ def draw_arrays(results: Results, looks: Looks) -> Figure:
     for each in results.states:
         cost = np.array(each.seconds) / np.array(each.numbers) * 1e6
         axes.loglog(each.numbers, cost, **{**looks[each.peer], "lw": 1.2})
-    axes.set_xlabel(f"number of states within {SPAN:g} s")
-    axes.set_ylabel("us per state, set-up included")
+    axes.set(xlabel=f"number of states within {SPAN:g} s", ylabel="us per state, set-up included")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
@@ -140,16 +136,11 @@ def draw_arrays(results: Results, looks: Looks) -> Figure:
 def draw_hard_cases(cases: list[HardCase]) -> Figure:
     """Draw the errors of each family against the distance from its singular case."""
     families = list(dict.fromkeys(case.family for case in cases))
-    rows = -(-len(families) // 4)
-    figure = new_figure(2.1 * rows, width=10)
-    grid = figure.subplots(rows, 4, squeeze=False, sharey=True).ravel()
-    for axes, family in zip(grid, families, strict=False):
+    figure, grid = _new_grid(len(families), 2.1)
+    for axes, family in zip(grid, families, strict=True):
         _draw_family(axes, [case for case in cases if case.family == family])
-    for axes in grid[len(families) :]:
-        axes.remove()
-    figure.supylabel("error (rad)", fontsize=10)
-    handles, labels = grid[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
+    looks = grid[0].get_legend_handles_labels()
+    figure.legend(*looks, loc="outside lower center", ncols=4, fontsize=8)
     return figure
 
 
@@ -168,4 +159,4 @@ def _draw_family(axes: Axes, cases: list[HardCase]) -> None:
         axes.loglog(*np.array(points).T, marker, color=color, ms=4, label=name)
     limits = [case.limit for case in cases]
     axes.loglog(near, limits, color=INK, lw=1, ls="--", label="rounding of the input")
-    axes.set_title(cases[0].family, loc="left", fontsize=8.5)
+    axes.set_title(cases[0].family, fontsize=8.5)

@@ -4,13 +4,14 @@ A table stands between two comments that name it, `<!-- figures: NAME -->` and
 `<!-- end of figures -->`. The text around it is written by hand.
 """
 
-from __future__ import annotations
-
 import json
 import shutil
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from tqdm import tqdm
 
 from symtop_ros.report.benchmarks import Results
 from symtop_ros.report.document import Environment, format_chapters, format_summary
@@ -18,31 +19,30 @@ from symtop_ros.report.plots import NAMES
 from symtop_ros.report.reference import Reference
 
 FIGURES = "figures.json"
+Work = TypeVar("Work")
 END = "<!-- end of figures -->"
 
 
 def collect_facts(results: Results, environment: Environment) -> dict[str, Any]:
-    """Return everything that was measured, as values of a JSON file."""
+    """Return all measurements, as values of a JSON file."""
     return {"environment": asdict(environment), "results": asdict(results)}
-
-
-def read_facts(facts: dict[str, Any]) -> tuple[Results, Environment]:
-    """Return what `collect_facts` has turned into values of a JSON file."""
-    return Results.from_facts(facts["results"]), Environment(**facts["environment"])
 
 
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     """Return the text of each section by its name."""
-    results, environment = read_facts(facts)
-    problem = Reference.read().article[0]
+    results, environment = (
+        Results.from_facts(facts["results"]),
+        Environment(**facts["environment"]),
+    )
+    motion = Reference.read().article[0]
     return {
-        "chapters": format_chapters(results, problem, environment),
-        "summary": format_summary(results, problem),
+        "chapters": format_chapters(results, motion, environment),
+        "summary": format_summary(results, motion),
     }
 
 
 def find_section(text: str, name: str) -> str | None:
-    r"""Return what a text has between the comments of a section, or None."""
+    r"""Return the text between the comments of a section, or None."""
     _, begin, rest = text.partition(f"<!-- figures: {name} -->")
     return rest.partition(END)[0].strip() if begin else None
 
@@ -63,12 +63,29 @@ def publish(folder: Path, docs: Path) -> None:
         shutil.copy(folder / f"{name}.svg", docs)
 
 
+def write_results(
+    name: str, facts: dict[str, Any], text: str, folder: Path, docs: Path | None = None
+) -> None:
+    """Write figures as NAME.json and their text as NAME.md, and both into the documentation."""
+    (folder / f"{name}.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+    (folder / f"{name}.md").write_text(text + "\n", encoding="utf-8")
+    if docs:
+        write_figures({name: facts}, {name: text}, docs)
+
+
+def track(work: Sequence[Work], describe: Callable[[Work], str]) -> Iterator[Work]:
+    """Yield pieces of work, with a progress bar on a terminal."""
+    with tqdm(work, unit="", leave=False, disable=None) as progress:
+        for each in progress:
+            progress.set_description(f"{describe(each):60.60}")
+            yield each
+
+
 def write_figures(facts: dict[str, Any], sections: dict[str, str], docs: Path) -> None:
     """Write figures into the documentation; those of other commands stay."""
     path = docs / FIGURES
     others = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    text = json.dumps({**others, **facts}, indent=1) + "\n"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(json.dumps({**others, **facts}, indent=1) + "\n", encoding="utf-8")
     for page in (*docs.glob("*.md"), docs.parent / "README.md"):
         before = after = page.read_text(encoding="utf-8")
         for name, content in sections.items():

@@ -6,8 +6,6 @@ as large as the errors that are measured. Python's decimal module has as many di
 and takes some seconds for ten seconds of the article's top.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from decimal import Context, Decimal, localcontext
@@ -19,7 +17,7 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import Task, initial_values
 
-Series = list[Decimal]  # coefficients of powers of the time since the start of a step
+PowerSeries = list[Decimal]  # coefficients of powers of the time since the start of a step
 
 DIGITS = 32
 # Order and step of a Taylor integration with a relative error of 10^-26 in each step: the order is
@@ -30,11 +28,11 @@ SHARE_OF_RADIUS = Decimal(-2).exp()
 HALF = Decimal("0.5")
 
 
-class Step(NamedTuple):
-    """Start in s, and the series of w, x, y, z from there on."""
+class TaylorStep(NamedTuple):
+    """A time in s, and the series of w, x, y, z in the time since then."""
 
     t: Decimal
-    series: tuple[Series, ...]
+    series: tuple[PowerSeries, ...]
 
 
 class TaylorMotion:
@@ -45,12 +43,11 @@ class TaylorMotion:
         with localcontext(self._context):
             self._moments = tuple(Decimal(each) for each in task.top.moments)
             self._friction = Decimal(task.friction.axial), Decimal(task.friction.transverse)
-            q, omega = _split([Decimal(each) for each in initial_values(task)])
+            *q, wx, wy, wz = (Decimal(each) for each in initial_values(task))
             size = sum(map(mul, q, q), Decimal(0)).sqrt()
-            self._state = [*(each / size for each in q), *omega]
+            self._state = [*(each / size for each in q), wx, wy, wz]
         self._t = Decimal(0)
-        self._steps: list[Step] = []
-        self._starts: list[Decimal] = []
+        self._steps: list[TaylorStep] = []
         self._known: dict[float, tuple[list[float], list[float]]] = {}
 
     def at(self, times: Sequence[float] | Real) -> tuple[Real, Real]:
@@ -66,7 +63,7 @@ class TaylorMotion:
     def _evaluate(self, t: Decimal) -> tuple[list[float], list[float]]:
         while self._t <= t:
             self._advance()
-        start, series = self._steps[bisect_right(self._starts, t) - 1]
+        start, series = self._steps[bisect_right(self._steps, t, key=lambda step: step.t) - 1]
         exact = [_sum_series(each, t - start) for each in series]
         high = [float(each) for each in exact]
         return high, [float(e - Decimal(h)) for e, h in zip(exact, high, strict=True)]
@@ -76,12 +73,11 @@ class TaylorMotion:
         series = self._expand()
         radius = min(_estimate_radius(series, n) for n in (ORDER - 1, ORDER))
         step = SHARE_OF_RADIUS * radius
-        self._steps.append(Step(self._t, tuple(series[:4])))
-        self._starts.append(self._t)
+        self._steps.append(TaylorStep(self._t, tuple(series[:4])))
         self._state = [_sum_series(each, step) for each in series]
         self._t += step
 
-    def _expand(self) -> list[Series]:
+    def _expand(self) -> list[PowerSeries]:
         """Return the series of the seven variables about the present state.
 
         Coefficient n + 1 of a variable is coefficient n of its rate divided by n + 1, and
@@ -93,7 +89,7 @@ class TaylorMotion:
                 each.append(rate / (n + 1))
         return series
 
-    def _rates(self, series: list[Series]) -> Iterator[Decimal]:
+    def _rates(self, series: list[PowerSeries]) -> Iterator[Decimal]:
         """Return the last known coefficients of the rates: q' = q omega/2 and Euler's equations."""
         (Ix, Iz, Mgl), (axial, transverse) = self._moments, self._friction
         w, x, y, z, wx, wy, wz = series
@@ -114,16 +110,12 @@ class TaylorMotion:
         )
 
 
-def _split(values: list[Decimal]) -> tuple[list[Decimal], list[Decimal]]:
-    return values[:4], values[4:]
-
-
-def _multiply(a: Series, b: Series) -> Decimal:
+def _multiply(a: PowerSeries, b: PowerSeries) -> Decimal:
     """Return the last coefficient of the product of two series of the same length."""
     return sum(map(mul, a, reversed(b)), Decimal(0))
 
 
-def _sum_series(series: Series, t: Decimal) -> Decimal:
+def _sum_series(series: PowerSeries, t: Decimal) -> Decimal:
     """Return the sum of a power series, by Horner's rule."""
     total = Decimal(0)
     for coefficient in reversed(series):
@@ -131,19 +123,15 @@ def _sum_series(series: Series, t: Decimal) -> Decimal:
     return total
 
 
-def _estimate_radius(series: list[Series], n: int) -> Decimal:
+def _estimate_radius(series: list[PowerSeries], n: int) -> Decimal:
     """Return the radius of convergence in s, from coefficient n of all variables (root test).
 
     Orientation and angular velocity have different sizes, so each is divided by its own.
     """
     ratios = (
         max(abs(each[n]) for each in part) / max(abs(each[0]) for each in part)
-        for part in _split_series(series)
+        for part in (series[:4], series[4:])
         if any(each[0] for each in part)
     )
     largest = max(ratios, default=Decimal(0))
     return (-largest.ln() / n).exp() if largest else Decimal(1)
-
-
-def _split_series(series: list[Series]) -> tuple[list[Series], list[Series]]:
-    return series[:4], series[4:]

@@ -1,24 +1,22 @@
 """Scores of the integrators in the test set: each at its best setting within a limit of time."""
 
-from __future__ import annotations
-
-import json
+import math
 import statistics
-import sys
-import time
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
+from timeit import timeit
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
-from symtop_ros.physics import State, Top
 from symtop_ros.report.document import format_table
-from symtop_ros.report.peers import CLOSED_FORM, installed
-from symtop_ros.report.peers.peer import Peer, Solution, Task
-from symtop_ros.report.publish import replace_section, write_figures
-from symtop_ros.testset.score import FILE, Problem, read_problems
+from symtop_ros.report.peers import CLOSED_FORM, find_peers
+from symtop_ros.report.peers.peer import Peer
+from symtop_ros.report.publish import replace_section, track, write_results
+from symtop_ros.report.reference import ReferenceMotion, read_testset
+from symtop_ros.report.sweep import Measurement, sweep
+from symtop_ros.testset.score import FILE
 
 PLACES = (4, 9, 14, 19)  # quarters of the duration: most peers start anew for each time
 LIMIT = 0.2  # s for a run to the end of a problem
@@ -33,88 +31,76 @@ PROGRAMS = (
     "EXUDYN RK67",
 )
 PROBE = 1.0  # s of the motion
-GROWTH = 4.0  # a finer setting is expected to take so many times as long
 LEVELS = (1, 2, 3, 4, 5)
-SECTION = "testset"
+NAME = "testset"  # of the files, and of the section in the documentation
 
 
 @dataclass(frozen=True)
 class Entry:
     """The best run of an integrator on a problem."""
 
-    peer: str  # their names
-    problem: str  # their names
+    peer: str
+    problem: str
     level: int  # of the problem
     setting: float  # tolerance, or step in s
     angle: float  # largest error of the attitude at four times in rad
-    limits: float  # the same in units of what half an ulp of the inputs does
+    limits: float  # the same in units of what half an ulp of the inputs changes
     seconds: float  # time to reach the end once
 
 
 def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) -> int:
     """Write testset.md and testset.json; return the exit status."""
-    peers, _ = installed()
+    folder.mkdir(parents=True, exist_ok=True)
+    peers, _ = find_peers()
+    motions = read_testset()
     chosen = [peer for peer in peers if peer.name in PROGRAMS]
-    work = [(peer, problem) for peer in chosen for problem in read_problems().values()]
-    entries: list[Entry] = []
-    with tqdm(work, unit="", leave=False, disable=None) as progress:
-        for peer, problem in progress:
-            progress.set_description(f"{peer.name}: {problem.facts['name']:24.24}")
-            entries += measure(peer, problem, limit)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        facts = {"limit": limit, "entries": [asdict(entry) for entry in entries]}
-        (folder / "testset.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
-        (folder / "testset.md").write_text(format_scores(facts) + "\n", encoding="utf-8")
-        if docs:
-            publish_scores(facts, docs)
-    except OSError as error:
-        print(f"top_report: {error.filename or folder}: {error.strerror}", file=sys.stderr)
-        return 1
+    work = [(peer, motion) for peer in chosen for motion in motions]
+    entries = [
+        asdict(entry)
+        for peer, motion in track(work, lambda each: f"{each[0].name}: {each[1].name}")
+        for entry in find_best_run(peer, motion, limit)
+    ]
+    facts = {"limit": limit, "entries": entries}
+    table = format_scores(facts)
+    write_results(NAME, facts, table, folder, docs)
+    if docs:
+        readme = FILE.parent / "README.md"
+        text = replace_section(readme.read_text(encoding="utf-8"), NAME, table)
+        readme.write_text(text, encoding="utf-8")
     print(f"{folder / 'testset.md'} and testset.json")
     return 0
 
 
-def measure(peer: Peer, problem: Problem, limit: float) -> list[Entry]:
-    """Return the best run of a peer within the limit of time, as a list; empty if none is."""
-    facts = problem.facts
-    start = State(facts["orientation"], facts["angular_velocity"])
-    task = Task(Top(facts["Ix"], facts["Iz"], facts["Mgl"]), start)
-    best: list[Entry] = []
-    for setting in peer.settings:
+def find_best_run(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Entry]:
+    """Return the best run of a peer within the limit of time (s), in a list; empty without one."""
+    end, places = motion.times[-1], [motion.times[k] for k in PLACES]
+    in_limits: dict[float, float] = {}  # by the setting
+
+    def run(setting: float) -> Measurement | None:
         # Each peer fails in its own way if a motion is too long or too fast for a setting, so that
         # no narrower exception is possible; its other settings count.
         try:
-            solution = peer.prepare(task, setting)
-            if peer.name != CLOSED_FORM and _expect(solution, problem.times[-1]) > limit:
-                break
-            began = time.perf_counter()
-            last = solution.reach(problem.times[-1])
-            seconds = time.perf_counter() - began
+            solution = peer.prepare(motion.task, setting)
+            # A day of motion would take some programs an hour: a part of it comes first.
+            part = end if peer.name == CLOSED_FORM else min(end, PROBE)
+            seconds = timeit(partial(solution.reach, part), number=1) * end / part
             if seconds > limit:
-                break
-            states = [solution.reach(problem.times[k]) for k in PLACES[:-1]]
-            angles, in_limits = problem.measure([*states, last], PLACES)
+                return Measurement(setting, math.inf, math.inf, 0, seconds, 0.0)
+            seconds = timeit(partial(solution.reach, end), number=1)
+            errors = [motion.error(t, solution.reach(t)) for t in places]
         except Exception:
-            continue
-        angle = float(np.nan_to_num(angles, nan=np.inf).max())
-        if angle < min([each.angle for each in best], default=np.inf):
-            names = peer.name, facts["name"], facts["level"]
-            best = [Entry(*names, setting, angle, float(in_limits.max()), seconds)]
-        if GROWTH * seconds > limit:
-            break
-    return best
+            return None
+        errors = np.nan_to_num(errors, nan=np.inf).tolist()
+        in_limits[setting] = max(e / motion.limit(t) for t, e in zip(places, errors, strict=True))
+        return Measurement(setting, max(errors), statistics.mean(errors), 4, seconds, 0.0)
 
-
-def _expect(solution: Solution, end: float) -> float:
-    """Return the seconds that a run to the end is expected to take, from one of its begin.
-
-    A day of motion would take some programs an hour.
-    """
-    span = min(end, PROBE)
-    began = time.perf_counter()
-    solution.reach(span)
-    return (time.perf_counter() - began) * end / span
+    points, _ = sweep(peer.settings, run, limit)
+    good = [each for each in points if each.seconds <= limit and each.error < math.inf]
+    best = min(good, key=lambda each: each.error, default=None)
+    if best is None:
+        return []
+    limits, names = in_limits[best.setting], (peer.name, motion.name, motion.level)
+    return [Entry(*names, best.setting, best.error, limits, best.seconds)]
 
 
 def format_scores(facts: dict[str, Any]) -> str:
@@ -133,12 +119,3 @@ def _summarize(angles: list[float]) -> str:
     if not angles:
         return "-"
     return f"{statistics.median(angles):.0e}, {max(angles):.0e}"
-
-
-def publish_scores(facts: dict[str, Any], docs: Path) -> None:
-    """Write the table into the documentation and into the README of the test set."""
-    table = format_scores(facts)
-    write_figures({"testset": facts}, {SECTION: table}, docs)
-    path = FILE.parent / "README.md"
-    text = replace_section(path.read_text(encoding="utf-8"), SECTION, table)
-    path.write_text(text, encoding="utf-8")

@@ -8,12 +8,17 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
+from symtop_ros.arrays import Stamps
 from symtop_ros.physics import Motion
 from symtop_ros.simulation.segment import Segment
 
 # Steps of the integration in one call, about 1 ms: requests wait no longer for the lock.
 STEPS_AT_ONCE = 15
 STEPS_OF_A_CHECK = 1500  # steps between two estimates of the steps that remain
+# For a log, which may be hostile: it could ask for a motion that takes years to integrate.
+FREE_STEPS = 1500  # for the samples of one event in a batch: about a tenth of a second
+STEPS_PER_SAMPLE = 60  # a node may have taken as many for each sample
+SPARE_STEPS = 3_000_000  # for what precedes the log
 # A motion that slows down is followed in longer steps, so an estimate of the remaining work may be
 # this many times too large.
 OPTIMISM = 10.0
@@ -36,6 +41,12 @@ class StepBudget:
             return self._reach(motion, t, free)
         except ValueError:  # the motion is too fast for doubles
             return False
+
+    def reach_stamps(self, segment: Segment, stamps: Stamps) -> bool:
+        """Integrate the motion of samples at stamps (ns) that a node has published."""
+        free = FREE_STEPS + STEPS_PER_SAMPLE * len(stamps)
+        ends = stamps.min(), stamps.max()
+        return all(self.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
 
     def _reach(self, motion: Motion, t: float, free: int) -> bool:
         before = motion.reach(t, 0)

@@ -17,7 +17,6 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -57,14 +56,6 @@ class Problem:
         times: Real = np.array(self.facts["times"], dtype=np.float64)
         return times
 
-    @cached_property
-    def _orientations(self) -> tuple[Real, Real]:
-        return _split(self.facts["orientations"])
-
-    @cached_property
-    def _angular_velocities(self) -> tuple[Real, Real]:
-        return _split(self.facts["angular_velocities"])
-
     def format_json(self) -> str:
         """Return the problem and its solution as JSON, with a line for each quantity.
 
@@ -98,48 +89,21 @@ class Problem:
         >>> bool(cusps.score(rounded).angles.max() < 4.5e-16)
         True
         """
-        angles, _ = self.measure(_check("orientations", orientations, 4), range(20))
+        q = _check("orientations", orientations, 4)
+        norms = np.linalg.norm(q, axis=1)
+        worst = norms[np.abs(norms - 1).argmax()]
+        if abs(worst - 1) > LARGEST_NORM_ERROR:
+            msg = f"orientations must be unit quaternions, got a norm of {worst:.6g}"
+            raise ValueError(msg)
+        angles = measure_angles(
+            q / norms[:, np.newaxis], *split_decimals(self.facts["orientations"])
+        )
         rates = None
         if angular_velocities is not None:
             omega = _check("angular_velocities", angular_velocities, 3)
-            high, low = self._angular_velocities
+            high, low = split_decimals(self.facts["angular_velocities"])
             rates = np.linalg.norm((omega - high) - low, axis=1)
         return Score(self, angles, rates)
-
-    def measure(self, orientations: ArrayLike, places: Sequence[int]) -> tuple[Real, Real]:
-        """Return the errors of attitudes at some of the times.
-
-        Parameters
-        ----------
-        orientations : array_like (n, 4)
-            Quaternions w, x, y, z of either sign; they are normalised.
-        places : sequence of int (n,)
-            Numbers of the times, from 0.
-
-        Returns
-        -------
-        angles : ndarray (n,)
-            In rad.
-        limits : ndarray (n,)
-            In units of what half an ulp of the inputs does.
-
-        Raises
-        ------
-        ValueError
-            If a norm is not near 1.
-        """
-        q = np.asarray(orientations, dtype=np.float64)
-        norms = np.linalg.norm(q, axis=1)
-        if np.abs(norms - 1).max() > LARGEST_NORM_ERROR:
-            worst = norms[np.abs(norms - 1).argmax()]
-            msg = f"orientations must be unit quaternions, got a norm of {worst:.6g}"
-            raise ValueError(msg)
-        q = q / norms[:, np.newaxis]
-        high, low = (part[list(places)] for part in self._orientations)
-        q = np.where((q * high).sum(axis=1, keepdims=True) < 0, -q, q)
-        angles = 2 * np.linalg.norm((q - high) - low, axis=1)
-        limits = np.array(self.facts["orientation_limits"], dtype=np.float64)
-        return angles, angles / limits[list(places)]
 
 
 @dataclass(frozen=True)
@@ -259,17 +223,57 @@ def _check(name: str, values: ArrayLike, width: int) -> Real:
     return array
 
 
-def _split(texts: Sequence[Sequence[str]]) -> tuple[Real, Real]:
-    """Return decimals of 30 digits as sums of two doubles.
+def split_decimals(rows: Sequence[Sequence[str]]) -> tuple[Real, Real]:
+    """Return decimals as sums of two doubles, which hold about 32 digits.
 
     One double is off by up to half an ulp, which is as large as the errors of the best programs.
+
+    Parameters
+    ----------
+    rows : sequence of n sequences of m str
+
+    Returns
+    -------
+    high, low : ndarray (n, m)
+
+    Examples
+    --------
+    >>> high, low = split_decimals([["0.1"]])
+    >>> high.tolist(), low.tolist()
+    ([[0.1]], [[-5.551115123125783e-18]])
     """
-    high = np.array([[float(text) for text in row] for row in texts])
+    high = np.array([[float(text) for text in row] for row in rows])
     low = [
         [float(Decimal(text) - Decimal(value)) for text, value in zip(row, values, strict=True)]
-        for row, values in zip(texts, high.tolist(), strict=True)
+        for row, values in zip(rows, high.tolist(), strict=True)
     ]
     return high, np.array(low)
+
+
+def measure_angles(orientations: Real, high: Real, low: Real) -> Real:
+    """Return the errors of attitudes: the angles of the rotations that would correct them.
+
+    Parameters
+    ----------
+    orientations : ndarray (..., 4)
+        Unit quaternions of either sign.
+    high, low : ndarray (..., 4)
+        The exact quaternions are high + low.
+
+    Returns
+    -------
+    ndarray (...)
+        2 |q - q_exact| in rad, with the sign of q that makes it smaller.
+
+    Examples
+    --------
+    >>> exact = np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(4)
+    >>> float(measure_angles(np.array([-1.0, 0.0, 0.0, 1e-9]), *exact))
+    2e-09
+    """
+    far = (orientations * high).sum(axis=-1, keepdims=True) < 0
+    q = np.where(far, -orientations, orientations)
+    return np.asarray(2 * np.linalg.norm((q - high) - low, axis=-1))
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -91,7 +91,7 @@ def _joint_state(frame: str, *names: str) -> Layout:
     )
 
 
-def _stamped(message_type: str, **sizes: int) -> Format:
+def define_stamped(message_type: str, **sizes: int) -> Format:
     """Return the format of a type that consists of a header and some quantities."""
     quantities = _place(**sizes)
 
@@ -101,10 +101,10 @@ def _stamped(message_type: str, **sizes: int) -> Format:
     return Format(message_type, quantities, layout, _read_frame)
 
 
-QUATERNION = _stamped("geometry_msgs/msg/QuaternionStamped", orientation=4)
-VECTOR = _stamped("geometry_msgs/msg/Vector3Stamped", vector=3)
-TWIST = _stamped("geometry_msgs/msg/TwistStamped", linear=3, angular=3)
-IMU = _stamped(
+QUATERNION = define_stamped("geometry_msgs/msg/QuaternionStamped", orientation=4)
+VECTOR = define_stamped("geometry_msgs/msg/Vector3Stamped", vector=3)
+TWIST = define_stamped("geometry_msgs/msg/TwistStamped", linear=3, angular=3)
+IMU = define_stamped(
     "sensor_msgs/msg/Imu",
     orientation=4,
     orientation_covariance=9,
@@ -113,7 +113,7 @@ IMU = _stamped(
     linear_acceleration=3,
     linear_acceleration_covariance=9,
 )
-WRENCH = _stamped("geometry_msgs/msg/WrenchStamped", force=3, torque=3)
+WRENCH = define_stamped("geometry_msgs/msg/WrenchStamped", force=3, torque=3)
 JOINT_STATE = Format(
     "sensor_msgs/msg/JointState", _place(position=3, velocity=3), _joint_state, _read_joints
 )

@@ -10,6 +10,7 @@ from PIL import Image
 
 from symtop_ros.article.maps import FACTOR, PSI_DOT, THETA, TOP, map_spin, map_tilt, write_maps
 from symtop_ros.physics import Motion, State, hurry, regular_precession_rates
+from symtop_ros.report import main as report
 
 SIDES = ("highest", "lowest")
 FILES = {"perry.rrd"} | {
@@ -65,5 +66,5 @@ def test_all_files_are_written_and_pictures_are_not_blank(written):
 
 def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("")
-    assert write_maps(tmp_path / "file", 4) == 1
+    assert report.main(["maps", str(tmp_path / "file"), "--points", "4"]) == 1
     assert capsys.readouterr().err == f"top_report: {tmp_path / 'file'}: File exists\n"

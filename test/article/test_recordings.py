@@ -1,13 +1,64 @@
-"""The recordings of the article in the viewer: every view is drawn, and none reports an error."""
+"""The recordings: motions are what their labels say, and the viewer reports no error."""
 
 import numpy as np
 import pytest
 from pictures import pause_at, picture, running_viewer, view_named, views
 
-from symtop_ros.article.recordings import MOTIONS, SCENES, write_recordings
+from symtop_ros.article.motions import RATES
+from symtop_ros.article.recordings import (
+    KICK,
+    MOTIONS,
+    SCENES,
+    kicked_and_not_kicked,
+    six_rates,
+    write_recordings,
+)
+from symtop_ros.physics import perrys_rule
 from symtop_ros.playback.view import entities
 
-pytestmark = pytest.mark.long
+TIMES = np.linspace(0.0, 2.0, 2001)
+
+
+def tilts(exhibit):
+    return np.asarray(exhibit.run.at(TIMES).euler_angles.theta)
+
+
+def test_the_six_tops_do_what_their_labels_say():
+    exhibits = six_rates()
+    assert len({exhibit.place for exhibit in exhibits}) == len(RATES) == 6
+    for exhibit in exhibits:
+        change = tilts(exhibit) - 0.5
+        low, high = change.min(), change.max()
+        direction = exhibit.label.split(": ")[1]
+        # the six motions change by 0.02 rad and more, those at the roots by rounding
+        assert {"rises": low < -0.02, "falls": high > 0.02, "stays": high - low < 1e-9}[direction]
+
+
+def test_until_the_kick_each_pair_is_one_motion_and_then_it_is_not():
+    exhibits = kicked_and_not_kicked()
+    for steady, hurried in zip(exhibits[::2], exhibits[1::2], strict=True):
+        assert steady.place[0] == hurried.place[0]
+        before = TIMES < KICK
+        assert np.array_equal(tilts(steady)[before], tilts(hurried)[before])
+        away = tilts(hurried)[~before] - tilts(steady)[~before]
+        assert np.abs(away).max() > 1e-3
+        assert hurried.label.endswith("rises" if away.min() < -1e-3 else "falls")
+        assert np.ptp(tilts(steady)) < 1e-9
+
+
+def test_the_three_pairs_are_the_rule_and_its_two_failures():
+    verdicts = [
+        perrys_rule(exhibit.run.pieces[0][1].top, exhibit.run.pieces[0][1].start).rule_holds
+        for exhibit in kicked_and_not_kicked()[1::2]
+    ]
+    assert verdicts == [True, False, False]
+
+
+def test_the_attitude_does_not_jump_at_the_kick():
+    for exhibit in kicked_and_not_kicked():
+        around = exhibit.run.at(np.array([KICK - 1e-9, KICK]))
+        # a billionth of a second at 250 rad/s
+        assert np.abs(np.diff(around.orientation, axis=0)).max() < 1e-6
 
 
 @pytest.fixture(scope="module")
@@ -17,6 +68,7 @@ def folder(tmp_path_factory):
     return folder
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [*MOTIONS, *SCENES])
 def test_a_recording_is_shown_without_errors(folder, name):
     with running_viewer(folder / f"{name}.rrd") as (client, _):

@@ -9,11 +9,11 @@ from rerun.chunk import RrdReader
 from symtop_ros.article import retell as article
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.figures import FIGURES, LOOKS
-from symtop_ros.article.recordings import MOTIONS, SCENES
+from symtop_ros.article.recordings import MOTIONS, RATE, SCENES, SPAN
 from symtop_ros.article.retell import check_claims, retell
-from symtop_ros.article.side_by_side import RATE, SPAN
-from symtop_ros.article.style import BLUE, GOLD, INK, RED
+from symtop_ros.drawing.style import BLUE, GOLD, INK, RED
 from symtop_ros.playback.view import entities
+from symtop_ros.report import main as report
 
 
 @pytest.fixture(scope="module")
@@ -127,7 +127,7 @@ def test_a_claim_that_fails_is_an_exit_status(tmp_path, capsys, monkeypatch):
 @pytest.mark.parametrize("name", ["file", "file/below"])
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, name):
     (tmp_path / "file").write_text("in the way")
-    assert retell(tmp_path / name) == 1
+    assert report.main(["article", str(tmp_path / name)]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"top_report: {tmp_path}/file")
 
@@ -137,7 +137,7 @@ def test_a_file_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, 
     monkeypatch.setattr(article, "check_claims", list)
     first = next(iter(MOTIONS))
     (tmp_path / f"{first}.rrd").mkdir()
-    assert retell(tmp_path) == 1
+    assert report.main(["article", str(tmp_path)]) == 1
     assert capsys.readouterr().err.splitlines() == [
         f"top_report: {tmp_path / first}.rrd: Is a directory"
     ]

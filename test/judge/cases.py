@@ -4,7 +4,7 @@ import numpy as np
 from mcap.well_known import MessageEncoding
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.judge.estimates import KINDS, Estimates
+from symtop_ros.judge.estimates import FORMATS, Estimates
 from symtop_ros.judge.truth import Truth
 from symtop_ros.physics import Motion, State, Top, hurry
 from symtop_ros.simulation.events import Event
@@ -73,23 +73,19 @@ def write_log(path, topics):
 
 def encode(kind, estimates):
     """Messages of a type with the attitudes (and rates) of estimates."""
-    entry = KINDS[kind]
+    form = FORMATS[kind]
     names = ("world", "sensor")[: 2 if "Transform" in kind or "Odometry" in kind else 1]
-    layout = entry.format.layout(*names)
-    width = {
-        "Imu": 37,
-        "PoseStamped": 7,
-        "QuaternionStamped": 4,
-        "PoseWithCovarianceStamped": 43,
-        "TransformStamped": 7,
-        "Odometry": 85,
-    }[kind.rpartition("/")[2]]
+    layout, places = form.layout(*names), form.quantities
+    q, rates = (
+        next((places[name] for name in names if name in places), None)
+        for names in (("orientation", "rotation"), ("angular_velocity", "angular"))
+    )
     messages = []
     for k, stamp in enumerate(estimates.stamps.tolist()):
-        numbers = [0.0] * width
+        numbers = [0.0] * form.width
         w, x, y, z = estimates.orientations[k].tolist()
-        numbers[entry.quaternion : entry.quaternion + 4] = [x, y, z, w]
-        if entry.rates is not None:
-            numbers[entry.rates : entry.rates + 3] = estimates.angular_velocities[k].tolist()
+        numbers[q] = [x, y, z, w]
+        if rates is not None:
+            numbers[rates] = estimates.angular_velocities[k].tolist()
         messages.append((stamp, layout.encode(stamp, numbers)))
     return kind, messages

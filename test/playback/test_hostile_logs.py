@@ -15,11 +15,12 @@ from log_files import LAYOUTS, Run
 from mcap.writer import Writer
 from odd_values import CONTROL, assert_one_sentence, deterministic, trials
 
-from symtop_ros.log.check import StepLimit, check_log
+from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import MAGIC, MAX_RECORD, LogError, McapFile, list_problems
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction
 from symtop_ros.playback import main as module
+from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY, decode_statuses, encode_statuses
 
@@ -140,11 +141,11 @@ def test_any_numbers_in_an_event_are_checked_or_refused(examples, tmp_path_facto
 def test_the_motion_before_a_log_is_integrated_up_to_the_step_limit(tmp_path, monkeypatch):
     path = with_event(tmp_path, {"motion.elapsed_ns": "50000000000"})
     assert not any(each.unreached for each in check_log(TopLog(McapFile(path))).values())
-    limit = StepLimit(spare=1000)
+    budget = StepBudget(spare=1000)
     (batch,) = TopLog(McapFile(path)).batches()
     segment = batch.events[0][1].segment()
-    assert not limit.allows(segment.motion, (5000.0,), samples=1)
-    assert limit.allows(segment.motion, (1.0,), samples=1)
+    assert not budget.reach(segment.motion, 5000.0, free=1500)
+    assert budget.reach(segment.motion, 1.0, free=1500)
 
 
 def test_samples_that_are_no_numbers_are_told_and_drawn_without_warnings(tmp_path, capsys):

@@ -12,10 +12,13 @@ import pytest
 from log_files import LAYOUTS, Run
 
 from symtop_ros.playback import main as module
+from symtop_ros.simulation.topics import STATE_TOPICS
+from symtop_ros.wire.messages import decode_messages
 
 RUN = Run()
 SITE = Path(sysconfig.get_paths()["purelib"])
 ROOT = Path(__file__).parents[2]
+PROGRAM = "import sys; from symtop_ros.programs import top_replay; sys.exit(top_replay())"
 
 
 @pytest.fixture
@@ -56,7 +59,7 @@ def laptop(tmp_path_factory):
 def replay(python, *arguments):
     """Run top_replay in a separate environment, which inherits no ROS."""
     return subprocess.run(
-        [python, "-m", "symtop_ros.playback.main", *map(str, arguments)],
+        [python, "-c", PROGRAM, *map(str, arguments)],
         env={"PATH": "/usr/bin:/bin"},
         capture_output=True,
         text=True,
@@ -96,8 +99,10 @@ def test_without_a_screen_the_message_names_the_options(laptop, log):
 def test_a_wrong_log_is_status_1_and_names_the_topic(log, tmp_path, capsys):
     run = Run()
     k = next(k for k, each in enumerate(run.messages) if each[0] == "torque")
-    _, stamp, _ = run.messages[k]
-    run.messages[k] = "torque", stamp, LAYOUTS["torque"].encode(stamp, [0.0, 0, 0, 1.0, 0, 0])
+    _, stamp, data = run.messages[k]
+    ((found,), _) = decode_messages(STATE_TOPICS["torque"].format, [data])
+    force = found.numbers[0, :3].tolist()
+    run.messages[k] = "torque", stamp, LAYOUTS["torque"].encode(stamp, [*force, 1.0, 0, 0])
     assert module.main([str(run.write(tmp_path / "wrong")), "--check"]) == 1
     output = capsys.readouterr().out
     assert re.search(
@@ -149,10 +154,9 @@ def test_wrong_usage_is_status_2(arguments):
 
 
 def test_a_missing_rerun_is_reported_with_the_extra_that_installs_it(log):
-    code = "import sys; sys.modules['rerun_cli'] = None; "
-    code += "from symtop_ros.playback.main import main; sys.exit(main(sys.argv[1:]))"
+    hidden = "import sys; sys.modules['rerun_cli'] = None; "
     result = subprocess.run(
-        [sys.executable, "-c", code, str(log), "--save", "x.rrd"],
+        [sys.executable, "-c", hidden + PROGRAM, str(log), "--save", "x.rrd"],
         capture_output=True,
         text=True,
         check=False,

@@ -18,13 +18,13 @@ from symtop_ros.report.footprint import Footprint
 from symtop_ros.report.peers import CLOSED_FORM, SPLITTING
 from symtop_ros.report.peers.peer import Peer, Solution
 from symtop_ros.report.reference import EPS, Reference
-from symtop_ros.report.sweep import Curve, Point
+from symtop_ros.report.sweep import Curve, Measurement
 
 CUSPS = Reference.read().article[0]
 
 
 def curve(peer, motion, error):
-    return Curve(peer, motion, 10.0, (Point(0.0, error, error, 9, 1e-3, 0.0),), "finest")
+    return Curve(peer, motion, 10.0, (Measurement(0.0, error, error, 9, 1e-3, 0.0),), "finest")
 
 
 def test_errors_that_are_too_large_are_listed_one_by_one():

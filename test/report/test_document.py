@@ -2,11 +2,11 @@ from symtop_ros.report.benchmarks import ArrayCost, Results
 from symtop_ros.report.document import _format_ahead, _format_other_motions, format_table
 from symtop_ros.report.peers import CLOSED_FORM
 from symtop_ros.report.reference import Reference
-from symtop_ros.report.sweep import Curve, Point
+from symtop_ros.report.sweep import Curve, Measurement
 
 
 def curve(peer, motion):
-    return Curve(peer, motion, 10.0, (Point(0.0, 1e-9, 1e-9, 9, 1e-3, 0.0),), "finest")
+    return Curve(peer, motion, 10.0, (Measurement(0.0, 1e-9, 1e-9, 9, 1e-3, 0.0),), "finest")
 
 
 def test_a_table_has_as_many_cells_in_each_row():
@@ -26,7 +26,11 @@ def test_the_table_of_other_motions_has_a_row_for_each_peer():
 def test_every_case_in_which_a_peer_is_ahead_is_named():
     def swept(peer, *points):
         return Curve(
-            peer, "cusps", 10.0, tuple(Point(1.0, e, e, 9, s, 0.0) for e, s in points), "finest"
+            peer,
+            "cusps",
+            10.0,
+            tuple(Measurement(1.0, e, e, 9, s, 0.0) for e, s in points),
+            "finest",
         )
 
     results = Results(

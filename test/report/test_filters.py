@@ -7,6 +7,7 @@ import pytest
 
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.report import filters
+from symtop_ros.report import main as report
 from symtop_ros.report.filters import MOUNTS, format_trials, judge_filters, record, run_filter
 
 
@@ -57,5 +58,5 @@ def test_tables_and_plot_are_written(short, tmp_path, capsys):
     assert capsys.readouterr().out.endswith("filters.json and a plot\n")
     file = tmp_path / "file"
     file.write_text("")
-    assert judge_filters(file) == 1
+    assert report.main(["filters", str(file)]) == 1
     assert capsys.readouterr().err.startswith(f"top_report: {file}: ")

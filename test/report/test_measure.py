@@ -14,8 +14,9 @@ from symtop_ros.report.benchmarks import (
     SMALL,
     Results,
 )
+from symtop_ros.report.main import main
 from symtop_ros.report.measure import measure
-from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, installed
+from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, find_peers
 from symtop_ros.report.plots import NAMES
 from symtop_ros.report.reference import Reference
 
@@ -54,7 +55,7 @@ def test_the_splitting_is_as_good_as_promised(facts):
 
 
 def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, folder):
-    peers, missing = installed()
+    peers, missing = find_peers()
     chosen = [peer for peer in peers if SMALL.includes(peer, 0)]
     frictionless = [peer for peer in chosen if peer.friction != "only"]
     assert set(facts["checks"]) == {peer.name for peer in frictionless}
@@ -104,6 +105,6 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
 
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("in the way")
-    assert measure(tmp_path / "file", SMALL, "top_report") == 1
+    assert main(["speed", str(tmp_path / "file")]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line == f"top_report: {tmp_path / 'file'}: File exists"

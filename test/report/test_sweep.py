@@ -5,7 +5,7 @@ import pytest
 
 from symtop_ros.report.peers.peer import Peer, Solution
 from symtop_ros.report.reference import Reference
-from symtop_ros.report.sweep import Curve, Point, sweep
+from symtop_ros.report.sweep import Curve, Measurement, sweep_motion
 
 PROBLEM = Reference.read().article[0]
 
@@ -26,9 +26,13 @@ def make_peer(errors, seconds):
     return Peer("a peer", tuple(settings), prepare)
 
 
+def sweep(errors, seconds, limit=1.0):
+    return sweep_motion(make_peer(errors, seconds), PROBLEM, 1.0, limit)
+
+
 def test_the_cheapest_point_is_the_fastest_that_is_good_enough():
     points = tuple(
-        Point(setting, error, error, 9, seconds, 0.0)
+        Measurement(setting, error, error, 9, seconds, 0.0)
         for setting, error, seconds in ((1.0, 1e-3, 1.0), (0.1, 1e-7, 3.0), (0.01, 1e-8, 2.0))
     )
     curve = Curve("a peer", "cusps", 10.0, points, "finest")
@@ -39,7 +43,7 @@ def test_the_cheapest_point_is_the_fastest_that_is_good_enough():
 
 def test_a_sweep_ends_before_a_run_that_is_expected_to_exceed_the_limit():
     # 10 and 30 ms: 90 ms are expected next
-    curve = sweep(make_peer([1e-2, 1e-4, 1e-6], [0.01, 0.03, 9.0]), PROBLEM, 1.0, limit=0.06)
+    curve = sweep([1e-2, 1e-4, 1e-6], [0.01, 0.03, 9.0], limit=0.06)
     assert (len(curve.points), curve.end) == (2, "time limit")
     assert curve.points[1].seconds >= 0.03
     # a product of doubles, and the error of the turn itself: angle^2/4
@@ -47,11 +51,13 @@ def test_a_sweep_ends_before_a_run_that_is_expected_to_exceed_the_limit():
 
 
 def test_a_sweep_ends_when_two_settings_in_a_row_are_no_better():
-    curve = sweep(make_peer([1e-2, 1e-6, 2e-6, 3e-6, 1e-9], [0.0] * 5), PROBLEM, 1.0, limit=1.0)
+    curve = sweep_motion(
+        make_peer([1e-2, 1e-6, 2e-6, 3e-6, 1e-9], [0.0] * 5), PROBLEM, 1.0, limit=1.0
+    )
     assert (len(curve.points), curve.end) == (4, "turning point")
     assert curve.best.setting == 0.1
 
 
 def test_a_sweep_through_all_settings_ends_at_the_finest():
-    curve = sweep(make_peer([1e-2, 1e-6, 2e-6], [0.0] * 3), PROBLEM, 1.0, limit=1.0)
+    curve = sweep([1e-2, 1e-6, 2e-6], [0.0] * 3)
     assert (len(curve.points), curve.end) == (3, "finest")

@@ -4,8 +4,6 @@ phi turns from x' to the line of nodes N in the horizontal plane, theta from z' 
 plane of the axis, and psi from N to x in the plane across the axis.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import rerun as rr
 
@@ -13,7 +11,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import GOLD, GREEN, ORANGE, VIOLET, WHITE
-from symtop_ros.playback.view.quantities import find_step
+from symtop_ros.playback.view.quantities import find_step, nodes_of
 from symtop_ros.playback.view.stream import Stream
 
 RATE = 60.0  # positions per s of the clock
@@ -30,7 +28,7 @@ BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
 
 
 def log_frames(stream: Stream) -> None:
-    """Log what does not change: both frames, and the styles of the arcs."""
+    """Log the static parts: both frames, and the styles of the arcs."""
     for entity, lengths, color, mark in (
         (f"{entities.ANGLES}/world", (WORLD_AXES,) * 3, WHITE, "'"),
         (f"{entities.BODY}/axes", BODY_AXES, VIOLET, ""),
@@ -38,33 +36,11 @@ def log_frames(stream: Stream) -> None:
         ends = np.diag(lengths)
         stream.log(entity, rr.Arrows3D(vectors=ends, colors=[color], radii=[0.005]), static=True)
         names = [f"{letter}{mark}" for letter in "xyz"]
-        _log_labels(stream, f"{entity}/names", 1.06 * ends, names, color)
+        stream.log_labels(f"{entity}/names", names, color, 1.06 * ends)
     for name, color in COLORS.items():
-        entity = f"{entities.ANGLES}/{name}"
-        lines = rr.LineStrips3D.from_fields(colors=[color], radii=[0.008])
-        stream.log(entity, lines, static=True)
-        _log_labels(stream, f"{entity}/letter", None, [LETTERS[name]], color)
-    arrow = rr.Arrows3D.from_fields(colors=[ORANGE], radii=[0.006])
-    stream.log(f"{entities.ANGLES}/nodes", arrow, static=True)
-    _log_labels(stream, f"{entities.ANGLES}/nodes/name", None, ["N"], ORANGE)
-
-
-def _log_labels(
-    stream: Stream,
-    entity: str,
-    positions: Real | None,
-    labels: list[str],
-    color: tuple[int, int, int],
-) -> None:
-    """Log texts at points that are too small to be seen."""
-    points = rr.Points3D.from_fields(
-        positions=positions,
-        radii=[0.001],
-        colors=[entities.lighten(color)],
-        labels=labels,
-        show_labels=True,
-    )
-    stream.log(entity, points, static=True)
+        stream.style_lines(f"{entities.ANGLES}/{name}", color, 0.008)
+        stream.log_labels(f"{entities.ANGLES}/{name}/letter", [LETTERS[name]], color)
+    stream.style_arrows(f"{entities.ANGLES}/nodes", ORANGE, 0.006, "N")
 
 
 def send_angles(stream: Stream, euler: Columns) -> None:
@@ -74,20 +50,17 @@ def send_angles(stream: Stream, euler: Columns) -> None:
     phi, theta, psi = angles[:, 0] % (2 * np.pi), angles[:, 1], angles[:, 2] % (2 * np.pi)
     for name, arcs in draw_arcs(phi, theta, psi).items():
         entity = f"{entities.ANGLES}/{name}"
-        stream.send(entity, stamps, rr.LineStrips3D.columns(strips=list(arcs)))
+        stream.send_lines(entity, stamps, arcs)
         letters = BEYOND * arcs[:, POINTS // 2]
         stream.send(f"{entity}/letter", stamps, rr.Points3D.columns(positions=letters))
-    nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
-    vectors = NODES_LENGTH * nodes
-    stream.send(f"{entities.ANGLES}/nodes", stamps, rr.Arrows3D.columns(vectors=vectors))
-    ends = rr.Points3D.columns(positions=1.06 * vectors)
-    stream.send(f"{entities.ANGLES}/nodes/name", stamps, ends)
+    vectors = NODES_LENGTH * nodes_of(phi)
+    stream.send_arrows(f"{entities.ANGLES}/nodes", stamps, vectors, 1.06 * vectors)
 
 
 def draw_arcs(phi: Real, theta: Real, psi: Real) -> dict[str, Real]:
     """Return the arcs (n, 33, 3) of angles (n,) in rad, by the name of the angle."""
     part = np.linspace(0.0, 1.0, POINTS)
-    nodes = np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
+    nodes = nodes_of(phi)
     ahead = np.stack([np.sin(phi), -np.cos(phi), np.zeros_like(phi)], axis=-1)  # where z leans to
     up = np.array([0.0, 0.0, 1.0])
     sine, cosine = np.sin(theta)[:, None], np.cos(theta)[:, None]
@@ -95,12 +68,11 @@ def draw_arcs(phi: Real, theta: Real, psi: Real) -> dict[str, Real]:
     starts = {"phi": np.broadcast_to([1.0, 0.0, 0.0], nodes.shape), "theta": up, "psi": nodes}
     quarters = {"phi": np.array([0.0, 1.0, 0.0]), "theta": ahead, "psi": across}
     turned = {"phi": phi, "theta": theta, "psi": psi}
-    return {
-        name: RADII[name]
-        * (
-            np.cos(turned[name][:, None] * part)[..., None] * np.atleast_2d(starts[name])[:, None]
-            + np.sin(turned[name][:, None] * part)[..., None]
-            * np.atleast_2d(quarters[name])[:, None]
+    arcs = {}
+    for name, radius in RADII.items():
+        angle = turned[name][:, None] * part
+        start, quarter = (np.atleast_2d(each[name])[:, None] for each in (starts, quarters))
+        arcs[name] = radius * (
+            np.cos(angle)[..., None] * start + np.sin(angle)[..., None] * quarter
         )
-        for name in RADII
-    }
+    return arcs

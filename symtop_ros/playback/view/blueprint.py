@@ -3,8 +3,6 @@
 The framing of a motion says how much of it is visible: of its trace, and in the plots.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -35,7 +33,7 @@ class Framing:
     below_pivot: bool = True
 
     @classmethod
-    def of(cls, segment: Segment) -> Framing:
+    def of(cls, segment: Segment) -> "Framing":
         """Return the framing of a motion."""
         motion = segment.motion
         rate, nutation = motion.mean_precession_rate, motion.nutation_period
@@ -49,9 +47,17 @@ class Framing:
 
 def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
     """Return the layout for a motion; a live view follows the newest data."""
-    after = 0.0 if live else framing.window
-    window = around_cursor(-framing.window, after)
-    plots = [_plot(entity, name, window) for entity, name in entities.PLOTS.items()]
+    window = around_cursor(-framing.window, 0.0 if live else framing.window)
+    plots = [
+        rrb.TimeSeriesView(
+            origin=entity,
+            name=name,
+            plot_legend=rrb.Corner2D.RightTop,
+            background=PLOT_BACKGROUND,
+            time_ranges=window,
+        )
+        for entity, name in entities.PLOTS.items()
+    ]
     half = (len(plots) + 1) // 2
     charts = rrb.Tabs(
         _chart(entities.POTENTIAL, "effective potential (J)"),
@@ -101,16 +107,6 @@ def create_space_view(framing: Framing) -> rrb.Spatial3DView:
 
 def _chart(entity: str, name: str) -> rrb.Spatial2DView:
     return rrb.Spatial2DView(origin=entity, name=name, background=entities.BACKGROUND)
-
-
-def _plot(entity: str, name: str, window: rrb.VisibleTimeRanges) -> rrb.TimeSeriesView:
-    return rrb.TimeSeriesView(
-        origin=entity,
-        name=name,
-        plot_legend=rrb.Corner2D.RightTop,
-        background=PLOT_BACKGROUND,
-        time_ranges=window,
-    )
 
 
 def around_cursor(first: float, last: float) -> rrb.VisibleTimeRanges:

@@ -4,8 +4,6 @@ The end of omega draws the polhode in the body and the herpolhode in space (Poin
 circles for a symmetric top, so that they are drawn once for a motion.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,7 +13,6 @@ from symtop_ros.arrays import Real
 from symtop_ros.drawing.mesh import create_lathe
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import BLUE, GREEN
 from symtop_ros.playback.view.stream import Stream
 
@@ -65,12 +62,11 @@ def _log_cone(
         stream.log(f"{entity}/rim", rr.Clear(recursive=False))
         return
     profile = sorted([(0.0, 0.0), (radius, height)], key=lambda point: point[1])
-    stream.log(f"{entity}/cone", to_mesh3d(create_lathe(profile, (colors[1],) * 2), OPACITY))
+    stream.log_mesh(f"{entity}/cone", create_lathe(profile, (colors[1],) * 2), OPACITY)
     rim = np.stack(
         [radius * np.cos(AROUND), radius * np.sin(AROUND), np.full_like(AROUND, height)], axis=1
     )
-    lines = rr.LineStrips3D([rim], colors=[colors[0]], radii=[0.006])
-    stream.log(f"{entity}/rim", lines)
+    stream.log(f"{entity}/rim", rr.LineStrips3D([rim], colors=[colors[0]], radii=[0.006]))
 
 
 def _turn_up_to(direction: Real) -> Real:

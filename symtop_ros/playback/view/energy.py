@@ -3,18 +3,13 @@
 Stacked, the first three end at the energy of the start plus the work that was done.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.log.batch import Columns
 from symtop_ros.physics import Motion
-from symtop_ros.playback.view.quantities import Samples, axis_of
+from symtop_ros.playback.view.quantities import ColumnsByTopic, axis_of, join
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
-
-TOPICS = ("orientation", "angular_velocity", "angular_momentum")
 
 
 class EnergyBook:
@@ -42,42 +37,39 @@ class EnergyBook:
         self._segment_energy, self._segment_work, self._last = energy, 0.0, None
 
     def _settle(self, segment: Segment, energy: float) -> None:
-        """Book what happened in a segment that ends with an energy."""
+        """Book the work and the loss of a segment, from its energy (J) at the end."""
         gained = energy - self._segment_energy
         work = self._segment_work if segment.motion.friction else gained
         self._work += work
         self._lost += work - gained
 
-    def rows(self, samples: Samples, motion: Motion) -> tuple[Stamps, Real] | None:
+    def rows(self, samples: ColumnsByTopic, motion: Motion) -> tuple[Stamps, Real] | None:
         """Return stamps and four energies (n, 4) in J; None if a topic is missing.
 
         Kinetic; with potential (from its lowest point); with what is lost; start and work.
         """
-        if not all(name in samples for name in TOPICS):
+        found = join(samples, "orientation", "angular_velocity", "angular_momentum")
+        if found is None:
             return None
-        orientation, velocity, momentum = (samples[name] for name in TOPICS)
-        stamps = orientation.stamps
-        if not all(np.array_equal(stamps, each.stamps) for each in (velocity, momentum)):
-            return None
-        top, omega = motion.top, velocity.numbers[:, 3:]
-        kinetic = (omega * momentum.numbers).sum(axis=1) / 2
-        height = top.Mgl * axis_of(orientation.numbers)[:, 2]
+        stamps, (orientation, velocity, momentum) = found
+        top, omega = motion.top, velocity[:, 3:]
+        kinetic = (omega * momentum).sum(axis=1) / 2
+        height = top.Mgl * axis_of(orientation)[:, 2]
         gained = kinetic + height - self._segment_energy
-        work = self._work_of_torque(velocity, motion, gained)
+        work = self._work_of_torque(stamps, omega, motion, gained)
         lowest = abs(top.Mgl)
         stacked = kinetic + height + lowest
         lost = self._lost + (work - gained if motion.friction else 0.0)
         done = self._begin + self._work + work + lowest
         return stamps, np.stack([kinetic, stacked, stacked + lost, done], axis=1)
 
-    def _work_of_torque(self, velocity: Columns, motion: Motion, gained: Real) -> Real:
+    def _work_of_torque(self, stamps: Stamps, omega: Real, motion: Motion, gained: Real) -> Real:
         """Return the work of the applied torque since the begin of the segment, (n,)."""
         if not any(motion.applied_torque):
             return np.zeros_like(gained)
         if not motion.friction:
             return gained
-        power = velocity.numbers[:, 3:] @ np.array(motion.applied_torque)
-        stamps = velocity.stamps
+        power = omega @ np.array(motion.applied_torque)
         first = self._last or (int(stamps[0]), float(power[0]))
         times = np.concatenate([[first[0]], stamps]) * 1e-9
         powers = np.concatenate([[first[1]], power])

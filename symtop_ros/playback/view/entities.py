@@ -1,7 +1,5 @@
 """Paths of the entities in a recording, and their colours."""
 
-from __future__ import annotations
-
 # Colours on the dark background
 BLUE = (88, 132, 249)
 GREEN = (120, 240, 164)
@@ -56,10 +54,10 @@ PLOTS = {
 }
 
 
-def lighten(color: tuple[int, int, int]) -> tuple[int, int, int]:
+def lighten(color: tuple[int, ...]) -> tuple[int, int, int]:
     """Return the colour of a label, halfway to white.
 
     Labels stand on grey in the light theme of the viewer, where the full colours are hard to read.
     """
-    red, green, blue = color
+    red, green, blue = color[:3]
     return (red + 255) // 2, (green + 255) // 2, (blue + 255) // 2

@@ -6,22 +6,18 @@ arrows lie below and above the pivot, so that those along one line do not hide e
 begins below the tip of dL/dt and ends below the tip of the torque.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
-import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN
-from symtop_ros.playback.view.quantities import Samples, find_step
+from symtop_ros.playback.view.quantities import ColumnsByTopic, find_step, join, nodes_of
 from symtop_ros.playback.view.stream import Stream
 
 RATE = 60.0  # arrows per s of the clock
 LENGTH = 0.9  # of the longest arrow in scene units
-TOPICS = ("angular_velocity", "angular_momentum", "torque", "euler_angles")
 EQUATIONS = {
     "in the body frame": "torque = dL/dt + \u03c9 x L",
     "in the frame of the nodes": "torque = dL/dt + \u03c6' z' x L",
@@ -56,21 +52,23 @@ class Torques(NamedTuple):
     nodes: Real  # unit vectors along the line of nodes
 
     @classmethod
-    def of(cls, samples: Samples) -> tuple[Stamps, Torques] | None:
+    def of(cls, samples: ColumnsByTopic) -> tuple[Stamps, "Torques"] | None:
         """Return stamps and torques; None if a topic or a sample is missing."""
-        if not all(name in samples for name in TOPICS):
+        found = join(samples, "angular_velocity", "angular_momentum", "torque", "euler_angles")
+        if found is None:
             return None
-        velocity, momentum, torque, euler = (samples[name] for name in TOPICS)
-        stamps = velocity.stamps
-        if not all(np.array_equal(stamps, each.stamps) for each in (momentum, torque, euler)):
-            return None
-        L, total = momentum.numbers, torque.numbers[:, 3:]
-        turning = np.cross(velocity.numbers[:, 3:], L)
-        zero = np.zeros(len(L))
-        precession = euler.numbers[:, 3:4] * np.stack([-L[:, 1], L[:, 0], zero], axis=1)
-        phi = euler.numbers[:, 0]
-        nodes = np.stack([np.cos(phi), np.sin(phi), zero], axis=1)
-        return stamps, cls(total, total - turning, turning, precession, nodes)
+        stamps, (velocity, L, torque, euler) = found
+        total, turning = torque[:, 3:], np.cross(velocity[:, 3:], L)
+        across = np.stack([-L[:, 1], L[:, 0], np.zeros(len(L))], axis=1)  # z' x L
+        precession = euler[:, 3:4] * across
+        return stamps, cls(total, total - turning, turning, precession, nodes_of(euler[:, 0]))
+
+    def along_nodes(self) -> Real:
+        """Return the components of torque, dL/dt (body) and omega x L along the nodes, (n, 3)."""
+        total, turning = (
+            (vectors * self.nodes).sum(axis=1) for vectors in (self.total, self.turning)
+        )
+        return np.stack([total, total - turning, turning], axis=1)
 
     def find_scale(self) -> float:
         """Return the torque in N m of one scene unit, so that the longest arrow has `LENGTH`."""
@@ -82,34 +80,21 @@ class Torques(NamedTuple):
 def log_styles(stream: Stream) -> None:
     """Log colours and labels of the arrows."""
     for name, arrow in ARROWS.items():
-        entity = f"{entities.INERTIAL}/{name}"
-        style = rr.Arrows3D.from_fields(colors=[arrow.color], radii=[0.010])
-        stream.log(entity, style, static=True)
-        label = rr.Points3D.from_fields(
-            colors=[entities.lighten(arrow.color)],
-            radii=[0.001],
-            labels=[arrow.label],
-            show_labels=True,
-        )
-        stream.log(f"{entity}/name", label, static=True)
+        stream.style_arrows(f"{entities.INERTIAL}/{name}", arrow.color, 0.010, arrow.label)
 
 
 def send_arrows(stream: Stream, stamps: Stamps, torques: Torques, scale: float) -> None:
     """Send the arrows at some of the stamps; a scale is the torque in N m of one scene unit."""
     step = find_step(stamps, RATE)
     _, body, turning, precession, _ = (part[::step] / scale for part in torques)
-    rest = np.zeros_like(body)
+    pivot = np.zeros_like(body)
     placed = {
-        "body": (rest, body),
+        "body": (pivot, body),
         "turning": (body, turning),
-        "precession": (rest, precession),
+        "precession": (pivot, precession),
     }
     for name, (tails, vectors) in placed.items():
         origins = tails - [0.0, 0.0, ARROWS[name].depth]
         along, up = ARROWS[name].place
-        entity = f"{entities.INERTIAL}/{name}"
-        arrows = rr.Arrows3D.columns(origins=origins, vectors=vectors)
-        stream.send(entity, stamps[::step], arrows)
         places = along * torques.nodes[::step] + [0.0, 0.0, up]
-        labels = rr.Points3D.columns(positions=places)
-        stream.send(f"{entity}/name", stamps[::step], labels)
+        stream.send_arrows(f"{entities.INERTIAL}/{name}", stamps[::step], vectors, places, origins)

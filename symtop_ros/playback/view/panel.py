@@ -1,7 +1,5 @@
 """The panel below the 3D scene: the motion in a Markdown table."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

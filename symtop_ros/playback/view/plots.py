@@ -1,7 +1,5 @@
 """The plots next to the 3D scene: angles, momenta, energies, drift, charts of the potential."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -13,6 +11,7 @@ from symtop_ros.physics import EffectivePotential, Motion, Top
 from symtop_ros.playback.view import entities, quantities
 from symtop_ros.playback.view.energy import EnergyBook
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE
+from symtop_ros.playback.view.inertial import Torques
 from symtop_ros.playback.view.potential import PotentialView
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.simulation.events import Event
@@ -37,7 +36,7 @@ LINES = {
 
 
 class Plots:
-    """Everything of a recording that is a curve."""
+    """The plots and the charts of the potential in a recording."""
 
     def __init__(self, stream: Stream) -> None:
         self._stream = stream
@@ -51,12 +50,13 @@ class Plots:
         """Take over an event; a new motion has another potential."""
         self._reference = None
         self._energy.follow(event, before, after)
-        if before is None or not _is_same(before.motion, after.motion):
+        old, new = before.motion if before else None, after.motion
+        if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
             potential = EffectivePotential.of(after.motion.top, after.motion.start)
             self._potential.log_motion(after.motion, potential)
 
     def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
-        """Send the samples of a segment; None: its top is unknown."""
+        """Send the samples of a segment; without it (None) the top is unknown."""
         if "euler_angles" in columns:
             euler = columns["euler_angles"]
             for entity, column in (
@@ -77,7 +77,7 @@ class Plots:
 
     def _send_drift(self, columns: Mapping[str, Columns], top: Top) -> None:
         found = quantities.constants(columns, top)
-        if found and len(found[0]):
+        if found:
             stamps, values = found
             if self._reference is None:
                 self._reference = values[0]
@@ -99,9 +99,10 @@ class Plots:
                 self._stream.send(f"{entity}/state", euler.stamps[::step], positions)
             if motion.is_driven:
                 self._send_drifting_curves(euler, motion)
+        parts = Torques.of(columns)
         for entity, found in (
             (entities.ENERGY, self._energy.rows(columns, motion)),
-            (entities.NODES_TORQUE, quantities.torques_along_nodes(columns)),
+            (entities.NODES_TORQUE, (parts[0], parts[1].along_nodes()) if parts else None),
         ):
             if found:
                 self._stream.send_scalars(entity, *found)
@@ -112,7 +113,3 @@ class Plots:
         for entity, strips in self._potential.draw(potentials).items():
             lines = rr.LineStrips2D.columns(strips=strips)
             self._stream.send(entity, euler.stamps[instants], lines)
-
-
-def _is_same(one: Motion, other: Motion) -> bool:
-    return (one.top, one.friction) == (other.top, other.friction) and one.start == other.start

@@ -3,8 +3,6 @@
 Both are drawn as curves in a box, with what is allowed hatched and the state as a moving dot.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Quantities that are drawn but not logged, computed from the logged samples as arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -10,10 +8,10 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Top
 
-Samples = Mapping[str, Columns]
+ColumnsByTopic = Mapping[str, Columns]
 
 
-def attitudes(samples: Samples) -> tuple[Stamps, Real] | None:
+def attitudes(samples: ColumnsByTopic) -> tuple[Stamps, Real] | None:
     """Return stamps and quaternions x, y, z, w (n, 4), None if the log has no attitude.
 
     They are taken from ~/orientation, else from /tf, else from the Euler angles.
@@ -50,25 +48,30 @@ def axis_of(quaternions: Real) -> Real:
     )
 
 
-def rotate(quaternions: Real, vectors: Real) -> Real:
-    """Return vectors (n, 3) turned by quaternions x, y, z, w, (n, 4)."""
-    axis = quaternions[:, :3]
-    turned = 2 * np.cross(axis, vectors)
-    return np.asarray(vectors + quaternions[:, 3:] * turned + np.cross(axis, turned))
-
-
 def find_step(stamps: Stamps, rate: float) -> int:
     """Return how many samples to skip so that at most `rate` of them are left for each s."""
     span = (stamps[-1] - stamps[0]) * 1e-9 if len(stamps) else 0.0
     return max(1, int(len(stamps) / max(span * rate, 1.0)))
 
 
-def align(one: Columns, other: Columns) -> tuple[Stamps, Real, Real]:
-    """Return the common stamps of two topics and the doubles of both at them."""
-    if np.array_equal(one.stamps, other.stamps):
-        return one.stamps, one.numbers, other.numbers
-    stamps, first, second = np.intersect1d(one.stamps, other.stamps, return_indices=True)
-    return stamps, one.numbers[first], other.numbers[second]
+def join(samples: ColumnsByTopic, *topics: str) -> tuple[Stamps, list[Real]] | None:
+    """Return the common stamps of topics, and their doubles there; None without a common stamp."""
+    if not all(name in samples for name in topics):
+        return None
+    chosen = [samples[name] for name in topics]
+    stamps = chosen[0].stamps
+    if all(np.array_equal(stamps, each.stamps) for each in chosen):
+        return stamps, [each.numbers for each in chosen]
+    for each in chosen:
+        stamps = np.intersect1d(stamps, each.stamps)
+    places = [np.intersect1d(each.stamps, stamps, return_indices=True)[1] for each in chosen]
+    numbers = [each.numbers[place] for each, place in zip(chosen, places, strict=True)]
+    return (stamps, numbers) if len(stamps) else None
+
+
+def nodes_of(phi: Real) -> Real:
+    """Return unit vectors (n, 3) along the line of nodes, in the world frame."""
+    return np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
 
 
 def horizontal_square(momentum: Columns) -> Real:
@@ -76,43 +79,18 @@ def horizontal_square(momentum: Columns) -> Real:
     return np.asarray((momentum.numbers[:, :2] ** 2).sum(axis=1))
 
 
-def constants(samples: Samples, top: Top) -> tuple[Stamps, Real] | None:
+def constants(samples: ColumnsByTopic, top: Top) -> tuple[Stamps, Real] | None:
     """Return stamps and constants of motion (n, 3): energy, L_z, L_z'; None if a topic is missing.
 
     E = omega . L / 2 + Mgl cos(theta), L_z = L . axis, L_z' = L . z'.
     """
-    names = ("orientation", "angular_velocity", "angular_momentum")
-    if not all(name in samples for name in names):
+    found = join(samples, "orientation", "angular_velocity", "angular_momentum")
+    if found is None:
         return None
-    orientation, velocity, momentum = (samples[name] for name in names)
-    stamps, q, omega = align(orientation, velocity)
-    joined = Columns(stamps, np.concatenate([q, omega[:, 3:]], axis=1), stamps)
-    stamps, both, L = align(joined, momentum)
-    axis, omega = axis_of(both[:, :4]), both[:, 4:]
+    stamps, (q, omega, L) = found
+    axis, omega = axis_of(q), omega[:, 3:]
     energy = (omega * L).sum(axis=1) / 2 + top.Mgl * axis[:, 2]
     return stamps, np.stack([energy, (L * axis).sum(axis=1), L[:, 2]], axis=1)
-
-
-def torques_along_nodes(samples: Samples) -> tuple[Stamps, Real] | None:
-    """Return stamps and three torques (n, 3) along the line of nodes; None if a topic is missing.
-
-    torque = (dL/dt in the body frame) + omega x L, in this order: the total torque, the rate of
-    change of L as the body sees it, and the inertial torque with the sign that it has here.
-    """
-    names = ("angular_velocity", "angular_momentum", "torque", "euler_angles")
-    if not all(name in samples for name in names):
-        return None
-    velocity, momentum, torque, euler = (samples[name] for name in names)
-    stamps = velocity.stamps
-    if not all(np.array_equal(stamps, each.stamps) for each in (momentum, torque, euler)):
-        return None
-    phi = euler.numbers[:, 0]
-    nodes = np.stack([np.cos(phi), np.sin(phi)], axis=1)
-    turning = np.cross(velocity.numbers[:, 3:], momentum.numbers)
-    total, added = (
-        (vectors[:, :2] * nodes).sum(axis=1) for vectors in (torque.numbers[:, 3:], turning)
-    )
-    return stamps, np.stack([total, total - added, added], axis=1)
 
 
 def heights_of_dots(top: Top, angles: Real) -> tuple[Real, Real, Real]:

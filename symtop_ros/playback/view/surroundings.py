@@ -3,70 +3,55 @@
 The trace of the axis on the sphere is one short line per sample, visible for some time.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.drawing.mesh import create_lathe
+from symtop_ros.drawing.mesh import Mesh, create_lathe, draw_meridian, draw_parallel
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import GREY, ORANGE
+from symtop_ros.playback.view.quantities import nodes_of
+from symtop_ros.playback.view.stream import Stream
 
 MAX_LINES = 3000  # visible at one time
 MAX_GAP = 5  # sample periods; longer gaps are not bridged by a line
 STONE = (92, 98, 110)
-STONES = (STONE, STONE)
 STAND = ((0.0, -0.02), (0.03, -0.03), (0.05, -0.22), (0.17, -0.28), (0.17, -0.32), (0.0, -0.32))[
     ::-1
 ]
-AROUND = np.linspace(0, 2 * np.pi, 97)
 
 
-def log_surroundings(recording: rr.RecordingStream, below_pivot: bool) -> None:
+def log_surroundings(stream: Stream, below_pivot: bool) -> None:
     """Log the upper half of the sphere and a stand; the whole sphere if the axis goes below."""
     tilts = np.pi / 12 * np.arange(1, 12 if below_pivot else 7)
     depth = np.pi if below_pivot else np.pi / 2
-    meridians = [_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6)]
-    sphere = [parallel(tilt) for tilt in tilts] + meridians
-    recording.log(entities.SPHERE, rr.LineStrips3D(sphere, colors=[GREY], radii=[0.0014]))
-    stand = rr.Clear(recursive=False) if below_pivot else create_stand()
-    recording.log(entities.STAND, stand)
+    meridians = [draw_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6)]
+    sphere = [*map(draw_parallel, tilts), *meridians]
+    stream.log(entities.SPHERE, rr.LineStrips3D(sphere, colors=[GREY], radii=[0.0014]))
+    if below_pivot:
+        stream.log(entities.STAND, rr.Clear(recursive=False))
+    else:
+        stream.log_mesh(entities.STAND, create_stand())
 
 
-def create_stand() -> rr.Mesh3D:
+def create_stand() -> Mesh:
     """Return the stand below the pivot."""
-    return to_mesh3d(create_lathe(STAND, STONES))
+    return create_lathe(STAND, (STONE, STONE))
 
 
 def turning_circles(
     turning_angles: tuple[float, float], color: tuple[int, int, int] = ORANGE
 ) -> rr.LineStrips3D:
     """Return the circles between which the axis nutates."""
-    lines = [parallel(angle) for angle in turning_angles]
-    return rr.LineStrips3D(lines, colors=[color], radii=[0.004])
+    return rr.LineStrips3D([*map(draw_parallel, turning_angles)], colors=[color], radii=[0.004])
 
 
 def line_of_nodes(phi: Real) -> Real:
     """Return the line from -0.4 to 0.4 along (cos phi, sin phi, 0), for each phi: (n, 2, 3)."""
-    end = 0.4 * np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=1)
+    end = 0.4 * nodes_of(phi)
     return np.stack([-end, end], axis=1)
-
-
-def parallel(theta: float) -> Real:
-    """Return the circle (97, 3) of a tilt on the unit sphere."""
-    rim = np.sin(theta) * np.stack([np.cos(AROUND), np.sin(AROUND)], axis=1)
-    return np.column_stack([rim, np.full(len(rim), np.cos(theta))])
-
-
-def _meridian(phi: float, depth: float) -> Real:
-    """Return the line over the pole that ends at a tilt on both sides."""
-    tilts = np.linspace(-depth, depth, 97)
-    side = np.sin(tilts)
-    return np.column_stack([np.cos(phi) * side, np.sin(phi) * side, np.cos(tilts)])
 
 
 class Trace:

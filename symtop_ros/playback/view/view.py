@@ -1,7 +1,5 @@
 """The view: batches of a run are sent to a Rerun recording in columns."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -9,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import rerun as rr
 
-from symtop_ros.arrays import Real, Stamps
+from symtop_ros.arrays import Real
 from symtop_ros.drawing.mesh import create_body
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
@@ -17,21 +15,21 @@ from symtop_ros.playback.view import (
     angles,
     cones,
     entities,
-    ghost,
     inertial,
     quantities,
     surroundings,
 )
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
-from symtop_ros.playback.view.bodies import to_mesh3d
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VIOLET
-from symtop_ros.playback.view.ghost import Ghost
+from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.panel import describe_motion
 from symtop_ros.playback.view.plots import Plots
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
+from symtop_ros.quaternions import rotate
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.topics import SAMPLE_TOPICS
 
 
 class Arrow(NamedTuple):
@@ -42,15 +40,14 @@ class Arrow(NamedTuple):
     unit: str
     color: tuple[int, int, int]
     length: float  # length of the first vector in scene units
-    first: int  # index of the vector among the doubles of its topic
+    quantity: str  # name of the vector in the format of its topic
 
 
-SENSOR = "imu"
 ARROWS = {
-    "angular_momentum": Arrow(entities.MOMENTUM, "L", "N m s", BLUE, 1.45, 0),
-    "angular_velocity": Arrow(entities.VELOCITY, "omega", "rad/s", GREEN, 1.2, 3),
-    "torque": Arrow(entities.TORQUE, "torque", "N m", RED, 0.6, 3),
-    SENSOR: Arrow(entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", VIOLET, 0.8, 25),
+    "angular_momentum": Arrow(entities.MOMENTUM, "L", "N m s", BLUE, 1.45, "vector"),
+    "angular_velocity": Arrow(entities.VELOCITY, "omega", "rad/s", GREEN, 1.2, "angular"),
+    "torque": Arrow(entities.TORQUE, "torque", "N m", RED, 0.6, "torque"),
+    "imu": Arrow(entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", VIOLET, 0.8, "linear_acceleration"),
 }
 
 
@@ -77,7 +74,7 @@ class View:
     ) -> None:
         self._stream, self._live, self._options = Stream(recording), live, options
         self._plots = Plots(self._stream)
-        self._ghost = Ghost() if options.ghost else None
+        self._ghost = GhostView(self._stream) if options.ghost else None
         self._has_cones = False
         self._segment: Segment | None = None
         self._framing: Framing | None = None
@@ -116,17 +113,22 @@ class View:
         if self._top != motion.top:
             self._log_body(motion.top)
         if before is None or before.below_pivot != framing.below_pivot:
-            surroundings.log_surroundings(self._stream.recording, framing.below_pivot)
-        self._send_ghost_event(event.name, previous, self._segment)
+            surroundings.log_surroundings(self._stream, framing.below_pivot)
+        if self._ghost:
+            self._ghost.follow(event.name, previous, self._segment)
         self._send_cones(motion, event.state())
         self._plots.follow(event, previous, self._segment)
-        circles = surroundings.turning_circles(motion.turning_angles)
-        self._stream.log(entities.CIRCLES, circles)
+        self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = event.values.get("request", "")
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
+        scales = {
+            arrow.label: f"{self._scales[name]:g} {arrow.unit}"
+            for name, arrow in ARROWS.items()
+            if name in self._scales
+        }
         equations = inertial.EQUATIONS if self._options.torques else {}
-        text = describe_motion(self._segment, event.state(), self._scale_texts(), equations)
+        text = describe_motion(self._segment, event.state(), scales, equations)
         self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
 
     def _send_cones(self, motion: Motion, state: State) -> None:
@@ -139,18 +141,6 @@ class View:
             cones.clear_cones(self._stream)
             self._has_cones = False
 
-    def _send_ghost_event(self, name: str, before: Segment | None, after: Segment) -> None:
-        if self._ghost is None:
-            return
-        old = self._ghost.segment
-        self._ghost.follow(name, before, after)
-        new = self._ghost.segment
-        if new is None and old is not None:
-            self._clear_ghost()
-        elif new is not None and (old is None or new.motion.top != old.motion.top):
-            self._stream.log(entities.GHOST, ghost.create_ghost(new.motion))
-            self._stream.log(f"{entities.GHOST}/axis", ghost.create_axis())
-
     def _send_samples(self, columns: Mapping[str, Columns]) -> None:
         if self._framing is None:  # there was no event: the top is unknown
             self._framing = Framing()
@@ -159,110 +149,61 @@ class View:
         found = quantities.attitudes(columns)
         if found:
             stamps, quaternions = found
-            self._stream.send(entities.BODY, stamps, rr.Transform3D.columns(quaternion=quaternions))
-            times, strips = self._trace.strips(stamps, quantities.axis_of(quaternions))
-            self._stream.send(entities.TRACE, times, rr.LineStrips3D.columns(strips=list(strips)))
-            self._send_ghost(stamps)
+            self._stream.send_turns(entities.BODY, stamps, quaternions)
+            traced = self._trace.strips(stamps, quantities.axis_of(quaternions))
+            self._stream.send_lines(entities.TRACE, *traced)
+            if self._ghost:
+                self._ghost.send(stamps, self._trace.length)
         for name, arrow in ARROWS.items():
             if name in columns:
-                vectors = _vectors(columns[name], arrow) / self._scales[name]
-                stamps = columns[name].stamps
-                self._stream.send(arrow.entity, stamps, rr.Arrows3D.columns(vectors=vectors))
-                ends = rr.Points3D.columns(positions=vectors)
-                self._stream.send(f"{arrow.entity}/name", stamps, ends)
+                vectors = _find_vectors(name, columns[name]) / self._scales[name]
+                self._stream.send_arrows(arrow.entity, columns[name].stamps, vectors, vectors)
         if "euler_angles" in columns:
             euler = columns["euler_angles"]
             nodes = surroundings.line_of_nodes(euler.numbers[:, 0])
-            lines = rr.LineStrips3D.columns(strips=list(nodes))
-            self._stream.send(entities.NODES, euler.stamps, lines)
+            self._stream.send_lines(entities.NODES, euler.stamps, nodes)
             if self._options.angles:
                 angles.send_angles(self._stream, euler)
         if self._options.torques and (parts := inertial.Torques.of(columns)):
             inertial.send_arrows(self._stream, *parts, self._scales["torque"])
         self._plots.send(columns, self._segment)
 
-    def _send_ghost(self, stamps: Stamps) -> None:
-        if self._ghost is None or self._ghost.segment is None:
-            return
-        first = int(stamps[0])
-        stamps, quaternions = self._ghost.states_at(stamps)
-        if self._ghost.segment is None:
-            self._stream.set_time(first)
-            self._clear_ghost()
-            return
-        self._stream.send(entities.GHOST, stamps, rr.Transform3D.columns(quaternion=quaternions))
-        times, strips = self._ghost.strips(stamps, quaternions, self._trace.length)
-        if len(times):
-            lines = rr.LineStrips3D.columns(strips=list(strips))
-            self._stream.send(entities.GHOST_TRACE, times, lines)
-
-    def _clear_ghost(self) -> None:
-        self._stream.log(entities.GHOST, rr.Clear(recursive=True))
-        self._stream.log(entities.GHOST_TRACE, rr.Clear(recursive=False))
-
     def _choose_scales(self, columns: Mapping[str, Columns]) -> None:
-        """Choose the scale of each arrow by its first vectors."""
-        if self._options.torques and "torque" not in self._scales:
-            # One scale for all torques, so that their sum can be seen.
-            parts = inertial.Torques.of(columns)
-            if parts:
-                self._scales["torque"] = parts[1].find_scale()
+        """Choose the scale of each arrow by its first vectors, and log its style."""
         for name, arrow in ARROWS.items():
             if name in columns and name not in self._scales:
-                lengths = np.linalg.norm(_vectors(columns[name], arrow), axis=1)
+                lengths = np.linalg.norm(_find_vectors(name, columns[name]), axis=1)
                 self._scales[name] = float(f"{lengths.max() / arrow.length:.2g}") or 1.0
-                if name == SENSOR:
-                    self._log_arrow_style(arrow)
-
-    def _scale_texts(self) -> dict[str, str]:
-        return {
-            arrow.label: f"{self._scales[name]:g} {arrow.unit}"
-            for name, arrow in ARROWS.items()
-            if name in self._scales
-        }
+                self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
+                if name == "torque" and self._options.torques:
+                    # One scale for all torques, so that their sum can be seen.
+                    parts = inertial.Torques.of(columns)
+                    self._scales[name] = parts[1].find_scale() if parts else self._scales[name]
 
     def _send_layout(self, framing: Framing) -> None:
         self._trace.length = framing.trace
         self._stream.recording.send_blueprint(create_blueprint(framing, self._live))
 
     def _log_styles(self) -> None:
-        ghost.log_styles(self._stream)
         if self._options.angles:
             angles.log_frames(self._stream)
         if self._options.torques:
             inertial.log_styles(self._stream)
-        for name, arrow in ARROWS.items():
-            if name != SENSOR:  # most tops have none
-                self._log_arrow_style(arrow)
-        for entity, color, radius in (
-            (entities.TRACE, GOLD, 0.007),
-            (entities.NODES, ORANGE, 0.005),
-        ):
-            lines = rr.LineStrips3D.from_fields(colors=[color], radii=[radius])
-            self._stream.log(entity, lines, static=True)
-
-    def _log_arrow_style(self, arrow: Arrow) -> None:
-        style = rr.Arrows3D.from_fields(colors=[arrow.color], radii=[0.012])
-        self._stream.log(arrow.entity, style, static=True)
-        # A point at the tip carries the label: that of an arrow would be drawn at its middle.
-        name = rr.Points3D.from_fields(
-            colors=[entities.lighten(arrow.color)],
-            radii=[0.001],
-            labels=[arrow.label],
-            show_labels=True,
-        )
-        self._stream.log(f"{arrow.entity}/name", name, static=True)
+        self._stream.style_lines(entities.TRACE, GOLD, 0.007)
+        self._stream.style_lines(entities.NODES, ORANGE, 0.005)
 
     def _log_body(self, top: Top | None) -> None:
         self._top = top
-        self._stream.log(entities.BODY, to_mesh3d(create_body(top)))
+        self._stream.log_mesh(entities.BODY, create_body(top))
 
 
-def _vectors(columns: Columns, arrow: Arrow) -> Real:
-    """Return the vectors of an arrow in the world frame, (n, 3)."""
-    vectors = columns.numbers[:, arrow.first : arrow.first + 3]
-    if arrow.entity == entities.SPECIFIC_FORCE:  # in the frame of the sensor
-        return quantities.rotate(columns.numbers[:, :4], vectors)
+def _find_vectors(topic: str, columns: Columns) -> Real:
+    """Return the vectors of the arrow of a topic in the world frame, (n, 3)."""
+    places = SAMPLE_TOPICS[topic].format.quantities
+    vectors = columns.numbers[:, places[ARROWS[topic].quantity]]
+    if topic == "imu":  # in the frame of the sensor
+        x, y, z, w = columns.numbers[:, places["orientation"]].T
+        return rotate(w, x, y, z, vectors)
     return vectors
 
 

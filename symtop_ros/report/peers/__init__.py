@@ -1,7 +1,5 @@
 """The integrators that are measured: the package's own engines here, peers in a file each."""
 
-from __future__ import annotations
-
 from importlib import import_module
 
 from symtop_ros.arrays import Real
@@ -35,7 +33,7 @@ def prepare(task: Task, _: float) -> Solution:
 
 
 def prepare_arrays(task: Task) -> Arrays:
-    """Return the same for many times."""
+    """Return a function for the orientations at many times."""
     given = task.top, task.start, task.friction, task.torque
     return lambda times: Motion(*given).at(times).orientation
 
@@ -46,7 +44,7 @@ OWN = [
 ]
 
 
-def installed() -> tuple[list[Peer], list[str]]:
+def find_peers() -> tuple[list[Peer], list[str]]:
     """Return the package's engines and the peers that can be imported, and the missing packages."""
     modules, missing = [import_module(f"{__name__}.scipy_peer")], []
     for package, file in OPTIONAL.items():

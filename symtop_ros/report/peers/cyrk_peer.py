@@ -1,7 +1,5 @@
 """CyRK: the Runge-Kutta methods of SciPy in C++, with compiled equations of motion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from math import cos, sin
@@ -12,13 +10,12 @@ from CyRK import nb_diffeq_addr, nbsolve2_ivp
 
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
+    Equations,
     Peer,
     Solution,
     Task,
-    choose_steps,
-    from_euler_angles,
-    initial_values,
-    normalize,
+    on_euler_angles,
+    on_quaternion,
 )
 
 METHOD = "DOP853"  # the most exact of its methods here; Vern7 and Vern8 were tried as well
@@ -26,8 +23,8 @@ SETTINGS = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14, 1e-15, 2.0**-52)
 Rates = Callable[..., None]
 
 
-def compile_quaternion(task: Task) -> tuple[Rates, list[float], Callable[[Real], Real]]:
-    """Return the rates of quaternion and angular velocity, the start, and how a state is read."""
+def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
+    """Return rates for quaternion and angular velocity that CyRK compiles, and the equations."""
     Ix, Iz, Mgl = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
 
@@ -42,11 +39,11 @@ def compile_quaternion(task: Task) -> tuple[Rates, list[float], Callable[[Real],
         slopes[5] = ((Iz - Ix) * y[6] * y[4] - Mgl * gx - transverse * y[5]) / Ix
         slopes[6] = -axial * y[6] / Iz
 
-    return rates, initial_values(task), lambda states: normalize(states[:, :4])
+    return rates, on_quaternion(task)
 
 
-def compile_euler_angles(task: Task) -> tuple[Rates, list[float], Callable[[Real], Real]]:
-    """Return the same for phi, theta, psi and their rates: the article's equations."""
+def compile_euler_angles(task: Task) -> tuple[Rates, Equations]:
+    """Return rates for Euler angles and their rates that CyRK compiles, and the equations."""
     Ix, Iz, Mgl = task.top.moments
 
     def rates(slopes: Any, _t: float, y: Any, _arguments: Any) -> None:
@@ -57,14 +54,15 @@ def compile_euler_angles(task: Task) -> tuple[Rates, list[float], Callable[[Real
         slopes[4] = s / Ix * ((Ix - Iz) * y[3] * y[3] * c - Iz * y[3] * y[5] + Mgl)
         slopes[5] = y[4] * y[3] * s - slopes[3] * c
 
-    start = [*task.start.euler_angles, *task.start.euler_rates]
-    return rates, start, lambda states: from_euler_angles(states[:, :3])
+    return rates, on_euler_angles(task)
 
 
-def prepare(form: Callable[..., Any], task: Task, tolerance: float) -> Solution:
+def prepare(
+    form: Callable[[Task], tuple[Rates, Equations]], task: Task, tolerance: float
+) -> Solution:
     """Compile; each solution starts anew."""
-    rates, values, read = form(task)
-    address, start = nb_diffeq_addr(rates), np.array(values)
+    rates, equations = form(task)
+    address, start = nb_diffeq_addr(rates), np.array(equations.start)
 
     def run(t: float) -> tuple[Real, Real]:
         """Return the times (n,) and the variables (n, k) of all steps."""
@@ -75,16 +73,8 @@ def prepare(form: Callable[..., Any], task: Task, tolerance: float) -> Solution:
         found.free()  # the result is not freed with its Python object
         return times, states
 
-    def reach(t: float) -> Real:
-        return np.asarray(read(run(t)[1][-1:])[0])
-
-    def record(t: float) -> tuple[Real, Real]:
-        times, states = run(t)
-        chosen = choose_steps(len(times) - 1)
-        return times[:0:-1][chosen], read(states[:0:-1][chosen])
-
     run(1e-3)  # compiles the solver itself, once
-    return Solution(reach, record)
+    return Solution.of_steps(lambda t: run(t)[1][-1:], run, equations.read)
 
 
 FORMS: tuple[tuple[str, Callable[..., Any], Literal["no", "also"]], ...] = (

@@ -1,7 +1,5 @@
 """diffrax: Runge-Kutta methods in JAX, compiled, in double precision."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 

@@ -5,9 +5,6 @@ forces, down at 1 m along the axis and up at the pivot, make the torque of gravi
 pivot at rest. This form has no pole, takes fixed steps, and is by far the more exact one.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -121,25 +118,18 @@ def prepare_ball_joint(scheme: str, task: Task, accuracy: float) -> Solution:
 
     def record(t: float) -> tuple[Real, Real]:
         steps: list[tuple[float, Real]] = []
-        simulator.set_monitor(_watch(steps, context, read))
+
+        def store(_: Any) -> EventStatus:
+            steps.append((context.get_time(), read()))
+            return EventStatus.DidNothing()
+
+        simulator.set_monitor(store)
         reach(t)
         simulator.clear_monitor()
         chosen = [each for each in steps if each[0] > 0][::-1][choose_steps(len(steps))]
         return np.array([each[0] for each in chosen]), np.array([each[1] for each in chosen])
 
     return Solution(reach, record)
-
-
-def _watch(
-    steps: list[tuple[float, Real]], context: Any, read: Callable[[], Real]
-) -> Callable[[Any], EventStatus]:
-    """Return a monitor that stores time and orientation after each step."""
-
-    def store(_: Any) -> EventStatus:
-        steps.append((context.get_time(), read()))
-        return EventStatus.DidNothing()
-
-    return store
 
 
 def _build_ball_joint(task: Task) -> tuple[Any, Any]:

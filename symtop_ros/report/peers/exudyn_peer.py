@@ -4,8 +4,6 @@ The body floats with its centre of mass at the pivot. Two opposite forces, down 
 axis and up at the pivot, make the torque of gravity and leave the pivot at rest.
 """
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 
@@ -73,11 +71,8 @@ def _read(matrices: Real) -> Real:
 
 
 def _build_system(task: Task) -> tuple[Any, Any]:
+    """Return a system with the top, and the number of its node."""
     system = exu.SystemContainer().AddSystem()
-    return system, _add_top(system, task)
-
-
-def _add_top(system: Any, task: Task) -> Any:
     Ix, Iz, Mgl = task.top.moments
     w, x, y, z = task.start.orientation.tolist()
     rotation = Rotation.from_quat([x, y, z, w]).as_rotvec().tolist()
@@ -95,7 +90,7 @@ def _add_top(system: Any, task: Task) -> Any:
         place = [0.0, 0.0, height]
         marker = system.AddMarker(MarkerBodyPosition(bodyNumber=body, localPosition=place))
         system.AddLoad(LoadForceVector(markerNumber=marker, loadVector=[0.0, 0.0, force]))
-    return node
+    return system, node
 
 
 PEERS = [

@@ -5,11 +5,9 @@ and Euler angles whose precession and spin rates follow from the two constants o
 variables instead of six or seven. The last two forms have a pole on the vertical.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import heyoka as hy
 import numpy as np
@@ -17,14 +15,13 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.report.peers.peer import (
     Arrays,
+    Equations,
     Peer,
     Solution,
     Task,
-    body_rates,
-    euler_rates,
     from_euler_angles,
-    initial_values,
-    normalize,
+    on_euler_angles,
+    on_quaternion,
     spread_times,
 )
 
@@ -32,30 +29,10 @@ DEFAULT = 2.0**-52
 SETTINGS = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, DEFAULT, 1e-17, 1e-18)
 
 
-class Form(NamedTuple):
-    """Variables, their values at the start, their rates, and how an orientation is read."""
-
-    names: tuple[str, ...]
-    start: list[float]
-    rates: Callable[[Any], list[Any]]
-    read: Callable[[Real], Real]
+on_angles = partial(on_euler_angles, sin=hy.sin, cos=hy.cos)
 
 
-def on_quaternion(task: Task) -> Form:
-    """Return the quaternion and the body's angular velocity as variables."""
-    names = ("w", "x", "y", "z", "wx", "wy", "wz")
-    return Form(names, initial_values(task), partial(body_rates, task, 0.0), _read_quaternion)
-
-
-def on_euler_angles(task: Task) -> Form:
-    """Return the Euler angles and their rates as variables: the article's equations."""
-    names = ("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot")
-    start = [*task.start.euler_angles, *task.start.euler_rates]
-    rates = partial(euler_rates, task, 0.0, sin=hy.sin, cos=hy.cos)
-    return Form(names, start, rates, _read_angles)
-
-
-def on_constants_of_motion(task: Task) -> Form:
+def on_constants_of_motion(task: Task) -> Equations:
     """Return phi, theta, psi and theta' as variables, with p_phi and p_psi as constants."""
     Ix, Iz, Mgl = task.top.moments
     phi, theta, psi = task.start.euler_angles
@@ -63,7 +40,7 @@ def on_constants_of_motion(task: Task) -> Form:
     momentum = task.top.angular_momentum(task.start)[2] / Ix
     a = Iz * wz / Ix
 
-    def rates(variables: Any) -> list[Any]:
+    def rates(_: float, variables: Any) -> list[Any]:
         _, theta, _, theta_dot = variables
         c, s = hy.cos(theta), hy.sin(theta)
         phi_dot = (momentum - a * c) / (s * s)
@@ -71,58 +48,51 @@ def on_constants_of_motion(task: Task) -> Form:
         return [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
 
     start = [phi, theta, psi, task.start.euler_rates[1]]
-    return Form(("phi", "theta", "psi", "theta_dot"), start, rates, _read_angles)
+    return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
-def _read_quaternion(states: Real) -> Real:
-    return normalize(states[:, :4])
-
-
-def _read_angles(states: Real) -> Real:
-    return from_euler_angles(states[:, :3])
-
-
-def integrator(form: Form, tolerance: float) -> Any:
+def integrator(equations: Equations, tolerance: float) -> Any:
     """Return the compiled integrator at the start."""
-    variables = hy.make_vars(*form.names)
+    variables = hy.make_vars(*(f"y{k}" for k in range(len(equations.start))))
     rates = [
         rate if isinstance(rate, hy.expression) else hy.expression(rate)
-        for rate in form.rates(variables)
+        for rate in equations.rates(0.0, variables)
     ]
-    equations = list(zip(variables, rates, strict=True))
-    return hy.taylor_adaptive(equations, form.start, tol=tolerance)
+    return hy.taylor_adaptive(
+        list(zip(variables, rates, strict=True)), equations.start, tol=tolerance
+    )
 
 
-def prepare(make_form: Callable[[Task], Form], task: Task, tolerance: float) -> Solution:
+def prepare(make: Callable[[Task], Equations], task: Task, tolerance: float) -> Solution:
     """Compile; each solution starts anew."""
-    form = make_form(task)
-    taylor, start = integrator(form, tolerance), np.array(form.start)
+    equations = make(task)
+    taylor, start = integrator(equations, tolerance), np.array(equations.start)
 
     def reach(t: float) -> Real:
         taylor.time = 0.0
         taylor.state[:] = start
         taylor.propagate_until(t)
-        return np.asarray(form.read(taylor.state[np.newaxis])[0])
+        return np.asarray(equations.read(taylor.state[np.newaxis])[0])
 
     def record(t: float) -> tuple[Real, Real]:
         times = spread_times(t)
-        return times, _run_over(taylor, form, times)
+        return times, _run_over(taylor, equations, times)
 
     return Solution(reach, record)
 
 
-def prepare_arrays(make_form: Callable[[Task], Form], task: Task) -> Arrays:
+def prepare_arrays(make: Callable[[Task], Equations], task: Task) -> Arrays:
     """Compile at the default tolerance; states at many times come from dense output."""
-    form = make_form(task)
-    return partial(_run_over, integrator(form, DEFAULT), form)
+    equations = make(task)
+    return partial(_run_over, integrator(equations, DEFAULT), equations)
 
 
-def _run_over(taylor: Any, form: Form, times: Real) -> Real:
+def _run_over(taylor: Any, equations: Equations, times: Real) -> Real:
     """Return the orientations (n, 4) at times (n,) from the Taylor series of the steps."""
     taylor.time = 0.0
-    taylor.state[:] = form.start
+    taylor.state[:] = equations.start
     grid = np.concatenate([[0.0], times])  # heyoka wants its own time first
-    return form.read(taylor.propagate_grid(grid)[-1][1:])
+    return equations.read(taylor.propagate_grid(grid)[-1][1:])
 
 
 PEERS = [
@@ -131,12 +101,12 @@ PEERS = [
         SETTINGS,
         partial(prepare, form),
         "also" if form is on_quaternion else "no",
-        None if form is on_euler_angles else partial(prepare_arrays, form),
+        None if form is on_angles else partial(prepare_arrays, form),
         "every motion",
     )
     for name, form in (
         ("quaternion", on_quaternion),
-        ("Euler angles", on_euler_angles),
+        ("Euler angles", on_angles),
         ("Euler angles, two constants", on_constants_of_motion),
     )
 ]

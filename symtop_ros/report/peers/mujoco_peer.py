@@ -1,7 +1,5 @@
 """MuJoCo: a body on a ball joint, from the MJCF of `top_model`."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import mujoco

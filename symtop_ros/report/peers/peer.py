@@ -3,10 +3,9 @@
 The equations are in plain floats: with so few numbers, arrays would only slow SciPy down.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import cos, sin
 from typing import Any, Literal, NamedTuple
 
@@ -15,8 +14,6 @@ import numpy as np
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Friction, State, Top
 
-Solve = Callable[[float], Real]  # t in s -> orientation (w, x, y, z), from the start each time
-Record = Callable[[float], tuple[Real, Real]]  # t -> times (n,) in (0, t], orientations (n, 4)
 Arrays = Callable[[Real], Real]  # times (n,) in s -> orientations (n, 4)
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 # solve_ivp takes no relative tolerance below 100 eps, the last one here.
@@ -38,13 +35,58 @@ class Task:
 
 
 class Solution(NamedTuple):
-    """A model that is built, and what it computes from the start, anew each time."""
+    """A model that is built; both functions compute from the start, each time they are called."""
 
-    # returns the orientation at a time in s, and stores nothing on the way: this is timed
-    reach: Solve
-    # returns times in (0, t] and the orientations there, with the same steps: errors are
-    # taken from it, and it is not timed
-    record: Record
+    # returns the orientation (w, x, y, z) at a time in s, and stores nothing on the way: this is
+    # timed
+    reach: Callable[[float], Real]
+    # returns times (n,) in (0, t] and the orientations (n, 4) there, with the same steps: errors
+    # are taken from it, and it is not timed
+    record: Callable[[float], tuple[Real, Real]]
+
+    @classmethod
+    def of_steps(
+        cls,
+        reach: Callable[[float], Real],
+        run: Callable[[float], tuple[Real, Real]],
+        read: Callable[[Real], Real],
+    ) -> "Solution":
+        """Return a solution from an integrator's own steps, without its interpolation.
+
+        `reach` returns the variables (1, k) at a time; `run` returns the times (n,) of all steps,
+        with the start, and the variables (n, k) there; `read` is that of a `Equations`.
+        """
+
+        def record(t: float) -> tuple[Real, Real]:
+            times, states = run(t)
+            # From the end back: the time t itself is always among them.
+            chosen = choose_steps(len(times) - 1)
+            return times[:0:-1][chosen], read(states[:0:-1][chosen])
+
+        return cls(lambda t: np.asarray(read(reach(t))[0]), record)
+
+
+class Equations(NamedTuple):
+    """Equations of motion in some variables, for a general integrator."""
+
+    start: list[float]  # the variables at t = 0
+    rates: Callable[..., list[Any]]  # their rates of change, from the time in s and the variables
+    read: Callable[[Real], Real]  # variables (n, k) -> orientations (n, 4)
+
+
+def on_quaternion(task: Task) -> Equations:
+    """Return the quaternion and the body's angular velocity as variables."""
+    return Equations(initial_values(task), partial(body_rates, task), lambda y: normalize(y[:, :4]))
+
+
+def on_euler_angles(task: Task, **functions: Any) -> Equations:
+    """Return the Euler angles and their rates as variables; `functions` may be sin and cos."""
+    start = [*task.start.euler_angles, *task.start.euler_rates]
+    rates = partial(euler_rates, task, **functions)
+    return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
+
+
+PrepareArrays = Callable[[Task], Arrays]
 
 
 @dataclass(frozen=True)
@@ -59,7 +101,7 @@ class Peer:
     # friction along and across the axis: not modelled, modelled, or the only use of the peer
     friction: Literal["no", "also", "only"] = "no"
     # builds a model, at the best setting, that computes the states at many times at once
-    prepare_arrays: Callable[[Task], Arrays] | None = None
+    prepare_arrays: PrepareArrays | None = None
     # part in the quick report, which must not take long: the best form of each program is in
     # it
     quick: Literal["every motion", "first motion", "no"] = "no"

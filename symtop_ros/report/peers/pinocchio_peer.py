@@ -1,7 +1,5 @@
 """Pinocchio: forward dynamics of a spherical joint, in RK4 steps on the group in Python."""
 
-from __future__ import annotations
-
 import numpy as np
 import pinocchio
 

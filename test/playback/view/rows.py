@@ -1,9 +1,24 @@
-"""Rows of a recording, read back by the reader of Rerun."""
+"""Recordings of runs, and their rows, read back by the reader of Rerun."""
 
 import numpy as np
+import rerun as rr
 from rerun.chunk import RrdReader
 
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.view import ViewOptions
+
+
+def record(log, folder, **options):
+    """Return the recording of a log; what Rerun would only warn about is an error."""
+    rr.set_strict_mode(True)
+    try:
+        replay(TopLog(McapFile(log)), folder / "run.rrd", ViewOptions(**options))
+    finally:
+        rr.set_strict_mode(False)
+    return folder / "run.rrd"
 
 
 def rows(path, entity, column):

@@ -2,16 +2,12 @@
 
 import numpy as np
 from log_files import Run
-from playback.view.rows import entities_of, rows
+from playback.view.rows import entities_of, record, rows
 from rerun.chunk import RrdReader
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Motion, State
-from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.angles import POINTS, RADII, draw_arcs
-from symtop_ros.playback.view.view import ViewOptions
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
 # of a point: sums of four rounded products of numbers up to 1.1
@@ -55,9 +51,8 @@ def test_on_the_vertical_there_is_no_angle_but_no_error_either():
 
 def test_a_replay_draws_angles_only_if_asked(tmp_path):
     path = Run(seconds=0.5).write(tmp_path)
-    for name, options in (("with", ViewOptions(angles=True)), ("without", ViewOptions())):
-        replay(TopLog(McapFile(path)), tmp_path / f"{name}.rrd", options)
-    added = entities_of(tmp_path / "with.rrd") - entities_of(tmp_path / "without.rrd")
+    found = [entities_of(record(path, tmp_path, angles=asked)) for asked in (True, False)]
+    added = found[0] - found[1]
     assert {f"{entities.ANGLES}/{name}" for name in ("phi", "theta", "psi", "nodes")} <= added
     assert all(entity.startswith((entities.ANGLES, f"{entities.BODY}/axes")) for entity in added), (
         added
@@ -66,13 +61,13 @@ def test_a_replay_draws_angles_only_if_asked(tmp_path):
 
 def test_the_axes_of_the_body_turn_with_it_and_the_letters_are_greek(tmp_path):
     run = Run(seconds=0.5, hurried=False)
-    replay(TopLog(McapFile(run.write(tmp_path))), tmp_path / "run.rrd", ViewOptions(angles=True))
-    times, strips = rows(tmp_path / "run.rrd", f"{entities.ANGLES}/theta", "LineStrips3D:strips")
+    recording = record(run.write(tmp_path), tmp_path, angles=True)
+    times, strips = rows(recording, f"{entities.ANGLES}/theta", "LineStrips3D:strips")
     ends = np.array([strip[0][-1] for strip in strips])
     axis = Motion(run.top, run.start).at(times * 1e-9).to_world([0, 0, 1.0])
     assert np.abs(ends / RADII["theta"] - axis).max() <= FLOAT
     letters = {}
-    for chunk in RrdReader(tmp_path / "run.rrd").stream():
+    for chunk in RrdReader(recording).stream():
         if chunk.is_static and chunk.entity_path.endswith("/letter"):
             labels = chunk.to_record_batch().column("Points3D:labels").to_pylist()
             letters[chunk.entity_path.split("/")[-2]] = labels[0][0]

@@ -4,12 +4,9 @@ import numpy as np
 import pytest
 import rerun as rr
 from log_files import ARTICLE, Run
-from playback.view.rows import entities_of, rows
+from playback.view.rows import entities_of, record, rows
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import cones, entities
 from symtop_ros.playback.view.stream import Stream
 
@@ -31,10 +28,7 @@ def turn(q, vectors):
 def test_omega_is_on_both_rims(name, tmp_path):
     ratio, start = STARTS[name]
     run = Run(Top(1.0, ratio, 0.0), State.from_euler(**start), seconds=0.5, hurried=False)
-    target = tmp_path / "free.rrd"
-    rr.set_strict_mode(True)
-    replay(TopLog(McapFile(run.write(tmp_path))), target)
-    rr.set_strict_mode(False)
+    target = record(run.write(tmp_path), tmp_path)
     ((polhode,),) = rows(target, f"{entities.POLHODE}/rim", "LineStrips3D:strips")[1]
     ((herpolhode,),) = rows(target, f"{entities.HERPOLHODE}/rim", "LineStrips3D:strips")[1]
     ((turned,),) = rows(target, entities.HERPOLHODE, "Transform3D:quaternion")[1]
@@ -50,8 +44,8 @@ def test_omega_is_on_both_rims(name, tmp_path):
 
 
 def test_only_a_motion_without_any_torque_has_cones(tmp_path):
-    replay(TopLog(McapFile(Run().write(tmp_path))), tmp_path / "run.rrd")
-    assert not any("polhode" in each for each in entities_of(tmp_path / "run.rrd"))
+    recording = record(Run().write(tmp_path), tmp_path)
+    assert not any("polhode" in each for each in entities_of(recording))
     start = State.from_euler(theta=0.5, phi_dot=30.0, psi_dot=60.0)
     free = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
     assert cones.has_cones(Motion(free, start))

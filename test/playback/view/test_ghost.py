@@ -1,6 +1,7 @@
 """The ghost is the run without its last kick, at the same stamps."""
 
 from dataclasses import replace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from log_files import ARTICLE, CUSPS
 from physics.tops import EPS
 
 from symtop_ros.physics import Friction, Motion, Top, hurry
-from symtop_ros.playback.view.ghost import Ghost
+from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.simulation.segment import Segment
 
 SECOND = 1_000_000_000
@@ -22,7 +23,7 @@ def kicked(segment, stamp):
 @pytest.fixture(name="ghost")
 def _ghost():
     """A ghost of a run that is kicked after one second, and the run from there on."""
-    ghost, after = Ghost(), kicked(BEGIN, SECOND)
+    ghost, after = GhostView(Mock()), kicked(BEGIN, SECOND)
     ghost.follow("start", None, BEGIN)
     ghost.follow("kick", BEGIN, after)
     return ghost, after
@@ -35,7 +36,7 @@ def assert_same(state, expected):
 
 
 def test_there_is_none_before_a_kick():
-    ghost = Ghost()
+    ghost = GhostView(Mock())
     ghost.follow("start", None, BEGIN)
     assert ghost.segment is None
     assert len(ghost.states_at(np.arange(10))[0]) == 0
@@ -114,7 +115,7 @@ def test_a_slower_factor_of_the_run_is_that_of_the_ghost(ghost):
 
 def test_a_motion_that_is_too_long_to_integrate_has_no_ghost():
     segment = Segment.begin(Motion(ARTICLE, CUSPS, Friction(axial=1e-9)), stamp=0, factor=1.0)
-    ghost, year = Ghost(), 365 * 86_400 * SECOND
+    ghost, year = GhostView(Mock()), 365 * 86_400 * SECOND
     ghost.follow("start", None, segment)
     ghost.follow("kick", segment, segment.restart(CUSPS, SECOND))
     assert len(ghost.states_at(np.array([SECOND]))[0]) == 1

@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 from log_files import ARTICLE, CUSPS, Run
-from playback.view.rows import entities_of, rows
+from playback.view.rows import entities_of, record, rows
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Motion, State, regular_precession_rates
-from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.inertial import ARROWS, LENGTH, Torques
-from symtop_ros.playback.view.view import ViewOptions
 
 SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
 REGULAR = State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0)
@@ -45,14 +43,12 @@ def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
 def test_without_a_topic_there_are_no_arrows(missing, tmp_path):
     run = Run(hurried=False)
     run.messages = [each for each in run.messages if each[0] != missing]
-    target = tmp_path / "part.rrd"
-    replay(TopLog(McapFile(run.write(tmp_path))), target, ViewOptions(torques=True))
+    target = record(run.write(tmp_path), tmp_path, torques=True)
     assert not len(rows(target, f"{entities.INERTIAL}/body", "Arrows3D:vectors")[0])
 
 
 def test_the_second_arrow_begins_below_the_tip_of_the_first_and_ends_below_the_torque(tmp_path):
-    target = tmp_path / "run.rrd"
-    replay(TopLog(McapFile(Run().write(tmp_path))), target, ViewOptions(torques=True))
+    target = record(Run().write(tmp_path), tmp_path, torques=True)
     drawn = {
         name: [
             np.array(rows(target, f"{entities.INERTIAL}/{name}", f"Arrows3D:{column}")[1])[:, 0]
@@ -73,6 +69,6 @@ def test_the_second_arrow_begins_below_the_tip_of_the_first_and_ends_below_the_t
 
 
 def test_arrows_are_drawn_only_if_asked(tmp_path):
-    replay(TopLog(McapFile(Run().write(tmp_path))), tmp_path / "run.rrd")
-    assert not any(each.startswith(entities.INERTIAL) for each in entities_of(tmp_path / "run.rrd"))
+    recording = record(Run().write(tmp_path), tmp_path)
+    assert not any(each.startswith(entities.INERTIAL) for each in entities_of(recording))
     assert len(ARROWS) == 3

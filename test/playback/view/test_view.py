@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import rerun as rr
 from log_files import ARTICLE, BEGIN, Run
-from playback.view.rows import rows
+from playback.view.rows import record, rows
+from rerun.chunk import RrdReader
 
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.log.reader import McapFile
@@ -25,10 +26,7 @@ FLOAT = 2 * float(np.finfo(np.float32).eps)  # vectors and rotations are single 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory):
     folder = tmp_path_factory.mktemp("scene")
-    rr.set_strict_mode(True)
-    replay(TopLog(McapFile(RUN.write(folder))), folder / "run.rrd")
-    rr.set_strict_mode(False)
-    return folder / "run.rrd"
+    return record(RUN.write(folder), folder)
 
 
 @pytest.fixture(scope="module")
@@ -104,8 +102,7 @@ def test_what_is_missing_in_the_log_is_told_among_the_events(tmp_path):
     path = RUN.write(tmp_path)
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) // 2])
-    replay(TopLog(McapFile(path)), tmp_path / "cut.rrd")
-    _, texts = rows(tmp_path / "cut.rrd", entities.EVENTS, "TextLog:text")
+    _, texts = rows(record(path, tmp_path), entities.EVENTS, "TextLog:text")
     assert "messages after" in texts[-1][0]
 
 
@@ -124,18 +121,14 @@ def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
 
 def test_a_top_at_rest_is_drawn_too(tmp_path):
     run = Run(start=State.from_euler(theta=0.0), hurried=False)
-    rr.set_strict_mode(True)
-    replay(TopLog(McapFile(run.write(tmp_path))), tmp_path / "rest.rrd")
-    rr.set_strict_mode(False)
-    _, values = rows(tmp_path / "rest.rrd", entities.TORQUE, "Arrows3D:vectors")
+    _, values = rows(record(run.write(tmp_path), tmp_path), entities.TORQUE, "Arrows3D:vectors")
     assert np.array(values).any() is np.False_
 
 
 def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
     run = Run(hurried=False)
     run.messages = [each for each in run.messages if not 0.5e9 < each[1] - BEGIN < 1.0e9]
-    replay(TopLog(McapFile(run.write(tmp_path))), tmp_path / "gap.rrd")
-    _, values = rows(tmp_path / "gap.rrd", entities.TRACE, "LineStrips3D:strips")
+    _, values = rows(record(run.write(tmp_path), tmp_path), entities.TRACE, "LineStrips3D:strips")
     strips = np.array([value[0] for value in values])
     steps = np.linalg.norm(strips[:, 1] - strips[:, 0], axis=1)
     assert steps.max() < 0.05  # a sample's worth; the gap is some tenths
@@ -180,3 +173,17 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
     scale = np.linalg.norm(world, axis=1).max() / np.linalg.norm(drawn, axis=1).max()
     # the scale is rounded to two digits for the panel
     assert np.abs(drawn * float(f"{scale:.2g}") - world).max() <= 2 * FLOAT * np.abs(world).max()
+
+
+@pytest.mark.parametrize("torques", [False, True])
+def test_every_arrow_that_is_drawn_has_a_colour_and_a_label(torques, tmp_path):
+    target = record(Run().write(tmp_path), tmp_path, torques=torques)
+    drawn, styled = set(), set()
+    for chunk in RrdReader(target).stream():
+        columns = chunk.to_record_batch().schema.names
+        if "Arrows3D:vectors" in columns:
+            drawn |= {chunk.entity_path, f"{chunk.entity_path}/name"}
+        if chunk.is_static and {"Arrows3D:colors", "Points3D:labels"} & set(columns):
+            styled.add(chunk.entity_path)
+    assert len(drawn) == (12 if torques else 6)
+    assert drawn <= styled

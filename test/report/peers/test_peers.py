@@ -5,11 +5,11 @@ import pytest
 
 from symtop_ros.physics import Motion
 from symtop_ros.report.benchmarks import CHECK, RIGHT
-from symtop_ros.report.peers import CLOSED_FORM, OPTIONAL, SPLITTING, installed
+from symtop_ros.report.peers import CLOSED_FORM, OPTIONAL, SPLITTING, find_peers
 from symtop_ros.report.reference import EPS, Reference
 
 CUSPS, *_, RUBBING = Reference.read().article
-PEERS, MISSING = installed()
+PEERS, MISSING = find_peers()
 FEW = 500
 # Radau is implicit and Pinocchio is stepped from Python: their finest settings take seconds.
 SLOW = ("SciPy Radau", "Pinocchio")

@@ -1,7 +1,5 @@
 """The look of the figures: colours that differ in grey too, sizes for a printed page."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -18,13 +16,14 @@ SETTINGS: Any = {
     "font.size": 9.5,
     "axes.labelsize": 10,
     "axes.titlesize": 10,
+    "axes.titlelocation": "left",
     "axes.edgecolor": GREY,
     "axes.labelcolor": INK,
     "axes.titlecolor": INK,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
-    "axes.formatter.use_mathtext": True,
+    "axes.formatter.use_mathtext": False,  # plain text takes a quarter less time
     "axes.formatter.limits": (-3, 4),
     "grid.color": "#e6e8eb",
     "grid.linewidth": 0.7,

@@ -1,6 +1,4 @@
-"""The figures of a verdict on estimates, as text and for JSON."""
-
-from __future__ import annotations
+"""The figures of a judgement of estimates, as text and for JSON."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +10,7 @@ from symtop_ros.judge.compare import PERCENTILES, Errors, Offset
 
 
 @dataclass(frozen=True, eq=False)
-class Verdict:
+class Judgement:
     """Errors of the estimates of one source."""
 
     source: str  # topic or file
@@ -75,7 +73,11 @@ class Verdict:
         lines.append(
             f"attitude, rms: {growth[0]:.2e} rad in the first tenth, {growth[-1]:.2e} in the last"
         )
-        lines.append(self._format_found())
+        world, body = self.found.angles
+        lines.append(
+            f"best explained by a delay of {self.found.delay * 1e3:.4g} ms, a rotation of the "
+            f"world by {world:.2e} rad and of the body by {body:.2e} rad"
+        )
         for number, what in (
             (self.errors.unknown, "before the run or out of reach of its integration"),
             (self.left_out, "without a readable attitude"),
@@ -83,13 +85,6 @@ class Verdict:
             if number:
                 lines.append(f"left out: {number} estimates {what}")
         return "\n".join(lines)
-
-    def _format_found(self) -> str:
-        world, body = self.found.angles
-        return (
-            f"best explained by a delay of {self.found.delay * 1e3:.4g} ms, a rotation of the "
-            f"world by {world:.2e} rad and of the body by {body:.2e} rad"
-        )
 
 
 def summarize(values: NDArray[np.float64]) -> dict[str, float]:
