@@ -68,10 +68,11 @@ class Connection:
             self._executor.spin_once(timeout_sec=min(POLL, max(0.0, deadline - time.monotonic())))
         return done()
 
-    def prepare(self) -> None:
-        """Create the clients of all services: at the first call they have found the top."""
-        for name, service in SERVICES.items():
-            self._client(TYPES[service.kind], name)
+    def prepare(self, *services: str) -> None:
+        """Create the clients of some services: at the first call they have found the top."""
+        for name in services:
+            kind = SERVICES[name].kind if name in SERVICES else "named"
+            self._client(TYPES[kind], name)
 
     def _client(self, kind: Any, service: str) -> Client:
         if service not in self._clients:

@@ -22,6 +22,8 @@ from symtop_ros.panel.source import DRAWN, Argument
 from symtop_ros.session.session import Answer
 from symtop_ros.simulation.topics import STATE_TOPICS
 
+USED = ("set_initial_conditions", "kick", "step", "reset", "pause", "record")
+PARAMETERS = "set_parameters_atomically"
 TIMEOUT = 3.0  # s for an answer
 SILENCE = 2.0  # s without samples after which the page says so
 
@@ -62,7 +64,7 @@ class NodeTop:
     def __init__(self, node: Node, name: str) -> None:
         self._connection = SharedConnection(node, name, TIMEOUT)
         self.name = self._connection.name
-        self._connection.prepare()
+        self._connection.prepare(*USED, PARAMETERS)
         self._torque = node.create_publisher(WrenchStamped, f"{self.name}/applied_torque", 10)
         self._node, self._feed = node, Feed(node, self.name, ())
         self._samples: Subscription | None = None
@@ -84,7 +86,7 @@ class NodeTop:
 
     def set_parameters(self, values: Mapping[str, Any]) -> Answer:
         """Set parameters of the node."""
-        return self.request("set_parameters_atomically", values)
+        return self.request(PARAMETERS, values)
 
     def hold_torque(self, torque: Vector) -> None:
         """Publish a torque; the node applies it until its time-out."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.report.footprint import Footprint, measure_footprint
-from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, prepare
+from symtop_ros.report.peers import CLOSED_FORM, TAYLOR, prepare
 from symtop_ros.report.peers.peer import Peer, PrepareArrays, Solution, Task, spread_times
 from symtop_ros.report.reference import EPS, Reference, ReferenceMotion
 from symtop_ros.report.sweep import REPEATS, Curve, Measurement, sweep_motion, time_call
@@ -19,7 +19,7 @@ SPAN = 10.0  # s
 CHECK = 2.0**-5  # s on which a peer's model must be right at its finest setting
 RIGHT = 1e-4  # rad; a weight that is one percent off makes 6e-4
 LARGEST_ERROR = 10 * EPS  # rad: an attitude is promised within 5 eps as a distance of quaternions
-LARGEST_SPLITTING_ERROR = 4 * EPS  # rad, in ten seconds of the article's top
+LARGEST_TAYLOR_ERROR = 4 * EPS  # rad, in ten seconds of the article's top
 LARGEST_DRIVEN_ERROR = 2e-13  # rad, in the families of motions with friction or a torque
 LARGEST_PHASE = 1e5  # rad of turning that a peer is asked for in a hard case
 DRIVEN_RUNS = 3  # of which the shortest counts
@@ -134,7 +134,7 @@ class Results:
             *(f"{name}: the model is a different top" for name in wrong),
             *(f"{case.family}, {case.small:g}: error {case.error:.1e}" for case in missed),
             *self._list_closed_form_failures(),
-            *self._list_splitting_failures(),
+            *self._list_taylor_failures(),
         ]
 
     def _list_closed_form_failures(self) -> Iterator[str]:
@@ -149,13 +149,13 @@ class Results:
             if error > LARGEST_ERROR:
                 yield f"{name} at {t:g} s: error {error:.1e}"
 
-    def _list_splitting_failures(self) -> Iterator[str]:
+    def _list_taylor_failures(self) -> Iterator[str]:
         for curve in self.curves:
-            if curve.peer == SPLITTING and curve.best.error > LARGEST_SPLITTING_ERROR:
-                yield f"{SPLITTING}: error {curve.best.error:.1e}"
+            if curve.peer == TAYLOR and curve.best.error > LARGEST_TAYLOR_ERROR:
+                yield f"{TAYLOR}: error {curve.best.error:.1e}"
         for case in self.driven:
-            if case.errors[SPLITTING] > LARGEST_DRIVEN_ERROR:
-                yield f"{case.family}: error {case.errors[SPLITTING]:.1e}"
+            if case.errors[TAYLOR] > LARGEST_DRIVEN_ERROR:
+                yield f"{case.family}: error {case.errors[TAYLOR]:.1e}"
 
 
 def _freeze(facts: dict[str, Any]) -> dict[str, Any]:
@@ -194,7 +194,7 @@ def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterato
     for motion in reference.hard:
         yield motion.name, partial(_try, motion, tried, results)
     compared = [
-        *(peer for peer in peers if peer.name == SPLITTING),
+        *(peer for peer in peers if peer.name == TAYLOR),
         *(peer for peer in tried if peer.name == DRIVEN_PEER),
     ]
     for motion in reference.driven[:: scope.driven]:

@@ -6,7 +6,7 @@ from statistics import median
 
 from symtop_ros.report.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
 from symtop_ros.report.footprint import Footprint
-from symtop_ros.report.peers import CLOSED_FORM, SPLITTING
+from symtop_ros.report.peers import CLOSED_FORM, TAYLOR
 from symtop_ros.report.reference import EPS, ReferenceMotion
 from symtop_ros.report.sweep import Curve
 
@@ -163,7 +163,7 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
 
 def _format_friction(results: Results) -> str:
     curves = [curve for curve in results.curves if curve.motion == FRICTION]
-    ours = results.find_curve(SPLITTING, FRICTION).best
+    ours = results.find_curve(TAYLOR, FRICTION).best
     rows = [[curve.peer, *_format_best(curve, ours.seconds)] for curve in curves]
     return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(BEST, rows)}"
 
@@ -258,7 +258,7 @@ def _format_ahead(results: Results) -> str:
 
 
 def _list_ahead(results: Results, curve: Curve) -> Iterator[str]:
-    own = SPLITTING if curve.motion == FRICTION else CLOSED_FORM
+    own = TAYLOR if curve.motion == FRICTION else CLOSED_FORM
     ours = results.find_curve(own, curve.motion).best
     if curve.peer == own:
         return

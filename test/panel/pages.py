@@ -106,7 +106,7 @@ def open_pages(url: str, count: int = 1, least: int = 3) -> Iterator[Pages]:
     """
     deadline = time.monotonic() + TIMEOUT
     address = urlsplit(url)
-    while socket.socket().connect_ex((address.hostname, address.port)):
+    while not _listens(address.hostname, address.port):
         assert time.monotonic() < deadline, f"no server at {url}"
         time.sleep(0.05)
     pages = Pages(url, count)
@@ -117,3 +117,8 @@ def open_pages(url: str, count: int = 1, least: int = 3) -> Iterator[Pages]:
         yield pages
     finally:
         pages.close()
+
+
+def _listens(host, port):
+    with socket.socket() as probe:
+        return probe.connect_ex((host, port)) == 0

@@ -15,7 +15,7 @@ from symtop_ros.report.benchmarks import (
     list_steps,
 )
 from symtop_ros.report.footprint import Footprint
-from symtop_ros.report.peers import CLOSED_FORM, SPLITTING
+from symtop_ros.report.peers import CLOSED_FORM, TAYLOR
 from symtop_ros.report.peers.peer import Peer, Solution
 from symtop_ros.report.reference import EPS, Reference
 from symtop_ros.report.sweep import Curve, Measurement
@@ -30,10 +30,10 @@ def curve(peer, motion, error):
 def test_errors_that_are_too_large_are_listed_one_by_one():
     results = Results(
         checks={"a peer": 0.5, "a good peer": 1e-5},
-        curves=[curve(CLOSED_FORM, "cusps", 1e-10), curve(SPLITTING, "cusps with friction", 1e-9)],
+        curves=[curve(CLOSED_FORM, "cusps", 1e-10), curve(TAYLOR, "cusps with friction", 1e-9)],
         growth=[Growth(CLOSED_FORM, 0.0, (10.0, 1e5), (1e-16, 1.0), (1e-4, 1e-4))],
         hard=[HardCase("tilt", 0.1, EPS, 20 * EPS, {}), HardCase("spin", 1.0, EPS, 10 * EPS, {})],
-        driven=[DrivenCase("rods", {SPLITTING: 1e-9}, {SPLITTING: 1e-3})],
+        driven=[DrivenCase("rods", {TAYLOR: 1e-9}, {TAYLOR: 1e-3})],
     )
     assert results.list_failures() == [
         "a peer: the model is a different top",
@@ -41,7 +41,7 @@ def test_errors_that_are_too_large_are_listed_one_by_one():
         "cusps at 10 s: error 1.0e-10",
         "cusps at 100000 s: error 1.0e+00",
         "cusps at 1e+06 s: error inf",
-        "symtop_ros, splitting: error 1.0e-09",
+        "symtop_ros, Taylor series: error 1.0e-09",
         "rods: error 1.0e-09",
     ]
 

@@ -10,13 +10,13 @@ from symtop_ros.report import measure as report
 from symtop_ros.report.benchmarks import (
     LARGEST_DRIVEN_ERROR,
     LARGEST_ERROR,
-    LARGEST_SPLITTING_ERROR,
+    LARGEST_TAYLOR_ERROR,
     SMALL,
     Results,
 )
 from symtop_ros.report.main import main
 from symtop_ros.report.measure import measure
-from symtop_ros.report.peers import CLOSED_FORM, SPLITTING, find_peers
+from symtop_ros.report.peers import CLOSED_FORM, TAYLOR, find_peers
 from symtop_ros.report.plots import NAMES
 from symtop_ros.report.reference import Reference
 
@@ -45,13 +45,13 @@ def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
     assert max(case["error"] for case in facts["hard"]) <= LARGEST_ERROR
 
 
-def test_the_splitting_is_as_good_as_promised(facts):
-    (curve,) = [each for each in facts["curves"] if each["peer"] == SPLITTING]
+def test_the_taylor_series_are_as_good_as_promised(facts):
+    (curve,) = [each for each in facts["curves"] if each["peer"] == TAYLOR]
     # the largest of 2.5 seconds, as an angle; 3e-16 measured in ten
-    assert curve["points"][0]["error"] <= LARGEST_SPLITTING_ERROR
+    assert curve["points"][0]["error"] <= LARGEST_TAYLOR_ERROR
     assert len(facts["driven"]) == 14  # each ninth of 124
     # 6e-14 measured, after 50 s of the article's top
-    assert max(case["errors"][SPLITTING] for case in facts["driven"]) <= LARGEST_DRIVEN_ERROR
+    assert max(case["errors"][TAYLOR] for case in facts["driven"]) <= LARGEST_DRIVEN_ERROR
 
 
 def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, folder):

@@ -6,7 +6,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion
 from symtop_ros.report.peers.peer import Arrays, Peer, Solution, Task, spread_times
 
-CLOSED_FORM, SPLITTING = "symtop_ros, closed form", "symtop_ros, splitting"
+CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"
 OPTIONAL = {  # package, and the file here that needs it
     "heyoka": "heyoka_peer",
     "CyRK": "cyrk_peer",
@@ -40,7 +40,7 @@ def prepare_arrays(task: Task) -> Arrays:
 
 OWN = [
     Peer(CLOSED_FORM, (0.0,), prepare, prepare_arrays=prepare_arrays, quick="every motion"),
-    Peer(SPLITTING, (0.0,), prepare, friction="only", quick="every motion"),
+    Peer(TAYLOR, (0.0,), prepare, friction="only", quick="every motion"),
 ]
 
 

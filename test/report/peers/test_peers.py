@@ -5,7 +5,7 @@ import pytest
 
 from symtop_ros.physics import Motion
 from symtop_ros.report.benchmarks import CHECK, RIGHT
-from symtop_ros.report.peers import CLOSED_FORM, OPTIONAL, SPLITTING, find_peers
+from symtop_ros.report.peers import CLOSED_FORM, OPTIONAL, TAYLOR, find_peers
 from symtop_ros.report.reference import EPS, Reference
 
 CUSPS, *_, RUBBING = Reference.read().article
@@ -93,5 +93,5 @@ def test_arrays_of_states_are_states_at_those_times(peer):
 
 def test_what_is_not_installed_is_named():
     assert set(MISSING) <= set(OPTIONAL)
-    assert [peer.name for peer in PEERS][:2] == [CLOSED_FORM, SPLITTING]
+    assert [peer.name for peer in PEERS][:2] == [CLOSED_FORM, TAYLOR]
     assert sum(peer.name.startswith("SciPy") for peer in PEERS) == 6
