@@ -72,6 +72,7 @@ class BatchReader:
         # reason why messages of a topic could not be decoded, by the name of the topic
         self.unreadable: dict[str, str] = {}
         self._frame: str | None = None  # child frame of the top on /tf
+        self._names: dict[str, tuple[str, ...]] = {}  # frames or joints of each topic
 
     def read(self, messages: Sequence[tuple[str, bytes]]) -> Batch:
         """Decode messages, given with the names of their topics."""
@@ -95,8 +96,18 @@ class BatchReader:
             self.unreadable[name] = f"{len(refused)} messages: {refused[0]}"
         if name == TF:
             parts = self._select_frame(parts)
+        self._check_names(name, parts)
         if parts:
             batch.columns[name] = _join(parts, np.array(where))
+
+    def _check_names(self, topic: str, parts: list[Decoded]) -> None:
+        """Report messages whose frames or joints are not those of the first message of a topic."""
+        for part in parts:
+            expected = self._names.setdefault(topic, part.names)
+            if part.names != expected:
+                got, wanted = (one_line(", ".join(names), 100) for names in (part.names, expected))
+                found = f"{len(part.indices)} messages name {got}, not {wanted}"
+                self.unreadable.setdefault(topic, found)
 
     def _events(self, data: list[bytes], where: list[int]) -> list[tuple[int, Event]]:
         found = []

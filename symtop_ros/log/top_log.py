@@ -45,13 +45,18 @@ class TopLog:
     @property
     def problems(self) -> list[str]:
         """Everything that is missing or unreadable; complete after the last batch."""
-        unreadable = [f"{name}: {text}" for name, text in self._reader.unreadable.items()]
         missing = [name for name in TYPES if name not in (*self.topics, *SENSOR_TOPICS)]
         found = [f"the log has no {', no '.join(missing)}"] if missing else []
         if self.others:
             others = ", ".join(sorted(self.others))
             found.append(f"the node is {self.node}; others can be chosen by --node: {others}")
-        return self.file.problems + unreadable + found
+        return self.damage + found
+
+    @property
+    def damage(self) -> list[str]:
+        """Everything that is damaged, lost or unreadable; complete after the last batch."""
+        unreadable = [f"{name}: {text}" for name, text in self._reader.unreadable.items()]
+        return self.file.problems + unreadable
 
     def _runs(self) -> Iterator[list[Message]]:
         """Yield messages in runs that keep the topics of each sample together."""

@@ -137,7 +137,8 @@ class Motion:
         orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
         Ix, Iz, Mgl = self.top.Ix, self.top.Iz, abs(self.top.Mgl)
         is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
-        is_weightless = Mgl <= WEIGHTLESS * Ix * max(abs(wx), abs(wy), abs(wz)) ** 2
+        rate = max(abs(wx), abs(wy), Iz / Ix * abs(wz))  # not wz: a rod may spin fast
+        is_weightless = Mgl / Ix <= WEIGHTLESS * rate * rate
         solver = FreeMotion if is_resting or is_weightless else ClosedFormMotion
         with localcontext(PRECISE):
             return solver((Ix, Iz, Mgl), orientation, (wx, wy, wz))
@@ -169,8 +170,8 @@ class Motion:
         Raises
         ------
         ValueError
-            If a time is not a finite number, or if a driven motion becomes too fast on the
-            way to it.
+            If a time is not a finite number, or if a driven motion becomes too fast on the way to
+            it or has a friction too strong to reach it.
 
         Examples
         --------

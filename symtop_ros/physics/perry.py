@@ -59,7 +59,8 @@ class TiltAcceleration:
             gz = 0.0
         if abs(spin) <= STATE_ROUNDING * float(np.abs(state.angular_velocity).max()):
             spin = 0.0
-        quadratic = TiltQuadratic.of(top, gz, spin, hold)
+        # Extended numbers: phi' of an axis next to the vertical has a square beyond all doubles.
+        quadratic = TiltQuadratic.of(top, np.longdouble(gz), np.longdouble(spin), hold)
         return cls(quadratic, float(np.hypot(gx, gy)) / top.Ix)
 
     def at(self, phi_dot: float) -> float:

@@ -100,7 +100,7 @@ class TiltQuadratic:
     @property
     def roots(self) -> tuple[float, ...]:
         """Real roots in rad/s, the one of smaller size first."""
-        return solve_quadratic(self.a, self.b, self.Mgl)
+        return solve_quadratic(float(self.a), float(self.b), self.Mgl)
 
 
 def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[float, ...]:

@@ -57,7 +57,7 @@ class State:
         Unit quaternion (w, x, y, z), body to world. It is normalised. Components below 1e-100 are
         set to zero, here and in the angular velocity.
     angular_velocity : array_like (..., 3)
-        Angular velocity in the body frame, in rad/s, at most 1e150.
+        Angular velocity in the body frame, in rad/s, at most 1e100.
 
     Attributes
     ----------

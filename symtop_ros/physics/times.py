@@ -17,6 +17,8 @@ from symtop_ros.physics.values import refuse, validate_number
 
 SECOND = 10**9  # ns
 LARGEST_STAMP = 2**63 - 1  # ns
+LARGEST_FACTOR = 1e100
+LARGEST_ELAPSED = 10**300  # ns; so that the sum is a double of seconds
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +61,8 @@ class ExactTimes:
     def __post_init__(self) -> None:
         object.__setattr__(self, "nanoseconds", _validate_nanoseconds(self.nanoseconds))
         object.__setattr__(self, "factor", validate_number("factor", self.factor))
-        if self.factor <= 0:
-            raise refuse("factor", "> 0", self.factor)
+        if not 0 < self.factor <= LARGEST_FACTOR:
+            raise refuse("factor", f"> 0 and at most {LARGEST_FACTOR:g}", self.factor)
         object.__setattr__(self, "elapsed", _validate_elapsed(self.elapsed))
 
     @property
@@ -126,6 +128,8 @@ def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
 def _validate_elapsed(value: Any) -> Fraction:
     is_exact = isinstance(value, Fraction | int) and not isinstance(value, bool)
     if is_exact and value.denominator & (value.denominator - 1) == 0:
-        return Fraction(value)
+        if abs(value) <= LARGEST_ELAPSED:
+            return Fraction(value)
+        raise refuse("elapsed", "at most 1e300 ns in size", f"{value.numerator:.3e}")
     condition = "a Fraction with a power of two as denominator (ns)"
     raise refuse("elapsed", condition, repr(value))

@@ -8,7 +8,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.state import State
-from symtop_ros.physics.values import EPS, refuse, validate_number
+from symtop_ros.physics.values import EPS, LARGEST_MOMENT, SMALLEST_MOMENT, refuse, validate_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,12 +18,13 @@ class Top:
     Parameters
     ----------
     Ix : float
-        Transverse moment of inertia about the pivot, in kg m^2; > 0.
+        Transverse moment of inertia about the pivot, in kg m^2; 1e-100 to 1e100.
     Iz : float
-        Axial moment of inertia, in kg m^2; 0 < Iz <= 2 Ix, as for every rigid body.
+        Axial moment of inertia, in kg m^2; 1e-100 <= Iz <= 2 Ix, as for every rigid body.
     Mgl : float
-        Weight times the distance of the centre of mass from the pivot, in J. It is positive if the
-        centre of mass is on the +z side of the body; it may be negative or zero.
+        Weight times the distance of the centre of mass from the pivot, in J, at most 1e100 in size.
+        It is positive if the centre of mass is on the +z side of the body; it may be negative or
+        zero.
 
     Raises
     ------
@@ -49,6 +50,12 @@ class Top:
             raise refuse("Ix", "> 0 kg m^2", self.Ix)
         if not 0 < self.Iz <= 2 * self.Ix:
             raise refuse("Iz", f"> 0 and <= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
+        for name in ("Ix", "Iz"):
+            if not SMALLEST_MOMENT <= getattr(self, name) <= LARGEST_MOMENT:
+                condition = f"{SMALLEST_MOMENT:g} to {LARGEST_MOMENT:g} kg m^2"
+                raise refuse(name, condition, getattr(self, name))
+        if abs(self.Mgl) > LARGEST_MOMENT:
+            raise refuse("Mgl", f"at most {LARGEST_MOMENT:g} J in size", self.Mgl)
 
     @property
     def moments(self) -> Vector:

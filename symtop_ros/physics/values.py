@@ -18,7 +18,10 @@ EPS = 2.0**-52  # distance from 1 to the next double
 # A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A
 # sum below this share of its terms is treated as zero.
 START_ROUNDING = 64 * EPS
-LARGEST_ANGULAR_VELOCITY = 1e150  # rad/s; its square is finite
+# Products of two moments, of a moment and the square of a rate, and their quotients are doubles
+# within these limits.
+LARGEST_ANGULAR_VELOCITY = 1e100  # rad/s
+LARGEST_MOMENT, SMALLEST_MOMENT = 1e100, 1e-100  # kg m^2, or J
 LONGEST_TEXT = 60  # characters of a refused value that a message repeats
 
 

@@ -97,7 +97,9 @@ def _check(log: TopLog) -> int:
         raise LogError("nothing can be checked: no sample follows an event")
     good = all(each.is_rounding for each in deviations.values())
     print(f"the samples {'agree' if good else 'DO NOT agree'} with the events")
-    return 0 if good else 1
+    if good and log.damage:
+        print("the log is damaged or incomplete")
+    return 0 if good and not log.damage else 1
 
 
 def _row(topic: str, deviation: Deviation) -> str:

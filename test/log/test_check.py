@@ -106,3 +106,28 @@ def test_an_event_that_arrives_after_its_first_samples_still_governs_them(tmp_pa
     kick = run.messages.pop(k)
     run.messages.insert(k + 20, kick)  # some samples late, as a recorder of arrivals may log it
     assert all(each.largest == 0.0 for each in deviations_of(run, tmp_path).values())
+
+
+@pytest.mark.parametrize("name", list(LAYOUTS))
+def test_one_flipped_bit_of_a_sample_is_damage_however_small_the_difference(name, tmp_path):
+    run = Run()
+    k = [k for k, each in enumerate(run.messages) if each[0] == name][100]
+    _, stamp, data = run.messages[k]
+    ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
+    numbers = found.numbers[0].copy()
+    place = int(np.argmax(np.abs(numbers)))
+    numbers[place] = np.nextafter(numbers[place], np.inf)  # its last bit
+    run.messages[k] = name, stamp, LAYOUTS[name].encode(stamp, numbers.tolist())
+    deviation = deviations_of(run, tmp_path)[name]
+    assert (deviation.differing, deviation.relative < BOUND) == (1, True)
+    assert not deviation.is_rounding
+
+
+def test_a_message_with_another_frame_is_damage(tmp_path):
+    run = Run()
+    k = [k for k, each in enumerate(run.messages) if each[0] == "torque"][7]
+    _, stamp, data = run.messages[k]
+    run.messages[k] = "torque", stamp, data.replace(b"world", b"vorld")
+    log = TopLog(McapFile(run.write(tmp_path)))
+    check_log(log)
+    assert log.damage == ["torque: 1 messages name vorld, not world"]

@@ -3,13 +3,25 @@
 import itertools
 import math
 import random
+import re
+import signal
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
 from physics.refusals import TILTED
 from physics.tops import ARTICLE, EPS, seeds
 
-from symtop_ros.physics import Motion, State, Top, hurry, kick_verdict, perrys_rule
+from symtop_ros.physics import (
+    ExactTimes,
+    Friction,
+    Motion,
+    State,
+    Top,
+    hurry,
+    kick_verdict,
+    perrys_rule,
+)
 
 RATES = [0.0, -0.0, 5e-324, 1e-300, 1e-160, 1e-30, 1e-9, 1.0, -3.0, 200.0, 1e5, -1e9, 1e9]
 TILTS = [0.0, 1e-300, 1e-160, 1e-12, 0.5, math.pi / 2, 3.0, math.pi - 1e-12, math.pi]
@@ -66,3 +78,85 @@ def test_every_tilt_goes_with_every_rate():
     for theta, phi_dot, psi_dot in itertools.product(TILTS, RATES, RATES):
         start = State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
         assert np.isfinite(Motion(top, start).at(1.0).orientation).all()
+
+
+def random_input(rng):
+    """A top, a start and a time over hundreds of decades, of which some are refused."""
+
+    def size(low, high):
+        return 10.0 ** rng.uniform(low, high)
+
+    Ix = size(-100, 100)
+    Iz = Ix * size(-60, 0.3)
+    Mgl = rng.choice([-1, 0, 1]) * size(-320, 100)
+    q = np.array([rng.gauss(0, 1) * rng.choice([1, 1, 0, 1e-9, 1e-90]) for _ in range(4)])
+    q = q / np.linalg.norm(q) if q.any() else np.array([1.0, 0, 0, 0])
+    omega = [rng.choice([-1, 0, 1]) * size(-320, 100) for _ in range(3)]
+    return (Ix, Iz, Mgl), q, omega, rng.choice([-1, 1]) * size(-320, 308)
+
+
+@contextmanager
+def within(seconds):
+    """End the test if the block takes longer."""
+
+    def end(*_):
+        raise AssertionError(f"longer than {seconds} s")
+
+    signal.signal(signal.SIGALRM, end)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def ask(moments, q, omega, t):
+    """The motion, a state and the verdict, or the words of a refusal."""
+    try:
+        motion = Motion(Top(*moments), State(q, omega))
+        return motion, motion.at(t), str(perrys_rule(motion.top, motion.start))
+    except ValueError as refusal:
+        return str(refusal)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("block", seeds(4, 40))
+def test_inputs_over_hundreds_of_decades_are_served_or_refused_in_a_sentence_and_in_time(block):
+    rng, served = random.Random(block), 0
+    for _ in range(500):
+        moments, q, omega, t = random_input(rng)
+        with within(20.0):  # a state takes a millisecond; the machine may stand still meanwhile
+            found = ask(moments, q, omega, t)
+        if isinstance(found, str):
+            assert " must be " in found
+            continue
+        motion, state, verdict = found
+        served += 1
+        assert np.isfinite(state.orientation).all()
+        assert np.isfinite(state.angular_velocity).all()
+        assert abs(np.linalg.norm(state.orientation) - 1) <= 4 * EPS
+        assert motion.kind
+        assert verdict
+    assert served > 300
+
+
+def test_a_slender_rod_with_little_spin_is_not_weightless():
+    # Its omega_z is large, but not the part of it that turns the axis.
+    assert Motion(Top(1.0, 1e-99, 1.0), State.from_euler(theta=0.5, psi_dot=2e99)).kind == "cusps"
+
+
+def test_the_separatrix_and_exact_times_of_any_size_have_a_state():
+    upright = Motion(Top(1.0, 1.0, 1.0), State((0, 1, 0, 0), (2, 0, 0)))
+    for t in (1e308, -1e308, ExactTimes(2**63 - 1, 1e100)):
+        assert upright.at(t).euler_angles.theta == 0.0
+    assert upright.at([1e308, 0.0]).euler_angles.theta[0] == 0.0
+
+
+def test_a_friction_that_makes_a_time_too_far_is_refused_with_the_time_that_can_be_had():
+    start = State.from_euler(theta=0.5, psi_dot=200.0)
+    motion = Motion(ARTICLE, start, Friction(100.0, 100.0))
+    words = "t must be within 0.0572 s of the start (friction stops the top in 5.72e-07 s"
+    with within(20.0), pytest.raises(ValueError, match=re.escape(words)):
+        motion.at(10.0)
+    with within(60.0):
+        assert np.isfinite(motion.at(0.057).orientation).all()

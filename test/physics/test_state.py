@@ -18,7 +18,7 @@ from symtop_ros.physics import State
         ((1, 0, 0, 0), (0, math.inf, 0), "angular_velocity", FINITE_ARRAY, "(0, inf, 0)"),
         ((1, 0, 0, 0.1), (0, 0, 0), "orientation", "norm 1 within 0.001", "a norm of 1.00499"),
         (("a", 0, 0, 0), (0, 0, 0), "orientation", FINITE_ARRAY, "('a', 0, 0, 0)"),
-        ((1, 0, 0, 0), (0, 0, 1e200), "angular_velocity", "at most 1e+150 rad/s", "1e+200"),
+        ((1, 0, 0, 0), (0, 0, 1e200), "angular_velocity", "at most 1e+100 rad/s", "1e+200"),
         ([(1, 0, 0, 0)], (0, 0, 0), "angular_velocity", "of shape (1, 3) to match", "shape (3,)"),
     ],
 )

@@ -18,6 +18,9 @@ from symtop_ros.physics import Friction, State, Top
         ((1.0, "1", 1.0), "Iz", f"{NUMBER} (kg m^2)", "'1'"),
         ((True, 1.0, 1.0), "Ix", f"{NUMBER} (kg m^2)", "True"),
         ((1.0, 1.0, 1j), "Mgl", f"{NUMBER} (J)", "1j"),
+        ((1e101, 1e101, 1.0), "Ix", "1e-100 to 1e+100 kg m^2", "1e+101"),
+        ((1.0, 1e-101, 1.0), "Iz", "1e-100 to 1e+100 kg m^2", "1e-101"),
+        ((1.0, 1.0, -1e101), "Mgl", "at most 1e+100 J in size", "-1e+101"),
     ],
 )
 def test_a_body_that_cannot_be_is_refused_in_words(moments, name, condition, value):

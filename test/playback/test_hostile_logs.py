@@ -96,8 +96,8 @@ ABSURD = {
         "orientation must be of shape (..., 4), got shape (100000,)"
     ),
     ("motion.orientation", CONTROL): "could not convert string to float: '\\x1b[31m",
-    ("motion.angular_velocity", "1e151 0 0"): (
-        "angular_velocity must be at most 1e+150 rad/s, got 1e+151"
+    ("motion.angular_velocity", "1e101 0 0"): (
+        "angular_velocity must be at most 1e+100 rad/s, got 1e+101"
     ),
     ("top", "nan nan nan"): "Ix must be a finite number (kg m^2), got nan",
     ("top", None): "event 'start' must have all values, 'top' is missing or incomplete",

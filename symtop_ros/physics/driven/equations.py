@@ -87,7 +87,7 @@ class DrivenEquations:
                 for row, form, inertia in zip(range(OMEGA_X, ONE), axis, (Ix, Ix, Iz), strict=True):
                     _add_torque(driving[row], form, part / inertia)
             self._swing = math.sqrt(float((abs(Mgl) + math.hypot(*torque)) / Ix))
-            self._decay = float(max(decays))
+            self.decay = float(max(decays))  # 1/s
 
     def start(self, state: State) -> Extended:
         """Return the variables (9,) of a state, with a spin of 0."""
@@ -101,7 +101,7 @@ class DrivenEquations:
     def estimate_rate(self, values: Extended) -> float:
         """Return a rate in rad/s: in units of its inverse no Taylor coefficient is far above 1."""
         x, y, z = values[RATES].tolist()
-        return math.hypot(x, y, self.ratio * z) + self._swing + self._decay
+        return math.hypot(x, y, self.ratio * z) + self._swing + self.decay
 
     def read(self, values: Extended) -> tuple[Extended, Extended]:
         """Return the orientations (n, 4) and body angular velocities (n, 3) of variables (n, 9)."""

@@ -17,6 +17,7 @@ from symtop_ros.physics.values import refuse
 
 KEPT = 1024  # knots kept over the whole integration; beyond this every other one is dropped
 BLOCK = 1024  # times whose variables are held at once
+MOST_DECAYS = 1e5  # decay times in one call: some seconds
 RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
 
 
@@ -41,9 +42,24 @@ class DrivenMotion:
             for first in range(0, len(sorted_places), BLOCK):
                 places = sorted_places[first : first + BLOCK]
                 with self._lock:
+                    self._refuse_stiff(trail, float(times[places[-1]]))
                     values = np.concatenate(list(trail.evaluate(times[places])))
                 orientation[places], angular_velocity[places] = self._equations.read(values)
         orientation[times == 0] = self._start.orientation  # bit for bit
+
+    def _refuse_stiff(self, trail: "Trail", t: float) -> None:
+        """Refuse a time that a strong friction makes too far: each decay time takes a step.
+
+        After some decay times the top creeps, but explicit series cannot take longer steps.
+        """
+        reached, decay = trail.reach(t, 0), self._equations.decay
+        if abs(t - reached) * decay > MOST_DECAYS:
+            farthest = abs(reached) + MOST_DECAYS / decay
+            condition = (
+                f"within {farthest:.3g} s of the start (friction stops the top in {1 / decay:.3g} "
+                "s, and every such time takes a step)"
+            )
+            raise refuse("t", condition, t)
 
     def reach(self, t: float, steps: float) -> float:
         """Integrate towards t in a limited number of steps; return the time reached."""

@@ -56,8 +56,11 @@ class ClosedFormMotion:
         self._frequency = (self.nutation.beta * self.roots.s31).sqrt()  # 2 Omega
         # 2 pi over the period of theta in rad/s; 0 for a motion that never returns.
         self.nutation_rate = self._frequency * self._mean
-        # Mean rates of the arguments of A, B and omega_xy, in rad/s.
-        self.rates = _argument_rates(moments, Decimal(angular_velocity[2]), self._means)
+        # In addition to the means over a nutation, the body turns about its axis by
+        # c = p_psi (1/Iz - 1/Ix), written here without the difference of reciprocals. c may exceed
+        # the means by all their digits, so it is kept apart.
+        Ix, Iz, wz = map(Decimal, (moments[0], moments[1], angular_velocity[2]))
+        self._half_c = HALF * wz * (Ix - Iz) / Ix
         # A state at a time of at most this size comes from a Taylor series.
         self._first_end = find_end(moments, angular_velocity)
         norm = math.hypot(*orientation)
@@ -90,14 +93,17 @@ class ClosedFormMotion:
 
     @property
     def mean_rates(self) -> tuple[float, float]:
-        """Mean phi' and psi' in rad/s: sum and difference of the rates of arg A and arg B."""
-        a, b, _ = self.rates  # of a fast or a slender top they nearly cancel
-        return float(a + b), float(a - b)
+        """Mean phi' and psi' in rad/s: sum and difference of the rates of arg A and arg B.
+
+        These are a + c/2 and b - c/2, with the means a and b.
+        """
+        a, b, _ = self._means
+        return float(a + b), float(a - b + TWO * self._half_c)
 
     @property
     def precession_per_nutation(self) -> float:
         """Turns of the precession in a nutation; nan at the separatrix."""
-        turn = self.rates[0] + self.rates[1]
+        turn = self._means[0] + self._means[1]
         return float(turn / self.nutation_rate) if self.nutation_rate else math.nan
 
     @property
@@ -154,7 +160,8 @@ class ClosedFormMotion:
 
     @cached_property
     def _phases(self) -> Phases:
-        return Phases(self.nutation_rate, *self.rates[:2])
+        a, b, _ = self._means
+        return Phases(self.nutation_rate, a + self._half_c, b - self._half_c)
 
     @cached_property
     def _nutation_phase(self) -> NutationPhase:
@@ -195,15 +202,18 @@ class ClosedFormMotion:
         arguments differ by whole turns in a nutation, one if phi' reverses. With the integer known
         no third phase is needed, and its rounding cannot separate omega_xy from the attitude.
         """
-        a, b, omega = self.rates
-        return round((omega - (b - a)) / self.nutation_rate) if self.nutation_rate else 0
+        a, b, omega = self._means
+        # The rate of arg omega_xy is -omega - p_psi/(2 Ix) - c: c cancels.
+        difference = a - b - omega - HALF * self.nutation.a
+        return round(difference / self.nutation_rate) if self.nutation_rate else 0
 
     @cached_property
     def _factors(self) -> tuple[Pair, Pair, Pair]:
         """Constant factors that make A, B and omega_xy right at t = 0."""
         values = self._series.values(self._nutation_phase.start)
         A, B, omega_xy = (self._find_factor(k, to_complex(each)) for k, each in enumerate(values))
-        omega_xy *= self._modulus_of_third_factor / abs(omega_xy)
+        if omega_xy:  # else it is below all doubles, as is its change
+            omega_xy *= self._modulus_of_third_factor / abs(omega_xy)
         return (A.real, A.imag), (B.real, B.imag), (omega_xy.real, -omega_xy.imag)
 
     def _find_factor(self, k: int, value: complex) -> complex:
@@ -238,27 +248,13 @@ def _merge(is_first: NDArray[np.bool_], first: Components, rest: Components) -> 
     return A, B, omega_xy
 
 
-def _argument_rates(
-    moments: Vector, omega_z: Decimal, means: tuple[Decimal, ...]
-) -> tuple[Decimal, ...]:
-    """Return the mean rates of arg A, arg B and arg omega_xy.
-
-    To the means over a nutation it adds the terms that do not depend on u: the body turns about its
-    axis by c = p_psi (1/Iz - 1/Ix) in addition, written here without the difference of reciprocals.
-    """
-    Ix, Iz = Decimal(moments[0]), Decimal(moments[1])
-    half_c = HALF * omega_z * (Ix - Iz) / Ix
-    a, b, omega = means
-    return a + half_c, b - half_c, -(omega + omega_z * (TWO * Ix - Iz) / (TWO * Ix))
-
-
 def _initial_values(
     moments: Vector, orientation: Quaternion, angular_velocity: Vector
 ) -> tuple[tuple[complex, ...], tuple[complex, ...]]:
     """Return A, B, omega_xy at t = 0, and their time derivatives without the rotation by c.
 
     The derivatives are q' = q (0, omega)/2 and Euler's equations with p_psi/Ix in place of omega_z.
-    The rotation by c commutes and is added exactly, in `_argument_rates`. In these derivatives it
+    The rotation by c commutes and is added exactly, to the phases. In these derivatives it
     would be so large for a thin rod that no digit of the other terms would remain.
     """
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity

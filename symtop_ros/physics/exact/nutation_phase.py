@@ -37,6 +37,8 @@ STRETCHED = 1.5
 # From this share of |A|^2 or |B|^2 at the far turning point left at the near one, the rounding of a
 # phase counts: theta changes fast compared with itself.
 NEAR_POLE = Decimal("0.01")
+# On the separatrix y grows for ever. Here exp(-y/2) is zero, and the axis is upright to any digit.
+FARTHEST = 1e6
 
 
 class NutationPhase:
@@ -64,7 +66,11 @@ class NutationPhase:
         """
         from_top, (origin, rest) = self._origin
         if not self._mean:  # no period: y = x K/K' grows for ever, while x stays 0
-            y = origin + 2 * self.Omega * (t.seconds if isinstance(t, ExactTimes) else t)
+            seconds = t.seconds if isinstance(t, ExactTimes) else t
+            longest = FARTHEST / self.Omega
+            seconds = choose_smaller(seconds, longest, seconds, longest)
+            seconds = choose_smaller(seconds, -longest, -longest, seconds)
+            y = origin + 2 * self.Omega * seconds
             return Location(0.0 * y, y, math.inf + 0.0 * y)
         total = high + origin
         part = total - high

@@ -150,5 +150,5 @@ def test_the_critical_spin_itself_is_stable():
         sleeping = State((1, 0, 0, 0), (0, 0, top.critical_spin))
         assert top.sleeping_is_stable(sleeping)
         assert not top.sleeping_is_stable(State((1, 0, 0, 0), (0, 0, top.critical_spin * 0.999)))
-    huge = Top(1e200, 1e200, 1.0)
+    huge = Top(1e100, 1e100, 1e-100)
     assert huge.sleeping_is_stable(State((1, 0, 0, 0), (0, 0, 1.0)))
