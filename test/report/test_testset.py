@@ -48,7 +48,7 @@ def clock(monkeypatch):
 
 
 def test_the_best_run_within_the_limit_of_time_counts(clock):
-    peer = make_peer(clock, s8=(None, 0.0), s4=(1e-3, 0.0), s2=(1e-5, 0.0), s1=(1e-9, 0.05))
+    peer = make_peer(clock, s8=(None, 1e-4), s4=(1e-3, 1e-4), s2=(1e-5, 1e-4), s1=(1e-9, 0.05))
     (entry,) = find_best_run(peer, CUSPS, limit=0.01)
     assert (entry.peer, entry.problem, entry.level, entry.setting) == ("a peer", "cusps", 2, 2)
     assert entry.angle == pytest.approx(2e-5, rel=1e-3)
