@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Quaternion, Real, Vector
+from symtop_ros.physics.driven.equations import Extended
 from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.exact.closed_form import ClosedFormMotion
 from symtop_ros.physics.exact.elementary import Components, Number
@@ -159,8 +160,8 @@ class Motion:
         ----------
         t : float, array_like (...) or ExactTimes
             Time since the start in s, any finite number of either sign, or exact times in ns. A
-            driven motion takes the nearest doubles in s of exact times, and it costs about
-            0.04 ms for each radian of nutation on the way.
+            driven motion takes exact times in extended precision, and costs about 0.04 ms for
+            each radian of nutation on the way.
 
         Returns
         -------
@@ -183,8 +184,9 @@ class Motion:
         """
         times: float | Real | ExactTimes = t if isinstance(t, ExactTimes) else _validate_times(t)
         if self._driven:
-            seconds = np.asarray(times.seconds if isinstance(times, ExactTimes) else times)
-            return _fill_states(self._driven, seconds)
+            if isinstance(times, ExactTimes):
+                return _fill_states(self._driven, times.extended_seconds)
+            return _fill_states(self._driven, np.asarray(times, dtype=np.longdouble))
         if isinstance(times, np.ndarray) or (isinstance(times, ExactTimes) and times.shape):
             return self._compute_many(times)
         return self._compute_one(times)
@@ -416,7 +418,7 @@ def _validate_times(t: Any) -> float | Real:
     return array if array.ndim else float(array)
 
 
-def _fill_states(driven: DrivenMotion, seconds: Real) -> State:
+def _fill_states(driven: DrivenMotion, seconds: Extended) -> State:
     orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
     driven.fill(seconds.reshape(-1), orientation, angular_velocity)
     return _wrap(orientation, angular_velocity, seconds.shape)

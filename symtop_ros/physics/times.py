@@ -81,6 +81,20 @@ class ExactTimes:
             return (start + step * self.nanoseconds) / divisor
         return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
 
+    @cached_property
+    def extended_seconds(self) -> NDArray[np.longdouble]:
+        """Seconds in extended precision, () or (n,): the nearest doubles, and what they lack."""
+        high = np.asarray(self.seconds, dtype=np.float64)
+        ticks, parts = self.factor.as_integer_ratio()
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        step, start, divisor = ticks * pieces, elapsed * parts, parts * pieces * SECOND
+        low = np.empty_like(high)
+        for place, seconds in np.ndenumerate(high):
+            over, under = float(seconds).as_integer_ratio()
+            n = int(np.asarray(self.nanoseconds)[place])
+            low[place] = ((start + step * n) * under - over * divisor) / (divisor * under)
+        return np.asarray(high.astype(np.longdouble) + low)
+
     def advance(self, nanoseconds: int) -> Fraction:
         """Return the time of the motion in ns at another reading of the clock, exactly.
 

@@ -84,11 +84,19 @@ def test_a_time_that_is_a_double_gives_nearly_the_same_state_as_its_double():
     assert np.abs(exact.orientation - doubles.orientation).max() <= 2 * EPS
 
 
-def test_an_integrated_motion_takes_the_nearest_doubles():
+def test_a_driven_motion_at_exact_times_that_are_doubles_is_that_at_these_doubles():
     motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
-    times = ExactTimes(np.array([0, 300_000_000]), 1 / 3, Fraction(1, 4))
-    assert motion.at(times) == motion.at(times.seconds)
-    assert motion.at(ExactTimes(7)) == motion.at(7e-9)
+    ticks = 1_953_125 * np.array([0, 1, 77, 512])  # of 1/512 s
+    assert motion.at(ExactTimes(ticks)) == motion.at(ticks / 1e9)
+    assert motion.at(ExactTimes(1_953_125)) == motion.at(1 / 512)
+
+
+def test_extended_seconds_are_the_exact_times_to_sixty_four_bits():
+    times = ExactTimes(np.array([7, -(10**15) - 3]), 1 / 3, Fraction(10**18 + 1, 4))
+    for found, n in zip(times.extended_seconds, times.nanoseconds.tolist(), strict=True):
+        exact = (times.elapsed + Fraction(times.factor) * n) / 10**9
+        parts = Fraction(float(found)) + Fraction(float(found - float(found)))
+        assert abs(parts / exact - 1) <= Fraction(1, 2**64)
 
 
 def test_shapes_follow_those_of_the_nanoseconds():

@@ -76,7 +76,7 @@ class Piece(NamedTuple):
     low: Extended
     high: Real  # coefficients of the higher powers, from the highest on
 
-    def at(self, times: Real) -> Extended:
+    def at(self, times: Extended) -> Extended:
         """Return the variables at times (n,) in s of the piece, (n, 9).
 
         A state has the same bits alone as among others: terms are formed and added one by one, the

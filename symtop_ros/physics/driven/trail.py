@@ -34,7 +34,7 @@ class DrivenMotion:
         self._lock = Lock()
         self._forward, self._backward = (Trail(stepper, knot, sign) for sign in (1, -1))
 
-    def fill(self, times: Real, orientation: Real, angular_velocity: Real) -> None:
+    def fill(self, times: Extended, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at times (n,) in s into arrays (n, 4) and (n, 3)."""
         order = np.argsort(np.abs(times), kind="stable")
         for trail, side in ((self._forward, times >= 0), (self._backward, times < 0)):
@@ -80,13 +80,14 @@ class Trail:
         self._recent: deque[Piece] = deque(maxlen=RECENT)  # the last one is the present piece
         self._count = 0  # pieces before the present one
 
-    def evaluate(self, times: Real) -> Iterator[Extended]:
+    def evaluate(self, times: Extended) -> Iterator[Extended]:
         """Yield the variables at times (n,) in s, sorted from the start on, piece by piece."""
         distances, first = np.abs(times), 0
         while first < len(times):
             self.reach(float(times[first]), math.inf)
             piece = self._recent[-1]
             after = int(np.searchsorted(distances, abs(piece.end), side="right"))
+            after = max(after, first + 1)  # its double is the end, and it is a little further on
             yield piece.at(times[first:after])
             first = after
 

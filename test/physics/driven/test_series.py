@@ -1,6 +1,7 @@
 """The engine for friction and applied torques: against 30 digits, the closed form, and itself."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from physics.driven_motion import DrivenTop
 from physics.refusals import NOT_TOO_FAST, VECTOR, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, random_states
 
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.physics.driven.equations import ONE, RATES, DrivenEquations
 from symtop_ros.physics.driven.series import Knot, Stepper
 from symtop_ros.physics.driven.trail import DrivenMotion
@@ -278,3 +279,16 @@ def test_a_tiny_torque_moves_a_resting_top_as_much_as_it_should():
     largest = np.abs(motion.at(np.linspace(0.0, 2.0, 400)).angular_velocity).max()
     off = np.abs(motion.at(2.0).angular_velocity - expected.angular_velocity).max()
     assert off < 2 * EPS * largest  # 0.1 eps measured
+
+
+@pytest.mark.parametrize("nanoseconds", [999_999_937, 9_999_999_967])
+def test_exact_times_are_not_rounded_to_doubles(nanoseconds):
+    friction, torque = DRIVES["friction"]
+    times = ExactTimes(np.array([5, nanoseconds]), factor=0.7, elapsed=Fraction(1, 4))
+    motion = Motion(ARTICLE, CUSPS, friction, torque)
+    t = (times.elapsed + Fraction(times.factor) * nanoseconds) / 10**9
+    expected = exact(ARTICLE, CUSPS, friction, torque, t)
+    # as at times that are doubles; as a double the time would be off by 400 eps in the second case
+    assert distance(State(*(part[1] for part in motion.at(times))), expected) < 2 * EPS
+    one = ExactTimes(nanoseconds, times.factor, times.elapsed)
+    assert motion.at(one).orientation.tolist() == motion.at(times).orientation[1].tolist()
