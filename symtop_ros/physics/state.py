@@ -268,8 +268,14 @@ class State:
 
 
 def _half_sum(a: float, b: float) -> tuple[float, float]:
-    """Return cosine and sine of (a + b)/2; the rounding of a large sum is made good."""
+    """Return cosine and sine of (a + b)/2; the rounding of a large sum is made good.
+
+    Up to a turn this rounding is no larger than that of the result. It is left there, so that
+    starts with ordinary angles have the doubles that they always had.
+    """
     total = a + b
+    if abs(total) <= 2 * np.pi:
+        return np.cos(total / 2), np.sin(total / 2)
     part = total - a
     lost = ((a - (total - part)) + (b - part)) / 2  # Knuth's two-sum
     c, s = np.cos(total / 2), np.sin(total / 2)

@@ -1,7 +1,7 @@
 """Motions to more than 20 digits, computed by other means than the package's, and errors.
 
-The error of an attitude is the angle of the rotation that would correct it, in rad. It is
-2 |q - q_exact|, with the sign of q that makes it smaller.
+The error of an attitude is the angle of the rotation that would correct it, in rad: for small
+errors 2 |q - q_exact|, with the sign of q that makes it smaller.
 """
 
 import json

@@ -114,7 +114,7 @@ class Score:
     ----------
     problem : Problem
     angles : ndarray (20,)
-        Angle in rad of the rotation that would correct the attitude, 2 |q - q_exact|.
+        Angle in rad of the rotation that would correct the attitude.
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
     """
@@ -136,7 +136,7 @@ class Score:
         --------
         >>> cusps = read_problems()["cusps"]
         >>> cusps.score([cusps.facts["orientation"]] * 20).format()[:50]
-        'cusps: attitude 2.0e+00 rad at most (mean 1.2e+00)'
+        'cusps: attitude 2.1e+00 rad at most (mean 1.2e+00)'
         """
         text = (
             f"{self.problem.facts['name']}: attitude {self.angles.max():.1e} rad at most "
@@ -263,17 +263,22 @@ def measure_angles(orientations: Real, high: Real, low: Real) -> Real:
     Returns
     -------
     ndarray (...)
-        2 |q - q_exact| in rad, with the sign of q that makes it smaller.
+        4 arcsin(|q - q_exact|/2) in rad, with the sign of q that makes it smaller: for small
+        errors 2 |q - q_exact|.
 
     Examples
     --------
     >>> exact = np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(4)
     >>> float(measure_angles(np.array([-1.0, 0.0, 0.0, 1e-9]), *exact))
     2e-09
+    >>> half_turn = np.array([np.cos(1.5), np.sin(1.5), 0.0, 0.0])  # a rotation by 3 rad
+    >>> round(float(measure_angles(half_turn, *exact)), 12)
+    3.0
     """
     far = (orientations * high).sum(axis=-1, keepdims=True) < 0
     q = np.where(far, -orientations, orientations)
-    return np.asarray(2 * np.linalg.norm((q - high) - low, axis=-1))
+    half_chord = np.linalg.norm((q - high) - low, axis=-1) / 2
+    return np.asarray(4 * np.arcsin(np.minimum(half_chord, 1.0)))
 
 
 def main(args: Sequence[str] | None = None) -> int:
