@@ -288,3 +288,13 @@ def test_states_do_not_depend_on_how_numpy_treats_underflow():
         assert motion.at(times) == expected
         one = motion.at(1e6)
     assert one.orientation.tolist() == expected.orientation[2].tolist()
+
+
+def test_the_turning_angles_of_a_free_axis_at_rest_are_in_order():
+    rng = np.random.default_rng(11)
+    for theta, phi, psi, spin in rng.uniform(0.01, 3.1, (2000, 4)):
+        start = State.from_euler(theta=theta, phi=phi, psi=psi, psi_dot=spin)  # L is along the axis
+        low, high = Motion(Top(1.0, 0.5, 0.0), start).turning_angles
+        assert low <= high
+        assert low == pytest.approx(theta, rel=8 * EPS)
+        assert high == pytest.approx(theta, rel=8 * EPS)

@@ -81,3 +81,9 @@ def test_a_start_on_a_root_keeps_its_tilt(which):
     theta = motion.at([0.01 * k for k in range(10_000)]).euler_angles.theta
     assert abs(theta - 0.5).max() <= 16 * EPS
     assert motion.mean_precession_rate == pytest.approx(rate, rel=16 * 261 / rate * EPS)  # of omega
+
+
+def test_a_tilt_of_too_many_turns_is_refused():
+    with refused("theta", "at most 1e+15 rad in size", "1e+16"):
+        regular_precession_rates(ARTICLE, theta=1e16, psi_dot=200.0)
+    assert len(regular_precession_rates(ARTICLE, theta=1e15, psi_dot=200.0)) == 2
