@@ -204,7 +204,9 @@ class Motion:
         for first in range(0, count, BLOCK):
             block = slice(first, first + BLOCK)
             part = flat.select(block) if isinstance(flat, ExactTimes) else flat[block]
-            columns = self._evaluate(part)
+            # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
+            with np.errstate(under="ignore"):
+                columns = self._evaluate(part)
             for k, column in enumerate(columns[:4]):
                 orientation[block, k] = column
             angular_velocity[block, 0], angular_velocity[block, 1] = columns[4:]
@@ -212,8 +214,7 @@ class Motion:
 
     def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
         """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
-        # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
-        with localcontext(PRECISE), np.errstate(under="ignore"):
+        with localcontext(PRECISE):
             (w, z), (x, y), (wx, wy) = self._engine.cayley_klein(times)
         if self._is_turned_over:
             w, x, y, z = x, -w, z, -y

@@ -213,36 +213,35 @@ class Stepper:
 
     def _find_length(self) -> float:
         """Return the length of the step in the unit of time, by the root test."""
-        omega_x, omega_y, omega_z = self._series[0, RATES].tolist()
+        w, x, y, z, omega_x, omega_y, omega_z, _ = self._series[0].tolist()
         turn = math.hypot(omega_x, omega_y, self._equations.ratio * omega_z)
         length = LARGEST_TURN / max(turn, LARGEST_TURN / LONGEST)
         axial = max(1.0, abs(omega_z))  # the spin of a rod exceeds the rate
-        swing, size = self._find_swing()
+        upper, lower = w * w + z * z, x * x + y * y
+        swing: tuple[int, ...] = ()
+        if CLOSER * CLOSER * min(upper, lower) < 1:
+            swing = (OMEGA_X, OMEGA_Y, *((X, Y) if upper > lower else (W, Z)))
+            size = self._measure_swing(swing)
         # Of the last two terms one may be small by chance.
         for order in (TERMS - 1, TERMS):
             row = self._series[order].tolist()
-            largest = max(
-                *map(abs, row[QUATERNION]),
-                abs(row[OMEGA_Z]) / axial,
-                max(abs(row[k]) for k in swing) / size,
-            )
+            *others, along, _ = row
+            largest = max(*map(abs, others), abs(along) / axial)
+            if swing:
+                largest = max(largest, max([abs(row[k]) for k in swing]) / size)
             if largest:
                 length = min(length, (LAST / largest) ** (1 / order))
         fraction, exponent = math.frexp(length)
         return math.ldexp(math.floor(math.ldexp(fraction, LENGTH_BITS)), exponent - LENGTH_BITS)
 
-    def _find_swing(self) -> tuple[tuple[int, ...], float]:
-        """Return the variables that are small near the vertical, and their size in a step.
+    def _measure_swing(self, swing: tuple[int, ...]) -> float:
+        """Return the size in a step of the variables that are small near the vertical.
 
         An axis near the vertical swings in proportion to its tilt. Its motion is right to rounding
         of itself only if the terms left out are compared with it, not with 1.
         """
-        first, *others = self._series[:4].tolist()
-        w, x, y, z = first[QUATERNION]
-        tilt = (X, Y) if w * w + z * z > x * x + y * y else (W, Z)
-        swing = (*tilt, OMEGA_X, OMEGA_Y)
-        size = max([abs(row[k]) for row in (first, *others) for k in swing])
-        return swing, min(1.0, CLOSER * size) or 1.0
+        size = CLOSER * max([abs(row[k]) for row in self._series[:4].tolist() for k in swing])
+        return min(1.0, size) or 1.0
 
 
 def _compute(orders: list[Order], products: NDArray[Any]) -> None:

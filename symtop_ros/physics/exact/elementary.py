@@ -18,6 +18,7 @@ Number: TypeAlias = float | Real
 Pair: TypeAlias = tuple[Number, Number]  # real and imaginary part, or a sum of two doubles
 Components: TypeAlias = tuple[Pair, Pair, Pair]  # A, B and omega_x + i omega_y
 
+UNDERFLOW = -708.0  # below, exp(x) is no normal double
 ORDERS = range(1, 5)  # of the terms of a theta series
 SPLITTER = 2.0**27 + 1  # Veltkamp's, for halves of 26 bits
 
@@ -58,7 +59,12 @@ def cosine(x: Number) -> Number:
 
 def exponential(x: Number) -> Number:
     """Return exp(x)."""
-    return np.exp(x) if isinstance(x, np.ndarray) else float(np.exp(x))
+    if isinstance(x, np.ndarray):
+        return np.exp(x)
+    if x < UNDERFLOW:  # the caller's NumPy may be set to raise for that
+        with np.errstate(under="ignore"):
+            return float(np.exp(x))
+    return float(np.exp(x))
 
 
 def exponential_minus_1(x: Number) -> Number:
