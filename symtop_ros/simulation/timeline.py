@@ -1,6 +1,6 @@
 """The timeline of a run: what holds at a stamp, and what each command makes of it.
 
-A command gives a `Change`: the timeline that follows, and the event that tells of it. Nothing here
+A command gives a `Change`: the timeline that follows, and the event that reports it. Nothing here
 has a clock, a lock or a side effect; `simulation` decides at which stamp a change takes effect.
 """
 

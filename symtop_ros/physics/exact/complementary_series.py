@@ -51,7 +51,7 @@ class ComplementaryNumerator(NamedTuple):
 
 
 class Basis(NamedTuple):
-    """What the three quotients have in common at one place."""
+    """Common parts of the three quotients at one place."""
 
     sign: Number  # of y
     decay: Number  # exp(-|y|/2)
