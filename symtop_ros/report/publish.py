@@ -58,7 +58,7 @@ def replace_section(text: str, name: str, content: str) -> str:
 def publish(folder: Path, docs: Path) -> None:
     """Write figures, tables and plots of a report into the documentation."""
     facts = json.loads((folder / "report.json").read_text(encoding="utf-8"))
-    write_figures(facts, format_sections(facts), docs)
+    publish_facts(facts, format_sections(facts), docs)
     for name in NAMES:
         shutil.copy(folder / f"{name}.svg", docs)
 
@@ -70,7 +70,7 @@ def write_results(
     (folder / f"{name}.json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
     (folder / f"{name}.md").write_text(text + "\n", encoding="utf-8")
     if docs:
-        write_figures({name: facts}, {name: text}, docs)
+        publish_facts({name: facts}, {name: text}, docs)
 
 
 def track(work: Sequence[Work], describe: Callable[[Work], str]) -> Iterator[Work]:
@@ -81,7 +81,7 @@ def track(work: Sequence[Work], describe: Callable[[Work], str]) -> Iterator[Wor
             yield each
 
 
-def write_figures(facts: dict[str, Any], sections: dict[str, str], docs: Path) -> None:
+def publish_facts(facts: dict[str, Any], sections: dict[str, str], docs: Path) -> None:
     """Write figures into the documentation; those of other commands stay."""
     path = docs / FIGURES
     others = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}

@@ -21,7 +21,7 @@ from listener import Listener, Traffic
 from processes import domain, run_program, running, script, top_node
 
 from symtop_ros.report.measure import find_machine
-from symtop_ros.report.publish import write_figures
+from symtop_ros.report.publish import publish_facts
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -164,7 +164,7 @@ def main(args: list[str] | None = None) -> int:
         sections = format_sections(facts)
         print(sections["node cost"])
         if options.docs:
-            write_figures({"node": facts}, sections, options.docs)
+            publish_facts({"node": facts}, sections, options.docs)
         return True
 
     description = "CPU, jitter and kick latency of top_node, compared with bare rclpy nodes."
