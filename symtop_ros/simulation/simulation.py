@@ -262,7 +262,8 @@ class Simulation:
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
         verdict = change.describe()
-        self._announce(change, verdict)
+        self.timeline = change.following
+        self._sink.send_event(change.event(verdict))
         return verdict
 
     def apply_at_once(self, change: Change) -> str:
@@ -277,10 +278,6 @@ class Simulation:
             self._publish()
             self._sink.send_event(change.event(verdict))
         return verdict
-
-    def _announce(self, change: Change, verdict: str) -> None:
-        self.timeline = change.following
-        self._sink.send_event(change.event(verdict))
 
     def report(self, name: str, verdict: str, request: Request | None = None) -> str:
         """Announce an event that changes nothing of the motion; return the verdict."""
