@@ -15,7 +15,7 @@ class Claim:
 
     sentence: str  # the claim
     measured: str  # the measured values with units
-    holds: bool  # true if the measurement confirms the sentence
+    holds: bool  # True if the measurement confirms the sentence
     equation: str = ""  # the equation behind the sentence, in the symbols of the article
     tolerance: str = ""  # the bound on the measured values, with its reason
 

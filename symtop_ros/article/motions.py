@@ -71,7 +71,7 @@ DISC_HURRIED = HurryCase(
 
 @dataclass(frozen=True, slots=True)
 class KickedMotion:
-    """A motion that may be kicked: its pieces, each from its begin to that of the next."""
+    """A motion that may be kicked: its pieces, each from its start to that of the next."""
 
     # the time in s at which each motion begins, ascending from 0, and the motion from there
     pieces: tuple[tuple[float, Motion], ...]

@@ -96,7 +96,7 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
     if options.command == "resume":
         return top.switch("pause", False)
     service = BY_COMMAND[options.command]
-    if SERVICES[service].kind == "switch":
+    if SERVICES[service].kind == "switch":  # `pause` has no word: it means on
         return top.switch(service, getattr(options, "switch", "on") == "on")
     if SERVICES[service].kind == "named":
         return top.set(service, values)

@@ -81,19 +81,18 @@ class McapFile:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.profile = ""  # "ros2" for logs of ROS 2
-        # by their ids. These and the following are complete when all chunks are read
-        self.schemas: dict[int, Schema] = {}
-        # by their ids. These and the following are complete when all chunks are read
-        self.channels: dict[int, Channel] = {}
+        # All of these are complete when all chunks are read.
+        self.schemas: dict[int, Schema] = {}  # by their ids
+        self.channels: dict[int, Channel] = {}  # by their ids
         self.metadata: dict[str, dict[str, str]] = {}  # metadata records by name
         self.problems: list[str] = []  # everything that is missing or damaged
-        self.offset = 0  # bytes of the file, and bytes that were read
+        self.offset = 0  # bytes that were read
         self._span: tuple[int, int] | None = None  # log times of the first and latest message
         self._chunk_offsets: list[int] = []
         self._described = 0  # bytes of all descriptions, about
         try:
             with path.open("rb") as file:
-                self.size = file.seek(0, 2)  # bytes of the file, and bytes that were read
+                self.size = file.seek(0, 2)  # bytes of the file
                 file.seek(0)
                 if file.read(len(MAGIC)) != MAGIC:
                     raise LogError(f"cannot open {path}: not an MCAP file")

@@ -44,7 +44,7 @@ class NodePublisher:
 
 
 class NodeHost:
-    """See `Host` for the methods."""
+    """The node; see `OutputHost` for the methods."""
 
     def __init__(self, node: Node, settings: Settings) -> None:
         self._node, self._duplicates = node, DuplicateNodes(node)
@@ -84,13 +84,13 @@ class NodeHost:
     def watch_event(self, event: Event) -> None:
         """Do nothing: events are published and logged."""
 
-    def list_statuses(self) -> list[Status]:
-        """Return the status on nodes of the same name."""
+    def update_statuses(self) -> list[Status]:
+        """Count the nodes of the same name, and return the status on them."""
         self._duplicates.update()
         return [self._duplicates.status]
 
     def inform(self, text: str) -> None:
-        """Log a sentence. Each level has a line of its own: rclpy allows one level for a line."""
+        """Log a sentence. Each level needs a separate line of code, because rclpy asks for it."""
         self._node.get_logger().info(text)
 
     def warn(self, text: str) -> None:

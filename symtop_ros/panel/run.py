@@ -41,7 +41,7 @@ class Run:
         self.history: deque[Event] = deque(maxlen=HISTORY)
         self.state: State | None = None  # the state of the last sample
         self.stamp = 0  # its stamp in ns
-        self.is_recording = False  # true while a log is written
+        self.is_recording = False  # True while a log is written
         self.window = 1.0  # time (s of the motion) that the plots show
         # points of the trace in scene units, the newest last
         self.axes: Real = np.zeros((TRACE + 1, 3))

@@ -127,8 +127,8 @@ class LocalTop:
         """Keep an event."""
         self._events.append((next(self._places), event))
 
-    def list_statuses(self) -> list[Status]:
-        """Return nothing: a page has no diagnostics of its own."""
+    def update_statuses(self) -> list[Status]:
+        """Return nothing: a page adds no diagnostics."""
         return []
 
     def inform(self, text: str) -> None:

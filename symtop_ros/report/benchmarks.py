@@ -31,7 +31,7 @@ HARD_PEERS = ("SciPy DOP853, quaternion", "heyoka, quaternion")
 class Scope:
     """The amount of work of a report."""
 
-    # true if every peer integrates every motion; else each says what it takes part in
+    # True if every peer integrates every motion; else each says what it takes part in
     is_full: bool
     motions: int  # number of the article's seven motions, counted from the first
     limit: float  # seconds that one run of a peer may take

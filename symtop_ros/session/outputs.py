@@ -56,8 +56,8 @@ class OutputHost(Host, Protocol):
     def watch_event(self, event: Event) -> None:
         """Take note of an event."""
 
-    def list_statuses(self) -> list[Status]:
-        """Return its own part of the diagnostics."""
+    def update_statuses(self) -> list[Status]:
+        """Bring its own part of the diagnostics up to date, and return it."""
 
 
 class Output:

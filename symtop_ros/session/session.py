@@ -77,7 +77,7 @@ class Session:
     def keep_up(self) -> None:
         """Do what is due once a second: pace, failed recordings, diagnostics."""
         with self.simulation.turn("/diagnostics"):
-            own = self._host.list_statuses()
+            own = self._host.update_statuses()
             self.simulation.speed_up()
             self.recording.report_failure()
             if self._outputs.need_diagnostics:

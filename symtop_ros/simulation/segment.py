@@ -27,7 +27,7 @@ class Segment:
     stamp: int  # first stamp of the segment in ns
     elapsed: Fraction  # time of the motion at that stamp in ns, exact
     factor: float  # real-time factor: seconds of the motion per second of the clock
-    running: bool  # false while paused
+    running: bool  # False while paused
     rig: Rig = NO_RIG  # gravity and the sensor on the top
 
     @classmethod

@@ -38,12 +38,11 @@ class Imu:
 
     position: Vector = CENTRE  # its place in the body frame in m
     orientation: tuple[float, float, float, float] = ALONG  # quaternion x, y, z, w, sensor to body
-    # in rad/s/sqrt(Hz) and rad/s^2/sqrt(Hz), as in Kalibr's YAML
-    gyroscope_noise_density: float = 0.0
-    # in rad/s/sqrt(Hz) and rad/s^2/sqrt(Hz), as in Kalibr's YAML
-    gyroscope_random_walk: float = 0.0
-    accelerometer_noise_density: float = 0.0  # in m/s^2/sqrt(Hz) and m/s^3/sqrt(Hz)
-    accelerometer_random_walk: float = 0.0  # in m/s^2/sqrt(Hz) and m/s^3/sqrt(Hz)
+    # White noise and random walks of the biases, in the units of Kalibr's YAML.
+    gyroscope_noise_density: float = 0.0  # rad/s/sqrt(Hz)
+    gyroscope_random_walk: float = 0.0  # rad/s^2/sqrt(Hz)
+    accelerometer_noise_density: float = 0.0  # m/s^2/sqrt(Hz)
+    accelerometer_random_walk: float = 0.0  # m/s^3/sqrt(Hz)
     seed: int = 0  # of the noise
     # samples per second: the noise of a sample is its density times the root of the rate
     rate: float = 200.0

@@ -40,7 +40,7 @@ class Parameter:
     condition: str  # the allowed values
     # returns the value, converted, from the name and a raw value; raises RefusedError
     validate: Callable[[str, Any], Any]
-    read_only: bool = False  # true if it can only be set at the start
+    read_only: bool = False  # True if it can only be set at the start
 
 
 def _number(default: float, description: str, unit: str, low: float, high: float) -> Parameter:
@@ -174,12 +174,12 @@ PARAMETERS: dict[str, Parameter] = {
 class InitialConditions:
     """The `initial.*` parameters."""
 
-    theta: float = 0.0  # euler angles z-x-z in rad
-    phi: float = 0.0  # euler angles z-x-z in rad
-    psi: float = 0.0  # euler angles z-x-z in rad
+    theta: float = 0.0  # Euler angles z-x-z in rad
+    phi: float = 0.0
+    psi: float = 0.0
     theta_dot: float = 0.0  # their rates in rad/s
-    phi_dot: float = 0.0  # their rates in rad/s
-    psi_dot: float = 0.0  # their rates in rad/s
+    phi_dot: float = 0.0
+    psi_dot: float = 0.0
     precession: str = ""  # "slow" or "fast" for a root of regular precession; empty: not set
     orientation: tuple[float, ...] = ()  # quaternion x, y, z, w, or empty
     # body frame, rad/s; empty: zero if there is an orientation

@@ -194,7 +194,7 @@ class Change:
     stamp: int  # ns, from which on it holds
     request: Request
     previous: Segment
-    is_new: bool  # False if the motion continues as it was
+    is_new: bool  # False if the motion is unchanged
     verdict: str | Callable[[], str]  # a sentence; computed late, because it takes a millisecond
     before: State | None = None  # the state before the change, if it is not the one at the stamp
 

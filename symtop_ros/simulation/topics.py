@@ -30,7 +30,7 @@ class Topic:
     ros_name: str
     type: str  # message type, such as "std_msgs/msg/String"
     depth: int = 100  # messages that are kept for a slow (or, if latched, a late) subscriber
-    # true if late subscribers get the last messages (durability "transient local")
+    # True if late subscribers get the last messages (durability "transient local")
     latched: bool = False
 
     @property

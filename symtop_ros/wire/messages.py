@@ -136,8 +136,8 @@ CLOCK = Layout(Stamp())  # rosgraph_msgs/Clock
 class Transform:
     """A frame in its parent frame."""
 
-    parent: str  # names of both frames
-    child: str  # names of both frames
+    parent: str  # name of its parent frame
+    child: str  # its name
     translation: tuple[float, float, float]  # in m
     rotation: tuple[float, float, float, float]  # quaternion x, y, z, w
 

@@ -49,7 +49,7 @@ class Program:
     def watch_event(self, event):
         self.events.append(event)
 
-    def list_statuses(self):
+    def update_statuses(self):
         return []
 
     def inform(self, text):

@@ -29,7 +29,7 @@ class Framing:
 
     trace: float = 2.0  # time for which the trace of the axis stays visible, s of the clock
     window: float = 10.0  # range of the plots on each side of the cursor, s of the clock
-    # true if the axis moves below the pivot: the whole sphere is drawn, and no stand
+    # True if the axis moves below the pivot: the whole sphere is drawn, and no stand
     below_pivot: bool = True
 
     @classmethod
