@@ -292,8 +292,9 @@ class Motion:
         """Name of the motion, by phi' at the two turning angles.
 
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
-        zero at one angle), "looping" (phi' has opposite signs), "through the pole", "spiralling"
-        (the axis approaches the vertical for ever) or "sleeping" (it rests on the vertical).
+        zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
+        (the axis approaches the vertical for ever; the separatrix) or "sleeping" (it rests on the
+        vertical). The article calls a unidirectional motion spiralling.
         """
         with localcontext(PRECISE):
             return self._engine.kind
