@@ -2,19 +2,21 @@
 
 import math
 from decimal import localcontext
+from functools import cached_property
 from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.driven.equations import Extended
 from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.exact.closed_form import ClosedFormMotion
 from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.exact.precise import PRECISE
+from symtop_ros.physics.kernel import accelerated
+from symtop_ros.physics.kernel.compiled import CompiledMotion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -125,24 +127,39 @@ class Motion:
         # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
         self._is_turned_over = top.Mgl < 0
         self._spin = float(start.angular_velocity[2])
-        self._engine = self._solve()
-        self.engine = "free" if isinstance(self._engine, FreeMotion) else "closed form"
+        self.engine = "free" if self._is_free else "closed form"
         self._driven: DrivenMotion | None = None
         if self.is_driven:
             self._driven = DrivenMotion(top, start, friction, self.applied_torque)
             self.engine = "taylor"
 
-    def _solve(self) -> Engine:
+    @cached_property
+    def _arguments(self) -> tuple[Vector, Quaternion, Vector]:
+        """What an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
         w, x, y, z = self.start.given_orientation.tolist()
         wx, wy, wz = self.start.angular_velocity.tolist()
         orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
-        Ix, Iz, Mgl = self.top.Ix, self.top.Iz, abs(self.top.Mgl)
+        return (self.top.Ix, self.top.Iz, abs(self.top.Mgl)), orientation, (wx, wy, wz)
+
+    @cached_property
+    def _is_free(self) -> bool:
+        (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = self._arguments
         is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
         rate = max(abs(wx), abs(wy), Iz / Ix * abs(wz))  # not wz: a rod may spin fast
-        is_weightless = Mgl / Ix <= WEIGHTLESS * rate * rate
-        solver = FreeMotion if is_resting or is_weightless else ClosedFormMotion
+        return is_resting or Mgl / Ix <= WEIGHTLESS * rate * rate
+
+    @cached_property
+    def _engine(self) -> Engine:
+        solver = FreeMotion if self._is_free else ClosedFormMotion
         with localcontext(PRECISE):
-            return solver((Ix, Iz, Mgl), orientation, (wx, wy, wz))
+            return solver(*self._arguments)
+
+    @cached_property
+    def _compiled(self) -> CompiledMotion | None:
+        """The kernel's engine, for states alone."""
+        if not accelerated or self._is_free:
+            return None
+        return CompiledMotion(*self._arguments, self._is_turned_over)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""
@@ -185,16 +202,23 @@ class Motion:
         times: float | Real | ExactTimes = t if isinstance(t, ExactTimes) else _validate_times(t)
         if self._driven:
             if isinstance(times, ExactTimes):
-                return _fill_states(self._driven, times.extended_seconds)
-            return _fill_states(self._driven, np.asarray(times, dtype=np.longdouble))
+                return _fill_states(self._driven, *times.split_seconds)
+            seconds = np.asarray(times)
+            return _fill_states(self._driven, seconds, np.zeros_like(seconds))
         if isinstance(times, np.ndarray) or (isinstance(times, ExactTimes) and times.shape):
             return self._compute_many(times)
         return self._compute_one(times)
 
     def _compute_one(self, time: float | ExactTimes) -> State:
-        w, x, y, z, wx, wy = self._evaluate(time)
-        wz = self._spin
-        return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, wz)))
+        if self._compiled and isinstance(time, ExactTimes):
+            orientation, omega = np.empty(4), np.empty(3)
+            self._compiled.fill_exact(time, orientation, omega)
+            return State.wrap(orientation, omega)
+        state = None
+        if self._compiled and isinstance(time, float):
+            state = self._compiled.at(time)
+        w, x, y, z, wx, wy = state or self._evaluate(time)
+        return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, self._spin)))
 
     def _compute_many(self, times: Real | ExactTimes) -> State:
         count = math.prod(times.shape)
@@ -204,6 +228,8 @@ class Motion:
         for first in range(0, count, BLOCK):
             block = slice(first, first + BLOCK)
             part = flat.select(block) if isinstance(flat, ExactTimes) else flat[block]
+            if self._fill_compiled(part, orientation[block], angular_velocity[block]):
+                continue
             # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
             with np.errstate(under="ignore"):
                 columns = self._evaluate(part)
@@ -211,6 +237,15 @@ class Motion:
                 orientation[block, k] = column
             angular_velocity[block, 0], angular_velocity[block, 1] = columns[4:]
         return _wrap(orientation, angular_velocity, times.shape)
+
+    def _fill_compiled(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> bool:
+        """Write the states at times (n,) if there is a kernel, and it can."""
+        if not self._compiled:
+            return False
+        if isinstance(times, ExactTimes):
+            self._compiled.fill_exact(times, orientation, omega)
+            return True
+        return self._compiled.fill(times, orientation, omega)
 
     def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
         """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
@@ -420,9 +455,9 @@ def _validate_times(t: Any) -> float | Real:
     return array if array.ndim else float(array)
 
 
-def _fill_states(driven: DrivenMotion, seconds: Extended) -> State:
+def _fill_states(driven: DrivenMotion, seconds: Real, rests: Real) -> State:
     orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
-    driven.fill(seconds.reshape(-1), orientation, angular_velocity)
+    driven.fill(seconds.reshape(-1), rests.reshape(-1), orientation, angular_velocity)
     return _wrap(orientation, angular_velocity, seconds.shape)
 
 
