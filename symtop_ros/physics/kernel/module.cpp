@@ -261,8 +261,8 @@ PyType_Spec TRAIL = {"symtop_ros.physics.kernel._kernel.Trail", sizeof(Holder<Tr
 
 // ---- Many motions -------------------------------------------------------------------------------
 
-// fill_many(starts, turned_over, times, orientation, omega, far): n motions at m times each, with
-// 10 numbers for a start; far[i] is set to 1 if a time of motion i is too far.
+// fill_many(starts, turned_over, times, orientation, omega, far): n motions at the same m times, with
+// 10 numbers for a start; far[i] is set to 1 if a time is too far for motion i.
 PyObject* fill_many(PyObject*, PyObject* arguments) {
   PyObject *starts, *turned_over, *times, *orientation, *omega, *far;
   if (!PyArg_ParseTuple(arguments, "OOOOOO", &starts, &turned_over, &times, &orientation, &omega,
@@ -270,10 +270,8 @@ PyObject* fill_many(PyObject*, PyObject* arguments) {
     return nullptr;
   Buffer s(starts, false), o(turned_over, false), t(times, false), q(orientation, true),
       rates(omega, true), f(far, true);
-  const Py_ssize_t count = o.bytes();
-  const Py_ssize_t each =
-      count > 0 ? t.bytes() / static_cast<Py_ssize_t>(sizeof(double)) / count : 0;
-  const double *start = s.get<double>(10 * count), *from = t.get<double>(count * each);
+  const Py_ssize_t count = o.bytes(), each = t.bytes() / static_cast<Py_ssize_t>(sizeof(double));
+  const double *start = s.get<double>(10 * count), *from = t.get<double>(each);
   const uint8_t* over = o.get<uint8_t>(count);
   double *to = q.get<double>(4 * count * each), *to_rates = rates.get<double>(3 * count * each);
   uint8_t* is_far = f.get<uint8_t>(count);
@@ -283,7 +281,7 @@ PyObject* fill_many(PyObject*, PyObject* arguments) {
   for (Py_ssize_t i = 0; i < count; i++) {
     motion.has_first_instants = false;
     motion.prepare(read_start(start + 10 * i), over[i]);
-    is_far[i] = !fill(motion, from + i * each, each, to + 4 * i * each, to_rates + 3 * i * each);
+    is_far[i] = !fill(motion, from, each, to + 4 * i * each, to_rates + 3 * i * each);
   }
   Py_END_ALLOW_THREADS
   Py_RETURN_NONE;
