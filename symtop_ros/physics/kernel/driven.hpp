@@ -8,14 +8,6 @@
 
 #include "numbers.hpp"
 
-// Two variants of the inner loops are compiled where the processor may have wider registers. They
-// differ in speed only: nothing is fused, and sums keep their order.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define SYMTOP_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define SYMTOP_CLONES
-#endif
-
 namespace symtop {
 
 // ---- Sums of two doubles ------------------------------------------------------------------------
@@ -196,6 +188,13 @@ const double LAST = 5e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 3.5;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
 const int LENGTH_BITS = 10;
 
+// 1/n
+const Double2 INVERSES[EXTENDED_TERMS + 1] = {
+    {0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}, {1.0 / 3, 0x1.5555555555555p-56}, {0.25, 0.0},
+    {1.0 / 5, -0x1.999999999999ap-57}, {1.0 / 6, 0x1.5555555555555p-57}};
+
+typedef double Four __attribute__((vector_size(32), may_alias));
+
 struct Knot {
   double t;
   Double2 values[VARIABLES];
@@ -313,14 +312,21 @@ class Stepper {
     }
   }
 
-  SYMTOP_CLONES static void add_products(const double* a, const double* b, int order, double* sum) {
+  // The sums over m of a[m] b[order - m], for all products.
+  SYMTOP_CLONES static void add_products(const double a[][MOST_PAIRS], const double b[][MOST_PAIRS],
+                                         int order, double* sum) {
+    const int VECTORS = MOST_PAIRS / 4;
+    Four sums[VECTORS] = {};
     for (int m = 0; m <= order; m++) {
-      const double *x = a + m * MOST_PAIRS, *y = b + (order - m) * MOST_PAIRS;
-      for (int p = 0; p < MOST_PAIRS; p++) sum[p] += x[p] * y[p];
+      const Four* x = reinterpret_cast<const Four*>(a[m]);
+      const Four* y = reinterpret_cast<const Four*>(b[order - m]);
+#pragma GCC unroll 7
+      for (int v = 0; v < VECTORS; v++) sums[v] += x[v] * y[v];
     }
+    std::memcpy(sum, sums, sizeof sums);
   }
 
-  void compute_low_order(int order) {
+  SYMTOP_CLONES void compute_low_order(int order) {
     double sum[MOST_PAIRS] = {}, rest[MOST_PAIRS] = {};
     for (int m = 0; m <= order; m++)
       add_extended(left_[m], left_rest_[m], right_[order - m], right_rest_[order - m], sum, rest);
@@ -331,14 +337,14 @@ class Stepper {
         const int pair = equations.pairs[n];
         total = total + constants_[n] * fast_sum_of(sum[pair], rest[pair]);
       }
-      low_[order + 1][row] = total / Double2{order + 1.0, 0.0};
+      low_[order + 1][row] = total * INVERSES[order + 1];
     }
     put_low(order + 1);
   }
 
   void compute_high_order(int order) {
-    double sum[MOST_PAIRS] = {};
-    add_products(left_[0], right_[0], order, sum);
+    double sum[MOST_PAIRS];
+    add_products(left_, right_, order, sum);
     for (int row = 0; row < FACTORS; row++) {
       double total = 0.0;
       for (int n = equations.first_terms[row]; n < equations.first_terms[row + 1]; n++) {
@@ -356,7 +362,7 @@ class Stepper {
   void copy_series(Piece& piece) const {
     for (int n = 1; n <= EXTENDED_TERMS; n++) {
       for (int k = 0; k < FACTORS; k++) piece.low[n][k] = low_[n][k];
-      piece.low[n][SPIN] = low_[n - 1][OMEGA_Z] / Double2{double(n), 0.0};
+      piece.low[n][SPIN] = low_[n - 1][OMEGA_Z] * INVERSES[n];
     }
     for (int n = EXTENDED_TERMS + 1; n <= DRIVEN_TERMS; n++) {
       for (int k = 0; k < FACTORS; k++) piece.high[n][k] = series_[n][k];
@@ -496,7 +502,7 @@ class Trail {
     for (double each : SINE) of_sine = (of_sine + each) * square;
     for (double each : VERSINE) of_versine = (of_versine + each) * square;
     // The largest terms, x - x^3/6 and 1 - x^2/2, as sums of two doubles.
-    const Double2 near_2 = near * near, sixth = {1.0 / 6, 0x1.5555555555555p-57};
+    const Double2 near_2 = near * near, sixth = INVERSES[6];
     const Double2 sine = near - near * near_2 * sixth + Double2{x * (square * of_sine), 0.0};
     const Double2 cosine = Double2{1.0, 0.0} - scale(near_2, 0.5) -
                            Double2{square * of_versine, 0.0};
