@@ -11,6 +11,7 @@ from mcap.records import Message
 from symtop_ros.log.bag import MessageSource
 from symtop_ros.log.batch import TF, Batch, BatchReader
 from symtop_ros.log.reader import LogError
+from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS, SENSOR_TOPICS
 
 DEFAULT_NODE = "/top"
@@ -32,8 +33,10 @@ class TopLog:
 
     def batches(self) -> Iterator[Batch]:
         """Yield the run from its start to its end."""
-        if self.node is None:
-            self.node = self._find_node()
+        # /tf is shared, and samples may precede the event that says which frame is the top's.
+        first = next(self.events(), None)
+        if first:
+            self._reader.frame = first.values.get("top_frame")
         for messages in self._runs():
             named = [(self._name(message.channel_id), message.data) for message in messages]
             yield self._reader.read([each for each in named if each[0]])
@@ -41,6 +44,16 @@ class TopLog:
             known = sorted(channel.topic for channel in self.file.channels.values())
             msg = f"no run of a top{self._asked} in {self.file.path}: topics "
             raise LogError(msg + (", ".join(known[:20]) or "none"))
+
+    def events(self) -> Iterator[Event]:
+        """Yield the events of the run in the order of the log."""
+        if self.node is None:
+            self.node = self._find_node()
+        reader = BatchReader()
+        for messages in self.file.chunks():
+            named = [(self._name(message.channel_id), message.data) for message in messages]
+            batch = reader.read([each for each in named if each[0] == EVENTS.name])
+            yield from (event for _, event in batch.events)
 
     @property
     def problems(self) -> list[str]:
