@@ -33,17 +33,13 @@ def declare_parameters(node: Node) -> Settings:
     for key in scene:
         if key not in PARAMETERS:
             raise reject(f"parameter in scene {name}", f"one of {', '.join(PARAMETERS)}", key)
-    defaults = {"top_frame": _default_frame(node.get_namespace()), **scene}
+    # /tf is shared by all tops, of other names or namespaces.
+    defaults = {"top_frame": node.get_fully_qualified_name().lstrip("/"), **scene}
     for key, parameter in PARAMETERS.items():
         descriptor = _descriptor(parameter.description, parameter.condition, parameter.read_only)
         node.declare_parameter(key, defaults.get(key, parameter.default), descriptor)
     _check_unknown_names(node)
     return Settings.from_values({key: _value(node, key) for key in PARAMETERS})
-
-
-def _default_frame(namespace: str) -> str:
-    """Return the frame of the top, which differs between namespaces: /tf is shared by all."""
-    return f"{namespace}/{PARAMETERS['top_frame'].default}".lstrip("/")
 
 
 def _value(node: Node, name: str) -> Any:

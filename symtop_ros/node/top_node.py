@@ -22,6 +22,7 @@ from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
+from symtop_ros.simulation.topics import DEFAULT_NAME
 from symtop_ros.simulation.validation import RefusedError, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -54,7 +55,7 @@ class TopNode(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        super().__init__("top", **options)
+        super().__init__(DEFAULT_NAME, **options)
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
         self.failure: Exception | None = None  # the exception that ended the ticks
@@ -63,7 +64,8 @@ class TopNode(Node):
             "ros_distro": distribution_name(),
         }
         scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
-        self.session = Session(settings, NodeClock(self), host, scene, environment)
+        name = self.get_fully_qualified_name()
+        self.session = Session(settings, NodeClock(self), host, scene, environment, name)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]
             self.create_service(kind, f"~/{name}", self._handler(name, read))

@@ -36,7 +36,7 @@ def _motion_status(segment: Segment, stamp: int) -> Status:
         "regular_precession_rates": list(verdict.regular_rates),
         "running": segment.running,
     }
-    return make_status("top: motion", OK, str(verdict), facts)
+    return make_status("motion", OK, str(verdict), facts)
 
 
 def _balance_status(segment: Segment, stamp: int) -> Status:
@@ -54,7 +54,7 @@ def _balance_status(segment: Segment, stamp: int) -> Status:
         "angular_momentum.balance": found.angular_momentum.tolist(),
     }
     message = "friction or an applied torque acts" if motion.is_driven else "only gravity acts"
-    return make_status("top: balance", OK, message, facts)
+    return make_status("balance", OK, message, facts)
 
 
 def _pace_status(segment: Segment, asked: float, ticker: Ticker) -> Status:
@@ -73,19 +73,19 @@ def _pace_status(segment: Segment, asked: float, ticker: Ticker) -> Status:
     elif ticker.missed:
         message = f"{ticker.missed} ticks missed"
     else:
-        return make_status("top: pace", OK, "on time", facts)
-    return make_status("top: pace", WARN, message, facts)
+        return make_status("pace", OK, "on time", facts)
+    return make_status("pace", WARN, message, facts)
 
 
 def _log_status(recorder: Recorder) -> Status:
     facts = {"file": recorder.path or "", "dropped": recorder.dropped}
     if recorder.failure:
-        return make_status("top: log", ERROR, recorder.failure, facts)
+        return make_status("log", ERROR, recorder.failure, facts)
     if recorder.dropped:
         message = f"{recorder.dropped} messages dropped: the disk is too slow"
-        return make_status("top: log", WARN, message, facts)
+        return make_status("log", WARN, message, facts)
     message = "recording" if recorder.running else "not recording"
-    return make_status("top: log", OK, message, facts)
+    return make_status("log", OK, message, facts)
 
 
 def make_status(name: str, level: int, message: str, facts: dict[str, Any]) -> Status:

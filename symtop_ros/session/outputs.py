@@ -14,13 +14,13 @@ from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
     CLOCK,
-    DESCRIPTION,
     DIAGNOSTICS,
     EVENTS,
     SAMPLE_TOPICS,
     TF_STATIC,
     Topic,
     centre_frame,
+    choose_description,
     imu_frame,
 )
 from symtop_ros.simulation.urdf import robot_description
@@ -93,14 +93,14 @@ class Output:
 class Outputs:
     """All topics of a run; the sink of its simulation."""
 
-    def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder) -> None:
+    def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder, name: str) -> None:
         def add(topic: Topic) -> Output:
             return Output(topic, host, recorder)
 
-        self._host, self._recorder = host, recorder
+        self._host, self._recorder, self._name = host, recorder, name
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
-        self._events, self._description = add(EVENTS), add(DESCRIPTION)
+        self._events, self._description = add(EVENTS), add(choose_description(name))
         self._samples = {
             name: (add(topic), topic.layout(*frames))
             for name, topic in SAMPLE_TOPICS.items()
@@ -150,8 +150,11 @@ class Outputs:
         return self._diagnostics.is_needed
 
     def send_diagnostics(self, stamp: int, statuses: list[Status]) -> None:
-        """Publish and log diagnostics."""
-        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, statuses))
+        """Publish and log diagnostics; each status bears the name of the node."""
+        named = [
+            status._replace(name=f"{self._name.lstrip('/')}: {status.name}") for status in statuses
+        ]
+        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, named, self._name))
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""

@@ -41,7 +41,8 @@ class Recording:
         except ModuleNotFoundError as error:
             package = str(error.name).partition(".")[0]
             raise RefusedError(
-                f"{package} must be installed for a recording, got none: pip install {package}, on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
+                f"{package} must be installed for a recording, got none: pip install {package}, "
+                "on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
             ) from None
         self._failure_reported = False
         self._host.inform(f"recording to {path}")

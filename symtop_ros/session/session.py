@@ -31,10 +31,11 @@ class Session:
         host: OutputHost,
         scene: str,
         environment: Mapping[str, str],
+        name: str = "/top",
     ) -> None:
         self._host = host
         self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
-        self._outputs = Outputs(settings, host, self._recorder)
+        self._outputs = Outputs(settings, host, self._recorder, name)
         self.simulation = Simulation(settings, clock, self._outputs, host)
         verdict = self.simulation.timeline.verdict
         self.simulation.report("start", verdict, {"scene": scene})

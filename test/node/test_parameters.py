@@ -11,6 +11,9 @@ from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
+from symtop_ros.log.check import check_log
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.topics import Topic
@@ -232,6 +235,45 @@ def test_in_a_namespace_frame_and_description_are_those_of_the_namespace(start_t
     run.spin_until(lambda: described)
     assert run.top.get_parameter("top_frame").value == "a/top"
     assert '<link name="a/top">' in described[0].data
+
+
+@pytest.mark.parametrize(("namespace", "full"), [("/", "/gyro"), ("/lab", "/lab/gyro")])
+def test_a_top_of_another_name_has_its_own_frame_description_and_diagnostics(
+    namespace, full, start_top, tmp_path
+):
+    arguments = ["--ros-args", "-r", f"__ns:={namespace}", "-r", "__node:=gyro"]
+    run = start_top(
+        arguments=arguments,
+        record__enabled=True,
+        record__directory=str(tmp_path),
+        imu__enabled=True,
+    )
+    described = run.collect(String, f"{full}/robot_description", LATCHED)
+    diagnostics = run.collect(DiagnosticArray, "/diagnostics")
+    run.spin_until(lambda: described and diagnostics)
+    names = {name for name, _ in run.top.get_topic_names_and_types()}
+    assert not {"/robot_description", "/lab/robot_description"} & names
+    frame = full.lstrip("/")
+    for link in ("", "_precession", "_tilt"):
+        assert f'<link name="{frame}{link}"' in described[0].data
+    for status in diagnostics[0].status:
+        assert status.hardware_id == full
+        assert status.name.startswith(f"{frame}: ")
+    run.top.session.close()
+    (path,) = tmp_path.iterdir()
+    log = TopLog(McapFile(path), full)
+    assert all(each.samples and not each.largest for each in check_log(log).values())
+    (batch, *_) = log.batches()
+    assert batch.events[0][1].values["top_frame"] == frame
+    assert len(batch.columns["tf"].stamps) == len(batch.columns["imu"].stamps) > 0
+
+
+def test_a_top_called_top_names_itself_in_its_diagnostics(start_top):
+    run = start_top()
+    diagnostics = run.collect(DiagnosticArray, "/diagnostics")
+    run.spin_until(lambda: diagnostics)
+    found = {(each.name.partition(": ")[0], each.hardware_id) for each in diagnostics[0].status}
+    assert found == {("top", "/top")}
 
 
 def test_transforms_are_published_while_they_are_wanted(start_top, monkeypatch):
