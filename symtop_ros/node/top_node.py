@@ -16,8 +16,8 @@ from rclpy.utilities import get_rmw_implementation_identifier
 from symtop_ros.distribution import distribution_name
 from symtop_ros.node.host import NodeHost
 from symtop_ros.node.pacer import Pacer
-from symtop_ros.node.parameters import declare_parameters
-from symtop_ros.node.services import TYPES, fill_response, guard_types
+from symtop_ros.node.parameters import declare_parameters, guard_parameters
+from symtop_ros.node.services import TYPES, fill_response
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
@@ -137,7 +137,8 @@ class TopNode(Node):
     def create_service(self, *arguments: Any, **options: Any) -> Any:
         """Create a service; rclpy creates its parameter services by this method too."""
         kind, name, handler, *others = arguments
-        return super().create_service(kind, name, guard_types(kind, handler), *others, **options)
+        guarded = guard_parameters(self, name, handler)
+        return super().create_service(kind, name, guarded, *others, **options)
 
     def _handler(self, name: str, read: Callable[[Any], Any]) -> Any:
         def handle(request: Any, response: Any) -> Any:
