@@ -1,5 +1,6 @@
 """The node: ROS around a simulation."""
 
+import time
 from collections.abc import Callable
 from typing import Any, cast
 
@@ -48,6 +49,17 @@ class NodeClock:
         return self._clock.ros_time_is_active
 
 
+class SteadyClock:
+    """The real time of a run that publishes /clock: nobody can set it."""
+
+    is_simulated = False
+
+    @property
+    def now(self) -> int:
+        """Current time in ns."""
+        return time.monotonic_ns()
+
+
 class TopNode(Node):
     """A heavy symmetric top in real time; docs/ros.md lists topics, services and parameters.
 
@@ -65,7 +77,8 @@ class TopNode(Node):
         }
         scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
         name = self.get_fully_qualified_name()
-        self.session = Session(settings, NodeClock(self), host, scene, environment, name)
+        clock = SteadyClock() if settings.publish_clock else NodeClock(self)
+        self.session = Session(settings, clock, host, scene, environment, name)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]
             self.create_service(kind, f"~/{name}", self._handler(name, read))
@@ -143,6 +156,7 @@ class TopNode(Node):
     def _handler(self, name: str, read: Callable[[Any], Any]) -> Any:
         def handle(request: Any, response: Any) -> Any:
             granted, answer = self.session.answer(name, lambda: read(request))
+            self._pacer.wake()  # a clock that stood still may be running
             return fill_response(response, granted, answer)
 
         return handle

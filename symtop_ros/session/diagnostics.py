@@ -7,7 +7,6 @@ from symtop_ros.physics import balance, perrys_rule
 from symtop_ros.session.summary import constants_of_motion, summarize_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.simulation.ticker import Ticker
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status
 
 MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start
@@ -18,7 +17,7 @@ def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]
     segment, stamp = simulation.segment, simulation.stamp
     return [
         _motion_status(segment, stamp),
-        _pace_status(segment, simulation.settings.real_time_factor, simulation.ticker),
+        _pace_status(simulation),
         _log_status(recorder),
         _balance_status(segment, stamp),
     ]
@@ -57,17 +56,18 @@ def _balance_status(segment: Segment, stamp: int) -> Status:
     return make_status("balance", OK, message, facts)
 
 
-def _pace_status(segment: Segment, asked: float, ticker: Ticker) -> Status:
-    achieved = segment.factor if segment.running else 0.0
+def _pace_status(simulation: Simulation) -> Status:
+    asked, kept, ticker = simulation.settings.real_time_factor, simulation.factor, simulation.ticker
+    achieved = kept if simulation.segment.running else 0.0
     facts = {
         "late": ticker.late,
         "missed": ticker.missed,
         "real_time_factor": asked,
         "real_time_factor.achieved": achieved,
     }
-    if segment.factor < asked:
+    if kept < asked:
         message = (
-            f"the motion is too fast for the compute budget: real-time factor {segment.factor:.3g} "
+            f"the motion is too fast for the compute budget: real-time factor {kept:.3g} "
             f"instead of {asked:.3g}"
         )
     elif ticker.missed:

@@ -121,9 +121,13 @@ class Outputs:
         for name, (output, layout) in self._samples.items():
             if output.is_needed:
                 output.send(stamp, layout.encode(stamp, block.numbers(name, stamp)))
-        if self._clock:
-            self._clock.send(stamp, messages.CLOCK.encode(stamp, ()))
+        self.send_clock(stamp)
         self._host.watch_sample(stamp, block)
+
+    def send_clock(self, now: int) -> None:
+        """Publish and log /clock (ns), if that is asked for."""
+        if self._clock:
+            self._clock.send(now, messages.CLOCK.encode(now, ()))
 
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""

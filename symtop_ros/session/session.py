@@ -13,6 +13,7 @@ from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.recording import Recording, limits_of
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
+from symtop_ros.simulation.clocked import ClockedSimulation
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Clock, Simulation
@@ -36,7 +37,8 @@ class Session:
         self._host = host
         self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
         self._outputs = Outputs(settings, host, self._recorder, name)
-        self.simulation = Simulation(settings, clock, self._outputs, host)
+        simulation = ClockedSimulation if settings.publish_clock else Simulation
+        self.simulation: Simulation = simulation(settings, clock, self._outputs, host)
         verdict = self.simulation.timeline.verdict
         self.simulation.report("start", verdict, {"scene": scene})
         metadata = {"scene": scene, **environment}
@@ -81,6 +83,9 @@ class Session:
             own = self._host.update_statuses()
             self.simulation.speed_up()
             self.recording.report_failure()
+            if not self.simulation.segment.running:
+                # for those who came while it stands still
+                self._outputs.send_clock(self.simulation.now)
             if self._outputs.need_diagnostics:
                 statuses = [*collect_statuses(self.simulation, self._recorder), *own]
                 self._outputs.send_diagnostics(self.simulation.stamp, statuses)

@@ -13,6 +13,11 @@ def test_dropped_messages_are_a_warning():
 
 
 def test_missed_ticks_are_a_warning():
-    segment = SimpleNamespace(factor=1.0, running=True)
-    status = _pace_status(segment, 1.0, SimpleNamespace(late=2, missed=3))
+    simulation = SimpleNamespace(
+        factor=1.0,
+        segment=SimpleNamespace(running=True),
+        settings=SimpleNamespace(real_time_factor=1.0),
+        ticker=SimpleNamespace(late=2, missed=3),
+    )
+    status = _pace_status(simulation)
     assert (status.level, status.message) == (WARN, "3 ticks missed")
