@@ -21,6 +21,7 @@ from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.validation import RefusedError, reject
 
 DEFAULT_SCENE = "cusps"
+QOS = "qos_overrides."  # of topics, which declare these parameters themselves
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
 # By the Python type of a default; the lists are vectors.
 TYPES = {
@@ -88,7 +89,7 @@ def _check_unknown_names(node: Node) -> None:
     """
     known = [*PARAMETERS, "scene", "use_sim_time"]
     for name in node._parameter_overrides:
-        if name in known or name.startswith("qos_overrides."):
+        if name in known or node.has_parameter(name) or name.startswith(QOS):
             continue
         nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
         if name.partition(".")[0] in GROUPS:
@@ -96,6 +97,17 @@ def _check_unknown_names(node: Node) -> None:
         node.get_logger().warning(
             f"parameter {name!r} is unknown and not used (nearest: {nearest})"
         )
+
+
+def warn_of_unused_qos(node: Node) -> None:
+    """Warn about overrides of QoS for topics that there are not; call it when all are there."""
+    known = sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))
+    for name in node._parameter_overrides:
+        if name.startswith(QOS) and not node.has_parameter(name):
+            nearest = difflib.get_close_matches(name.removeprefix(QOS), known, n=1, cutoff=0.0)
+            node.get_logger().warning(
+                f"parameter {name!r} is unknown and not used (nearest: {QOS}{nearest[0]})"
+            )
 
 
 def _descriptor(description: str, condition: str, read_only: bool) -> ParameterDescriptor:

@@ -12,18 +12,19 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, QoSReliabilityPolicy
+from rclpy.serialization import deserialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from symtop_ros.distribution import distribution_name
 from symtop_ros.node.host import NodeHost
 from symtop_ros.node.pacer import Pacer
-from symtop_ros.node.parameters import declare_parameters, guard_parameters
+from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
 from symtop_ros.node.services import TYPES, fill_response
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
-from symtop_ros.simulation.topics import DEFAULT_NAME
+from symtop_ros.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
 from symtop_ros.simulation.validation import RefusedError, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -79,12 +80,15 @@ class TopNode(Node):
         name = self.get_fully_qualified_name()
         clock = SteadyClock() if settings.publish_clock else NodeClock(self)
         self.session = Session(settings, clock, host, scene, environment, name)
+        warn_of_unused_qos(self)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]
             self.create_service(kind, f"~/{name}", self._handler(name, read))
         # Best effort, so that publishers of either reliability are received.
         best_effort = QoSProfile(depth=10, reliability=QoSReliabilityPolicy.BEST_EFFORT)
-        self.create_subscription(WrenchStamped, "~/applied_torque", self._apply_torque, best_effort)
+        self.create_subscription(
+            WrenchStamped, APPLIED_TORQUE.ros_name, self._apply_torque, best_effort, raw=True
+        )
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.create_timer(1.0, self.session.keep_up)
@@ -161,7 +165,9 @@ class TopNode(Node):
 
         return handle
 
-    def _apply_torque(self, message: WrenchStamped) -> None:
+    def _apply_torque(self, data: bytes) -> None:
+        self.session.log_torque(data)
+        message = deserialize_message(data, WrenchStamped)
         torque, force = message.wrench.torque, message.wrench.force
         if (force.x, force.y, force.z) == (0.0, 0.0, 0.0):
             vector = (torque.x, torque.y, torque.z)

@@ -7,6 +7,7 @@ from symtop_ros.physics import balance, perrys_rule
 from symtop_ros.session.summary import constants_of_motion, summarize_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.ticker import CATCH_UP
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status
 
 MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start
@@ -72,6 +73,8 @@ def _pace_status(simulation: Simulation) -> Status:
         )
     elif ticker.missed:
         message = f"{ticker.missed} ticks missed"
+        if ticker.missed < CATCH_UP * ticker.rate:
+            return make_status("pace", OK, message, facts)
     else:
         return make_status("pace", OK, "on time", facts)
     return make_status("pace", WARN, message, facts)

@@ -13,6 +13,7 @@ from symtop_ros.simulation.sensor import ALONG, find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
+    APPLIED_TORQUE,
     CLOCK,
     DIAGNOSTICS,
     EVENTS,
@@ -110,6 +111,7 @@ class Outputs:
         self._fixed_frames = add(TF_STATIC) if has_frames else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
+        self._torque = recorder.add_channel(host.resolve(APPLIED_TORQUE), APPLIED_TORQUE)
         self.enable_tf(settings.publish_tf)
 
     def enable_tf(self, enabled: bool) -> None:
@@ -128,6 +130,10 @@ class Outputs:
         """Publish and log /clock (ns), if that is asked for."""
         if self._clock:
             self._clock.send(now, messages.CLOCK.encode(now, ()))
+
+    def log_torque(self, stamp: int, data: bytes) -> None:
+        """Log an encoded torque that was received."""
+        self._recorder.add(self._torque, stamp, data)
 
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""

@@ -55,6 +55,11 @@ class Session:
             return self.simulation.answer(service, act)
         return self.simulation.answer(service, lambda: act(read()))
 
+    def log_torque(self, data: bytes) -> None:
+        """Log an applied torque as it was received, whether it is accepted or not."""
+        with self.simulation.turn("~/applied_torque"):
+            self._outputs.log_torque(self.simulation.stamp, data)
+
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> str:
         """Apply a torque (N m) until its time-out; return the reason if it is refused."""
         with self.simulation.turn("~/applied_torque"):

@@ -97,7 +97,7 @@ class Simulation:
         self._last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
         self._budget, self._spent = ComputeBudget(self.stamp), 0.0
-        self._gap_reported = -NANOSECONDS
+        self._gap_reported, self._unreported = -NANOSECONDS, 0  # ns, samples
         self._block = Block(self.segment, [])
         sink.send_description(self.stamp, settings)
 
@@ -242,13 +242,17 @@ class Simulation:
         return max(1, min(longest, grown, int(AHEAD * rate)))
 
     def _report_gap(self, missed: int) -> None:
-        if self.now - self._gap_reported < NANOSECONDS:  # at most one warning a second
+        """Warn when the samples that were missed since the last warning amount to something."""
+        self._unreported += missed
+        seconds = self._unreported / self.ticker.rate
+        # at most one warning a second
+        if seconds < CATCH_UP or self.now - self._gap_reported < NANOSECONDS:
             return
-        self._gap_reported = self.now
         self._host.warn(
-            f"no samples for {missed / self.ticker.rate:.3g} s ({missed} missed): the process was "
-            "stopped or has too little CPU time; the motion follows the clock"
+            f"no samples for {seconds:.3g} s ({self._unreported} missed, {self.ticker.missed} in "
+            "all): the process was stopped or has too little CPU time; the motion follows the clock"
         )
+        self._gap_reported, self._unreported = self.now, 0
 
     # The compute budget of driven motions
 

@@ -44,7 +44,7 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
         assert len(lines) == 1
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_it_cleanly(ending):
     node = subprocess.Popen(
         command("top_node", "--ros-args", "-p", "publish_rate:=1000"),
