@@ -51,7 +51,7 @@ class NodeClock:
 
 
 class SteadyClock:
-    """The real time of a run that publishes /clock: nobody can set it."""
+    """The real time of a run that publishes /clock: it cannot be set."""
 
     is_simulated = False
 

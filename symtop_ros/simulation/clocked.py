@@ -1,4 +1,4 @@
-"""A simulation in a time of its own, which it publishes on /clock: that of the motion.
+"""A simulation that publishes the time of its motion on /clock, and whose stamps are that time.
 
 The time advances by the real-time factor, stands still in a pause and never goes back, so that
 rates are derivatives by the stamps at every factor. Gazebo's /clock is of this kind.
@@ -61,7 +61,7 @@ class ClockedSimulation(Simulation):
 
     @property
     def factor(self) -> float:
-        """The real-time factor that is kept, also while paused."""
+        """The real-time factor that is kept when the motion runs."""
         return self._run_clock.factor
 
     def pause(self, paused: bool) -> str:
@@ -107,7 +107,7 @@ class ClockedSimulation(Simulation):
         return self._run_clock.seconds_until(self.stamp)
 
     def _follow_jump(self) -> None:
-        """Do nothing: nobody sets this clock."""
+        """Do nothing: no other program sets this clock."""
 
     def _integrate_to(self, stamp: int) -> bool:
         """Work for some ms until the state at a stamp is ready; else a nearer stamp is the next."""

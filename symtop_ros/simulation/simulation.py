@@ -123,7 +123,7 @@ class Simulation:
 
     @property
     def factor(self) -> float:
-        """The real-time factor that is kept, also while paused."""
+        """The real-time factor that is kept when the motion runs."""
         return self.segment.factor
 
     @property
