@@ -42,7 +42,7 @@ KINDS = {
     "closed_cusps": "cusps",
     "conical_pendulum": "regular",
     "spherical_pendulum": "unidirectional",
-    "separatrix": "spiralling",
+    "separatrix": "asymptotic",
     "gray_fall": "cusps",
 }
 EPS = np.finfo(float).eps
