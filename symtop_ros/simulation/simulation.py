@@ -249,8 +249,9 @@ class Simulation:
         if seconds < CATCH_UP or self.now - self._gap_reported < NANOSECONDS:
             return
         self._host.warn(
-            f"no samples for {seconds:.3g} s ({self._unreported} missed, {self.ticker.missed} in "
-            "all): the process was stopped or has too little CPU time; the motion follows the clock"
+            f"no samples for {seconds:.3g} s ({self._unreported} missed): the process was stopped "
+            "or has too little CPU time; the motion follows the clock "
+            f"({self.ticker.missed} missed in all)"
         )
         self._gap_reported, self._unreported = self.now, 0
 
