@@ -94,7 +94,9 @@ class Arguments:
         functions, and those for which a time is too far.
         """
         count, flat = len(self.moments), times.reshape(-1)
-        kept = np.flatnonzero(~self._find_free())
+        with np.errstate(under="ignore"):  # of a rate far below the weight
+            free = is_free(self.moments.T, self.orientation.T, self.omega.T)
+        kept = np.flatnonzero(~free)
         starts, is_turned_over = self._turn_over()
         far = np.zeros(len(kept), dtype=np.uint8)
         q, rates = np.empty((len(kept), flat.size, 4)), np.empty((len(kept), flat.size, 3))
@@ -104,12 +106,6 @@ class Arguments:
         left = np.ones(count, dtype=bool)
         left[kept[far == 0]] = False
         return np.flatnonzero(left).tolist()
-
-    def _find_free(self) -> NDArray[np.bool_]:
-        rows = zip(
-            self.moments.tolist(), self.orientation.tolist(), self.omega.tolist(), strict=True
-        )
-        return np.array([is_free(*row) for row in rows], dtype=bool)
 
     def _turn_over(self) -> tuple[Real, NDArray[np.bool_]]:
         """Return (n, 10) arguments of the closed form, which wants Mgl > 0, and those turned."""
@@ -121,9 +117,14 @@ class Arguments:
         return np.concatenate([moments, q, self.omega], axis=1), is_turned_over
 
 
-def is_free(moments: Any, orientation: Any, omega: Any) -> bool:
-    """Return True if no torque turns the axis: for circular functions instead of elliptic ones."""
+def is_free(moments: Any, orientation: Any, omega: Any) -> Any:
+    """Return True if no torque turns the axis: for circular functions instead of elliptic ones.
+
+    The arguments are numbers, or arrays (3, n), (4, n) and (3, n) of many motions.
+    """
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, omega
-    is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
-    rate = max(abs(wx), abs(wy), Iz / Ix * abs(wz))  # not wz: a rod may spin fast
-    return bool(is_resting or abs(Mgl) / Ix <= WEIGHTLESS * rate * rate)
+    is_vertical = ((w == 0) & (z == 0)) | ((x == 0) & (y == 0))
+    free, weight = (wx == 0) & (wy == 0) & is_vertical, abs(Mgl) / Ix
+    for rate in (wx, wy, Iz / Ix * wz):  # not wz: a rod may spin fast
+        free |= weight <= WEIGHTLESS * rate * rate
+    return free

@@ -166,7 +166,7 @@ class Motion:
 
     @cached_property
     def _is_free(self) -> bool:
-        return is_free(*self._arguments)
+        return bool(is_free(*self._arguments))
 
     @cached_property
     def _engine(self) -> Engine:

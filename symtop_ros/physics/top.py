@@ -108,6 +108,7 @@ class Top:
         state : State
             One state, with a vertical axis.
         """
+        validate_one(self)
         weight = self.Mgl if state.vertical[2] > 0 else -self.Mgl
         if weight <= 0:
             return True
@@ -162,6 +163,12 @@ def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
             raise refuse(name, f"{SMALLEST_MOMENT:g} to {LARGEST_MOMENT:g} kg m^2", moment)
     if abs(Mgl) > LARGEST_MOMENT:
         raise refuse("Mgl", f"at most {LARGEST_MOMENT:g} J in size", Mgl)
+
+
+def validate_one(given: Any, name: str = "top") -> None:
+    """Refuse many tops, or many motions, where one is wanted."""
+    if given.shape:
+        raise refuse(name, f"one {name}", f"{name}s of shape {given.shape}")
 
 
 def match(value: Any, state: State) -> Any:

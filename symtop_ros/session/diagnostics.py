@@ -4,6 +4,7 @@ from typing import Any
 
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.physics import balance, perrys_rule
+from symtop_ros.physics.kernel import describe_engine
 from symtop_ros.session.summary import constants_of_motion, summarize_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
@@ -65,6 +66,7 @@ def _pace_status(simulation: Simulation) -> Status:
         "missed": ticker.missed,
         "real_time_factor": asked,
         "real_time_factor.achieved": achieved,
+        "states_computed_by": describe_engine(),
     }
     if kept < asked:
         message = (

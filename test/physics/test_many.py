@@ -8,7 +8,21 @@ import pytest
 from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, random_case
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, compare_hurried
+from symtop_ros.physics import (
+    Body,
+    EffectivePotential,
+    ExactTimes,
+    Friction,
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    balance,
+    compare_hurried,
+    kick_verdict,
+    perrys_rule,
+    regular_precession_rates,
+)
 from symtop_ros.physics.kernel import python_alone
 
 PROPERTIES = (
@@ -142,3 +156,27 @@ def test_shapes_that_do_not_fit_are_refused():
 def test_an_empty_array_of_motions_has_empty_states():
     motion = Motion(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
     assert motion.at([1.0, 2.0]).orientation.shape == (0, 2, 4)
+
+
+ONE_TOP = {
+    "perrys_rule": perrys_rule,
+    "EffectivePotential": EffectivePotential.of,
+    "regular_precession_rates": lambda top, _: regular_precession_rates(top, 0.5, 2.0),
+    "apply_impulse": lambda top, state: apply_impulse(top, state, (0, 0, 1)),
+    "Body": lambda top, _: Body.of(top),
+    "sleeping_is_stable": lambda top, state: top.sleeping_is_stable(state),
+}
+
+
+@pytest.mark.parametrize("name", ONE_TOP)
+def test_what_is_said_of_one_top_is_refused_for_many(name):
+    with refused("top", "one top", "tops of shape (2,)"):
+        ONE_TOP[name](Top([1.0, 2.0], 1.0, 1.0), CUSPS)
+
+
+def test_a_verdict_and_a_balance_are_those_of_one_motion():
+    motions = Motion(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
+    with refused("motion", "one motion", "motions of shape (2,)"):
+        kick_verdict(motions, CUSPS, "spin_rate")
+    with refused("motion", "one motion", "motions of shape (2,)"):
+        balance(motions, 1.0, 1.0)

@@ -37,6 +37,15 @@ def find_kernel() -> Any:
     return _KERNEL if _is_used[0] else None
 
 
+def describe_engine() -> str:
+    """Return what computes the states, in words."""
+    if accelerated:
+        return "the compiled kernel"
+    if os.environ.get("SYMTOP_PURE", "0") not in ("", "0"):
+        return "Python (SYMTOP_PURE is set)"
+    return "Python (the kernel was not built: it needs a C++ compiler and Python's headers)"
+
+
 @contextmanager
 def python_alone() -> Iterator[None]:
     """Have the motions that are created inside computed by Python, to compare the two."""

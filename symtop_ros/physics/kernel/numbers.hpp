@@ -386,6 +386,7 @@ inline double exponential_minus_1(double x) {
 }
 
 inline double integrate_rf_in_doubles(double x, double y) {
+  if (x == 0 && y == 0) return INFINITY;
   double z = 1.0, mean, dx, dy;
   for (;;) {
     mean = (x + y + z) / 3;
