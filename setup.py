@@ -122,7 +122,7 @@ setup(
     python_requires=">=3.11",
     install_requires=[
         "numpy>=1.24",  # any NumPy of a supported ROS 2
-        "scipy>=1.8",  # 1.8 has Carlson's elliptic integral R_F
+        "scipy>=1.8",  # noise of the sensor, the judge; the physics does without
         "pyyaml>=5.4",  # scene files
     ],
     extras_require={

@@ -16,7 +16,7 @@ TOP = {"__init__", "arrays", "demo", "distribution", "programs", "quaternions", 
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
-    "physics": (set(), NUMERICAL),
+    "physics": (set(), {"numpy"}),
     "wire": (set(), {"numpy"}),
     "simulation": ({"physics", "wire"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
@@ -24,7 +24,7 @@ ARROWS = {
     "playback": ({"drawing", "log", "physics", "simulation"}, {"numpy", *RERUN}),
     "session": ({"__init__", "log", "physics", "simulation", "wire"}, set()),
     "node": (
-        {"distribution", "session", "shutdown", "simulation", "wire"},
+        {"distribution", "physics", "session", "shutdown", "simulation", "wire"},
         {
             *("rclpy", "rcl_interfaces", "std_srvs"),
             *("builtin_interfaces", "geometry_msgs", "visualization_msgs"),
