@@ -91,7 +91,7 @@ setup(
     version=VERSION,
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
     package_data={
-        NAME: ["py.typed", "log/definitions.json", "panel/page.js", "report/reference.json"],
+        NAME: ["py.typed", "log/definitions.json", "web/page.js", "web/page.html", "report/reference.json"],
         f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],
     },
     data_files=[

@@ -22,11 +22,10 @@ from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import AT_ONCE
 from symtop_ros.simulation.topics import Topic
 from symtop_ros.wire.diagnostics import Status
+from symtop_ros.web.run import DRAWN
 from symtop_ros.wire.layout import NANOSECONDS
 
 Argument = Mapping[str, Any] | bool | None
-# The topic of the samples: with the motion of the last event it gives all others.
-DRAWN = "orientation"
 LONGEST_STEP = 0.05  # s of the clock in one batch; a browser that is slow makes the motion slow
 TORQUE_TIMEOUT = 0.3  # s; a held button repeats its torque 20 times a second, but not exactly
 SAMPLES = 2000  # that are kept for the next batch: 10 s at 200 Hz
