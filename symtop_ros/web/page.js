@@ -43,6 +43,7 @@
     "friction.transverse": { label: "friction, transverse (N m s)" },
   };
   const values = { factor: 1.4 };
+  let typed = null; // the field that was typed into, and not yet taken over
   let asked = null; // the field whose value was sent last
   let dragged = null;
 
@@ -66,8 +67,9 @@
   };
   const commit = (name) => {
     const { text, label } = FIELDS[name];
+    if (typed !== name) return;
+    typed = null;
     const value = parse(text.value) / scale(name);
-    if (text.value === short((values[name] ?? NaN) * scale(name), 6)) return;
     if (!Number.isFinite(value)) {
       text.setAttribute("aria-invalid", "true");
       refuse(`${label} must be a number, got ${text.value.trim() || "nothing"}`);
@@ -103,10 +105,11 @@
     field.text = make("input", { id, type: "text", inputMode: "text", autocomplete: "off" });
     field.text.addEventListener("keydown", (event) => {
       if (event.key === "Enter") commit(name);
-      if (event.key === "Escape") { field.text.value = ""; field.text.blur(); }
+      if (event.key === "Escape") { typed = null; field.text.blur(); }
     });
+    field.text.addEventListener("input", () => { typed = name; });
     field.text.addEventListener("blur", () => {
-      if (field.text.value.trim()) commit(name);
+      commit(name);
       setTimeout(() => write(name), 1000); // what holds, if the value was refused
     });
     place.append(field.name, field.text);

@@ -31,7 +31,7 @@ CHUNKS = TRACE // CHUNK + 1
 # The camera for a top above its pivot, for one that also goes below, and for one whose angular
 # momentum points down: seen from above, its rotor would hide the arrows.
 ABOVE, AROUND_PIVOT, BELOW = 0, 1, 2
-EYES = ((1.9, -2.2, 1.35), (2.5, -2.9, 1.2), (2.5, -2.9, -1.2))
+EYES = ((1.9, -2.2, 1.35), (2.75, -3.2, 1.3), (2.75, -3.2, -1.3))
 TARGETS = ((0.0, 0.0, 0.45), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 HORIZON = 1.65  # rad; the axis goes below the pivot: no stand, and the whole sphere
 AROUND = np.linspace(0, 2 * np.pi, 97)
