@@ -92,14 +92,12 @@ class Pages:
         """Add the rows of the series from a number on; return the number of the next one."""
         run = self._run
         count, rows = run.series_since(max(number, 0))
-        if not len(rows) and run.series_since(0)[1].size:
-            message["now"] = round_row(run.series()[-1])
-        if len(rows):
-            begin = max(run.time - run.window, self.facts["since"] - 1e-9)
-            shown = rows[rows[:, 0] >= begin]
-            message["now"] = round_row(rows[-1])
-            if len(shown):
-                message["rows"] = thin(shown, run.window)
+        if not len(run.series()) or not (len(rows) or message):
+            return count  # a paused top sends nothing
+        shown = rows[rows[:, 0] >= max(run.time - run.window, self.facts["since"] - 1e-9)]
+        if len(shown):
+            message["rows"] = thin(shown, run.window)
+        message["now"] = round_row(run.series()[-1])
         message["constants"] = describe_constants(run)
         return count
 
