@@ -20,6 +20,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.web.facts import describe
 from symtop_ros.web.run import Run
+from symtop_ros.web.saved import save_run
 from symtop_ros.web.scene import EYES, TARGETS, Scene, layer_node
 
 RATE, CROWDED_RATE = 60.0, 40.0  # frames per second
@@ -175,6 +176,7 @@ class Page:
     def _files(self) -> dict[str, Callable[[str], File | None]]:
         return {
             "/series.csv": lambda _: File(self._locked(self.run.csv).encode(), "text/csv"),
+            "/run.html": lambda _: self.save_run(),
             "/picture.png": self._draw_picture,
             LOG: lambda _: self._read_log(),
         }
@@ -182,6 +184,14 @@ class Page:
     def _locked(self, act: Callable[[], Any]) -> Any:
         with self._lock:
             return act()
+
+    def save_run(self) -> File | None:
+        """Return the run so far as a page; None if nothing has moved yet."""
+        events, end = self._locked(lambda: ([each.event for each in self.run.moments], self.run.stamp))
+        try:
+            return File(save_run(events, end).encode(), "text/html; charset=utf-8")
+        except ValueError:
+            return None
 
     def _read_log(self) -> File | None:
         log: Path | None = self.source.log

@@ -353,7 +353,7 @@
   };
   const showScene = (isDark) => {
     if (saved) {
-      frame.srcdoc = saved.scene.replace('"darkMode": false', `"darkMode": ${isDark}`);
+      frame.srcdoc = saved.scene.replace("{darkMode:false}", `{darkMode:${isDark}}`);
     } else {
       const address = `ws://${location.host}/scene/${page}`;
       frame.src = `/scene?${isDark ? "darkMode&" : ""}websocket=${encodeURIComponent(address)}`;
@@ -525,9 +525,10 @@
 
   const play = () => {
     document.body.classList.add("saved");
-    const locate = (list, time) => {
+    const { rows, facts: all } = saved;
+    const locate = (list, column, time) => {
       let [low, high] = [0, list.length];
-      while (high - low > 1) { const k = (low + high) >> 1; if (list[k][0] <= time) low = k; else high = k; }
+      while (high - low > 1) { const k = (low + high) >> 1; if (list[k][column] <= time) low = k; else high = k; }
       return low;
     };
     let before = null;
@@ -535,12 +536,12 @@
       const slider = frame.contentDocument && frame.contentDocument.querySelector("[role=slider]");
       const played = slider ? Number(slider.getAttribute("aria-valuenow")) : 0;
       if (played !== before) {
-        const last = locate(saved.clock, played);
-        const k = locate(saved.facts, played);
-        if (facts !== saved.facts[k][1]) { facts = saved.facts[k][1]; showFacts(); before = null; }
-        const first = saved.facts[k][2];
-        const begin = Math.max(first, saved.rows.findIndex((row) => row[0] >= saved.rows[last][0] - facts.window));
-        drawCharts(saved.rows.slice(Math.min(begin, last), last + 1), before === null ? saved.facts[k][3] : undefined);
+        const last = locate(rows, 5, played);
+        const [, chosen, first, constants] = all[locate(all, 0, played)];
+        const isNew = facts !== chosen;
+        if (isNew) { facts = chosen; showFacts(); }
+        const begin = locate(rows, 0, rows[last][0] - facts.window);
+        drawCharts(rows.slice(Math.min(Math.max(first, begin), last), last + 1), isNew ? constants : undefined);
         before = played;
       }
       requestAnimationFrame(follow);
