@@ -31,6 +31,7 @@ class Pages:
     def __init__(self, run: Run, actions: Actions, lock: threading.Lock) -> None:
         self.facts: dict[str, Any] = {}  # of the run, as the pages have them
         self.show: Callable[[str, str, bool], None] = lambda *_: None  # page, layer, shown
+        self.wake: Callable[[], None] = lambda: None  # called when a page is opened
         self._run, self._actions, self._lock = run, actions, lock
         self._pages: dict[ServerConnection, asyncio.Event] = {}
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -53,6 +54,7 @@ class Pages:
         """Serve one page until it is closed."""
         self._loop = asyncio.get_running_loop()
         self._pages[connection] = asyncio.Event()
+        self.wake()
         sending = asyncio.create_task(self._send(connection))
         try:
             async for text in connection:

@@ -38,15 +38,15 @@ class Page:
     def __init__(self, source: Source, host: str, port: int) -> None:
         self.source, self.run = source, Run()
         self.actions = Actions(source, self.run)
+        self._connected, self._ending = threading.Event(), threading.Event()
         self._lock = threading.Lock()  # of the run: the pages read it in another thread
         self.pages = Pages(self.run, self.actions, self._lock)
         self.server = PageServer(host, port, self.pages.serve, self._files())
-        self.pages.show = self._show_layer
+        self.pages.show, self.pages.wake = self._show_layer, self._connected.set
         self._scene = Scene(self.server)
         self._view = self._scene.view
         self._pull: tuple[int, Real] | None = None  # who pulls the axle, and where to
         self._scene.handle.on_drag(self._drag)
-        self._connected, self._ending = threading.Event(), threading.Event()
         self._sizes: dict[int, tuple[int, int]] = {}  # of the scene on each page, in pixels
         self._outdated = True  # True if the pages have not got the facts
         self.server.on_client_connect(self._greet)
@@ -92,7 +92,7 @@ class Page:
         due, watched = time.monotonic(), None
         while not self._ending.is_set():
             self._connected.clear()
-            pages = len(self.server.get_clients())
+            pages = max(len(self.pages), len(self.server.get_clients()))
             if watched != bool(pages):
                 watched = bool(pages)
                 self.source.watch(watched)
@@ -165,7 +165,9 @@ class Page:
 
     def _clients(self, page: str) -> list[ClientHandle]:
         clients = self.server.get_clients().values()
-        return [client for client in clients if page and self.server.page_of(client.client_id) == page]
+        return [
+            client for client in clients if page and self.server.page_of(client.client_id) == page
+        ]
 
     def _show_layer(self, page: str, layer: str, shown: bool) -> None:
         """Show or hide a layer on one page. Viser's handles change all pages."""
@@ -187,7 +189,9 @@ class Page:
 
     def save_run(self) -> File | None:
         """Return the run so far as a page; None if nothing has moved yet."""
-        events, end = self._locked(lambda: ([each.event for each in self.run.moments], self.run.stamp))
+        events, end = self._locked(
+            lambda: ([each.event for each in self.run.moments], self.run.stamp)
+        )
         try:
             return File(save_run(events, end).encode(), "text/html; charset=utf-8")
         except ValueError:

@@ -204,7 +204,7 @@ def _pace(connection: ServerConnection) -> None:
         await send(message, **options)
         sent.append(await connection.ping())
 
-    connection.send = paced  # type: ignore[method-assign]
+    connection.send = paced  # type: ignore[method-assign, assignment]
 
 
 def _quiet() -> logging.Logger:
@@ -250,7 +250,9 @@ def _pack(page: str) -> tuple[bytes, bytes, str]:
 @functools.cache
 def _load_page(is_trusted: bool) -> str:
     """Return the page; it starts what its address asks for only if the user has typed that."""
-    return write_page().replace("<html ", f'<html data-trusted="{"yes" if is_trusted else "no"}" ', 1)
+    return write_page().replace(
+        "<html ", f'<html data-trusted="{"yes" if is_trusted else "no"}" ', 1
+    )
 
 
 @functools.cache

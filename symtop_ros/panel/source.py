@@ -21,8 +21,8 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import AT_ONCE
 from symtop_ros.simulation.topics import Topic
-from symtop_ros.wire.diagnostics import Status
 from symtop_ros.web.run import DRAWN
+from symtop_ros.wire.diagnostics import Status
 from symtop_ros.wire.layout import NANOSECONDS
 
 Argument = Mapping[str, Any] | bool | None

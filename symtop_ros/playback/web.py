@@ -30,7 +30,7 @@ def _handler(page: int, data: int) -> type[http.server.BaseHTTPRequestHandler]:
     )
 
     class Handler(http.server.BaseHTTPRequestHandler):
-        def do_GET(self) -> None:  # noqa: N802
+        def do_GET(self) -> None:
             source = http.client.HTTPConnection(HOST, page, timeout=60.0)
             try:
                 source.request("GET", self.path)

@@ -26,7 +26,7 @@
   const inUnit = (text) =>
     inDegrees()
       ? text.replace(/(-?[\d.]+)( (?:and|to) (-?[\d.]+))? rad(?!\/)\b/g, (_, first, __, second) =>
-          [first, second].filter(Boolean).map((each) => angle(Number(each)).toFixed(1)).join(" and ") + "\u00b0")
+          [first, second].filter(Boolean).map((each) => angle(Number(each)).toFixed(1) + "\u00b0").join(" and "))
       : text;
 
   // Fields: a value is taken over on Enter or when the field is left, never while it is typed

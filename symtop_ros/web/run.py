@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.ghost import Ghost
@@ -180,7 +181,7 @@ class Run:
             self._extend_series(times[fresh], states, self._find_ghost(stamps[fresh]))
         self._extend_trace(times, State.wrap(quaternions, rates))
 
-    def _find_ghost(self, stamps: Real) -> Real:
+    def _find_ghost(self, stamps: NDArray[np.int64]) -> Real:
         """Return the tilt of the ghost at some stamps, nan where there is none."""
         ghost = self.ghost.reach(int(stamps[-1]))
         if ghost is None:

@@ -119,7 +119,7 @@ def _list_stretches(events: Sequence[Event], end: int) -> list[tuple[Event, list
             stamps = [event.stamp] * (STILL if event.name == "step" else 1)
         stretches.append((event, stamps))
     left = LONGEST // FRAME
-    for event, stamps in reversed(stretches):
+    for _, stamps in reversed(stretches):
         stamps[: max(0, len(stamps) - left)] = []
         left -= len(stamps)
     return stretches

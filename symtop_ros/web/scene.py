@@ -16,9 +16,9 @@ from viser import (
 
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.mesh import create_body, create_lathe
-from symtop_ros.web.run import TRACE, Run
 from symtop_ros.physics import State, Top, specific_force
 from symtop_ros.simulation.segment import Segment
+from symtop_ros.web.run import TRACE, Run
 
 Color = tuple[int, int, int]
 # Colours that are visible on white and on black, and different for colour-blind people.
@@ -149,7 +149,9 @@ class Scene:
         newest = (run.traced - 1) // CHUNK
         oldest = max(self._traced // CHUNK, newest - CHUNKS + 1)
         for number in range(oldest, newest + 1):
-            self._trace[number % CHUNKS].points = _segments(_choose_points(run, number))
+            self._trace[number % CHUNKS].points = _segments(_choose_points(run, number)).astype(
+                np.float32
+            )
         self._traced = run.traced
 
     def _draw_ghost(self, run: Run) -> None:
@@ -234,7 +236,7 @@ def _choose_points(run: Run, number: int) -> Real:
     """Return the points (CHUNK + 1, 3) of a stretch of the trace; it may not be complete."""
     first = run.traced - TRACE + 1  # number of the oldest point that is left
     wanted = np.arange(number * CHUNK, (number + 1) * CHUNK + 1).clip(max(first, 0), run.traced)
-    return run.axes[wanted - first].astype(np.float32)
+    return np.asarray(run.axes[wanted - first])
 
 
 def _point(arrow: ArrowsHandle, vector: Real, length: float) -> None:

@@ -86,7 +86,7 @@ def test_every_scene_can_be_chosen(played):
     actions, run, look = played
     for name in scene_names():
         actions.choose_scene(name)
-    with pytest.raises(RefusedError, match="^scene must be one of"):
+    with pytest.raises(RefusedError, match=r"^scene must be one of"):
         actions.choose_scene("no_such_scene")
     actions.choose_scene("perry_fails")
     look()
@@ -95,11 +95,11 @@ def test_every_scene_can_be_chosen(played):
 
 def test_a_refusal_is_one_sentence_and_changes_nothing(played):
     actions, _, look = played
-    with pytest.raises(RefusedError, match="^theta must be 0 to 3.14159 rad, got 4.0$"):
+    with pytest.raises(RefusedError, match=r"^theta must be 0 to 3.14159 rad, got 4.0$"):
         actions.start({"theta": 4.0})
-    with pytest.raises(RefusedError, match="^top.Ix must be"):
+    with pytest.raises(RefusedError, match=r"^top.Ix must be"):
         actions.set_parameters({"top.Ix": -1.0})
-    with pytest.raises(RefusedError, match="^way must be up, down, along or back"):
+    with pytest.raises(RefusedError, match=r"^way must be up, down, along or back"):
         actions.push("sideways")
     assert look() == []
 
@@ -173,7 +173,7 @@ def test_the_torque_of_the_buttons_suits_the_top(played):
 
 def test_a_recording_is_switched_and_named(played, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    actions, run, look = played
+    actions, _run, look = played
     answer, log = actions.switch_recording()
     assert answer.startswith("recording to ")
     assert log is None

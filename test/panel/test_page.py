@@ -28,7 +28,10 @@ SIZE = {"width": 1100, "height": 560}  # software renders slowly
 LINK = "?theta=0.3&psi_dot=150&phi_dot=0"
 # Viser's own listener at the end of a pull; Chromium calls it an error, and it has no effect. Viser
 # makes functions from text for Gaussian splats, which this page has none of.
-KNOWN = ("Unable to preventDefault inside passive event listener", "Evaluating a string as JavaScript")
+KNOWN = (
+    "Unable to preventDefault inside passive event listener",
+    "Evaluating a string as JavaScript",
+)
 OTHER_ORIGIN = """<!doctype html><script>
 const open = (path, protocols) => new Promise((done) => {
   const socket = new WebSocket("ws://ADDRESS" + path, protocols);
@@ -334,8 +337,10 @@ def test_the_headline_compares_with_the_top_that_was_not_kicked(watched):
     watched.act(lambda: watched.press("Hurry the precession"), "kick")
     low, high = watched.run.motion.turning_angles
     watched.until(
-        lambda: headline.inner_text()
-        == f"The top rises by {0.5 - low:.3f} rad: it moves higher than without the kick."
+        lambda: (
+            headline.inner_text()
+            == f"The top rises by {0.5 - low:.3f} rad: it moves higher than without the kick."
+        )
     )
     # Hurried again near the lower end of the nutation it falls on, and yet both limits rise.
     for _ in range(8):
@@ -354,7 +359,9 @@ def test_speed_and_torque_leave_the_headline(watched):
     watched.act(lambda: watched.press("Hurry the precession"), "kick")
     headline = watched.tab.locator("#headline")
     watched.until(lambda: headline.inner_text().startswith("The top rises"))
-    watched.act(lambda: watched.tab.get_by_label("speed").select_option("1/20 of real time"), "parameters")
+    watched.act(
+        lambda: watched.tab.get_by_label("speed").select_option("1/20 of real time"), "parameters"
+    )
     watched.act(lambda: watched.page.actions.hold_torque(1.0), "torque")
     watched.until(lambda: watched.run.event.name == "torque")
     watched.tab.wait_for_timeout(300)
@@ -422,7 +429,9 @@ def test_labels_stand_at_the_ends_of_their_arrows(watched):
     for name in ("L", "omega", "torque"):
         arrow, label = scene._arrows[name], scene._labels[name]
         w, x, y, z = arrow.wxyz
-        direction = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), w * w + z * z - x * x - y * y])
+        direction = np.array(
+            [2 * (x * z + w * y), 2 * (y * z - w * x), w * w + z * z - x * x - y * y]
+        )
         gap = np.array(label.position) - arrow.points[0, 1, 2] * direction
         assert np.linalg.norm(gap) < 0.08  # scene units, less than two heads of an arrow
     dark = [watched.place(np.array(scene._labels[name].position)) for name in ("L", "omega")]
@@ -632,7 +641,11 @@ def test_two_pages_play_with_one_top_and_choose_each_what_they_show(watched, bro
     other.get_by_label("trace").uncheck()
     watched.until(lambda: bool(sent))
     ((client, message),) = sent
-    assert (client, message.name, message.visible) == (max(watched.page.server.get_clients()), "/trace", False)
+    assert (client, message.name, message.visible) == (
+        max(watched.page.server.get_clients()),
+        "/trace",
+        False,
+    )
     other.close()
     watched.until(lambda: len(watched.page.server.get_clients()) == 1)
 

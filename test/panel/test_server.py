@@ -147,6 +147,13 @@ def test_only_a_page_to_which_no_other_site_has_led_starts_what_its_address_asks
     assert f'data-trusted="{trusted}"'.encode() in content
 
 
+def test_compressed_and_plain_pages_are_the_same(started):
+    server, _ = started
+    _, headers, content = ask(server, "/index.html", Accept_Encoding="gzip")
+    assert headers["Content-Encoding"] == "gzip"
+    assert gzip.decompress(content) == ask(server, Accept_Encoding="identity")[2]
+
+
 def test_a_file_is_for_this_page(started):
     server, asked = started
     status, headers, content = ask(server, "/series.csv?page=a")
