@@ -7,7 +7,7 @@ FOLDER = Path(__file__).parent
 # renderer, which would cover the scene.
 HIDING = (
     "<style>[data-testid=floating-panel], .mantine-Notifications-root, "
-    '.mantine-ScrollArea-root[style*="position: fixed"] { display: none !important; }</style>'
+    '#root [style*="position: fixed"][style*="20em"] { display: none !important; }</style>'
 )
 
 
