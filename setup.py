@@ -4,7 +4,7 @@ import re
 from glob import glob
 from pathlib import Path
 
-from setuptools import find_packages, setup
+from setuptools import Extension, find_packages, setup
 
 NAME = "symtop_ros"
 VERSION = re.search(r'__version__ = "(.+)"', Path(NAME, "__init__.py").read_text())[1]
@@ -87,10 +87,25 @@ LINT = [
     "colcon-common-extensions>=0.3",  # a test builds the package in a workspace
 ]
 
+# The kernel of the physics. It is optional: without a compiler, or without Python's headers, the
+# package is installed without it. No fused products and sums, so that states have the same bits on
+# every machine.
+KERNEL = Extension(
+    f"{NAME}.physics.kernel._kernel",
+    sources=[f"{NAME}/physics/kernel/module.cpp"],
+    depends=glob(f"{NAME}/physics/kernel/*.hpp"),
+    language="c++",
+    extra_compile_args=["-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"],
+    py_limited_api=True,
+    optional=True,
+)
+
 setup(
     name=NAME,
     version=VERSION,
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
+    ext_modules=[KERNEL],
+    options={"bdist_wheel": {"py_limited_api": "cp311"}},
     package_data={
         NAME: [
             "py.typed",

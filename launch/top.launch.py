@@ -37,18 +37,19 @@ def generate_launch_description() -> LaunchDescription:
                 DeclareLaunchArgument(name, default_value=default, description=text)
                 for name, default, text in ARGUMENTS
             ),
+            # First: if rviz2 is not installed, the launch ends before it has started a node.
+            Node(
+                package="rviz2",
+                executable="rviz2",
+                arguments=["-d", layout],
+                condition=IfCondition(values["rviz"]),
+            ),
             Node(
                 package=PACKAGE,
                 executable="top_node",
                 namespace=values["namespace"],
                 parameters=[parameters],
                 output="screen",
-            ),
-            Node(
-                package="rviz2",
-                executable="rviz2",
-                arguments=["-d", layout],
-                condition=IfCondition(values["rviz"]),
             ),
             Node(
                 package=PACKAGE,

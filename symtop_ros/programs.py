@@ -115,7 +115,8 @@ def _set_signals(handler: Any) -> None:
 
 def _remedy(package: str) -> str:
     if package in PYPI:
-        return f"pip install {'pyyaml' if package == 'yaml' else package}"
+        name = "pyyaml" if package == "yaml" else package
+        return f"pip install {name}, on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
     if package in EXTRAS:
         return f"pip install 'symtop_ros[{EXTRAS[package]}]'"
     return "source a ROS 2, or pip install 'symtop_ros[ros]'"

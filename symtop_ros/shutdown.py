@@ -1,4 +1,4 @@
-"""Orderly shutdown of a ROS program by SIGINT and SIGTERM."""
+"""Orderly shutdown of a ROS program by SIGINT, SIGTERM and SIGHUP."""
 
 import os
 import signal
@@ -16,7 +16,7 @@ from rclpy.signals import (
 
 from symtop_ros.simulation.validation import one_line
 
-SIGNALS = signal.SIGINT, signal.SIGTERM
+SIGNALS = signal.SIGINT, signal.SIGTERM, signal.SIGHUP
 
 
 def describe_failure(error: Exception) -> str:
@@ -49,10 +49,14 @@ def ros_context(arguments: list[str]) -> Iterator[Callable[[], None]]:
 
     def listen() -> None:
         install_signal_handlers(SignalHandlerOptions.ALL)
+        if signal.SIGHUP in before:  # a closed terminal; rclpy knows the other two
+            signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
         for number in noted[:1]:
             signal.raise_signal(number)
 
-    before = {number: signal.signal(number, note) for number in SIGNALS}
+    # nohup ignores SIGHUP
+    heeded = SIGNALS if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN else SIGNALS[:2]
+    before = {number: signal.signal(number, note) for number in heeded}
     try:
         # Not as a context manager: rclpy 7 (Jazzy) returns None here.
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)

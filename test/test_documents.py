@@ -29,8 +29,11 @@ LAUNCH_FILE = ROOT / "launch/top.launch.py"
 # The modules of programs whose options are parsed here; test/MODULE runs them.
 PARSED = {"top_report": "report", "top_panel": "panel", "top_live": "live"}
 MODULES = {**PARSED, "top_ctl": "client", "top_judge": "judge", "top_replay": "playback"}
-# These need a network, or a ROS 2 with security.
-NOT_RUN = (["git", "clone"], ["cd"], ["ros2", "security"], ["export"])
+# These need a network, a shell, or a ROS 2 with security.
+NOT_RUN = (
+    *(["git", "clone"], ["cd"], ["ros2", "security"], ["export"]),
+    *(["python3", "-m", "venv"], ["~/symtop_venv/bin/pip"], ["source"]),
+)
 # test_lesson.py runs the commands of the lesson, one step after the other.
 COMMANDS = [
     pytest.param(words, output, id=f"{page.stem}: {' '.join(words)}")

@@ -74,7 +74,12 @@ def test_colcon_build_installs_what_ros2_run_looks_for(sources):
     prefix = workspace / "install" / "symtop_ros"
     assert_tree(prefix, prefix / "lib/symtop_ros")
     site = next(prefix.glob("lib/python*/site-packages"))
-    environment = {**os.environ, "PYTHONPATH": str(site), "AMENT_PREFIX_PATH": str(prefix)}
+    environment = {
+        **os.environ,
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",  # as in an active venv
+        "PYTHONPATH": str(site),
+        "AMENT_PREFIX_PATH": str(prefix),
+    }
     result = subprocess.run(
         [prefix / "lib/symtop_ros/top_node", "--help"],
         env=environment,
@@ -85,6 +90,9 @@ def test_colcon_build_installs_what_ros2_run_looks_for(sources):
     )
     assert result.returncode == 0, result.stderr
     assert "perry_fails" in result.stdout
+    # the Python of a venv that is active, where mcap may be installed
+    for program in (prefix / "lib/symtop_ros").iterdir():
+        assert program.read_text().startswith("#!/usr/bin/env python3\n")
 
 
 def test_pip_installs_the_same_tree(sources, tmp_path):

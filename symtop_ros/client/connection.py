@@ -13,6 +13,7 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.session.services import SERVICES
+from symtop_ros.simulation.validation import full_name
 
 TYPES = {"named": SetParametersAtomically, "switch": SetBool, "plain": Trigger}  # by kind
 POLL = 0.01  # s; an executor does not notice that a service was found
@@ -27,7 +28,7 @@ class Connection:
 
     def __init__(self, node: Node, name: str = "/top", timeout: float = 5.0) -> None:
         self.node = node
-        self.name = "/" + name.strip("/")
+        self.name = full_name(name)
         self._timeout = timeout
         self._clients: dict[str, Client] = {}
         self._executor = SingleThreadedExecutor(context=node.context)
@@ -56,6 +57,12 @@ class Connection:
         if isinstance(argument, bool):
             return self.switch(service, argument)
         return self.set(service, argument)
+
+    @property
+    def doubles(self) -> int:
+        """Number of nodes that have the name of the top, if there are several, else 0."""
+        count = self.node.get_fully_qualified_node_names().count(self.name)
+        return count if count > 1 else 0
 
     def subscribe(self, kind: Any, topic: str, callback: Callable[[Any], None]) -> None:
         """Call `callback` for each message on a topic of the top, given by its short name."""

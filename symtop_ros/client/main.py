@@ -33,6 +33,12 @@ def main(args: list[str] | None = None) -> int:
             top = Connection(node, options.node, options.timeout)
             listen()
             granted, text = _run(options, values, top)
+            if top.doubles:
+                print(
+                    f"top_ctl: {top.doubles} nodes have the name {top.name}, and one of them has "
+                    "answered (a killed node is listed for 20 s)",
+                    file=sys.stderr,
+                )
     except ExternalShutdownException:
         granted = options.command in UNTIL_INTERRUPTED
         text = "" if granted else "interrupted before the answer arrived"

@@ -16,8 +16,8 @@ from symtop_ros.judge.truth import Truth
 from symtop_ros.log.reader import LogError
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.events import decode_events
-from symtop_ros.simulation.topics import EVENTS, Topic
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.simulation.topics import DEFAULT_NAME, EVENTS, Topic
+from symtop_ros.simulation.validation import full_name, one_line
 
 PERIOD = 1.0  # s between two lines
 PATIENCE = 5.0  # s for the topic to be found
@@ -69,7 +69,7 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
             executor.add_node(node)
             listen()
             kind = _find_type(executor, node, topic)
-            court = Court(node, options.node or "/top", topic, kind, options.frame)
+            court = Court(node, full_name(options.node or DEFAULT_NAME), topic, kind, options.frame)
             end = time.monotonic() + seconds if seconds else np.inf
             while time.monotonic() < end:
                 _spin(executor, min(end, time.monotonic() + PERIOD))

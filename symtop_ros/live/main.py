@@ -2,6 +2,7 @@
 
 import argparse
 import contextlib
+import math
 import socket
 import subprocess
 import sys
@@ -21,10 +22,12 @@ from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.playback.web import HOST
 from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.simulation.validation import full_name
 
 PORT = 9876  # default of Rerun
 SEND_PERIOD = 0.05  # s between two batches
 PROBE_PERIOD = 1.0  # s between two checks that the viewer is running
+SILENCE = 5.0  # s without a message at the start, after which it says so
 START_TIMEOUT = 30.0  # s for the viewer to start
 
 
@@ -37,7 +40,7 @@ def main(args: list[str] | None = None) -> int:
             node = rclpy.create_node("top_live", start_parameter_services=False)
             executor = SingleThreadedExecutor()
             executor.add_node(node)
-            feed = Feed(node, f"/{options.node.strip('/')}")
+            feed = Feed(node, full_name(options.node))
             listen()
             with _viewer(options.port, options.web) as process:
                 _stream(executor, feed, options, process)
@@ -101,7 +104,7 @@ def _stream(
     process: subprocess.Popen[bytes] | None,
 ) -> None:
     view: View | None = None
-    probed = 0.0
+    probed, heard = 0.0, time.monotonic()
     try:
         while process is None or process.poll() is None:
             now = time.monotonic()
@@ -110,6 +113,16 @@ def _stream(
                 view = _connect(view, feed, options)
             _spin(executor, now + SEND_PERIOD)
             batch = feed.batch()
+            if batch.columns or batch.events:
+                heard = math.inf
+            elif now > heard + SILENCE:
+                heard = math.inf
+                print(
+                    f"top_live: nothing heard from {full_name(options.node)} for {SILENCE:g} s: "
+                    "is top_node running, with the same ROS_DOMAIN_ID and --node?",
+                    file=sys.stderr,
+                    flush=True,
+                )
             if view:
                 view.send(batch)
     finally:

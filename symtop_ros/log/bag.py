@@ -17,12 +17,13 @@ from symtop_ros.log.reader import MAX_MESSAGES, LogError, McapFile
 
 MCAP, SQLITE = ".mcap", ".db3"
 MAX_FILES = 10_000  # of one run
-MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY timestamp, id"
+# In the order in which they arrived: simulated times may go back.
+MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
 TOPICS = "SELECT id, name, type, serialization_format FROM topics"
 
 
 class MessageSource(Protocol):
-    """Messages of a log, in the order of their times, with the descriptions of their channels.
+    """Messages of a log, in the order of their arrival, with the descriptions of their channels.
 
     The attributes are those of `McapFile`.
     """
@@ -144,7 +145,7 @@ class SqliteBag:
         self.channels[number] = Channel(number, name, encoding, {}, number)
 
     def chunks(self) -> Iterator[list[Message]]:
-        """Yield messages in the order of their times."""
+        """Yield messages in the order of their arrival."""
         self.problems.clear()
         messages: list[Message] = []
         try:

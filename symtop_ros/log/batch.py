@@ -53,15 +53,16 @@ class Batch:
         """Return the number of the event that each sample belongs to; 0: before all of them.
 
         The node logs an event before its samples. Other recorders write in the order of arrival;
-        there the stamps decide, except after a jump of the clock, where stamps are not ordered.
+        there the stamps decide. Those that a clock repeats after a jump back leave it open, and the
+        place decides.
         """
         places = [place for place, _ in self.events]
         owners = np.searchsorted(places, columns.places, side="right")
-        for number, (_, event) in enumerate(self.events, start=1):
-            if event.name != "clock":
-                later = columns.stamps >= event.stamp
-                owners[(owners == number - 1) & later] = number
-                owners[(owners == number) & ~later] = number - 1
+        bounds = [sorted((event.stamp, event.previous_end)) for _, event in self.events]
+        for number, (_, after) in enumerate(bounds, start=1):
+            owners[(owners == number - 1) & (columns.stamps >= after)] = number
+        for number, (before, _) in reversed(list(enumerate(bounds, start=1))):
+            owners[(owners == number) & (columns.stamps < before)] = number - 1
         return owners
 
 
@@ -71,7 +72,7 @@ class BatchReader:
     def __init__(self) -> None:
         # reason why messages of a topic could not be decoded, by the name of the topic
         self.unreadable: dict[str, str] = {}
-        self._frame: str | None = None  # child frame of the top on /tf
+        self.frame: str | None = None  # child frame of the top on /tf, if it is known
         self._names: dict[str, tuple[str, ...]] = {}  # frames or joints of each topic
 
     def read(self, messages: Sequence[tuple[str, bytes]]) -> Batch:
@@ -114,7 +115,7 @@ class BatchReader:
         for place, each in zip(where, data, strict=True):
             try:
                 found += [(place, event) for event in decode_events(each)]
-                self._frame = found[-1][1].values.get("top_frame", self._frame)
+                self.frame = found[-1][1].values.get("top_frame", self.frame)
             except ValueError as error:
                 self.unreadable[EVENTS.name] = one_line(error)
         return found
@@ -122,9 +123,9 @@ class BatchReader:
     def _select_frame(self, parts: list[Decoded]) -> list[Decoded]:
         """Return the transforms of the top: of the frame in its events, else "top" or the first."""
         children = [part.names[-1] for part in parts]
-        if self._frame is None and children:
-            self._frame = "top" if "top" in children else children[0]
-        return [part for part in parts if part.names[-1] == self._frame]
+        if self.frame is None and children:
+            self.frame = "top" if "top" in children else children[0]
+        return [part for part in parts if part.names[-1] == self.frame]
 
 
 def _join(parts: list[Decoded], where: NDArray[np.int64]) -> Columns:

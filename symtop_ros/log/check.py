@@ -1,13 +1,17 @@
 """Check of a log: the whole run is computed again from its events and compared."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
+from symtop_ros.log.course import Course
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
+from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
@@ -31,6 +35,8 @@ class Deviation:
     unchecked: int = 0  # samples before the first event
     # samples of a motion that is too fast or too long to be integrated for a check
     unreached: int = 0
+    # samples that agree with an event, although the order of the messages names another one
+    unordered: int = 0
 
     @property
     def is_rounding(self) -> bool:
@@ -55,27 +61,75 @@ def _largest(numbers: Real) -> float:
     return float(np.nan_to_num(numbers, nan=np.inf).max(initial=0.0))
 
 
+class LogCheck:
+    """The samples of a log, compared with what its events say."""
+
+    def __init__(self, events: Sequence[Event]) -> None:
+        self.deviations: dict[str, Deviation] = {}
+        self._course, self._budget = Course(events), StepBudget(SPARE_STEPS)
+
+    def add(self, name: str, columns: Columns, places: NDArray[np.intp]) -> None:
+        """Compare samples of a topic; `places` (n,) are the numbers of events before them."""
+        deviation = self.deviations.setdefault(name, Deviation())
+        owners = self._course.find_owners(columns.stamps, places)
+        follows = owners >= 0
+        deviation.unchecked += int((~follows).sum())
+        left, owners = columns.select(follows), owners[follows]
+        for in_order in (True, False):
+            if in_order or not self._course.is_ordered:
+                before = len(left.stamps)
+                left, owners = self._take_agreeing(deviation, name, left, owners, in_order)
+                deviation.unordered += 0 if in_order else before - len(left.stamps)
+        for number in np.unique(owners).tolist():
+            self._take_all(deviation, name, left.select(owners == number), number)
+
+    def _take_agreeing(
+        self,
+        deviation: Deviation,
+        name: str,
+        left: Columns,
+        owners: NDArray[np.intp],
+        in_order: bool,
+    ) -> tuple[Columns, NDArray[np.intp]]:
+        """Take the samples that agree with an event; return the others, with their owners."""
+        if not len(owners):
+            return left, owners
+        for number in self._course.candidates(left.stamps, owners, in_order):
+            chosen = self._course.holds(number, left.stamps, in_order)
+            segment, part = self._course.segment(number), left.select(chosen)
+            if not chosen.any() or not self._budget.reach_stamps(segment, part.stamps):
+                continue
+            difference, scale = _compare(name, part, segment)
+            agree = (difference <= BOUND * scale).all(axis=1)
+            deviation.add(difference[agree], scale[agree])
+            chosen[chosen] = agree
+            left, owners = left.select(~chosen), owners[~chosen]
+        return left, owners
+
+    def _take_all(self, deviation: Deviation, name: str, part: Columns, number: int) -> None:
+        """Take samples of an event whether they agree or not."""
+        segment = self._course.segment(number)
+        if self._budget.reach_stamps(segment, part.stamps):
+            deviation.add(*_compare(name, part, segment))
+        else:
+            deviation.unreached += len(part.stamps)
+
+
 def check_log(log: TopLog) -> dict[str, Deviation]:
     """Return the deviation of each topic in a log, by its name in `simulation.topics`."""
-    deviations: dict[str, Deviation] = {}
-    segment: Segment | None = None
-    budget = StepBudget(SPARE_STEPS)
+    check, seen = LogCheck(list(log.events())), 0
     for batch in log.batches():
-        for event, samples in batch.stretches():
-            segment = event.segment() if event else segment
-            for name, columns in samples.items():
-                deviation = deviations.setdefault(name, Deviation())
-                if segment and budget.reach_stamps(segment, columns.stamps):
-                    with np.errstate(all="ignore"):
-                        _compare(deviation, name, columns, segment)
-                elif segment:
-                    deviation.unreached += len(columns.stamps)
-                else:
-                    deviation.unchecked += len(columns.stamps)
-    return deviations
+        events = [place for place, _ in batch.events]
+        for name, columns in batch.columns.items():
+            places = seen + np.searchsorted(events, columns.places, side="right")
+            with np.errstate(all="ignore"):
+                check.add(name, columns, places)
+        seen += len(events)
+    return check.deviations
 
 
-def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment) -> None:
+def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]:
+    """Return differences of samples from their computed values, and the sizes of the latter."""
     topic, samples = SAMPLE_TOPICS[name], Samples.at(segment, columns.stamps)
     computed = np.broadcast_to(topic.compute(samples), columns.numbers.shape)
     difference = np.abs(columns.numbers - computed)
@@ -95,4 +149,4 @@ def _compare(deviation: Deviation, name: str, columns: Columns, segment: Segment
         rate = np.abs(samples.state.angular_velocity).max(axis=-1)
         phase = rate * np.abs(segment.time_at(columns.stamps))
         scale = scale * (1 + np.broadcast_to(phase, len(scale))[:, np.newaxis])
-    deviation.add(difference, scale)
+    return difference, scale

@@ -9,6 +9,15 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
+from symtop_ros.simulation.topics import Topic
+
+
+class Channel(NamedTuple):
+    """A topic of a log."""
+
+    name: str  # full name of the topic
+    topic: Topic  # its type and quality of service
+
 
 class Definition(NamedTuple):
     """Definition of a message type."""

@@ -11,9 +11,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from symtop_ros.log.writer import Channel, LogFile
+from symtop_ros.log.definitions import Channel
 from symtop_ros.simulation.topics import Topic
+
+if TYPE_CHECKING:
+    from symtop_ros.log.writer import LogFile
 
 QUEUE_LENGTH = 60_000  # messages: about ten seconds at 1 kHz
 # s between two writes. Short, so that each takes little time: ticks wait for the interpreter.
@@ -29,7 +33,7 @@ class Limits:
     size: float = 0.0  # in bytes
     duration: float = 0.0  # in s, between the stamps of its messages
 
-    def are_reached(self, file: LogFile) -> bool:
+    def are_reached(self, file: "LogFile") -> bool:
         """Return True if a file has reached a limit."""
         return 0 < self.size <= file.size or 0 < self.duration <= file.duration
 
@@ -72,13 +76,19 @@ class Recorder:
         """Begin a recording and return the path of its first file."""
         self.stop()
         latched = dict(self._latched)
-        self._file = LogFile(self._directory, self._channels, metadata, latched)
+        self._file = self._open(metadata, latched)
         self.dropped, self.failure = 0, ""
         self._queue.clear()
         self._ending.clear()
         self._thread = threading.Thread(target=self._work, args=(metadata, latched), daemon=True)
         self._thread.start()
         return self._file.path
+
+    def _open(self, metadata: Mapping[str, str], latched: Mapping[int, bytes]) -> "LogFile":
+        # It needs mcap, without which a top moves and is published, but not recorded.
+        from symtop_ros.log.writer import LogFile
+
+        return LogFile(self._directory, self._channels, metadata, latched)
 
     def add(self, channel: int, stamp: int, data: bytes) -> None:
         """Queue a message with its stamp (ns); the last latched ones are kept for later files."""
@@ -121,7 +131,7 @@ class Recorder:
         try:
             while not self._fill(latched):
                 self._file.finish(self._counts())
-                self._file = LogFile(self._directory, self._channels, metadata, latched)
+                self._file = self._open(metadata, latched)
             self._file.finish(self._counts())
         except Exception as error:
             self._file.abandon()

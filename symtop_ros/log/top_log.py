@@ -11,9 +11,12 @@ from mcap.records import Message
 from symtop_ros.log.bag import MessageSource
 from symtop_ros.log.batch import TF, Batch, BatchReader
 from symtop_ros.log.reader import LogError
+from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS, SENSOR_TOPICS
+from symtop_ros.simulation.validation import full_name
 
 DEFAULT_NODE = "/top"
+COMPRESSED = b"\x28\xb5\x2f\xfd"  # first bytes of zstd, with which no message begins
 ROWS = 4096  # samples of a topic in a batch: Rerun's viewer is fastest with columns of this length
 TYPES = {topic.name: topic.type for topic in (EVENTS, *SAMPLE_TOPICS.values())}
 
@@ -22,8 +25,8 @@ class TopLog:
     """The run of one top."""
 
     def __init__(self, file: MessageSource, node: str | None = None) -> None:
-        self.file, self.node = file, node
-        self._asked = f" {node}" if node else ""
+        self.file, self.node = file, full_name(node) if node else None
+        self._asked = f" {self.node}" if node else ""
         # full names of the topics that were found, by their names in `simulation.topics`
         self.topics: dict[str, str] = {}
         self.others: set[str] = set()  # full names of other nodes with tops in the file
@@ -32,15 +35,25 @@ class TopLog:
 
     def batches(self) -> Iterator[Batch]:
         """Yield the run from its start to its end."""
-        if self.node is None:
-            self.node = self._find_node()
+        # /tf is shared, and samples may precede the event that says which frame is the top's.
+        first = next(self.events(), None)
+        if first:
+            self._reader.frame = first.values.get("top_frame")
         for messages in self._runs():
-            named = [(self._name(message.channel_id), message.data) for message in messages]
-            yield self._reader.read([each for each in named if each[0]])
+            yield self._reader.read(self._select(messages))
         if not set(self.topics) - {TF}:
             known = sorted(channel.topic for channel in self.file.channels.values())
             msg = f"no run of a top{self._asked} in {self.file.path}: topics "
             raise LogError(msg + (", ".join(known[:20]) or "none"))
+
+    def events(self) -> Iterator[Event]:
+        """Yield the events of the run in the order of the log."""
+        if self.node is None:
+            self.node = self._find_node()
+        reader = BatchReader()
+        for messages in self.file.chunks():
+            batch = reader.read([each for each in self._select(messages) if each[0] == EVENTS.name])
+            yield from (event for _, event in batch.events)
 
     @property
     def problems(self) -> list[str]:
@@ -68,6 +81,17 @@ class TopLog:
                 yield messages[:cut]
                 messages = messages[cut:]
         yield messages
+
+    def _select(self, messages: list[Message]) -> list[tuple[str, bytes]]:
+        """Return the messages of the top, with the names of their topics."""
+        named = ((self._name(message.channel_id), message.data) for message in messages)
+        found = [each for each in named if each[0]]
+        if found and found[0][1].startswith(COMPRESSED):
+            raise LogError(
+                f"cannot read {self.file.path}: its messages are compressed one by one "
+                "(`ros2 bag convert` writes others)"
+            )
+        return found
 
     def _name(self, channel: int) -> str:
         if channel not in self._names:

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from mcap.well_known import MessageEncoding, Profile, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
 from symtop_ros import __version__
-from symtop_ros.log.definitions import load_definition
+from symtop_ros.log.definitions import Channel, load_definition
 from symtop_ros.simulation.topics import Topic
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -21,14 +20,6 @@ CHUNK_SIZE = 4 * 2**20  # bytes; at 1 kHz the flush every half second closes chu
 METADATA = "symtop_ros"  # name of the metadata record written at the start
 ROSBAG2 = "rosbag2"  # name of the metadata record that rosbag2 reads
 ENDING = "symtop_ros.end"  # name of the metadata record written at the end
-
-
-@dataclass(frozen=True, slots=True)
-class Channel:
-    """A topic of the log."""
-
-    name: str  # full name of the topic
-    topic: Topic  # its type and quality of service
 
 
 class LogFile:

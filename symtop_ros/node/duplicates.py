@@ -36,4 +36,4 @@ class DuplicateNodes:
     def status(self) -> Status:
         """The status in /diagnostics."""
         facts = {"name": self.name, "others": self.count}
-        return make_status("top: name", WARN if self.count else OK, self.sentence, facts)
+        return make_status("name", WARN if self.count else OK, self.sentence, facts)

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
@@ -13,6 +14,7 @@ from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import Topic
+from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.diagnostics import Status
 
 
@@ -43,6 +45,13 @@ class NodePublisher:
             raise  # noqa: PLE0704 (the error that is being handled)
 
 
+def _check_depth(profile: QoSProfile) -> SetParametersResult:
+    """Refuse a depth that the middleware would only report in several lines."""
+    if profile.depth >= 0:
+        return SetParametersResult(successful=True)
+    return SetParametersResult(successful=False, reason=f"depth {profile.depth} (must be >= 0)")
+
+
 class NodeHost:
     """The node; see `OutputHost` for the methods."""
 
@@ -68,12 +77,14 @@ class NodeHost:
             return None
         latched, volatile = QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE
         qos = QoSProfile(depth=topic.depth, durability=latched if topic.latched else volatile)
-        publisher: Any = self._node.create_publisher(
-            message_class,
-            topic.ros_name,
-            qos,
-            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-        )
+        options = QoSOverridingOptions.with_default_policies(callback=_check_depth)
+        try:
+            publisher: Any = self._node.create_publisher(
+                message_class, topic.ros_name, qos, qos_overriding_options=options
+            )
+        except Exception as error:
+            name = f"qos_overrides.{self.resolve(topic)}.publisher"
+            raise RefusedError(f"{name} must be valid, got: {one_line(error)}") from None
         return NodePublisher(publisher, self._node)
 
     def watch_sample(self, stamp: int, block: Block) -> None:

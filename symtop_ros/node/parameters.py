@@ -1,20 +1,36 @@
-"""Declaration of the ROS parameters.
+"""Declaration of the ROS parameters, and requests to set them.
 
-They are declared with dynamic typing, so that `publish_rate:=500` is accepted like `500.0`, and a
-bad value is refused with the message of the package, at start-up as well as later.
+Each has a type, because readers in C++ insist on it. Values are validated before rclpy sees them:
+`publish_rate:=500` is accepted like `500.0`, and a bad value is refused with the message of the
+package, at start-up as well as later.
 """
 
 import difflib
+from collections.abc import Callable, Sequence
 from typing import Any
 
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
+from rclpy.parameter import Parameter, parameter_value_to_python
 
+from symtop_ros.node.services import refuse_unknown_types
 from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import reject
+from symtop_ros.simulation.validation import RefusedError, reject
 
 DEFAULT_SCENE = "cusps"
+QOS = "qos_overrides."  # of topics, which declare these parameters themselves
+Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
+# By the Python type of a default; the lists are vectors.
+TYPES = {
+    bool: Parameter.Type.BOOL,
+    int: Parameter.Type.INTEGER,
+    float: Parameter.Type.DOUBLE,
+    str: Parameter.Type.STRING,
+    list: Parameter.Type.DOUBLE_ARRAY,
+}
 GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
 
 
@@ -33,24 +49,37 @@ def declare_parameters(node: Node) -> Settings:
     for key in scene:
         if key not in PARAMETERS:
             raise reject(f"parameter in scene {name}", f"one of {', '.join(PARAMETERS)}", key)
-    defaults = {"top_frame": _default_frame(node.get_namespace()), **scene}
-    for key, parameter in PARAMETERS.items():
-        descriptor = _descriptor(parameter.description, parameter.condition, parameter.read_only)
-        node.declare_parameter(key, defaults.get(key, parameter.default), descriptor)
+    # /tf is shared by all tops, of other names or namespaces.
+    defaults = {"top_frame": node.get_fully_qualified_name().lstrip("/"), **scene}
+    given = {name: each.value for name, each in node._parameter_overrides.items()}
+    settings = Settings.from_values(
+        {
+            key: defaults.get(key, parameter.default) if given.get(key) is None else given[key]
+            for key, parameter in PARAMETERS.items()
+        }
+    )
+    for key in PARAMETERS:
+        _declare(node, _typed(key, settings.values[key]))
     _check_unknown_names(node)
-    return Settings.from_values({key: _value(node, key) for key in PARAMETERS})
+    return settings
 
 
-def _default_frame(namespace: str) -> str:
-    """Return the frame of the top, which differs between namespaces: /tf is shared by all."""
-    return f"{namespace}/{PARAMETERS['top_frame'].default}".lstrip("/")
+def _declare(node: Node, parameter: Parameter) -> None:
+    """Declare a parameter of a type; from a value rclpy takes an empty list for one of bytes."""
+    name, entry = parameter.name, PARAMETERS[parameter.name]
+    descriptor = _descriptor(entry.description, entry.condition, read_only=False)
+    node.declare_parameter(name, parameter.type_, descriptor, ignore_override=True)
+    node.set_parameters([parameter])
+    if entry.read_only:
+        fixed = _descriptor(entry.description, entry.condition, read_only=True)
+        fixed.type = parameter.type_.value
+        node.set_descriptor(name, fixed)
 
 
-def _value(node: Node, name: str) -> Any:
-    """Return a declared value; an empty list in a parameter file (`[]`) arrives without a value."""
-    value = node.get_parameter(name).value
-    default = PARAMETERS[name].default
-    return default if value is None and isinstance(default, list) else value
+def _typed(name: str, value: Any) -> Parameter:
+    """Return a validated value as a ROS parameter."""
+    value = list(value) if isinstance(value, tuple) else value
+    return Parameter(name, TYPES[type(PARAMETERS[name].default)], value)
 
 
 def _check_unknown_names(node: Node) -> None:
@@ -60,7 +89,7 @@ def _check_unknown_names(node: Node) -> None:
     """
     known = [*PARAMETERS, "scene", "use_sim_time"]
     for name in node._parameter_overrides:
-        if name in known or name.startswith("qos_overrides."):
+        if name in known or node.has_parameter(name) or name.startswith(QOS):
             continue
         nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
         if name.partition(".")[0] in GROUPS:
@@ -70,10 +99,74 @@ def _check_unknown_names(node: Node) -> None:
         )
 
 
+def warn_of_unused_qos(node: Node) -> None:
+    """Warn about overrides of QoS for topics that there are not; call it when all are there."""
+    known = sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))
+    for name in node._parameter_overrides:
+        if name.startswith(QOS) and not node.has_parameter(name):
+            nearest = difflib.get_close_matches(name.removeprefix(QOS), known, n=1, cutoff=0.0)
+            node.get_logger().warning(
+                f"parameter {name!r} is unknown and not used (nearest: {QOS}{nearest[0]})"
+            )
+
+
 def _descriptor(description: str, condition: str, read_only: bool) -> ParameterDescriptor:
     return ParameterDescriptor(
         description=description,
         additional_constraints=f"must be {condition}",
         read_only=read_only,
-        dynamic_typing=True,
     )
+
+
+def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
+    """Return a handler of a service (full name) that sets parameters; others are unchanged.
+
+    rclpy's own handlers raise an exception for unknown types, which would end the node.
+    """
+
+    def set_all(request: Any, response: Any) -> Any:
+        response.result = _set(node, request.parameters, handler, SetParametersAtomically)
+        return response
+
+    def set_each(request: Any, response: Any) -> Any:
+        response.results = [
+            _set(node, [each], handler, SetParameters) for each in request.parameters
+        ]
+        return response
+
+    last = name.rpartition("/")[2]
+    return {"set_parameters": set_each, "set_parameters_atomically": set_all}.get(last, handler)
+
+
+def _set(
+    node: Node, parameters: Sequence[ParameterMessage], handler: Handler, service: Any
+) -> SetParametersResult:
+    try:
+        refuse_unknown_types(parameters)
+        changes = [_convert(each) for each in parameters if not _is_kept(node, each)]
+    except RefusedError as refusal:
+        return SetParametersResult(successful=False, reason=str(refusal))
+    if not changes:
+        return SetParametersResult(successful=True)
+    response = handler(service.Request(parameters=changes), service.Response())
+    return response.results[0] if service is SetParameters else response.result
+
+
+def _convert(message: ParameterMessage) -> ParameterMessage:
+    """Return a parameter with a valid value of its type."""
+    if message.name not in PARAMETERS:
+        return message
+    value = parameter_value_to_python(message.value)
+    clean = PARAMETERS[message.name].validate(message.name, value)
+    return _typed(message.name, clean).to_parameter_msg()
+
+
+def _is_kept(node: Node, message: ParameterMessage) -> bool:
+    """Return True for the value that a read-only parameter has: a dumped file sets all of them."""
+    name = message.name
+    if not node.has_parameter(name) or not node.describe_parameter(name).read_only:
+        return False
+    new, old = parameter_value_to_python(message.value), node.get_parameter(name).value
+    if isinstance(old, bool | str | int | float):
+        return bool(new == old)
+    return new is not None and not isinstance(new, bool | str | int | float) and [*new] == [*old]

@@ -5,7 +5,7 @@ from typing import Any
 
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
-from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
@@ -16,7 +16,6 @@ VALUE_FIELDS = (
     *("bool_value", "integer_value", "double_value", "string_value"),
     *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
 )
-Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
 # By the kind of a service: its ROS type, and how the argument of the request is read.
 TYPES: dict[ServiceKind, tuple[type, Callable[[Any], Any]]] = {
     "named": (SetParametersAtomically, lambda request: read_values(request.parameters)),
@@ -66,25 +65,3 @@ def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:
     for parameter in parameters:
         if parameter.value.type > last:
             raise reject(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)
-
-
-def guard_types(service: Any, handler: Handler) -> Handler:
-    """Return a handler that answers unknown parameter types with a refusal.
-
-    rclpy's own handlers of the parameter services raise an exception for them, which would end the
-    node.
-    """
-    if service not in (SetParameters, SetParametersAtomically):
-        return handler
-
-    def answer(request: Any, response: Any) -> Any:
-        try:
-            refuse_unknown_types(request.parameters)
-        except RefusedError as refusal:
-            result = SetParametersResult(successful=False, reason=str(refusal))
-            if service is SetParameters:
-                return SetParameters.Response(results=[result] * len(request.parameters))
-            return SetParametersAtomically.Response(result=result)
-        return handler(request, response)
-
-    return answer

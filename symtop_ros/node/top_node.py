@@ -1,5 +1,6 @@
 """The node: ROS around a simulation."""
 
+import time
 from collections.abc import Callable
 from typing import Any, cast
 
@@ -11,17 +12,19 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, QoSReliabilityPolicy
+from rclpy.serialization import deserialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
 
 from symtop_ros.distribution import distribution_name
 from symtop_ros.node.host import NodeHost
 from symtop_ros.node.pacer import Pacer
-from symtop_ros.node.parameters import declare_parameters
-from symtop_ros.node.services import TYPES, fill_response, guard_types
+from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
+from symtop_ros.node.services import TYPES, fill_response
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
+from symtop_ros.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
 from symtop_ros.simulation.validation import RefusedError, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -47,6 +50,17 @@ class NodeClock:
         return self._clock.ros_time_is_active
 
 
+class SteadyClock:
+    """The real time of a run that publishes /clock: it cannot be set."""
+
+    is_simulated = False
+
+    @property
+    def now(self) -> int:
+        """Current time in ns."""
+        return time.monotonic_ns()
+
+
 class TopNode(Node):
     """A heavy symmetric top in real time; docs/ros.md lists topics, services and parameters.
 
@@ -54,7 +68,7 @@ class TopNode(Node):
     """
 
     def __init__(self, **options: Any) -> None:
-        super().__init__("top", **options)
+        super().__init__(DEFAULT_NAME, **options)
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
         self.failure: Exception | None = None  # the exception that ended the ticks
@@ -63,13 +77,18 @@ class TopNode(Node):
             "ros_distro": distribution_name(),
         }
         scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
-        self.session = Session(settings, NodeClock(self), host, scene, environment)
+        name = self.get_fully_qualified_name()
+        clock = SteadyClock() if settings.publish_clock else NodeClock(self)
+        self.session = Session(settings, clock, host, scene, environment, name)
+        warn_of_unused_qos(self)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]
             self.create_service(kind, f"~/{name}", self._handler(name, read))
         # Best effort, so that publishers of either reliability are received.
         best_effort = QoSProfile(depth=10, reliability=QoSReliabilityPolicy.BEST_EFFORT)
-        self.create_subscription(WrenchStamped, "~/applied_torque", self._apply_torque, best_effort)
+        self.create_subscription(
+            WrenchStamped, APPLIED_TORQUE.ros_name, self._apply_torque, best_effort, raw=True
+        )
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.create_timer(1.0, self.session.keep_up)
@@ -135,16 +154,20 @@ class TopNode(Node):
     def create_service(self, *arguments: Any, **options: Any) -> Any:
         """Create a service; rclpy creates its parameter services by this method too."""
         kind, name, handler, *others = arguments
-        return super().create_service(kind, name, guard_types(kind, handler), *others, **options)
+        guarded = guard_parameters(self, name, handler)
+        return super().create_service(kind, name, guarded, *others, **options)
 
     def _handler(self, name: str, read: Callable[[Any], Any]) -> Any:
         def handle(request: Any, response: Any) -> Any:
             granted, answer = self.session.answer(name, lambda: read(request))
+            self._pacer.wake()  # a clock that stood still may be running
             return fill_response(response, granted, answer)
 
         return handle
 
-    def _apply_torque(self, message: WrenchStamped) -> None:
+    def _apply_torque(self, data: bytes) -> None:
+        self.session.log_torque(data)
+        message = deserialize_message(data, WrenchStamped)
         torque, force = message.wrench.torque, message.wrench.force
         if (force.x, force.y, force.z) == (0.0, 0.0, 0.0):
             vector = (torque.x, torque.y, torque.z)

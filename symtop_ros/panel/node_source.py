@@ -70,6 +70,7 @@ class NodeTop:
         self._node, self._feed = node, Feed(node, self.name, ())
         self._samples: Subscription | None = None
         self._watched, self._heard, self._silent = False, time.monotonic(), False
+        self._is_paused = False
         self._reports: list[str] = []
         self._calls, self._ending = threading.Lock(), threading.Event()
         self._executor = SingleThreadedExecutor(context=node.context)
@@ -117,7 +118,9 @@ class NodeTop:
         """Return what was received since the last call."""
         self._take_samples()
         batch = self._feed.batch()
-        if batch.columns:
+        for _, event in batch.events:
+            self._is_paused = not event.segment().running
+        if batch.columns or self._is_paused:  # with publish_clock a pause has no samples
             self._heard = time.monotonic()
             if self._silent:
                 self._reports.append(f"samples from {self.name} again")

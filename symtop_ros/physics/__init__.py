@@ -1,8 +1,8 @@
 """The heavy symmetric top: exact motion, constants, regular precession, kicks and Perry's rule.
 
-It needs NumPy and SciPy only. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an
-orientation is a unit quaternion (w, x, y, z) from body to world. All names that other code needs
-are exported here.
+It needs NumPy only. A compiled kernel makes it faster where it could be built: `accelerated` is then
+True. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an orientation is a unit
+quaternion (w, x, y, z) from body to world. All names that other code needs are exported here.
 
 Examples
 --------
@@ -16,6 +16,7 @@ Examples
 from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
 from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.physics.kernel import accelerated
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -56,6 +57,7 @@ __all__ = [
     "State",
     "Top",
     "Verdict",
+    "accelerated",
     "apply_impulse",
     "balance",
     "compare_hurried",

@@ -1,20 +1,24 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
+from collections.abc import Iterable
 from decimal import localcontext
+from functools import cached_property
 from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.driven.equations import Extended
 from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.exact.closed_form import ClosedFormMotion
 from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.exact.precise import PRECISE
+from symtop_ros.physics.kernel import accelerated
+from symtop_ros.physics.kernel.compiled import CompiledMotion
+from symtop_ros.physics.many import Arguments, find_shape, for_each, is_free
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -23,9 +27,6 @@ from symtop_ros.physics.values import refuse, validate_array, validate_vector
 # Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
 BLOCK = 12288
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
-# Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
-# root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
-WEIGHTLESS = 1e-200
 
 
 class Engine(Protocol):
@@ -59,7 +60,11 @@ class Engine(Protocol):
 
 
 class Motion:
-    """The motion of a top from a state.
+    """The motion of a top from a state, or many motions at once.
+
+    Tops, starts, frictions and torques may be arrays; they are broadcast together. Then states have
+    the shape of the motions, followed by that of the times, and properties have the shape of the
+    motions. Each motion is the same, bit for bit, as alone.
 
     Without friction and applied torque it is exact at any time. With them it is integrated; kind,
     turning angles, nutation period and mean rates are then those of the motion that would follow
@@ -68,11 +73,12 @@ class Motion:
     Parameters
     ----------
     top : Top
+        One top, or many of shape (...).
     start : State
-        One state, at t = 0.
+        The state at t = 0, or many of shape (...).
     friction : Friction
-        Friction at the pivot and in the air.
-    torque : array_like (3,)
+        Friction at the pivot and in the air; one, or many of shape (...).
+    torque : array_like (..., 3)
         Applied torque in the world frame, constant, in N m.
 
     Attributes
@@ -80,8 +86,10 @@ class Motion:
     top : Top
     start : State
     friction : Friction
-    applied_torque : (float, float, float)
+    applied_torque : (float, float, float) or ndarray (..., 3)
         In the world frame, in N m.
+    shape : tuple of int
+        () for one motion, (...) for many.
     engine : {"closed form", "free", "taylor"}
         Method of solution: elliptic functions; circular functions if Mgl is 0 or if the axis rests
         on the vertical; with friction or an applied torque Taylor series in time.
@@ -102,6 +110,12 @@ class Motion:
     0.159545
     >>> motion.at([0.0, 10.0, 1e6]).orientation.shape
     (3, 4)
+
+    Two tops from one start, at three times:
+
+    >>> motions = Motion(Top(Ix=0.000228, Iz=0.0000572, Mgl=[0.068, 0.07]), motion.start)
+    >>> motions.at([0.0, 10.0, 1e6]).orientation.shape, motions.kind.tolist()
+    ((2, 3, 4), ['cusps', 'cusps'])
     """
 
     engine: Literal["closed form", "free", "taylor"]
@@ -117,32 +131,54 @@ class Motion:
         self.top = top
         self.start = start
         self.friction = friction
-        self.applied_torque: Vector = (
-            NO_TORQUE
-            if torque is NO_TORQUE
-            else validate_vector("torque", torque, "N m, world frame")
-        )
+        self.applied_torque: Any = _validate_torque(torque)
+        self.shape = find_shape(top, start, friction, self.applied_torque)
+        self.engine = "closed form"
+        self._driven: DrivenMotion | None = None
+        if self.shape:
+            return
         # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
         self._is_turned_over = top.Mgl < 0
         self._spin = float(start.angular_velocity[2])
-        self._engine = self._solve()
-        self.engine = "free" if isinstance(self._engine, FreeMotion) else "closed form"
-        self._driven: DrivenMotion | None = None
+        if self._is_free:
+            self.engine = "free"
         if self.is_driven:
             self._driven = DrivenMotion(top, start, friction, self.applied_torque)
             self.engine = "taylor"
 
-    def _solve(self) -> Engine:
+    @cached_property
+    def members(self) -> list["Motion"]:
+        """The motions one by one, in the order of a flat array; of one motion itself."""
+        return [Motion(*each) for each in self._all_arguments] if self.shape else [self]
+
+    @cached_property
+    def _all_arguments(self) -> Arguments:
+        return Arguments.of(self.top, self.start, self.friction, self.applied_torque, self.shape)
+
+    @cached_property
+    def _arguments(self) -> tuple[Vector, Quaternion, Vector]:
+        """What an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
         w, x, y, z = self.start.given_orientation.tolist()
         wx, wy, wz = self.start.angular_velocity.tolist()
         orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
-        Ix, Iz, Mgl = self.top.Ix, self.top.Iz, abs(self.top.Mgl)
-        is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
-        rate = max(abs(wx), abs(wy), Iz / Ix * abs(wz))  # not wz: a rod may spin fast
-        is_weightless = Mgl / Ix <= WEIGHTLESS * rate * rate
-        solver = FreeMotion if is_resting or is_weightless else ClosedFormMotion
+        return (self.top.Ix, self.top.Iz, abs(self.top.Mgl)), orientation, (wx, wy, wz)
+
+    @cached_property
+    def _is_free(self) -> bool:
+        return is_free(*self._arguments)
+
+    @cached_property
+    def _engine(self) -> Engine:
+        solver = FreeMotion if self._is_free else ClosedFormMotion
         with localcontext(PRECISE):
-            return solver((Ix, Iz, Mgl), orientation, (wx, wy, wz))
+            return solver(*self._arguments)
+
+    @cached_property
+    def _compiled(self) -> CompiledMotion | None:
+        """The kernel's engine, for states alone."""
+        if not accelerated or self._is_free:
+            return None
+        return CompiledMotion(*self._arguments, self._is_turned_over)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""
@@ -151,7 +187,7 @@ class Motion:
     @property
     def is_driven(self) -> bool:
         """True if friction or an applied torque acts: there is no closed form, only series."""
-        return bool(self.friction) or any(self.applied_torque)
+        return bool(self.friction) or bool(np.any(self.applied_torque))
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -183,18 +219,27 @@ class Motion:
         0.5
         """
         times: float | Real | ExactTimes = t if isinstance(t, ExactTimes) else _validate_times(t)
+        if self.shape:
+            return self._compute_members(times)
         if self._driven:
             if isinstance(times, ExactTimes):
-                return _fill_states(self._driven, times.extended_seconds)
-            return _fill_states(self._driven, np.asarray(times, dtype=np.longdouble))
+                return _fill_states(self._driven, *times.split_seconds)
+            seconds = np.asarray(times)
+            return _fill_states(self._driven, seconds, np.zeros_like(seconds))
         if isinstance(times, np.ndarray) or (isinstance(times, ExactTimes) and times.shape):
             return self._compute_many(times)
         return self._compute_one(times)
 
     def _compute_one(self, time: float | ExactTimes) -> State:
-        w, x, y, z, wx, wy = self._evaluate(time)
-        wz = self._spin
-        return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, wz)))
+        if self._compiled and isinstance(time, ExactTimes):
+            orientation, omega = np.empty(4), np.empty(3)
+            self._compiled.fill_exact(time, orientation, omega)
+            return State.wrap(orientation, omega)
+        state = None
+        if self._compiled and isinstance(time, float):
+            state = self._compiled.at(time)
+        w, x, y, z, wx, wy = state or self._evaluate(time)
+        return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, self._spin)))
 
     def _compute_many(self, times: Real | ExactTimes) -> State:
         count = math.prod(times.shape)
@@ -204,6 +249,8 @@ class Motion:
         for first in range(0, count, BLOCK):
             block = slice(first, first + BLOCK)
             part = flat.select(block) if isinstance(flat, ExactTimes) else flat[block]
+            if self._fill_compiled(part, orientation[block], angular_velocity[block]):
+                continue
             # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
             with np.errstate(under="ignore"):
                 columns = self._evaluate(part)
@@ -211,6 +258,27 @@ class Motion:
                 orientation[block, k] = column
             angular_velocity[block, 0], angular_velocity[block, 1] = columns[4:]
         return _wrap(orientation, angular_velocity, times.shape)
+
+    def _compute_members(self, times: float | Real | ExactTimes) -> State:
+        """Return the states of many motions: from the kernel, or one motion after the other."""
+        count = math.prod(self.shape)
+        shape = times.shape if isinstance(times, ExactTimes) else np.shape(times)
+        orientation, omega = np.empty((count, *shape, 4)), np.empty((count, *shape, 3))
+        left: Iterable[int] = range(count)
+        if accelerated and not self.is_driven and not isinstance(times, ExactTimes):
+            left = self._all_arguments.fill(np.asarray(times), orientation, omega)
+        for n in left:
+            orientation[n], omega[n] = self.members[n].at(times)
+        return _wrap(orientation, omega, (*self.shape, *shape))
+
+    def _fill_compiled(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> bool:
+        """Write the states at times (n,) if there is a kernel, and it can."""
+        if not self._compiled:
+            return False
+        if isinstance(times, ExactTimes):
+            self._compiled.fill_exact(times, orientation, omega)
+            return True
+        return self._compiled.fill(times, orientation, omega)
 
     def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
         """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
@@ -285,32 +353,41 @@ class Motion:
         ndarray (..., 3)
             In the world frame, in N m.
         """
-        return state.to_world(self.friction.torque(state)) + self.applied_torque
+        torque = np.asarray(self.applied_torque)
+        if self.shape:  # axes for the times
+            motions, times = torque.shape[:-1], state.orientation.ndim - 1 - len(self.shape)
+            torque = torque.reshape(*motions, *(1,) * times, 3)
+        return np.asarray(state.to_world(self.friction.torque(state)) + torque)
 
     @property
+    @for_each
     def kind(self) -> Kind:
         """Name of the motion, by phi' at the two turning angles.
 
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
-        zero at one angle), "looping" (phi' has opposite signs), "through the pole", "spiralling"
-        (the axis approaches the vertical for ever) or "sleeping" (it rests on the vertical).
+        zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
+        (the axis approaches the vertical for ever; the separatrix) or "sleeping" (it rests on the
+        vertical). The article calls a unidirectional motion spiralling.
         """
         with localcontext(PRECISE):
             return self._engine.kind
 
     @property
+    @for_each
     def nutation_period(self) -> float:
         """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
         with localcontext(PRECISE):
             return self._engine.nutation_period
 
     @property
+    @for_each
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
         with localcontext(PRECISE):
             return self._engine.turning_angles(self._is_turned_over)
 
     @property
+    @for_each
     def mean_precession_rate(self) -> float:
         """Mean phi' over a nutation in rad/s.
 
@@ -321,6 +398,7 @@ class Motion:
         return -rate if self._is_turned_over else rate
 
     @property
+    @for_each
     def mean_spin_rate(self) -> float:
         """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
         return self._mean_rates[1]
@@ -337,6 +415,7 @@ class Motion:
         return self.kind in ("sleeping", "through the pole")
 
     @property
+    @for_each
     def precession_per_nutation(self) -> float:
         """Precession in a nutation as a fraction of a turn, 2 pi rad.
 
@@ -358,6 +437,7 @@ class Motion:
         return -turns if self._is_turned_over else turns
 
     @property
+    @for_each
     def spin_reverses(self) -> bool:
         """True if psi' takes both signs in a nutation, although L_z is constant.
 
@@ -378,6 +458,7 @@ class Motion:
         return 2 * math.pi / self.nutation_period
 
     @property
+    @for_each
     def fast_top_precession_rate(self) -> float:
         """Mean phi' of the fast top in rad/s: Mgl/p_psi (Goldstein, section 5.7); nan if p_psi = 0.
 
@@ -396,6 +477,7 @@ class Motion:
         return self.top.Mgl / p_psi if p_psi else math.nan
 
     @property
+    @for_each
     def fast_top_nutation_rate(self) -> float:
         """Nutation rate of the fast top in rad/s: |p_psi|/Ix (Goldstein, section 5.7).
 
@@ -412,6 +494,15 @@ class Motion:
         return abs(float(self.top.axial_momentum(self.start))) / self.top.Ix
 
 
+def _validate_torque(torque: Any) -> Any:
+    """Return three floats, or an array (..., 3)."""
+    if torque is NO_TORQUE:
+        return NO_TORQUE
+    if np.ndim(torque) <= 1:
+        return validate_vector("torque", torque, "N m, world frame")
+    return validate_array("torque", torque, 3, "N m, world frame")
+
+
 def _validate_times(t: Any) -> float | Real:
     if type(t) is float and math.isfinite(t):  # the common case
         return t
@@ -419,9 +510,9 @@ def _validate_times(t: Any) -> float | Real:
     return array if array.ndim else float(array)
 
 
-def _fill_states(driven: DrivenMotion, seconds: Extended) -> State:
+def _fill_states(driven: DrivenMotion, seconds: Real, rests: Real) -> State:
     orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
-    driven.fill(seconds.reshape(-1), orientation, angular_velocity)
+    driven.fill(seconds.reshape(-1), rests.reshape(-1), orientation, angular_velocity)
     return _wrap(orientation, angular_velocity, seconds.shape)
 
 
@@ -439,5 +530,3 @@ def _validate_types(top: Any, start: Any, friction: Any) -> None:
         raise refuse("start", "a State", repr(start))
     if not isinstance(friction, Friction):
         raise refuse("friction", "a Friction", repr(friction))
-    if start.orientation.ndim != 1:
-        raise refuse("start", "one state", f"states of shape {start.orientation.shape[:-1]}")

@@ -13,6 +13,7 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
     refuse,
+    to_float,
     validate_array,
     validate_number,
 )
@@ -207,7 +208,7 @@ class State:
         on_vertical = (theta == 0) | (theta == np.pi)
         phi = np.where(on_vertical, 0.0, _wrap_angle(upper + lower))
         psi = np.where(on_vertical, np.where(theta == 0, 2 * upper, -2 * lower), upper - lower)
-        return Angles(*(_to_float(angle) for angle in (phi, theta, _wrap_angle(psi))))
+        return Angles(*(to_float(angle) for angle in (phi, theta, _wrap_angle(psi))))
 
     @cached_property
     def euler_rates(self) -> Angles:
@@ -221,7 +222,7 @@ class State:
             phi_dot = np.where(sine > 0, (wx * gx + wy * gy) / sine / sine, 0.0)
             theta_dot = np.where(sine > 0, (wx * gy - wy * gx) / sine, np.hypot(wx, wy))
         psi_dot = wz - phi_dot * gz
-        return Angles(*(_to_float(rate) for rate in (phi_dot, theta_dot, psi_dot)))
+        return Angles(*(to_float(rate) for rate in (phi_dot, theta_dot, psi_dot)))
 
     def to_world(self, vector: ArrayLike) -> Real:
         """Rotate body-frame vectors into the world frame.
@@ -306,11 +307,6 @@ def _normalize(q: Real) -> Real:
 
 def _wrap_angle(angle: Real) -> Real:
     return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
-
-
-def _to_float(value: Real) -> Any:
-    """Return a float for an array without dimensions, and other arrays unchanged."""
-    return float(value) if value.ndim == 0 else value
 
 
 def _make_read_only(array: Real) -> Real:

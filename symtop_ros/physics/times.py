@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.values import refuse, validate_number
 
 SECOND = 10**9  # ns
@@ -82,8 +83,8 @@ class ExactTimes:
         return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
 
     @cached_property
-    def extended_seconds(self) -> NDArray[np.longdouble]:
-        """Seconds in extended precision, () or (n,): the nearest doubles, and what they lack."""
+    def split_seconds(self) -> tuple[Real, Real]:
+        """Seconds as sums of two doubles, () or (n,): the nearest doubles, and what they lack."""
         high = np.asarray(self.seconds, dtype=np.float64)
         ticks, parts = self.factor.as_integer_ratio()
         elapsed, pieces = self.elapsed.as_integer_ratio()
@@ -93,7 +94,7 @@ class ExactTimes:
             over, under = float(seconds).as_integer_ratio()
             n = int(np.asarray(self.nanoseconds)[place])
             low[place] = ((start + step * n) * under - over * divisor) / (divisor * under)
-        return np.asarray(high.astype(np.longdouble) + low)
+        return high, low
 
     def advance(self, nanoseconds: int) -> Fraction:
         """Return the time of the motion in ns at another reading of the clock, exactly.

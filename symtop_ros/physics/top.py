@@ -5,23 +5,31 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.state import State
-from symtop_ros.physics.values import EPS, LARGEST_MOMENT, SMALLEST_MOMENT, refuse, validate_number
+from symtop_ros.physics.values import (
+    EPS,
+    LARGEST_MOMENT,
+    SMALLEST_MOMENT,
+    refuse,
+    to_float,
+    validate_together,
+)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False, eq=False)
 class Top:
-    """A heavy symmetric top with a fixed pivot.
+    """A heavy symmetric top with a fixed pivot, or many of them.
 
     Parameters
     ----------
-    Ix : float
+    Ix : float or array_like (...)
         Transverse moment of inertia about the pivot, in kg m^2; 1e-100 to 1e100.
-    Iz : float
+    Iz : float or array_like (...)
         Axial moment of inertia, in kg m^2; 1e-100 <= Iz <= 2 Ix, as for every rigid body.
-    Mgl : float
+    Mgl : float or array_like (...)
         Weight times the distance of the centre of mass from the pivot, in J, at most 1e100 in size.
         It is positive if the centre of mass is on the +z side of the body; it may be negative or
         zero.
@@ -29,7 +37,7 @@ class Top:
     Raises
     ------
     ValueError
-        If a value is not a finite number or out of range.
+        If a value is not a finite number or out of range, or if the shapes do not fit together.
 
     Examples
     --------
@@ -37,25 +45,43 @@ class Top:
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> round(top.critical_spin, 2)
     137.68
+    >>> Top(Ix=0.000228, Iz=0.0000572, Mgl=[0.068, 0.1, -0.068]).shape
+    (3,)
     """
 
     Ix: float
     Iz: float
     Mgl: float
 
-    def __post_init__(self) -> None:
-        for name, unit in (("Ix", "kg m^2"), ("Iz", "kg m^2"), ("Mgl", "J")):
-            object.__setattr__(self, name, validate_number(name, getattr(self, name), unit))
-        if self.Ix <= 0:
-            raise refuse("Ix", "> 0 kg m^2", self.Ix)
-        if not 0 < self.Iz <= 2 * self.Ix:
-            raise refuse("Iz", f"> 0 and <= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
-        for name in ("Ix", "Iz"):
-            if not SMALLEST_MOMENT <= getattr(self, name) <= LARGEST_MOMENT:
-                condition = f"{SMALLEST_MOMENT:g} to {LARGEST_MOMENT:g} kg m^2"
-                raise refuse(name, condition, getattr(self, name))
-        if abs(self.Mgl) > LARGEST_MOMENT:
-            raise refuse("Mgl", f"at most {LARGEST_MOMENT:g} J in size", self.Mgl)
+    def __init__(self, Ix: ArrayLike, Iz: ArrayLike, Mgl: ArrayLike) -> None:
+        names, units = ("Ix", "Iz", "Mgl"), ("kg m^2", "kg m^2", "J")
+        values = validate_together(dict(zip(names, (Ix, Iz, Mgl), strict=True)), units)
+        for name, value in zip(names, values, strict=True):
+            object.__setattr__(self, name, value)
+        if self.shape:
+            for moments in zip(*(array.ravel().tolist() for array in values), strict=True):
+                _validate_moments(*moments)
+        else:
+            _validate_moments(*values)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """() for one top, (...) for many."""
+        return np.shape(self.Ix)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all moments."""
+        if not isinstance(other, Top):
+            return NotImplemented
+        return all(map(np.array_equal, self.moments, other.moments))
+
+    def __hash__(self) -> int:
+        """Return a hash of one top; many cannot be hashed."""
+        return hash(self.moments)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle a top by its arguments."""
+        return Top, self.moments
 
     @property
     def moments(self) -> Vector:
@@ -63,12 +89,13 @@ class Top:
         return self.Ix, self.Iz, self.Mgl
 
     @property
-    def critical_spin(self) -> float:
+    def critical_spin(self) -> Any:
         """Smallest |omega_z| in rad/s at which sleeping upright is stable; 0 for Mgl <= 0.
 
         Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7).
         """
-        return 2 * math.sqrt(self.Ix) * math.sqrt(max(self.Mgl, 0.0)) / self.Iz
+        weight = np.sqrt(np.maximum(self.Mgl, 0.0))
+        return to_float(2 * np.sqrt(self.Ix) * weight / self.Iz)
 
     def sleeping_is_stable(self, state: State) -> bool:
         """Return True if an axis at rest on the vertical stays near it after a small kick.
@@ -91,7 +118,8 @@ class Top:
 
     def body_angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the body frame, (..., 3), in N m s."""
-        return np.asarray(state.angular_velocity * [self.Ix, self.Ix, self.Iz])
+        Ix, Iz = match(self.Ix, state), match(self.Iz, state)
+        return np.asarray(state.angular_velocity * np.stack([Ix, Ix, Iz], axis=-1))
 
     def angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the world frame, (..., 3), in N m s."""
@@ -103,7 +131,9 @@ class Top:
         It is Mgl sin(theta) (cos phi, sin phi, 0), along the line of nodes.
         """
         torque = np.zeros_like(state.angular_velocity)
-        axis = state.to_world([0.0, 0.0, self.Mgl])
+        weight = np.zeros((*np.shape(match(self.Mgl, state)), 3))
+        weight[..., 2] = match(self.Mgl, state)
+        axis = state.to_world(weight)
         torque[..., 0], torque[..., 1] = -axis[..., 1], axis[..., 0]
         return torque
 
@@ -111,18 +141,37 @@ class Top:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
         omega = state.angular_velocity
         kinetic = (self.body_angular_momentum(state) * omega).sum(axis=-1) / 2
-        return kinetic + self.Mgl * state.vertical[..., 2]
+        return kinetic + match(self.Mgl, state) * state.vertical[..., 2]
 
     def axial_momentum(self, state: State) -> Any:
         """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant without friction."""
-        return self.Iz * state.angular_velocity[..., 2]
+        return match(self.Iz, state) * state.angular_velocity[..., 2]
 
     def vertical_momentum(self, state: State) -> Any:
         """Return L_z' = p_phi = L . z', (...), in N m s; constant without friction."""
         return (self.body_angular_momentum(state) * state.vertical).sum(axis=-1)
 
 
-@dataclass(frozen=True, slots=True)
+def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
+    if Ix <= 0:
+        raise refuse("Ix", "> 0 kg m^2", Ix)
+    if not 0 < Iz <= 2 * Ix:
+        raise refuse("Iz", f"> 0 and <= 2 Ix = {2 * Ix:g} kg m^2", Iz)
+    for name, moment in (("Ix", Ix), ("Iz", Iz)):
+        if not SMALLEST_MOMENT <= moment <= LARGEST_MOMENT:
+            raise refuse(name, f"{SMALLEST_MOMENT:g} to {LARGEST_MOMENT:g} kg m^2", moment)
+    if abs(Mgl) > LARGEST_MOMENT:
+        raise refuse("Mgl", f"at most {LARGEST_MOMENT:g} J in size", Mgl)
+
+
+def match(value: Any, state: State) -> Any:
+    """Return a number of each top, (...), with axes added for the times of its states."""
+    shape = np.shape(value)
+    times = state.angular_velocity.ndim - 1 - len(shape)
+    return np.reshape(value, shape + (1,) * max(times, 0)) if shape else value
+
+
+@dataclass(frozen=True, slots=True, init=False, eq=False)
 class Friction:
     """Friction in proportion to the angular velocity, at the pivot and in the air.
 
@@ -131,13 +180,13 @@ class Friction:
 
     Parameters
     ----------
-    axial, transverse : float
+    axial, transverse : float or array_like (...)
         Coefficients in N m s, >= 0.
 
     Raises
     ------
     ValueError
-        If a coefficient is not a finite number >= 0.
+        If a coefficient is not a finite number >= 0, or if the shapes do not fit together.
 
     Examples
     --------
@@ -148,22 +197,41 @@ class Friction:
     False
     """
 
-    axial: float = 0.0
-    transverse: float = 0.0
+    axial: float
+    transverse: float
 
-    def __post_init__(self) -> None:
-        for name in ("axial", "transverse"):
-            value = validate_number(f"friction.{name}", getattr(self, name), "N m s")
-            if value < 0:
-                raise refuse(f"friction.{name}", ">= 0 N m s", value)
-            object.__setattr__(self, name, value)
+    def __init__(self, axial: ArrayLike = 0.0, transverse: ArrayLike = 0.0) -> None:
+        given = {"friction.axial": axial, "friction.transverse": transverse}
+        for name, value in zip(given, validate_together(given, ("N m s",) * 2), strict=True):
+            if np.min(value, initial=0.0) < 0:
+                raise refuse(name, ">= 0 N m s", float(np.min(value)))
+            object.__setattr__(self, name.removeprefix("friction."), value)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """() for one friction, (...) for many."""
+        return np.shape(self.axial)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare both coefficients."""
+        if not isinstance(other, Friction):
+            return NotImplemented
+        mine, others = (self.axial, self.transverse), (other.axial, other.transverse)
+        return all(map(np.array_equal, mine, others))
+
+    def __hash__(self) -> int:
+        """Return a hash of one friction; many cannot be hashed."""
+        return hash((self.axial, self.transverse))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle a friction by its arguments."""
+        return Friction, (self.axial, self.transverse)
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
-        return self.axial > 0 or self.transverse > 0
+        return bool(np.any(self.axial) or np.any(self.transverse))
 
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""
-        return np.asarray(
-            state.angular_velocity * [-self.transverse, -self.transverse, -self.axial]
-        )
+        across, along = match(self.transverse, state), match(self.axial, state)
+        return np.asarray(state.angular_velocity * -np.stack([across, across, along], axis=-1))

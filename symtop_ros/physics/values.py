@@ -5,6 +5,7 @@ Every refused argument raises a ValueError of one form: "NAME must be CONDITION,
 
 import math
 import numbers
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -115,6 +116,42 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     return array
 
 
+def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]:
+    """Return finite numbers as floats, or, if one of them is an array, as arrays of one shape.
+
+    Parameters
+    ----------
+    values : dict of str to array_like (...)
+        The numbers, by name.
+    units : sequence of str
+        Their units, for the message.
+
+    Raises
+    ------
+    ValueError
+        If a value is not a finite number, or if the shapes do not fit together.
+    """
+    validated: list[Any] = []
+    for (name, value), unit in zip(values.items(), units, strict=True):
+        validate = validate_array if _is_array(value) else validate_number
+        validated.append(validate(name, value, unit=unit))
+    if not any(isinstance(value, np.ndarray) for value in validated):
+        return validated
+    try:
+        arrays = [array.copy() for array in np.broadcast_arrays(*validated)]
+    except ValueError:
+        shapes = ", ".join(str(np.shape(value)) for value in validated)
+        raise refuse(" and ".join(values), "of shapes that fit together", shapes) from None
+    for array in arrays:
+        array.flags.writeable = False
+    return arrays
+
+
+def to_float(value: Any) -> Any:
+    """Return a float for a number or an array without dimensions, and other arrays unchanged."""
+    return value if np.ndim(value) else float(value)
+
+
 def validate_vector(name: str, value: Any, unit: str) -> Vector:
     """Return three finite numbers as floats.
 
@@ -137,6 +174,10 @@ def validate_vector(name: str, value: Any, unit: str) -> Vector:
         return float(x), float(y), float(z)
     except (TypeError, ValueError):
         raise refuse(name, f"3 finite numbers ({unit})", repr(value)) from None
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, list | tuple) or (hasattr(value, "__array__") and np.ndim(value) > 0)
 
 
 def _is_real(value: Any) -> bool:

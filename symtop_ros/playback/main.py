@@ -113,6 +113,10 @@ def _row(topic: str, deviation: Deviation) -> str:
         row += f" ({deviation.relative:.1e} of its size)"
     if deviation.unchecked:
         row += f"; {deviation.unchecked} before the first event not checked"
+    if deviation.unordered:
+        row += (
+            f"; {deviation.unordered} agree with an event, but the order of messages is not known"
+        )
     return row
 
 

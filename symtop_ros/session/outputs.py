@@ -13,14 +13,15 @@ from symtop_ros.simulation.sensor import ALONG, find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
+    APPLIED_TORQUE,
     CLOCK,
-    DESCRIPTION,
     DIAGNOSTICS,
     EVENTS,
     SAMPLE_TOPICS,
     TF_STATIC,
     Topic,
     centre_frame,
+    choose_description,
     imu_frame,
 )
 from symtop_ros.simulation.urdf import robot_description
@@ -93,14 +94,14 @@ class Output:
 class Outputs:
     """All topics of a run; the sink of its simulation."""
 
-    def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder) -> None:
+    def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder, name: str) -> None:
         def add(topic: Topic) -> Output:
             return Output(topic, host, recorder)
 
-        self._host, self._recorder = host, recorder
+        self._host, self._recorder, self._name = host, recorder, name
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
-        self._events, self._description = add(EVENTS), add(DESCRIPTION)
+        self._events, self._description = add(EVENTS), add(choose_description(name))
         self._samples = {
             name: (add(topic), topic.layout(*frames))
             for name, topic in SAMPLE_TOPICS.items()
@@ -110,6 +111,7 @@ class Outputs:
         self._fixed_frames = add(TF_STATIC) if has_frames else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
+        self._torque = recorder.add_channel(host.resolve(APPLIED_TORQUE), APPLIED_TORQUE)
         self.enable_tf(settings.publish_tf)
 
     def enable_tf(self, enabled: bool) -> None:
@@ -121,9 +123,17 @@ class Outputs:
         for name, (output, layout) in self._samples.items():
             if output.is_needed:
                 output.send(stamp, layout.encode(stamp, block.numbers(name, stamp)))
-        if self._clock:
-            self._clock.send(stamp, messages.CLOCK.encode(stamp, ()))
+        self.send_clock(stamp)
         self._host.watch_sample(stamp, block)
+
+    def send_clock(self, now: int) -> None:
+        """Publish and log /clock (ns), if that is asked for."""
+        if self._clock:
+            self._clock.send(now, messages.CLOCK.encode(now, ()))
+
+    def log_torque(self, stamp: int, data: bytes) -> None:
+        """Log an encoded torque that was received."""
+        self._recorder.add(self._torque, stamp, data)
 
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""
@@ -150,8 +160,11 @@ class Outputs:
         return self._diagnostics.is_needed
 
     def send_diagnostics(self, stamp: int, statuses: list[Status]) -> None:
-        """Publish and log diagnostics."""
-        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, statuses))
+        """Publish and log diagnostics; each status bears the name of the node."""
+        named = [
+            status._replace(name=f"{self._name.lstrip('/')}: {status.name}") for status in statuses
+        ]
+        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, named, self._name))
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""

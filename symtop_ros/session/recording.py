@@ -38,6 +38,12 @@ class Recording:
             directory = self._simulation.settings.record.directory
             msg = f"record.directory must be a writable folder, got {directory!r}: "
             raise RefusedError(msg + describe_error(error)) from None
+        except ModuleNotFoundError as error:
+            package = str(error.name).partition(".")[0]
+            raise RefusedError(
+                f"{package} must be installed for a recording, got none: pip install {package}, "
+                "on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
+            ) from None
         self._failure_reported = False
         self._host.inform(f"recording to {path}")
         return path

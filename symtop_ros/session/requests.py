@@ -49,13 +49,11 @@ class Requests:
         simulation = self._simulation
         if paused != simulation.segment.running:
             return "already paused" if paused else "already running"
-        return simulation.apply(simulation.timeline.pause(simulation.stamp, paused))
+        return simulation.pause(paused)
 
     def step(self, values: Values) -> str:
         """Advance a paused motion by `duration` seconds."""
-        simulation = self._simulation
-        duration = self._read_duration(values)
-        return simulation.apply(simulation.timeline.step(simulation.stamp, duration))
+        return self._simulation.step(self._read_duration(values))
 
     def _read_duration(self, values: Values) -> float:
         validate_names(values, ("duration",))

@@ -13,6 +13,7 @@ from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.recording import Recording, limits_of
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
+from symtop_ros.simulation.clocked import ClockedSimulation
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Clock, Simulation
@@ -31,11 +32,13 @@ class Session:
         host: OutputHost,
         scene: str,
         environment: Mapping[str, str],
+        name: str = "/top",
     ) -> None:
         self._host = host
         self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
-        self._outputs = Outputs(settings, host, self._recorder)
-        self.simulation = Simulation(settings, clock, self._outputs, host)
+        self._outputs = Outputs(settings, host, self._recorder, name)
+        simulation = ClockedSimulation if settings.publish_clock else Simulation
+        self.simulation: Simulation = simulation(settings, clock, self._outputs, host)
         verdict = self.simulation.timeline.verdict
         self.simulation.report("start", verdict, {"scene": scene})
         metadata = {"scene": scene, **environment}
@@ -51,6 +54,11 @@ class Session:
         if SERVICES[service].kind == "plain":
             return self.simulation.answer(service, act)
         return self.simulation.answer(service, lambda: act(read()))
+
+    def log_torque(self, data: bytes) -> None:
+        """Log an applied torque as it was received, whether it is accepted or not."""
+        with self.simulation.turn("~/applied_torque"):
+            self._outputs.log_torque(self.simulation.stamp, data)
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> str:
         """Apply a torque (N m) until its time-out; return the reason if it is refused."""
@@ -80,6 +88,9 @@ class Session:
             own = self._host.update_statuses()
             self.simulation.speed_up()
             self.recording.report_failure()
+            if not self.simulation.segment.running:
+                # for those who came while it stands still
+                self._outputs.send_clock(self.simulation.now)
             if self._outputs.need_diagnostics:
                 statuses = [*collect_statuses(self.simulation, self._recorder), *own]
                 self._outputs.send_diagnostics(self.simulation.stamp, statuses)

@@ -81,14 +81,18 @@ class ComputeBudget:
         self._prepared = stamp  # ns: end of the last stretch
         self._stretch: tuple[Segment, int] | None = None
 
-    def prepare(self, segment: Segment, stamp: int) -> bool:
-        """Work for about 1 ms towards a stamp (ns); return True if its state is ready."""
+    def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> bool:
+        """Work for about 1 ms towards a stamp (ns); return True if its state is ready.
+
+        `factor` is the pace of the stamps: seconds of them per second of real time.
+        """
+        self.shortfall = None
         if not segment.motion.is_driven:
             self._prepared, self._stretch = stamp, None
             return True
         end = segment.time_at(stamp)
         if self._stretch != (segment, stamp):
-            self._stretch, self.shortfall = (segment, stamp), None
+            self._stretch = segment, stamp
             self._progress, self._spent_before = 0.0, self.spent
         # The progress is counted call by call: a state that was asked for in between may have moved
         # the integration back to an earlier point.
@@ -99,6 +103,6 @@ class ComputeBudget:
         work = self.spent - self._spent_before
         if reached == end:
             self._prepared, self._stretch = stamp, None
-        elif work > max(FREE_WORK, (stamp - self._prepared) * 1e-9):
+        elif work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
             self.shortfall = Shortfall(reached, SHARE * self._progress / work)
         return bool(reached == end)

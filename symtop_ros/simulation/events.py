@@ -24,6 +24,7 @@ MAX_STAMP = 2**62  # ns; ROS has 32 bits of seconds
 MAX_ELAPSED = 1e18  # s of the motion
 EXACT = re.compile(r"-?\d{1,400}(/\d{1,400})?")  # a time in ns; doubles need 324 digits
 MIN_FACTOR, MAX_FACTOR = 1e-300, 1e6
+LEFT = re.compile(r"from=(-?\d{1,19});")  # in the request of a jump of the clock
 
 Number = TypeVar("Number", int, float, Fraction)
 
@@ -84,6 +85,12 @@ class Event:
         """Encode the event as a DiagnosticArray with one status."""
         status = Status(self.stamp, OK, PREFIX + self.name, self.verdict, self.values)
         return encode_statuses(self.stamp, frame, [status])
+
+    @property
+    def previous_end(self) -> int:
+        """Stamp (ns) up to which the segment before held: another one if the clock jumped."""
+        left = LEFT.match(self.values.get("request", "")) if self.name == "clock" else None
+        return int(left[1]) if left else self.stamp
 
     def segment(self) -> Segment:
         """Return the segment that holds from the event on.

@@ -6,6 +6,7 @@ number of pauses, steps and changes of the real-time factor. An event contains e
 segment holds, so that any state of a run can be computed again from the events, bit for bit.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -47,6 +48,10 @@ class Segment:
         """Return the exact time of the motion in ns at a stamp (ns)."""
         offset = stamp - self.stamp if self.running else 0
         return self.elapsed + Fraction(self.factor) * offset
+
+    def stamp_at(self, time: float) -> int:
+        """Return the last stamp (ns) up to a time of the motion (s), for the factor 1."""
+        return self.stamp + math.floor(to_nanoseconds(time) - self.elapsed)
 
     def time_at(self, stamp: Any) -> Any:
         """Return the time of the motion (s) at a stamp (ns) or an array of stamps, rounded."""

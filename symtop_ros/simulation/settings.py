@@ -28,6 +28,7 @@ MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
 MAX_ARM = 1e6  # m
 MAX_NOISE = 1e6
 MAX_SEED = 2**53  # a larger number may not be a double
+MAX_PUBLISH_RATE = 2000.0  # Hz
 MAX_FRAME = 200  # characters of a frame name, which stands in every message
 
 
@@ -142,12 +143,16 @@ PARAMETERS: dict[str, Parameter] = {
         0.1, "time for which a sample of ~/applied_torque acts", "s", 0.001, 1e6
     ),
     "hurry_factor": _number(1.4, "factor of phi' in ~/hurry_precession", "", -1e6, 1e6),
-    "publish_rate": _number(200.0, "samples per second", "Hz", 1.0, 2000.0),
+    "publish_rate": _number(200.0, "samples per second of the stamps", "Hz", 1.0, MAX_PUBLISH_RATE),
     "real_time_factor": _number(
         1.0, "seconds of the motion per second of the clock", "", 1e-3, 100.0
     ),
     "publish_tf": _flag(True, "publish world -> top on /tf"),
-    "publish_clock": _flag(False, "publish /clock", read_only=True),
+    "publish_clock": _flag(
+        False,
+        "publish /clock: the elapsed time of the run, which all stamps are on",
+        read_only=True,
+    ),
     "publish_markers": _flag(False, "publish ~/markers for rviz", read_only=True),
     "record.enabled": _flag(False, "record from the start", read_only=True),
     "record.directory": _text(
@@ -229,6 +234,13 @@ class Settings:
         if clean["initial.angular_velocity"] and not clean["initial.orientation"]:
             raise RefusedError(
                 "initial.angular_velocity must be set together with initial.orientation, got none"
+            )
+        stamps = clean["publish_rate"] * clean["real_time_factor"]
+        if clean["publish_clock"] and stamps > MAX_PUBLISH_RATE:
+            raise reject(
+                "publish_rate times real_time_factor",
+                f"at most {MAX_PUBLISH_RATE:g} Hz with publish_clock",
+                stamps,
             )
         try:
             top = Top(**_group(clean, "top."))

@@ -93,10 +93,11 @@ class Simulation:
         self._lock = threading.RLock()
         self._failures: dict[str, str] = {}  # by the name of the turn
         self._jumped_to: int | None = None  # ns
-        self.ticker = Ticker(settings.publish_rate, clock.now)
+        self.ticker = Ticker(settings.publish_rate, self.now)
+        self._last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
         self._budget, self._spent = ComputeBudget(self.stamp), 0.0
-        self._gap_reported = -NANOSECONDS
+        self._gap_reported, self._unreported = -NANOSECONDS, 0  # ns, samples
         self._block = Block(self.segment, [])
         sink.send_description(self.stamp, settings)
 
@@ -119,6 +120,11 @@ class Simulation:
     def settings(self) -> Settings:
         """The current settings."""
         return self.timeline.settings
+
+    @property
+    def factor(self) -> float:
+        """The real-time factor that is kept when the motion runs."""
+        return self.segment.factor
 
     @property
     def state(self) -> State:
@@ -181,8 +187,12 @@ class Simulation:
             # The next block is computed now, so that it is ready when its stamps are due.
             if not (self._publish() and self._work_on_block()):
                 return AT_ONCE
-            wait = (self.stamp - self.now) / NANOSECONDS
-            return None if self._clock.is_simulated and wait > 0 else wait
+            return self._find_wait()
+
+    def _find_wait(self) -> float | None:
+        """Return the seconds of real time until the next tick; None if it must be woken."""
+        wait = (self.stamp - self.now) / NANOSECONDS
+        return None if self._clock.is_simulated and wait > 0 else wait
 
     # Samples
 
@@ -191,12 +201,17 @@ class Simulation:
         ready = self._work_on_block()
         if ready:
             missed, simulated = self.ticker.missed, self._clock.is_simulated
-            catch_up = JUMP if simulated else CATCH_UP
-            for stamp in self.ticker.due(self.now, catch_up, self._block.last, not simulated):
+            for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, not simulated):
                 self._sink.send_sample(stamp, self._block)
+                self._last = stamp
             if self.ticker.missed > missed:
                 self._report_gap(self.ticker.missed - missed)
         return ready
+
+    @property
+    def _catch_up(self) -> float:
+        """Seconds of samples that are sent late; older ones are dropped."""
+        return JUMP if self._clock.is_simulated else CATCH_UP
 
     def _work_on_block(self) -> bool:
         """Work towards the samples of the next stamps; return True when they are ready."""
@@ -205,7 +220,7 @@ class Simulation:
         stamps = self._list_next_stamps()
         if not stamps:  # the torque ends with the next turn
             return False
-        ready = self._budget.prepare(self.segment, stamps[-1])
+        ready = self._prepare(stamps[-1])
         if ready:
             self._block = self._block.continue_with(self.segment, stamps)
         else:
@@ -227,13 +242,18 @@ class Simulation:
         return max(1, min(longest, grown, int(AHEAD * rate)))
 
     def _report_gap(self, missed: int) -> None:
-        if self.now - self._gap_reported < NANOSECONDS:  # at most one warning a second
+        """Warn when the samples that were missed since the last warning amount to something."""
+        self._unreported += missed
+        seconds = self._unreported / self.ticker.rate
+        # at most one warning a second
+        if seconds < CATCH_UP or self.now - self._gap_reported < NANOSECONDS:
             return
-        self._gap_reported = self.now
         self._host.warn(
-            f"no samples for {missed / self.ticker.rate:.3g} s ({missed} missed): the process was "
-            "stopped or has too little CPU time; the motion follows the clock"
+            f"no samples for {seconds:.3g} s ({self._unreported} missed): the process was stopped "
+            "or has too little CPU time; the motion follows the clock "
+            f"({self.ticker.missed} missed in all)"
         )
+        self._gap_reported, self._unreported = self.now, 0
 
     # The compute budget of driven motions
 
@@ -242,9 +262,15 @@ class Simulation:
         self._release_torque()
         self._integrate_to(self.stamp)
 
-    def _integrate_to(self, stamp: int) -> None:
-        while not self._budget.prepare(self.segment, stamp):
+    def _integrate_to(self, stamp: int) -> bool:
+        """Work until the state at a stamp is ready."""
+        while not self._prepare(stamp):
             self._check_pace(stamp)
+        return True
+
+    def _prepare(self, stamp: int) -> bool:
+        """Work towards a stamp; return True if its state is ready."""
+        return self._budget.prepare(self.segment, stamp)
 
     def _check_pace(self, stamp: int) -> None:
         """Slow the motion down if it cannot be followed."""
@@ -254,8 +280,14 @@ class Simulation:
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""
         work, self._spent = self._budget.spent - self._spent, self._budget.spent
-        if self.segment.factor < self.settings.real_time_factor and work < SHARE / 2:
-            self.apply(self.timeline.speed_up(self.stamp))
+        current, factor = self.factor, self.settings.real_time_factor
+        if current < factor and work < SHARE / 2:
+            if self.segment.motion.is_driven:
+                factor = min(factor, 2 * current)
+            self._set_pace(factor)
+
+    def _set_pace(self, factor: float) -> str:
+        return self.apply(self.timeline.set_pace(self.stamp, self.factor, factor))
 
     # Changes
 
@@ -279,6 +311,14 @@ class Simulation:
             self._sink.send_event(change.event(verdict))
         return verdict
 
+    def pause(self, paused: bool) -> str:
+        """Stop the motion, or continue it."""
+        return self.apply(self.timeline.pause(self.stamp, paused))
+
+    def step(self, duration: float) -> str:
+        """Advance a paused motion by a duration in s."""
+        return self.apply(self.timeline.step(self.stamp, duration))
+
     def report(self, name: str, verdict: str, request: Request | None = None) -> str:
         """Announce an event that changes nothing of the motion; return the verdict."""
         return self.apply(self.timeline.report(name, verdict, request or {}, self.stamp))
@@ -299,7 +339,7 @@ class Simulation:
         if now is not None:
             stamp = self.stamp
             self._integrate_to(stamp)
-            self.ticker.restart(self.settings.publish_rate, now)
+            self._restart_grid(now)
             self.apply(self.timeline.move(stamp, now))
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> None:
@@ -308,8 +348,8 @@ class Simulation:
 
     def _release_torque(self) -> None:
         end = self.timeline.torque_end
-        if any(self.timeline.held_torque) and self.stamp >= end:
-            self._integrate_to(end)
+        held = any(self.timeline.held_torque) and self.stamp >= end
+        if held and self._integrate_to(end):
             self._apply_torque(self.timeline.release_torque(end))
 
     def _apply_torque(self, change: Change) -> None:
@@ -326,5 +366,9 @@ class Simulation:
         if (settings.top, settings.publish_tf) != (old.top, old.publish_tf):
             self._sink.send_description(stamp, settings)
         if settings.publish_rate != old.publish_rate:
-            self.ticker.restart(settings.publish_rate, stamp)
-            self._block = Block(self.segment, [])  # its stamps belong to the old grid
+            self._restart_grid(stamp)
+
+    def _restart_grid(self, stamp: int) -> None:
+        """Continue with a grid of stamps that begins at a stamp."""
+        self.ticker.restart(self.settings.publish_rate, stamp)
+        self._block = Block(self.segment, [])  # its stamps belong to the old grid

@@ -40,7 +40,9 @@ class Timeline:
         start = initial_state(settings.top, settings.initial, {})
         motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
         rig = settings.rig(stamp)
-        segment = Segment.begin(motion, stamp, settings.real_time_factor, rig)
+        # With publish_clock the clock has this factor.
+        factor = 1.0 if settings.publish_clock else settings.real_time_factor
+        segment = Segment.begin(motion, stamp, factor, rig)
         return cls(settings, segment, start, _describe_origin("start", stamp), stamp)
 
     @property
@@ -84,6 +86,12 @@ class Timeline:
         verdict = f"stepped to {_seconds(segment)}"
         return self._follow("step", segment, stamp, {"duration": duration}, verdict)
 
+    def step_clock(self, stamp: int, now: int) -> "Change":
+        """Let a paused motion run together with its clock, to the stamp `now`."""
+        segment = self.segment.resume(stamp)
+        verdict = f"stepped to {segment.time_at(now):.6f} s of the motion"
+        return self._follow("step", segment, stamp, {"to": now}, verdict)
+
     def move(self, stamp: int, now: int) -> "Change":
         """Continue the state of a stamp at the time (ns) to which the clock jumped."""
         change = self._follow(
@@ -106,13 +114,17 @@ class Timeline:
         change = self._follow("pace", segment, stamp, {"reached": shortfall.reached}, verdict)
         return replace(change, before=self.segment.motion.at(shortfall.reached))
 
-    def speed_up(self, stamp: int) -> "Change":
-        """Continue at up to twice the real-time factor, as far as the settings ask for it."""
-        current, factor = self.segment.factor, self.settings.real_time_factor
-        if self.segment.motion.is_driven:
-            factor = min(factor, 2 * current)
+    def set_pace(self, stamp: int, current: float, factor: float) -> "Change":
+        """Continue at another real-time factor than the current one."""
         verdict = f"real-time factor {current:.3g} -> {factor:.3g}"
-        return self._follow("pace", self.segment.set_factor(factor, stamp), stamp, {}, verdict)
+        if factor < current:
+            verdict = f"the motion is too fast for the compute budget: {verdict}"
+        return self._follow("pace", self._set_factor(factor, stamp), stamp, {}, verdict)
+
+    def _set_factor(self, factor: float, stamp: int) -> Segment:
+        if self.settings.publish_clock:  # the clock has this factor
+            return self.segment
+        return self.segment.set_factor(factor, stamp)
 
     def hold_torque(self, stamp: int, torque: Sequence[float], frame: str = "") -> "Change":
         """Apply a torque (3,) in N m until its time-out."""
@@ -151,7 +163,7 @@ class Timeline:
         if (settings.top, settings.friction) != (old.top, old.friction):
             segment = segment.change(stamp, settings.top, settings.friction)
         if settings.real_time_factor != old.real_time_factor:
-            segment = segment.set_factor(settings.real_time_factor, stamp)
+            segment = replace(self, segment=segment)._set_factor(settings.real_time_factor, stamp)
         if settings.publish_rate != old.publish_rate:
             segment = segment.equip(settings.rig(self.switched_on))
         following = replace(self, settings=settings, start=start, segment=segment)

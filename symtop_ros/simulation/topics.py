@@ -6,7 +6,7 @@ it. World frame, SI units, radians.
 
 import importlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,8 @@ from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.wire.layout import Layout
 from symtop_ros.wire.messages import Format
+
+DEFAULT_NAME = "top"  # of the node
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,6 +168,16 @@ def _odometry(samples: Samples) -> Real:
     return numbers
 
 
+def choose_description(node: str) -> Topic:
+    """Return the topic of the URDF of a node, given by its full name.
+
+    rviz looks for /robot_description: a node called top publishes there. Others in its namespace
+    have topics of their own.
+    """
+    is_top = node.rpartition("/")[2] == DEFAULT_NAME
+    return DESCRIPTION if is_top else replace(DESCRIPTION, ros_name=f"~/{DESCRIPTION.name}")
+
+
 def imu_frame(top: str) -> str:
     """Return the name of the frame of the sensor."""
     return f"{top}_imu"
@@ -233,6 +245,8 @@ EVENTS = Topic("~/events", DIAGNOSTIC_ARRAY, latched=True)
 DESCRIPTION = Topic("robot_description", "std_msgs/msg/String", depth=1, latched=True)
 DIAGNOSTICS = Topic("/diagnostics", DIAGNOSTIC_ARRAY, depth=10)
 CLOCK = Topic("/clock", "rosgraph_msgs/msg/Clock")
+# Only received; logged with the bytes that came.
+APPLIED_TORQUE = Topic("~/applied_torque", messages.WRENCH.type)
 # Events come first, so that they precede the samples of the same stamp in every log.
 TOPICS: dict[str, Topic] = {
     topic.name: topic

@@ -102,6 +102,11 @@ def exactly_one(values: Mapping[str, Any], names: tuple[str, ...]) -> str:
     return given[0]
 
 
+def full_name(node: str) -> str:
+    """Return the full name of a node; the slash at its beginning may be left out."""
+    return f"/{node.strip('/')}"
+
+
 def one_line(text: object, max_length: int = MAX_SENTENCE) -> str:
     r"""Return printable text in one line.
 

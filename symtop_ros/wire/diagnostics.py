@@ -20,8 +20,10 @@ class Status(NamedTuple):
     values: Mapping[str, str]
 
 
-def encode_statuses(stamp: int, frame: str, statuses: Sequence[Status]) -> bytes:
-    """Encode an array of statuses."""
+def encode_statuses(
+    stamp: int, frame: str, statuses: Sequence[Status], hardware_id: str = ""
+) -> bytes:
+    """Encode an array of statuses of one piece of hardware."""
     writer = Writer()
     seconds, nanoseconds = divmod(stamp, NANOSECONDS)
     writer.integer(seconds, "i")
@@ -30,7 +32,7 @@ def encode_statuses(stamp: int, frame: str, statuses: Sequence[Status]) -> bytes
     writer.integer(len(statuses))
     for status in statuses:
         writer.integer(status.level, "B")
-        for text in (status.name, status.message, ""):  # the last one is hardware_id
+        for text in (status.name, status.message, hardware_id):
             writer.string(text)
         writer.integer(len(status.values))
         for pair in status.values.items():

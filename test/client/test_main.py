@@ -45,6 +45,18 @@ def test_start_kick_and_state_work_together():
     assert ctl("resume").returncode == 0
 
 
+def test_two_nodes_of_one_name_are_named_next_to_the_answer():
+    with running_node(DOMAIN, "scene:=hurry_slow"):
+        deadline = time.monotonic() + 60
+        while not (result := ctl("state")).stderr:
+            assert time.monotonic() < deadline, "the second node was not found"
+        assert result.returncode == 0
+        assert result.stderr.startswith("top_ctl: 2 nodes have the name /top, and one of them has")
+    with Listener(DOMAIN) as listener:  # until the second one is gone
+        names = listener.node.get_fully_qualified_node_names
+        listener.spin_until(lambda: names().count("/top") == 1)
+
+
 def test_a_refusal_is_one_line_and_status_1():
     result = ctl("kick", "precession_rat=9")
     assert result.returncode == 1

@@ -2,6 +2,7 @@
 
 import subprocess
 import time
+from types import SimpleNamespace
 
 import pytest
 from domains import claim_domain
@@ -9,6 +10,7 @@ from pictures import running_viewer, views
 from programs import PATIENT, command, environment, run, running_node
 
 from symtop_ros.live import main as module
+from symtop_ros.log.batch import Batch
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
 
@@ -108,3 +110,17 @@ def test_a_viewer_that_ends_at_once_is_told(monkeypatch):
 
 def test_help_is_answered():
     assert run("top_live", "--help", domain=DOMAIN).returncode == 0
+
+
+def test_without_a_node_it_says_once_what_is_missing(monkeypatch, capsys):
+    monkeypatch.setattr(module, "SILENCE", 0.05)
+    monkeypatch.setattr(module, "_connect", lambda *_: None)
+    monkeypatch.setattr(module, "_spin", lambda *_: time.sleep(0.02))
+    turns = iter([None] * 10)
+    process = SimpleNamespace(poll=lambda: next(turns, 0))
+    options = module._parser().parse_args(["--node", "lab2/top"])
+    module._stream(None, SimpleNamespace(batch=Batch), options, process)
+    assert capsys.readouterr().err == (
+        "top_live: nothing heard from /lab2/top for 0.05 s: is top_node running, with the same "
+        "ROS_DOMAIN_ID and --node?\n"
+    )

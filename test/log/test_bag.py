@@ -6,6 +6,7 @@ import sqlite3
 
 import numpy as np
 import pytest
+import zstandard
 from log_files import Run, topic
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
@@ -165,3 +166,14 @@ def test_messages_that_a_killed_recorder_left_in_the_write_ahead_log_are_read(tm
     ]
     assert len(times[0]) == len(RUN.messages)
     assert times[0] == times[1]
+
+
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_bag_of_compressed_messages_is_named_as_such(storage, tmp_path):
+    """As `ros2 bag record --compression-mode message --compression-format zstd` writes it."""
+    compress = zstandard.ZstdCompressor().compress
+    messages = [(name, stamp, compress(data)) for name, stamp, data in RUN.messages]
+    folder = write(tmp_path / "bag", messages, storage)
+    expected = r"cannot read \S+: its messages are compressed one by one \(`ros2 bag convert`"
+    with pytest.raises(LogError, match=expected):
+        check_log(TopLog(open_run([folder])))

@@ -5,6 +5,7 @@ import pytest
 from log_files import Run, topic
 from mcap.writer import Writer
 
+from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
@@ -134,3 +135,20 @@ def test_two_tops_that_share_tf_are_told_apart_by_the_frames_in_their_events(tmp
         columns = columns_of(TopLog(McapFile(path), node))
         assert len(columns["tf"]) == count
         assert columns["tf"][:, 3:].tolist() == columns["orientation"].tolist()
+
+
+def test_the_slash_at_the_beginning_of_a_node_may_be_left_out(tmp_path):
+    path = write(tmp_path / "a.mcap", {"/lab2/top": RUN, "/top": Run(seconds=1.0, rate=50.0)})
+    log = TopLog(McapFile(path), "lab2/top")
+    assert len(columns_of(log)["torque"]) == 200
+    assert log.node == "/lab2/top"
+
+
+def test_transforms_of_another_top_before_the_first_event_are_not_those_of_this_one(tmp_path):
+    one, other = Run(seconds=1.0), Run(seconds=1.0, rate=2000.0, frame="gyro")
+    one.messages = [each for each in one.messages if each[1] >= one.messages[0][1] + 5 * 10**8]
+    assert one.messages[0][0] == "events"  # the kick
+    path = write(tmp_path / "a.mcap", {"/top": other, "/one": one})
+    deviations = check_log(TopLog(McapFile(path), "/one"))
+    for each in deviations.values():
+        assert (each.samples, each.largest, each.unchecked) == (100, 0.0, 0)

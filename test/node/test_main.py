@@ -2,10 +2,11 @@
 
 import signal
 import subprocess
+import sys
 
 import pytest
 from domains import claim_domain
-from programs import command, environment, run
+from programs import PATIENT, command, environment, run
 
 DOMAIN = claim_domain()
 
@@ -43,7 +44,7 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
         assert len(lines) == 1
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_it_cleanly(ending):
     node = subprocess.Popen(
         command("top_node", "--ros-args", "-p", "publish_rate:=1000"),
@@ -62,3 +63,38 @@ def test_a_signal_ends_it_cleanly(ending):
     assert node.returncode == 0
     assert "Traceback" not in rest
     assert "top_node:" not in rest
+
+
+WITHOUT_MCAP = (
+    "import sys; sys.modules['mcap'] = None; "
+    "from symtop_ros.programs import top_node; sys.exit(top_node())"
+)
+WAY_OUT = (
+    "mcap must be installed for a recording, got none: pip install mcap, on Debian and Ubuntu into "
+    "a venv (docs/ros.md, Installing)"
+)
+
+
+def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
+    node = subprocess.Popen([sys.executable, "-c", WITHOUT_MCAP], env=environment(DOMAIN))
+    try:
+        assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
+        refused = run("top_ctl", *PATIENT, "record", "on", domain=DOMAIN)
+        assert (refused.returncode, refused.stderr) == (1, f"top_ctl: {WAY_OUT}\n")
+        assert run("top_ctl", *PATIENT, "state", domain=DOMAIN).returncode == 0
+    finally:
+        node.terminate()
+    assert node.wait(timeout=60) == 0
+
+
+def test_without_mcap_a_recording_from_the_start_is_refused_in_one_line():
+    result = subprocess.run(
+        [sys.executable, "-c", WITHOUT_MCAP, "--ros-args", "-p", "record.enabled:=true"],
+        env=environment(DOMAIN),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert (result.returncode, result.stderr.splitlines()[-1]) == (1, f"top_node: {WAY_OUT}")
+    assert "Traceback" not in result.stderr

@@ -8,9 +8,15 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TransformStamped
 from node.running_top import LATCHED, facts, segment_of, stamp_of
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
+from symtop_ros.log.check import check_log
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.topics import Topic
@@ -36,7 +42,7 @@ KINDS = {
     "closed_cusps": "cusps",
     "conical_pendulum": "regular",
     "spherical_pendulum": "unidirectional",
-    "separatrix": "spiralling",
+    "separatrix": "asymptotic",
     "gray_fall": "cusps",
 }
 EPS = np.finfo(float).eps
@@ -108,6 +114,74 @@ def test_a_whole_number_is_as_good_as_a_double(start_top):
     run = start_top(publish_rate=100, top__Mgl=0)
     assert run.top.simulation.settings.publish_rate == 100.0
     assert json.loads(run.trigger("get_state")[1])["engine"] == "free"
+
+
+KINDS_OF_TYPES = {
+    bool: ParameterType.PARAMETER_BOOL,
+    int: ParameterType.PARAMETER_INTEGER,
+    float: ParameterType.PARAMETER_DOUBLE,
+    str: ParameterType.PARAMETER_STRING,
+    list: ParameterType.PARAMETER_DOUBLE_ARRAY,
+}
+BYTES = ParameterType.PARAMETER_BYTE_ARRAY
+
+
+def read(run, *names):
+    request = GetParameters.Request(names=names)
+    return run.connection._call(GetParameters, "get_parameters", request).values
+
+
+def put(run, name, **value):
+    """What `ros2 param set` sends."""
+    parameters = [ParameterMessage(name=name, value=ParameterValue(**value))]
+    request = SetParameters.Request(parameters=parameters)
+    return run.connection._call(SetParameters, "set_parameters", request).results[0]
+
+
+def test_every_parameter_has_the_type_of_its_default_whatever_is_set(start_top):
+    run = start_top(publish_rate=100, top__Mgl=0, imu__position=[0, 0, 1])
+    for name, parameter in PARAMETERS.items():
+        expected = KINDS_OF_TYPES[type(parameter.default)]
+        described = run.top.describe_parameter(name)
+        assert (name, described.type, described.dynamic_typing) == (name, expected, False)
+        assert (name, read(run, name)[0].type) == (name, expected)
+    assert read(run, "imu.position")[0].double_array_value.tolist() == [0.0, 0.0, 1.0]
+    assert read(run, "steady_torque")[0].double_array_value.tolist() == []
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [
+        ("hurry_factor", {"type": 2, "integer_value": 2}, 2.0),
+        ("hurry_factor", {"type": 4, "string_value": "2e0"}, 2.0),
+        ("steady_torque", {"type": 7, "integer_array_value": [0, 0, 1]}, [0.0, 0.0, 1.0]),
+        ("steady_torque", {"type": BYTES}, []),
+        ("initial.orientation", {"type": 6}, []),  # `ros2 param set ... []`
+    ],
+)
+def test_a_value_of_a_related_type_is_stored_as_a_double(start_top, name, value, expected):
+    run = start_top()
+    result = put(run, name, **value)
+    assert (result.successful, result.reason) == (True, "")
+    (found,) = read(run, name)
+    assert found.type == KINDS_OF_TYPES[type(PARAMETERS[name].default)]
+    stored = found.double_value if isinstance(expected, float) else [*found.double_array_value]
+    assert stored == expected
+
+
+def test_all_that_a_dumped_file_sets_is_accepted_while_the_node_runs(start_top):
+    run = start_top(imu__position=[0.0, 0.0, 1.0])
+    names = [*run.top.get_parameters_by_prefix("")]
+    parameters = [
+        ParameterMessage(name=name, value=value)
+        for name, value in zip(names, read(run, *names), strict=True)
+    ]
+    for kind in (SetParameters, SetParametersAtomically):
+        service = "set_parameters" if kind is SetParameters else SET
+        answer = run.connection._call(kind, service, kind.Request(parameters=parameters))
+        results = answer.results if kind is SetParameters else [answer.result]
+        assert {(each.successful, each.reason) for each in results} == {(True, "")}
+    assert not put(run, "scene", type=4, string_value="disc").successful
 
 
 @pytest.mark.parametrize(
@@ -232,6 +306,45 @@ def test_in_a_namespace_frame_and_description_are_those_of_the_namespace(start_t
     run.spin_until(lambda: described)
     assert run.top.get_parameter("top_frame").value == "a/top"
     assert '<link name="a/top">' in described[0].data
+
+
+@pytest.mark.parametrize(("namespace", "full"), [("/", "/gyro"), ("/lab", "/lab/gyro")])
+def test_a_top_of_another_name_has_its_own_frame_description_and_diagnostics(
+    namespace, full, start_top, tmp_path
+):
+    arguments = ["--ros-args", "-r", f"__ns:={namespace}", "-r", "__node:=gyro"]
+    run = start_top(
+        arguments=arguments,
+        record__enabled=True,
+        record__directory=str(tmp_path),
+        imu__enabled=True,
+    )
+    described = run.collect(String, f"{full}/robot_description", LATCHED)
+    diagnostics = run.collect(DiagnosticArray, "/diagnostics")
+    run.spin_until(lambda: described and diagnostics)
+    names = {name for name, _ in run.top.get_topic_names_and_types()}
+    assert not {"/robot_description", "/lab/robot_description"} & names
+    frame = full.lstrip("/")
+    for link in ("", "_precession", "_tilt"):
+        assert f'<link name="{frame}{link}"' in described[0].data
+    for status in diagnostics[0].status:
+        assert status.hardware_id == full
+        assert status.name.startswith(f"{frame}: ")
+    run.top.session.close()
+    (path,) = tmp_path.iterdir()
+    log = TopLog(McapFile(path), full)
+    assert all(each.samples and not each.largest for each in check_log(log).values())
+    (batch, *_) = log.batches()
+    assert batch.events[0][1].values["top_frame"] == frame
+    assert len(batch.columns["tf"].stamps) == len(batch.columns["imu"].stamps) > 0
+
+
+def test_a_top_called_top_names_itself_in_its_diagnostics(start_top):
+    run = start_top()
+    diagnostics = run.collect(DiagnosticArray, "/diagnostics")
+    run.spin_until(lambda: diagnostics)
+    found = {(each.name.partition(": ")[0], each.hardware_id) for each in diagnostics[0].status}
+    assert found == {("top", "/top")}
 
 
 def test_transforms_are_published_while_they_are_wanted(start_top, monkeypatch):

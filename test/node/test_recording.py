@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from domains import claim_domain
-from geometry_msgs.msg import QuaternionStamped
+from exact_log import assert_exact
+from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from node.running_top import LATCHED, facts, stamp_of, status_of
 from programs import command, environment
@@ -263,7 +264,7 @@ def started(folder, rate=1000.0):
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
     node, path = started(tmp_path)
     time.sleep(0.7)
@@ -275,6 +276,24 @@ def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
     assert file.problems == []
     assert file.metadata["symtop_ros.end"] == {"dropped": "0"}
     assert sent - log_times[-1] * 1e-9 < 0.6
+
+
+def test_a_log_holds_applied_torques_as_they_were_received(start_top, tmp_path):
+    run = start_top(record__enabled=True, record__directory=str(tmp_path))
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    heard = run.collect(WrenchStamped, "/top/applied_torque", raw=True)
+    hand = run.publisher(WrenchStamped, "/top/applied_torque")
+    for frame, size in (("world", 2e-4), ("elsewhere", 1.0), ("", 1e-4)):
+        message = WrenchStamped()
+        message.header.frame_id, message.wrench.torque.z = frame, size
+        hand.publish(message)
+        count = len(heard)
+        run.spin_until(lambda: len(heard) > count)  # noqa: B023
+    run.spin_until(lambda: any("0.0 0.0 0.0001" in str(each) for each in events))
+    path = stop_and_read(run)
+    logged = [data for name, _, data in messages_of(path) if name == "/top/applied_torque"]
+    assert logged == heard
+    assert_exact(path)
 
 
 @pytest.mark.realtime

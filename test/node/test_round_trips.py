@@ -4,13 +4,16 @@ import pytest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from node.running_top import LATCHED, events_named, facts
+from odd_values import assert_one_sentence
 from rcl_interfaces.msg import Parameter, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
+
+from symtop_ros.simulation.validation import RefusedError
 
 SET = "set_parameters_atomically"
 
 
-def test_a_node_starts_from_its_dumped_parameters(start_top, tmp_path):
+def test_a_node_starts_from_its_dumped_parameters(start_top, tmp_path, capfd):
     """As `ros2 param dump` writes them; ros2cli is not on PyPI."""
     first = start_top(scene="vertical_torque", hurry_factor=1.2)
     parameters = {}
@@ -20,8 +23,10 @@ def test_a_node_starts_from_its_dumped_parameters(start_top, tmp_path):
     assert parameters["initial.orientation"] == []
     path = tmp_path / "top.yaml"
     path.write_text(yaml.safe_dump({"/top": {"ros__parameters": parameters}}))
+    capfd.readouterr()
     again = start_top(arguments=["--ros-args", "--params-file", str(path)])
     assert again.top.simulation.settings == first.top.simulation.settings
+    assert "unknown" not in capfd.readouterr().err
 
 
 def test_an_empty_list_in_a_parameter_file_is_not_set(start_top, tmp_path):
@@ -38,6 +43,29 @@ def test_unknown_parameters_of_other_nodes_are_warned_about(start_top, tmp_path,
     path.write_text("/**:\n  ros__parameters:\n    camera: {exposure: 3.0}\n")
     start_top(arguments=["--ros-args", "--params-file", str(path)])
     assert "parameter 'camera.exposure' is unknown and not used" in capfd.readouterr().err
+
+
+def test_an_override_of_qos_for_a_topic_that_there_is_not_is_warned_about(start_top, capfd):
+    start_top(**{"qos_overrides./top/orientatio.publisher.depth": 5})
+    said = capfd.readouterr().err
+    assert "'qos_overrides./top/orientatio.publisher.depth' is unknown and not used" in said
+    assert "(nearest: qos_overrides./top/orientation.publisher.depth)" in said
+
+
+@pytest.mark.parametrize(
+    ("policy", "value"),
+    [("depth", -1), ("depth", "x"), ("reliability", "foo"), ("history", 3)],
+)
+def test_a_bad_override_of_qos_is_refused_in_one_line(start_top, policy, value, capfd):
+    name = f"qos_overrides./top/orientation.publisher.{policy}"
+    with pytest.raises(RefusedError) as refusal:
+        start_top(**{name: value})
+    assert_one_sentence(str(refusal.value))
+    assert str(refusal.value).startswith(
+        "qos_overrides./top/orientation.publisher must be valid, got: "
+    )
+    assert str(value) in str(refusal.value)
+    assert "rcutils" not in capfd.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Simulated time: the top follows /clock, and continues from its state when the clock jumps."""
 
+import json
 import random
 import time
 from itertools import pairwise
@@ -165,3 +166,55 @@ def test_simulated_time_without_a_clock_is_warned_of_once(start_top, monkeypatch
     run.spin_until(lambda: not run.top._clock_is_missing)
     warning = "use_sim_time is true, but no /clock was received for 0.05 s: no samples"
     assert capfd.readouterr().err.count(warning) == 1
+
+
+@pytest.mark.realtime
+@pytest.mark.parametrize(("factor", "rate"), [(0.1, 1000.0), (1.0, 200.0), (5.0, 40.0)])
+def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
+    factor, rate, start_top, tmp_path
+):
+    run = start_top(
+        realtime=True,
+        publish_clock=True,
+        real_time_factor=factor,
+        publish_rate=rate,
+        record__enabled=True,
+        record__directory=str(tmp_path),
+    )
+    clocks = run.collect(Clock, "/clock")
+    samples = run.collect(QuaternionStamped, "/top/orientation")
+
+    def times():
+        return [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks]
+
+    def wait(seconds):
+        begin = time.monotonic()
+        run.spin_until(lambda: time.monotonic() > begin + seconds)
+
+    run.spin_until(lambda: len(samples) > 20)
+    begin, first = time.monotonic(), times()[-1]
+    wait(1.0)
+    # a loaded machine may hold the time back, and the last messages are on their way
+    assert 0.5 * factor < (times()[-1] - first) / 1e9 / (time.monotonic() - begin) < 1.1 * factor
+    assert run.switch("pause", True)[0]
+    assert not json.loads(run.trigger("get_state")[1])["running"]
+    wait(0.3)
+    stopped = len(samples)
+    late = run.collect(Clock, "/clock")
+    run.spin_until(lambda: late)  # who comes in the pause is told the time, too
+    assert (len(samples), late[0]) == (stopped, clocks[-1])
+    assert run.set("step", duration=0.02)[0]
+    run.spin_until(lambda: len(samples) == stopped + 1)
+    assert stamp_of(samples[-1]) == stamp_of(samples[-2]) + 20 * MS
+    assert run.set("kick", precession_rate=9.0)[0]
+    assert run.switch("pause", False)[0]
+    run.spin_until(lambda: len(samples) > stopped + 20)
+    for request in ("reset", "hurry_precession"):
+        run.trigger(request)
+    seen = len(samples)
+    run.spin_until(lambda: len(samples) > seen + 20)
+    stamps = [stamp_of(each) for each in samples]
+    assert {b - a for a, b in pairwise(stamps)} == {round(1e9 / rate), 20 * MS}
+    assert all(a <= b for a, b in pairwise(times()))
+    assert set(times()) <= {*stamps, *times()[:1]} | set(range(stamps[0]))
+    exact_log_of(run)

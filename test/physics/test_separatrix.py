@@ -69,7 +69,7 @@ def test_a_period_is_finite_and_right_if_the_exact_one_is_finite(name):
     top, start = STARTS[name]
     motion = Motion(top, start)
     assert motion.nutation_period == pytest.approx(series_of(name).period_in_seconds, rel=2 * EPS)
-    assert motion.kind != "spiralling"
+    assert motion.kind != "asymptotic"
 
 
 @OFTEN
@@ -105,10 +105,10 @@ def test_a_pendulum_hardly_pushed_from_the_top_is_right_at_the_bottom(push, monk
     assert distance(omega, state.angular_velocity) <= 5 * EPS * 2.0
 
 
-def test_a_motion_without_a_period_is_spiralling_at_exact_times_too():
+def test_a_motion_without_a_period_is_asymptotic_at_exact_times_too():
     top, start = Top(1.0, 0.5, 2.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 2.0, 4.0))
     motion = Motion(top, start)
-    assert motion.kind == "spiralling"
+    assert motion.kind == "asymptotic"
     assert motion.nutation_period == math.inf
     stamps = np.array([0, 500_000_000, 30_000_000_000])
     states = motion.at(ExactTimes(stamps))

@@ -34,7 +34,7 @@ def test_every_period_is_right_and_finite_if_the_exact_one_is(data):
     motion = Motion(Top(*data["moments"]), State(data["q0"], data["omega0"]))
     exact = math.inf if data["period"] is None else data["period"]
     assert motion.nutation_period == pytest.approx(exact, rel=2 * EPS)
-    assert (motion.kind == "spiralling") == (exact == math.inf)
+    assert (motion.kind == "asymptotic") == (exact == math.inf)
 
 
 def test_there_are_200_motions_of_16_families():

@@ -1,5 +1,7 @@
 from types import SimpleNamespace
 
+import pytest
+
 from symtop_ros.session.diagnostics import _log_status, _pace_status
 from symtop_ros.wire.diagnostics import OK, WARN
 
@@ -12,7 +14,13 @@ def test_dropped_messages_are_a_warning():
     assert (_log_status(recorder).level, _log_status(recorder).message) == (OK, "recording")
 
 
-def test_missed_ticks_are_a_warning():
-    segment = SimpleNamespace(factor=1.0, running=True)
-    status = _pace_status(segment, 1.0, SimpleNamespace(late=2, missed=3))
-    assert (status.level, status.message) == (WARN, "3 ticks missed")
+@pytest.mark.parametrize(("missed", "level"), [(3, OK), (19, OK), (20, WARN)])
+def test_missed_ticks_are_a_warning_if_they_are_a_tenth_of_a_second(missed, level):
+    simulation = SimpleNamespace(
+        factor=1.0,
+        segment=SimpleNamespace(running=True),
+        settings=SimpleNamespace(real_time_factor=1.0),
+        ticker=SimpleNamespace(late=2, missed=missed, rate=200.0),
+    )
+    status = _pace_status(simulation)
+    assert (status.level, status.message) == (level, f"{missed} ticks missed")

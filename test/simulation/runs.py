@@ -8,6 +8,7 @@ from typing import Any
 
 from symtop_ros.session.requests import Requests
 from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.clocked import ClockedSimulation
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
@@ -66,9 +67,9 @@ class Run:
 
     def __init__(self, scene: str = "cusps", **changes: Any) -> None:
         self.clock, self.sink = HandClock(), ListSink()
-        self.simulation = Simulation(
-            Settings.from_scene(scene, **changes), self.clock, self.sink, self.sink
-        )
+        settings = Settings.from_scene(scene, **changes)
+        kind = ClockedSimulation if settings.publish_clock else Simulation
+        self.simulation = kind(settings, self.clock, self.sink, self.sink)
         self.simulation.report("start", self.simulation.timeline.verdict)
         self.requests = Requests(self.simulation, lambda on: "not recording")
 

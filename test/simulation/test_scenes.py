@@ -73,7 +73,7 @@ def test_the_ellipse_of_the_spherical_pendulum_turns():
 
 def test_the_start_of_the_separatrix_is_exact():
     motion = motion_of("separatrix")
-    assert (motion.kind, motion.nutation_period) == ("spiralling", math.inf)
+    assert (motion.kind, motion.nutation_period) == ("asymptotic", math.inf)
     assert motion.top.energy(motion.start) == motion.top.Mgl
     assert motion.start.vertical.tolist() == [0.0, 1.0, 0.0]
     tilts = motion.at([0.0, 10.0, 20.0]).euler_angles.theta

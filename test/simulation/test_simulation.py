@@ -79,6 +79,20 @@ def test_late_ticks_are_dropped_and_reported_once_a_second():
     assert run.sink.warnings[0].startswith("no samples for 0.199 s (199 missed)")
 
 
+def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_second():
+    run = Run(publish_rate=1000.0)
+    run.clock.is_simulated = False
+    run.tick()
+    for _ in range(99):
+        run.clock.now += 102 * MS
+        run.tick()
+    assert run.simulation.ticker.missed == 99
+    assert run.sink.warnings == []
+    run.clock.now += 102 * MS
+    run.tick()
+    assert run.sink.warnings[0].startswith("no samples for 0.1 s (100 missed)")
+
+
 def test_a_torque_acts_until_its_time_out_to_the_nanosecond():
     run = Run()
     run.advance(0.1)

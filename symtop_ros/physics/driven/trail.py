@@ -5,12 +5,14 @@ from bisect import bisect_left
 from collections import deque
 from collections.abc import Iterator
 from threading import Lock
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.driven.equations import DrivenEquations, Extended
 from symtop_ros.physics.driven.series import Knot, Piece, Stepper
+from symtop_ros.physics.kernel import KERNEL
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
@@ -29,13 +31,25 @@ class DrivenMotion:
 
     def __init__(self, top: Top, start: State, friction: Friction, torque: Vector) -> None:
         self._start = start
-        self._equations = DrivenEquations(top, friction, torque)
-        stepper, knot = Stepper(self._equations), Knot(0.0, self._equations.start(start))
+        self._decay = max(friction.transverse / top.Ix, friction.axial / top.Iz)  # 1/s
         self._lock = Lock()
-        self._forward, self._backward = (Trail(stepper, knot, sign) for sign in (1, -1))
+        if KERNEL:
+            arguments = (
+                *(top.moments, (friction.axial, friction.transverse), torque),
+                *(start.given_orientation.tolist(), start.angular_velocity.tolist()),
+            )
+            self._forward: AnyTrail = CompiledTrail(*map(tuple, arguments), 1)
+            self._backward: AnyTrail = CompiledTrail(*map(tuple, arguments), -1)
+        else:
+            equations = DrivenEquations(top, friction, torque)
+            stepper, knot = Stepper(equations), Knot(0.0, equations.start(start))
+            self._forward, self._backward = (Trail(equations, stepper, knot, d) for d in (1, -1))
 
-    def fill(self, times: Extended, orientation: Real, angular_velocity: Real) -> None:
-        """Write the states at times (n,) in s into arrays (n, 4) and (n, 3)."""
+    def fill(self, times: Real, rests: Real, orientation: Real, angular_velocity: Real) -> None:
+        """Write the states at times (n,) in s into arrays (n, 4) and (n, 3).
+
+        A time is the sum of two doubles, of which the second one is rounding of the first.
+        """
         order = np.argsort(np.abs(times), kind="stable")
         for trail, side in ((self._forward, times >= 0), (self._backward, times < 0)):
             sorted_places = order[side[order]]
@@ -43,16 +57,16 @@ class DrivenMotion:
                 places = sorted_places[first : first + BLOCK]
                 with self._lock:
                     self._refuse_stiff(trail, float(times[places[-1]]))
-                    values = np.concatenate(list(trail.evaluate(times[places])))
-                orientation[places], angular_velocity[places] = self._equations.read(values)
+                    states = trail.compute_states(times[places], rests[places])
+                orientation[places], angular_velocity[places] = states
         orientation[times == 0] = self._start.orientation  # bit for bit
 
-    def _refuse_stiff(self, trail: "Trail", t: float) -> None:
+    def _refuse_stiff(self, trail: "AnyTrail", t: float) -> None:
         """Refuse a time that a strong friction makes too far: each decay time takes a step.
 
         After some decay times the top creeps, but explicit series cannot take longer steps.
         """
-        reached, decay = trail.reach(t, 0), self._equations.decay
+        reached, decay = trail.reach(t, 0), self._decay
         if abs(t - reached) * decay > MOST_DECAYS:
             farthest = abs(reached) + MOST_DECAYS / decay
             condition = (
@@ -67,6 +81,35 @@ class DrivenMotion:
             return (self._forward if t >= 0 else self._backward).reach(t, steps)
 
 
+def refuse_too_fast(t: float, end: float) -> ValueError:
+    """Return the error for a time beyond the end of the range of doubles."""
+    condition = f"within {abs(end):g} s of the start (the motion then becomes too fast)"
+    return refuse("t", condition, t)
+
+
+class CompiledTrail:
+    """A `Trail` of the kernel: in sums of two doubles, so that it has the same bits everywhere."""
+
+    def __init__(self, *arguments: Any) -> None:
+        self._trail = KERNEL.Trail(*arguments)
+
+    def compute_states(self, times: Real, rests: Real) -> tuple[Real, Real]:
+        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""
+        orientation, omega = np.empty((times.size, 4)), np.empty((times.size, 3))
+        count = self._trail.fill(times, rests, orientation, omega)
+        if count < times.size:
+            t = float(times[count])
+            raise refuse_too_fast(t, self._trail.reach(t, 0)[0])
+        return orientation, omega
+
+    def reach(self, t: float, steps: float) -> float:
+        """Integrate towards a time in a limited number of steps."""
+        reached, is_stuck = self._trail.reach(t, steps)
+        if is_stuck:
+            raise refuse_too_fast(t, reached)
+        return float(reached)
+
+
 class Trail:
     """The pieces of an integration in one direction of time.
 
@@ -74,11 +117,18 @@ class Trail:
     whatever was asked before. Some knots and pieces are kept, so that one can go back.
     """
 
-    def __init__(self, stepper: Stepper, start: Knot, direction: int) -> None:
-        self._stepper, self._direction = stepper, direction
+    def __init__(
+        self, equations: DrivenEquations, stepper: Stepper, start: Knot, direction: int
+    ) -> None:
+        self._equations, self._stepper, self._direction = equations, stepper, direction
         self._kept, self._spacing = [start], 1  # knots, and the number of pieces between two
         self._recent: deque[Piece] = deque(maxlen=RECENT)  # the last one is the present piece
         self._count = 0  # pieces before the present one
+
+    def compute_states(self, times: Real, rests: Real) -> tuple[Extended, Extended]:
+        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""
+        exact = times.astype(np.longdouble) + rests
+        return self._equations.read(np.concatenate(list(self.evaluate(exact))))
 
     def evaluate(self, times: Extended) -> Iterator[Extended]:
         """Yield the variables at times (n,) in s, sorted from the start on, piece by piece."""
@@ -102,10 +152,7 @@ class Trail:
     def _step(self, t: float) -> None:
         piece = self._recent[-1]
         if piece.end == piece.start.t:
-            condition = (
-                f"within {abs(piece.end):g} s of the start (the motion then becomes too fast)"
-            )
-            raise refuse("t", condition, t)
+            raise refuse_too_fast(t, piece.end)
         self._count += 1
         knot = piece.find_end()
         if self._count == len(self._kept) * self._spacing:
@@ -127,3 +174,6 @@ class Trail:
 
     def _append_piece(self, knot: Knot) -> None:
         self._recent.append(self._stepper.step(knot, self._direction))
+
+
+AnyTrail: TypeAlias = Trail | CompiledTrail

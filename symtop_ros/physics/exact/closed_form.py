@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.exact.elementary import (
     Components,
+    FloatPair,
     Number,
-    Pair,
+    find_modulus,
     find_size,
     multiply,
     multiply_by_conjugate,
-    to_complex,
+    normalize,
+    to_floats,
 )
 from symtop_ros.physics.exact.first_instants import FirstInstants, find_end
 from symtop_ros.physics.exact.kind import Kind, classify
@@ -63,9 +65,7 @@ class ClosedFormMotion:
         self._half_c = HALF * wz * (Ix - Iz) / Ix
         # A state at a time of at most this size comes from a Taylor series.
         self._first_end = find_end(moments, angular_velocity)
-        norm = math.hypot(*orientation)
-        w, x, y, z = (component / norm for component in orientation)
-        self._arguments = moments, (w, x, y, z), angular_velocity
+        self._arguments = moments, normalize(orientation), angular_velocity
 
     @cached_property
     def kind(self) -> Kind:
@@ -178,8 +178,8 @@ class ClosedFormMotion:
             Quotient(
                 zeros.omega_xy,
                 omega,
-                omega_xy.conjugate(),
-                omega_xy_dot.conjugate(),
+                _conjugate(omega_xy),
+                _conjugate(omega_xy_dot),
                 nutation.height_left,
             ),
         )
@@ -208,19 +208,22 @@ class ClosedFormMotion:
         return round(difference / self.nutation_rate) if self.nutation_rate else 0
 
     @cached_property
-    def _factors(self) -> tuple[Pair, Pair, Pair]:
+    def _factors(self) -> tuple[FloatPair, FloatPair, FloatPair]:
         """Constant factors that make A, B and omega_xy right at t = 0."""
         values = self._series.values(self._nutation_phase.start)
-        A, B, omega_xy = (self._find_factor(k, to_complex(each)) for k, each in enumerate(values))
-        if omega_xy:  # else it is below all doubles, as is its change
-            omega_xy *= self._modulus_of_third_factor / abs(omega_xy)
-        return (A.real, A.imag), (B.real, B.imag), (omega_xy.real, -omega_xy.imag)
+        A, B, omega_xy = (self._find_factor(k, to_floats(each)) for k, each in enumerate(values))
+        size = find_modulus(omega_xy)
+        if size:  # else it is below all doubles, as is its change
+            share = self._modulus_of_third_factor / size
+            omega_xy = omega_xy[0] * share, omega_xy[1] * share
+        return A, B, _conjugate(omega_xy)
 
-    def _find_factor(self, k: int, value: complex) -> complex:
+    def _find_factor(self, k: int, value: FloatPair) -> FloatPair:
         phase, series = self._nutation_phase, self._series
 
-        def find_slope() -> complex:
-            return series.slope(k, phase.start) * phase.Omega
+        def find_slope() -> FloatPair:
+            real, imaginary = series.slope(k, phase.start)
+            return real * phase.Omega, imaginary * phase.Omega
 
         return self._quotients[k].find_factor(value, find_slope, phase.shortest_change)
 
@@ -233,7 +236,7 @@ class ClosedFormMotion:
         """
         largest = math.sqrt(self.nutation.beta * self.zeros.omega_xy.from_u1)
         value = self._series.values(self._nutation_phase.lower_turning_point)[2]
-        return largest / abs(to_complex(value))
+        return largest / find_modulus(to_floats(value))
 
 
 def _select(t: Any, mask: NDArray[np.bool_]) -> Any:
@@ -248,9 +251,13 @@ def _merge(is_first: NDArray[np.bool_], first: Components, rest: Components) -> 
     return A, B, omega_xy
 
 
+def _conjugate(a: FloatPair) -> FloatPair:
+    return a[0], -a[1]
+
+
 def _initial_values(
     moments: Vector, orientation: Quaternion, angular_velocity: Vector
-) -> tuple[tuple[complex, ...], tuple[complex, ...]]:
+) -> tuple[tuple[FloatPair, ...], tuple[FloatPair, ...]]:
     """Return A, B, omega_xy at t = 0, and their time derivatives without the rotation by c.
 
     The derivatives are q' = q (0, omega)/2 and Euler's equations with p_psi/Ix in place of omega_z.
@@ -258,9 +265,14 @@ def _initial_values(
     would be so large for a thin rod that no digit of the other terms would remain.
     """
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity
-    A, B = complex(w, z), complex(x, y)
-    omega_xy, half_spin = complex(wx, wy), 0.5j * wz * (Iz / Ix)
-    A_dot = half_spin * A - omega_xy.conjugate() * B / 2
-    B_dot = omega_xy * A / 2 - half_spin * B
-    omega_xy_dot = half_spin * omega_xy + 2 * (Mgl / Ix) * A.conjugate() * B
-    return (A, B, omega_xy), (A_dot, B_dot, omega_xy_dot)
+    A, B, omega_xy = (w, z), (x, y), (wx, wy)
+    spin, weight = 0.5 * wz * (Iz / Ix), 2 * (Mgl / Ix)
+    # A' = i spin A - conj(omega_xy) B/2, B' = omega_xy A/2 - i spin B,
+    # omega_xy' = i spin omega_xy + weight conj(A) B
+    of_A = multiply_by_conjugate(B, omega_xy)
+    of_B, of_omega_xy = multiply(omega_xy, A), multiply_by_conjugate(B, A)
+    A_dot = -spin * z - of_A[0] / 2, spin * w - of_A[1] / 2
+    B_dot = of_B[0] / 2 + spin * y, of_B[1] / 2 - spin * x
+    omega_xy_dot = weight * of_omega_xy[0] - spin * wy, weight * of_omega_xy[1] + spin * wx
+    changes = to_floats(A_dot), to_floats(B_dot), to_floats(omega_xy_dot)
+    return (A, B, omega_xy), changes

@@ -12,26 +12,26 @@ with expm1; what remains of the sum is called the cofactor here. So the digits o
 relative to its own size there.
 """
 
-import cmath
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from symtop_ros.physics.exact.direct_series import raise_to_squares
 from symtop_ros.physics.exact.elementary import (
-    ORDERS,
+    FloatPair,
     Location,
     Number,
     Pair,
     Shift,
     choose_smaller,
-    cosine,
+    cosine_and_sine,
+    expand_exponential,
     exponential,
     exponential_minus_1,
     find_sign,
     find_size,
     multiply,
-    sine,
-    to_complex,
+    to_floats,
 )
 
 # Coefficients of 1 and h^n, and of E^n.
@@ -67,12 +67,13 @@ class ComplementarySeries:
 
     def __init__(self, K: float, Kc: float, shifts: Sequence[Shift], root_of_nome: float) -> None:
         self._K, self._Kc, self._root = K, Kc, root_of_nome
-        q = math.exp(-math.pi * K / Kc)
-        self._numerators = [_expand_numerator(q, Kc, shift) for shift in shifts]
+        q = float(exponential(-math.pi * K / Kc))
+        powers, inverses = _sum_powers(q)
+        self._numerators = [_expand_numerator(powers, inverses, Kc, shift) for shift in shifts]
         # Theta_4 and theta_2 change places (DLMF 20.7.31 and 20.7.33), theta_3 stays theta_3.
         self._divisor = (
-            [1.0, *(q ** (n * n) for n in ORDERS)],
-            [q ** (n * n - n) for n in ORDERS],
+            [1.0, *raise_to_squares(q)],
+            [1.0, *_raise_to_pairs(q)[:3]],
         )
 
     def values(self, at: Location) -> list[Pair]:
@@ -85,19 +86,20 @@ class ComplementarySeries:
             if each.is_below:
                 phase = phase - basis.sign * (0.5 * each.angle)
             numerator = multiply(_sum_cofactor(each, basis), _compute_one_minus_w(each, basis))
-            turn = size * cosine(phase), -size * sine(phase)
-            quotients.append(multiply(numerator, turn))
+            c, s = cosine_and_sine(phase)
+            quotients.append(multiply(numerator, (size * c, -size * s)))
         return quotients
 
     def _find_basis(self, at: Location) -> Basis:
         decay = self._find_decay(at)
-        h, E = exponential(-at.above), decay * decay
+        power, p = expand_exponential(-at.above)
+        h, E = power + power * p, decay * decay
         return Basis(
             find_sign(at.below),
             decay,
             h,
             E,
-            -exponential_minus_1(-at.above),
+            (1.0 - power) - power * p,
             -exponential_minus_1(-find_size(at.below)),
             _sum_exponentials(self._divisor, h, E),
         )
@@ -114,31 +116,37 @@ class ComplementarySeries:
         decay = scale * exponential(choose_smaller(at.above, size, at.above, -size) / 2)
         return decay + decay * (0.5 * at.low)
 
-    def slope(self, k: int, at: Location) -> complex:
+    def slope(self, k: int, at: Location) -> FloatPair:
         """Return the derivative of quotient k with respect to v, with the winding held.
 
         A quotient is decay cofactor (1 - w) exp(-i phase)/divisor, without the decay for A. All but
         the phase depend on |y|, and d|y|/dv is sign pi/K'; the phase depends on x, dx/dv = pi/K.
         """
-        each, value = self._numerators[k], to_complex(self.values(at)[k])
+        each, value = self._numerators[k], to_floats(self.values(at)[k])
         basis = self._find_basis(at._replace(low=0.0))
         sign, h, E, divisor = map(float, (basis.sign, basis.h, basis.E, basis.divisor))
-        factor = to_complex(_compute_one_minus_w(each, basis))
-        cofactor = to_complex(_sum_cofactor(each, basis))
-        cofactor_slope = complex(
-            _sum_slopes(each.real, h, E), sign * _sum_slopes(each.imaginary, h, E)
-        )
-        w_slope = 1 - factor if each.is_below else factor - 1  # of 1 - w: w for A, -w for others
-        numerator_slope = cofactor_slope * factor + cofactor * w_slope
-        turn = 1j / (2 * math.pi) * each.angle
-        phase = turn * at.x + 1j * each.winding * at.x
+        factor = to_floats(_compute_one_minus_w(each, basis))
+        cofactor = to_floats(_sum_cofactor(each, basis))
+        cofactor_slope = _sum_slopes(each.real, h, E), sign * _sum_slopes(each.imaginary, h, E)
+        # of 1 - w: w for A, -w for the others
+        w_slope = (1 - factor[0], -factor[1]) if each.is_below else (factor[0] - 1, factor[1])
+        first, second = multiply(cofactor_slope, factor), multiply(cofactor, w_slope)
+        turn = each.angle / (2 * math.pi)
+        phase = turn * at.x + each.winding * at.x
         if each.is_below:
-            phase -= 0.5j * sign * each.angle
-        scale = (1.0 if each.is_below else float(basis.decay)) * cmath.exp(-phase) / divisor
+            phase -= 0.5 * sign * each.angle
+        c, s = to_floats(cosine_and_sine(phase))
+        size = (1.0 if each.is_below else float(basis.decay)) / divisor
+        real, imaginary = to_floats(
+            multiply((first[0] + second[0], first[1] + second[1]), (size * c, -size * s))
+        )
         # Logarithmic derivatives of what the value is divided by: the divisor, and 1/decay.
         falling = _sum_slopes(self._divisor, h, E) / divisor + (0.0 if each.is_below else 0.5)
-        in_y = sign * (numerator_slope * scale - value * falling)
-        return math.pi / self._Kc * in_y - math.pi / self._K * turn * value
+        in_y, in_x = sign * math.pi / self._Kc, math.pi / self._K * turn
+        return (
+            in_y * (real - value[0] * falling) + in_x * value[1],
+            in_y * (imaginary - value[1] * falling) - in_x * value[0],
+        )
 
 
 def _sum_cofactor(each: ComplementaryNumerator, basis: Basis) -> Pair:
@@ -166,13 +174,36 @@ def _sum_exponentials(coefficients: Exponentials, h: Number, E: Number) -> Numbe
 
 def _sum_slopes(coefficients: Exponentials, h: float, E: float) -> float:
     """Return the derivative of `_sum_exponentials` in |y|, with which h grows and E falls."""
-    rising, falling = coefficients
-    return sum(n * c * h**n for n, c in enumerate(rising)) - sum(
-        n * d * E**n for n, d in enumerate(falling, start=1)
-    )
+    (_, c1, c2, c3, c4), (d1, d2, d3, d4) = coefficients
+    rising = h * (c1 + h * (2 * c2 + h * (3 * c3 + h * (4 * c4))))
+    return rising - E * (d1 + E * (2 * d2 + E * (3 * d3 + E * (4 * d4))))
 
 
-def _expand_numerator(q: float, Kc: float, shift: Shift) -> ComplementaryNumerator:
+def _raise_to_pairs(q: float) -> tuple[float, float, float, float]:
+    """Return q^2, q^6, q^12 and q^20: q to the power of n (n + 1)."""
+    second = q * q
+    fourth = second * second
+    eighth = fourth * fourth
+    return second, fourth * second, eighth * fourth, eighth * eighth * fourth
+
+
+def _sum_powers(q: float) -> tuple[list[float], list[float]]:
+    """Return the sums over k = n ... 4 of (-1)^k q^(k^2 + k), and those of (-1)^k q^(k^2 + k - n).
+
+    The second are written out: divided by q^n, since q may be zero, and the smallest term first.
+    """
+    q2, q6, q12, q20 = _raise_to_pairs(q)
+    q4 = q2 * q2
+    q5, q8 = q4 * q, q4 * q4
+    powers = [1 - (q2 - (q6 - (q12 - q20))), -(q2 - (q6 - (q12 - q20))), q6 - (q12 - q20)]
+    q9, q16, q10 = q8 * q, q8 * q8, q8 * q2
+    inverses = [powers[0], -(q - (q5 - (q10 * q - q16 * q2 * q))), q4 - (q10 - q16 * q2)]
+    return [*powers, -(q12 - q20), q20], [*inverses, -(q9 - q16 * q), q16]
+
+
+def _expand_numerator(
+    powers: list[float], inverses: list[float], Kc: float, shift: Shift
+) -> ComplementaryNumerator:
     """Return the coefficients of a numerator divided by 1 - w: of 1 and h^n, and of E^n.
 
     The cofactor is the sum over k of (-1)^k q^(k^2 + k) (1 + w + 1/w + ... + w^k + 1/w^k). With
@@ -180,22 +211,21 @@ def _expand_numerator(q: float, Kc: float, shift: Shift) -> ComplementaryNumerat
     denominator is divided out of q^(k^2 + k) first: h and q may both be zero.
     """
     phi = shift.sign * math.pi * shift.complement / Kc
-    powers, inverses = [], []
-    for n in range(5):
-        powers.append(sum((-1) ** k * q ** (k * k + k) for k in range(n, 5)))
-        inverses.append(sum((-1) ** k * q ** (k * k + k - n) for k in range(n, 5)))
     of_h, of_E = (inverses, powers) if shift.is_below else (powers, inverses)
-    turns = [cmath.exp(1j * phi * n) for n in range(5)]
-    rising = [
-        size * turn.conjugate() for size, turn in zip([powers[0], *of_h[1:]], turns, strict=True)
-    ]
-    falling = [size * turn for size, turn in zip(of_E[1:], turns[1:], strict=True)]
+    turns = [to_floats(cosine_and_sine(phi * n)) for n in range(5)]
+    half_sine = to_floats(cosine_and_sine(phi / 2))[1]
     return ComplementaryNumerator(
-        real=([c.real for c in rising], [c.real for c in falling]),
-        imaginary=([c.imag for c in rising], [c.imag for c in falling]),
+        real=(
+            [size * c for size, (c, _) in zip(of_h, turns, strict=True)],
+            [size * c for size, (c, _) in zip(of_E[1:], turns[1:], strict=True)],
+        ),
+        imaginary=(
+            [-size * s for size, (_, s) in zip(of_h, turns, strict=True)],
+            [size * s for size, (_, s) in zip(of_E[1:], turns[1:], strict=True)],
+        ),
         angle=shift.sign * math.pi * (1 - shift.complement / Kc),
-        versine=2 * math.sin(phi / 2) ** 2,
-        sine=math.sin(phi),
+        versine=2 * half_sine * half_sine,
+        sine=turns[1][1],
         is_below=shift.is_below,
         winding=shift.winding,
     )

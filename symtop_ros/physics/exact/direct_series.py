@@ -8,20 +8,26 @@ are products of sin(delta/2). So the digits of a quotient are relative to its ow
 tilt of an axis that passes a pole is right to rounding of itself.
 """
 
-import cmath
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from symtop_ros.physics.exact.elementary import (
     ORDERS,
+    FloatPair,
     Location,
     Number,
     Pair,
     Shift,
+    choose_smaller,
+    cosine_and_sine,
+    cosine_and_sine_near_0,
+    exponential,
+    exponential_minus_1,
+    find_sign,
+    find_size,
     multiply,
-    sine,
-    to_complex,
+    to_floats,
 )
 
 NEGLIGIBLE = 2.0**-60  # of the largest coefficient, which is 1: such a term changes no sum
@@ -50,16 +56,17 @@ class DirectSeries:
 
     def __init__(self, K: float, Kc: float, shifts: Sequence[Shift]) -> None:
         self._K = K
-        nome = math.exp(-math.pi * Kc / K)
+        nome = float(exponential(-math.pi * Kc / K))
         # theta_4 is theta_3 with alternating signs. It is the numerator of A and the denominator.
-        divisor = [1.0, *(2 * (-1) ** n * nome ** (n * n) for n in ORDERS)]
+        q, q4, q9, q16 = raise_to_squares(nome)
+        divisor = [1.0, -2 * q, 2 * q4, -2 * q9, 2 * q16]
         parts = [_expand_numerator(K, Kc, shift) for shift in shifts]
         self._order = max(n for n in ORDERS if n == 1 or any(even[n] for even, _, _ in parts))
         self._numerators = [
             self._collect(*part, shift) for part, shift in zip(parts, shifts, strict=True)
         ]
         unshifted = Shift(1.0, Kc, is_below=True)
-        self._divisor = self._collect(divisor, [0.0] * 5, math.fsum(divisor), unshifted)
+        self._divisor = self._collect(divisor, [0.0] * 5, _add(divisor), unshifted)
 
     def _collect(
         self, even: list[float], odd: list[float], least: float, shift: Shift
@@ -77,8 +84,7 @@ class DirectSeries:
 
     def values(self, at: Location) -> list[Pair]:
         """Return real and imaginary parts of the three quotients."""
-        # cos(x/2) as the sine of its distance from the zero keeps its digits there.
-        s, c = sine(0.5 * at.x), sine(0.5 * at.above)
+        s, c = _find_half_angle(at)
         sine_x, cosine_x = 2 * s * c, (c - s) * (c + s)
         lower, upper = self._list_versines(s * s, c * c, cosine_x)
         sines = self._list_sines(sine_x, cosine_x)
@@ -128,20 +134,53 @@ class DirectSeries:
             sines += [sine_x * (square - 1), sines[1] * (square - 2)][: self._order - 2]
         return sines
 
-    def slope(self, k: int, at: Location) -> complex:
+    def slope(self, k: int, at: Location) -> FloatPair:
         """Return the derivative of quotient k with respect to v, with the winding held."""
         numerator, divisor = self._numerators[k], self._divisor.even
-        value = to_complex(self.values(at)[k])
-        size, rate, rate_of_size = divisor[0], 0j, 0.0
+        value = to_floats(self.values(at)[k])
+        size, real, imaginary, rate_of_size = divisor[0], 0.0, 0.0, 0.0
         for n in range(1, self._order + 1):
-            c, s = math.cos(n * at.x), math.sin(n * at.x)
+            c, s = to_floats(cosine_and_sine(n * at.x))
             size += divisor[n] * c
             rate_of_size -= n * divisor[n] * s
-            rate += n * complex(-numerator.even[n] * s, numerator.odd[n - 1] * c)
+            real -= n * (numerator.even[n] * s)
+            imaginary += n * (numerator.odd[n - 1] * c)
         if numerator.winding:
-            rate *= cmath.exp(-1j * numerator.winding * at.x)
+            c, s = to_floats(cosine_and_sine(numerator.winding * at.x))
+            real, imaginary = to_floats(multiply((real, imaginary), (c, -s)))
         # The quotient rule (N/D)' = (N' - (N/D) D')/D, and dx/dv = pi/K.
-        return complex(math.pi / self._K * (rate - value * rate_of_size) / size)
+        scale = math.pi / self._K
+        return (
+            scale * (real - value[0] * rate_of_size) / size,
+            scale * (imaginary - value[1] * rate_of_size) / size,
+        )
+
+
+def _find_half_angle(at: Location) -> Pair:
+    """Return sin(x/2) and cos(x/2), each right to rounding of itself.
+
+    Both come from the distance of the nearer turning point, which has its digits.
+    """
+    size = find_size(at.x)
+    c, s = cosine_and_sine_near_0(0.5 * choose_smaller(size, at.above, size, at.above))
+    sign = find_sign(at.x)
+    return sign * choose_smaller(size, at.above, s, c), choose_smaller(size, at.above, c, s)
+
+
+def raise_to_squares(q: float) -> tuple[float, float, float, float]:
+    """Return q, q^4, q^9 and q^16."""
+    second = q * q
+    fourth = second * second
+    eighth = fourth * fourth
+    return q, fourth, eighth * q, eighth * eighth
+
+
+def _add(terms: Sequence[float]) -> float:
+    """Return a sum, the smallest term first."""
+    total = 0.0
+    for term in reversed(terms):
+        total += term
+    return total
 
 
 def _sum(coefficients: Sequence[float], basis: Sequence[Number]) -> Number:
@@ -162,14 +201,18 @@ def _expand_numerator(K: float, Kc: float, shift: Shift) -> tuple[list[float], l
     (-1)^n small_n (1 - exp(-(2 n + 1) pi complement/K)), in which nothing cancels.
     """
     rate, complement = -math.pi / K, shift.complement
-    even, odd, least = [1.0, 0.0, 0.0, 0.0, 0.0], [0.0] * 5, -math.expm1(rate * complement)
+    even, odd, least = (
+        [1.0, 0.0, 0.0, 0.0, 0.0],
+        [0.0] * 5,
+        -float(exponential_minus_1(rate * complement)),
+    )
     for n in ORDERS:
         parity = (-1) ** n
-        large = math.exp(rate * (Kc * (n * n - n) + complement * n))
+        large = float(exponential(rate * (Kc * (n * n - n) + complement * n)))
         if large < NEGLIGIBLE:
             break
-        small = math.exp(rate * (Kc * (n * n + n) - complement * n))
+        small = float(exponential(rate * (Kc * (n * n + n) - complement * n)))
         own = parity if shift.is_below else 1
         even[n], odd[n] = own * (small + large), own * shift.sign * (small - large)
-        least -= parity * small * math.expm1(rate * complement * (2 * n + 1))
+        least -= parity * small * float(exponential_minus_1(rate * complement * (2 * n + 1)))
     return even, odd, least

@@ -1,26 +1,43 @@
-"""Functions of one number or of an array, the same to the last bit.
+"""Functions of one number or of an array, the same to the last bit on every machine.
 
-The formulas of a motion are written once, for a float and for an array alike. Sums and products
-round in the same way in both. NumPy's elementary functions differ from those of the C library in
-the last bit, so they serve both; for a float the result goes back to a float, whose arithmetic
-takes a tenth of the time of an array with one number. Complex numbers are pairs of reals, because
-NumPy may round their products in another way than Python does.
+The formulas of a motion are written once, for a float and for an array alike. Sums, products,
+quotients and square roots round in the same way everywhere. The elementary functions of NumPy and
+of the C library do not: their last bit depends on the version and on the processor. Those here are
+sums of such operations, and so are the same in the compiled kernel. For the same reason complex
+numbers are pairs of reals (a compiler may fuse a product and a sum), and floats are added one by
+one (Python 3.12 compensates `sum`).
 """
 
 import math
+from decimal import Decimal, localcontext
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Quaternion, Real
+from symtop_ros.physics.exact.precise import PRECISE, TWO_PI, split_short
 
 Number: TypeAlias = float | Real
 Pair: TypeAlias = tuple[Number, Number]  # real and imaginary part, or a sum of two doubles
+FloatPair: TypeAlias = tuple[float, float]
 Components: TypeAlias = tuple[Pair, Pair, Pair]  # A, B and omega_x + i omega_y
 
-UNDERFLOW = -708.0  # below, exp(x) is no normal double
 ORDERS = range(1, 5)  # of the terms of a theta series
 SPLITTER = 2.0**27 + 1  # Veltkamp's, for halves of 26 bits
+LEAST_EXPONENT = -708.0  # below, exp(x) is no normal double; here it is zero then
+SPREAD = 0.006  # relative differences of which the eighth power is below EPS/8
+
+with localcontext(PRECISE):
+    QUARTER_HIGH, QUARTER_LOW = split_short(TWO_PI / 4)
+    QUARTERS = 1 / (QUARTER_HIGH + QUARTER_LOW)
+    LN2_HIGH, LN2_LOW = split_short(Decimal(2).ln())
+    DOUBLINGS = 1 / (LN2_HIGH + LN2_LOW)
+# Coefficients of the Taylor series (DLMF 4.19.1, 4.19.2 and 4.2.19). On the intervals in use, pi/4
+# and ln(2)/2, the first terms left out are below 2^-58 of the sum.
+SINE = [(-1) ** n / math.factorial(2 * n + 1) for n in range(8, 0, -1)]
+VERSINE = [(-1) ** (n + 1) / math.factorial(2 * n) for n in range(8, 0, -1)]
+EXPONENTIAL = [1 / math.factorial(n) for n in range(13, 1, -1)]
 
 
 class Shift(NamedTuple):
@@ -47,29 +64,85 @@ class Location(NamedTuple):
     low: Number = 0.0  # what rounding left of -|below| or above, of the one that is smaller
 
 
-def sine(x: Number) -> Number:
-    """Return sin(x)."""
-    return np.sin(x) if isinstance(x, np.ndarray) else float(np.sin(x))
+def cosine_and_sine_near_0(x: Number, rest: Number = 0.0) -> Pair:
+    """Return cos and sin of x + rest, for |x| <= pi/4 and a rest that is rounding of it."""
+    square = x * x
+    versine, series = VERSINE[0] * square, SINE[0] * square
+    for c in VERSINE[1:]:
+        versine = (versine + c) * square
+    for c in SINE[1:]:
+        series = (series + c) * square
+    return 1.0 - (versine + x * rest), x + (x * series + rest)
 
 
-def cosine(x: Number) -> Number:
-    """Return cos(x)."""
-    return np.cos(x) if isinstance(x, np.ndarray) else float(np.cos(x))
+def cosine_and_sine(x: Number) -> Pair:
+    """Return cos(x) and sin(x), for |x| up to some thousand turns."""
+    # Quarter turns are subtracted in two parts, of which the product with the first is exact.
+    quarters = round_to_integer(x * QUARTERS)
+    part, low = x - quarters * QUARTER_HIGH, quarters * QUARTER_LOW
+    near = part - low
+    c, s = cosine_and_sine_near_0(near, (part - near) - low)
+    if isinstance(quarters, np.ndarray):
+        place = quarters.astype(np.int64)
+        odd, turned, back = place & 1 == 1, (place + 1) & 2 == 2, place & 2 == 2
+        c, s = np.where(odd, s, c), np.where(odd, c, s)
+        return np.where(turned, -c, c), np.where(back, -s, s)
+    turns = int(quarters)
+    if turns & 1:
+        c, s = s, c
+    return -c if turns + 1 & 2 else c, -s if turns & 2 else s
+
+
+def expand_exponential(x: Number) -> Pair:
+    """Return a power of two, and p with exp(x) = power (1 + p); the power is 0 below -708."""
+    is_array = isinstance(x, np.ndarray)
+    bounded = np.maximum(x, LEAST_EXPONENT) if is_array else max(x, LEAST_EXPONENT)
+    doublings = round_to_integer(bounded * DOUBLINGS)
+    y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW
+    series = EXPONENTIAL[0] * y
+    for c in EXPONENTIAL[1:]:
+        series = (series + c) * y
+    return choose_smaller(x, LEAST_EXPONENT, 0.0, _raise_2(doublings)), y + y * series
+
+
+def _raise_2(exponent: Number) -> Number:
+    if not isinstance(exponent, np.ndarray):
+        return math.ldexp(1.0, int(exponent))
+    bits: NDArray[np.int64] = (exponent.astype(np.int64) + 1023) << 52
+    return bits.view(np.float64)
 
 
 def exponential(x: Number) -> Number:
     """Return exp(x)."""
-    if isinstance(x, np.ndarray):
-        return np.exp(x)
-    if x < UNDERFLOW:  # the caller's NumPy may be set to raise for that
-        with np.errstate(under="ignore"):
-            return float(np.exp(x))
-    return float(np.exp(x))
+    power, p = expand_exponential(x)
+    return power + power * p
 
 
 def exponential_minus_1(x: Number) -> Number:
     """Return exp(x) - 1, without loss of digits for small x."""
-    return np.expm1(x) if isinstance(x, np.ndarray) else float(np.expm1(x))
+    power, p = expand_exponential(x)
+    return (power - 1.0) + power * p
+
+
+def integrate_rf_in_doubles(x: float, y: float) -> float:
+    """Return Carlson's symmetric integral R_F(x, y, 1).
+
+    See `integrate_rf`. The series is that of DLMF 19.36.1 up to the seventh power.
+    """
+    z = 1.0
+    while True:
+        mean = (x + y + z) / 3
+        dx, dy = (mean - x) / mean, (mean - y) / mean
+        if max(abs(dx), abs(dy), abs(dx + dy)) < SPREAD:
+            break
+        root_x, root_y, root_z = math.sqrt(x), math.sqrt(y), math.sqrt(z)
+        shift = root_x * root_y + root_x * root_z + root_y * root_z
+        x, y, z = (x + shift) / 4, (y + shift) / 4, (z + shift) / 4
+    dz = -(dx + dy)
+    e2, e3 = dx * dy - dz * dz, dx * dy * dz
+    square, cube = e2 * e2, e3 * e3
+    high = square / 24 - 3 * e2 * e3 / 44 - 5 * square * e2 / 208 + 3 * cube / 104
+    return (1 + (-e2 / 10 + e3 / 14 + (high + square * e3 / 16))) / math.sqrt(mean)
 
 
 def find_size(x: Number) -> Number:
@@ -84,7 +157,7 @@ def find_sign(x: Number) -> Number:
 
 def round_to_integer(x: Number) -> Number:
     """Return the nearest integer; the even one of two."""
-    return np.rint(x) if isinstance(x, np.ndarray) else float(round(x))
+    return np.rint(x) if isinstance(x, np.ndarray) else math.copysign(round(x), x)
 
 
 def choose_smaller(x: Number, y: Number, if_first: Number, if_second: Number) -> Number:
@@ -117,6 +190,33 @@ def multiply_by_conjugate(a: Pair, b: Pair) -> Pair:
     return a[0] * b[0] + a[1] * b[1], a[1] * b[0] - a[0] * b[1]
 
 
-def to_complex(value: Pair) -> complex:
-    """Return the complex number of a pair of floats."""
-    return complex(float(value[0]), float(value[1]))
+def divide(a: FloatPair, b: FloatPair) -> FloatPair:
+    """Return the quotient of two complex numbers (R. L. Smith, Comm. ACM 5 (1962) 435)."""
+    if abs(b[0]) >= abs(b[1]):
+        ratio = b[1] / b[0]
+        size = b[0] + b[1] * ratio
+        return (a[0] + a[1] * ratio) / size, (a[1] - a[0] * ratio) / size
+    ratio = b[0] / b[1]
+    size = b[0] * ratio + b[1]
+    return (a[0] * ratio + a[1]) / size, (a[1] * ratio - a[0]) / size
+
+
+def find_modulus(a: FloatPair) -> float:
+    """Return |a|; not math.hypot, of which the rounding depends on the version of Python."""
+    large, small = max(abs(a[0]), abs(a[1])), min(abs(a[0]), abs(a[1]))
+    if large == 0:
+        return 0.0
+    ratio = small / large
+    return large * math.sqrt(1.0 + ratio * ratio)
+
+
+def normalize(orientation: Quaternion) -> Quaternion:
+    """Return the quaternion with norm 1, to rounding."""
+    w, x, y, z = orientation
+    norm = math.sqrt((w * w + z * z) + (x * x + y * y))
+    return w / norm, x / norm, y / norm, z / norm
+
+
+def to_floats(a: Pair) -> FloatPair:
+    """Return a pair of floats for a pair of numbers."""
+    return float(a[0]), float(a[1])

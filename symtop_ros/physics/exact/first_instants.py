@@ -9,7 +9,14 @@ import math
 from decimal import Decimal
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.exact.elementary import Components, Number, Pair, multiply
+from symtop_ros.physics.exact.elementary import (
+    Components,
+    FloatPair,
+    Number,
+    Pair,
+    find_modulus,
+    multiply,
+)
 from symtop_ros.physics.exact.phases import Phases
 from symtop_ros.physics.exact.precise import HALF
 from symtop_ros.physics.times import ExactTimes
@@ -20,6 +27,22 @@ REACH = 0.1
 SLOWEST = 1e-290  # rad/s; the quotient Mgl/Ix may be zero in doubles
 
 
+class Series:
+    """The Taylor series of a complex function."""
+
+    def __init__(self, real: float, imaginary: float) -> None:
+        self.real, self.imaginary = [real], [imaginary]
+
+    def append(self, real: float, imaginary: float) -> None:
+        """Add the next coefficient."""
+        self.real.append(real)
+        self.imaginary.append(imaginary)
+
+    def sum_powers(self, time: Number) -> Pair:
+        """Return real and imaginary part at a time."""
+        return _sum_powers(self.real, time), _sum_powers(self.imaginary, time)
+
+
 class FirstInstants:
     """A, B and omega_xy near t = 0."""
 
@@ -28,27 +51,31 @@ class FirstInstants:
         # In this unit of time all rates are below 1: no power of them overflows. It is a power of
         # two, so that nothing is rounded.
         self._unit = 2.0 ** math.frexp(_find_fastest_rate(moments, angular_velocity))[1]
-        half_spin = 0.5j * (wz / self._unit) * (Iz / Ix)
+        half_spin = 0.5 * (wz / self._unit) * (Iz / Ix)
         beta = 2 * (Mgl / Ix / self._unit) / self._unit
-        A, B, omega = [complex(w, z)], [complex(x, y)], [complex(wx, wy) / self._unit]
+        A, B, omega = Series(w, z), Series(x, y), Series(wx / self._unit, wy / self._unit)
         for n in range(TERMS):
             # Euler's equations and q' = q (0, omega)/2 in the frame that does not turn by c: there
             # gravity alone changes omega_xy. All products are convolutions.
-            slope_A = half_spin * A[n] - _convolve(_conjugate(omega), B) / 2
-            slope_B = _convolve(omega, A) / 2 - half_spin * B[n]
-            omega.append(beta * _convolve(_conjugate(A), B) / (n + 1))
-            A.append(slope_A / (n + 1))
-            B.append(slope_B / (n + 1))
-        self._polynomials = [
-            [coefficient for pair in ((c.real, c.imag) for c in series) for coefficient in pair]
-            for series in (A, B, omega)
-        ]
+            over, along = _convolve_with_conjugate(B, omega), _convolve(omega, A)
+            weight, order = _convolve_with_conjugate(B, A), n + 1
+            A_n, B_n = (A.real[n], A.imaginary[n]), (B.real[n], B.imaginary[n])
+            omega.append(beta * weight[0] / order, beta * weight[1] / order)
+            A.append(
+                (-half_spin * A_n[1] - over[0] / 2) / order,
+                (half_spin * A_n[0] - over[1] / 2) / order,
+            )
+            B.append(
+                (along[0] / 2 + half_spin * B_n[1]) / order,
+                (along[1] / 2 - half_spin * B_n[0]) / order,
+            )
+        self._series = A, B, omega
         self._phases = Phases(HALF * Decimal(wz) * (Decimal(Ix) - Decimal(Iz)) / Decimal(Ix))
 
     def cayley_klein(self, t: Number | ExactTimes) -> Components:
         """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
         time = self._unit * (t.seconds if isinstance(t, ExactTimes) else t)
-        A, B, omega = (_sum_powers(series, time) for series in self._polynomials)
+        A, B, omega = (series.sum_powers(time) for series in self._series)
         [half_turn] = self._phases.at(t)
         turn = half_turn.unit
         back = turn[0], -turn[1]
@@ -57,13 +84,12 @@ class FirstInstants:
         return multiply(A, turn), multiply(B, back), omega_xy
 
 
-def _sum_powers(coefficients: list[float], time: Number) -> Pair:
-    """Return real and imaginary part of a polynomial; the coefficients alternate between them."""
-    *lower, real, imaginary = coefficients
-    x, y = real * time, imaginary * time
-    for n in range(len(lower) - 2, 0, -2):
-        x, y = (x + lower[n]) * time, (y + lower[n + 1]) * time
-    return x + lower[0], y + lower[1]
+def _sum_powers(coefficients: list[float], time: Number) -> Number:
+    *lower, last = coefficients
+    total = last * time
+    for coefficient in lower[:0:-1]:
+        total = (total + coefficient) * time
+    return total + lower[0]
 
 
 def find_end(moments: Vector, angular_velocity: Vector) -> float:
@@ -73,13 +99,31 @@ def find_end(moments: Vector, angular_velocity: Vector) -> float:
 
 def _find_fastest_rate(moments: Vector, angular_velocity: Vector) -> float:
     (Ix, Iz, Mgl), (wx, wy, wz) = moments, angular_velocity
-    rates = math.hypot(wx, wy), abs(wz) * (Iz / Ix), math.sqrt(2 * (Mgl / Ix))
+    rates = find_modulus((wx, wy)), abs(wz) * (Iz / Ix), math.sqrt(2 * (Mgl / Ix))
     return max(*rates, SLOWEST)
 
 
-def _convolve(left: list[complex], right: list[complex]) -> complex:
-    return sum((a * b for a, b in zip(left, reversed(right), strict=True)), 0j)
+def _convolve(left: Series, right: Series) -> FloatPair:
+    """Return the coefficient of the product of two series that both have as many as it needs."""
+    real = imaginary = 0.0
+    a, b = (
+        zip(left.real, left.imaginary, strict=True),
+        zip(right.real, right.imaginary, strict=True),
+    )
+    for (x, y), (u, v) in zip(a, reversed(list(b)), strict=True):
+        real += x * u - y * v
+        imaginary += x * v + y * u
+    return real, imaginary
 
 
-def _conjugate(series: list[complex]) -> list[complex]:
-    return [each.conjugate() for each in series]
+def _convolve_with_conjugate(left: Series, right: Series) -> FloatPair:
+    """Return the coefficient of the product of a series and the conjugate of another one."""
+    real = imaginary = 0.0
+    a, b = (
+        zip(left.real, left.imaginary, strict=True),
+        zip(right.real, right.imaginary, strict=True),
+    )
+    for (x, y), (u, v) in zip(a, reversed(list(b)), strict=True):
+        real += x * u + y * v
+        imaginary += y * u - x * v
+    return real, imaginary

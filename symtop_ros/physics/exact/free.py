@@ -4,7 +4,7 @@ import math
 from decimal import Decimal
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.exact.elementary import Components, Number, multiply
+from symtop_ros.physics.exact.elementary import Components, Number, multiply, normalize
 from symtop_ros.physics.exact.kind import Kind, classify_free
 from symtop_ros.physics.exact.phases import Phases
 from symtop_ros.physics.exact.precise import HALF
@@ -37,9 +37,7 @@ class FreeMotion:
         lx, ly, lz = (float(part / size) for part in L) if size else (0.0, 0.0, 1.0)
         self._c = c
         self._direction = lx, ly, lz
-        norm = math.hypot(*orientation)
-        w, x, y, z = (component / norm for component in orientation)
-        orientation = w, x, y, z
+        orientation = normalize(orientation)
         self._start, self._omega_z = (orientation, angular_velocity[:2]), angular_velocity[2]
         self._tilt = _angle_to_vertical(orientation, self._direction)
         self._cone = _angle_to_vertical(UPRIGHT, self._direction)

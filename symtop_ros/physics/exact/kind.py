@@ -14,7 +14,7 @@ Kind = Literal[
     "cusps",
     "looping",
     "through the pole",
-    "spiralling",
+    "asymptotic",
     "sleeping",
 ]
 
@@ -29,7 +29,7 @@ def classify(nutation: Nutation, roots: Roots, zeros: Zeros) -> Kind:
     """
     above = zeros.B
     if roots.s32 == 0:
-        return "spiralling"
+        return "asymptotic"
     if _is_regular(nutation):
         return "regular"
     rounding = ROUNDING * largest_precession(nutation, zeros)

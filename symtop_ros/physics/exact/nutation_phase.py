@@ -4,16 +4,16 @@ import math
 from decimal import Decimal
 from functools import cached_property
 
-from scipy.special import elliprf
-
 from symtop_ros.physics.exact.elementary import (
     Location,
     Number,
     Pair,
     choose_smaller,
+    exponential,
     find_rest,
     find_sign,
     find_size,
+    integrate_rf_in_doubles,
     round_to_integer,
 )
 from symtop_ros.physics.exact.nutation import Nutation, Roots
@@ -123,7 +123,7 @@ class NutationPhase:
     def root_of_nome(self) -> float:
         """exp(-pi K/(2 K')), right to rounding: of a double, pi K/(2 K') would be rounded."""
         if not self._exact_ratio:
-            return math.exp(-math.pi / 2 * self.K / self.Kc)
+            return float(exponential(-math.pi / 2 * self.K / self.Kc))
         return float((-HALF * TWO_PI * HALF * self._exact_ratio).exp())
 
     @cached_property
@@ -189,4 +189,4 @@ def _starting_phase(nutation: Nutation, roots: Roots, precise: bool) -> tuple[bo
 
 
 def _integrate_rf_in_doubles(x: Decimal, y: Decimal) -> Decimal:
-    return Decimal(float(elliprf(float(x), float(y), 1.0)))
+    return Decimal(integrate_rf_in_doubles(float(x), float(y)))

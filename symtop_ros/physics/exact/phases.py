@@ -57,9 +57,19 @@ class Phases:
         turns = [rate * PER_TURN for rate in rates]  # per s
         fastest = float(max(map(abs, turns)))
         exponent = math.frexp(fastest)[1] + TICK_BITS if fastest else 0
-        self._exponent = min(max(exponent, -1000), 1000)
-        tick = TURN / TWO**self._exponent  # 2^256 s per tick
-        self._steps = [int(each * tick) for each in turns]
+        exponent = min(max(exponent, -1000), 1000)
+        tick = TURN / TWO**exponent  # 2^256 s per tick
+        self._set(exponent, [int(each * tick) for each in turns])
+
+    @classmethod
+    def from_steps(cls, exponent: int, steps: list[int]) -> "Phases":
+        """Return the phases of which 2^exponent ticks are a second, with steps of 2^-256 turns."""
+        phases = cls.__new__(cls)
+        phases._set(exponent, steps)
+        return phases
+
+    def _set(self, exponent: int, steps: list[int]) -> None:
+        self._exponent, self._steps = exponent, steps
         self._ticks = 2.0**self._exponent  # per s
         self._limbs = [_split_step(step) for step in self._steps]
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]

@@ -18,9 +18,13 @@ from collections.abc import Callable
 from decimal import Decimal
 from typing import NamedTuple
 
-from scipy.special import elliprf
-
-from symtop_ros.physics.exact.elementary import Shift
+from symtop_ros.physics.exact.elementary import (
+    FloatPair,
+    Shift,
+    divide,
+    find_modulus,
+    integrate_rf_in_doubles,
+)
 from symtop_ros.physics.exact.nutation import CANCELLED, Nutation, Roots
 from symtop_ros.physics.exact.precise import HALF, ONE, TWO, ZERO
 
@@ -35,6 +39,11 @@ class Zero(NamedTuple):
     from_u1: Decimal  # distances of u_P from the roots of f, all >= 0
     from_u2: Decimal
     from_u3: Decimal
+
+    @property
+    def sign(self) -> float:
+        """Sign of d; 1 for d = 0, whatever sign the zero has."""
+        return -1.0 if self.d < 0 else 1.0
 
     @property
     def nearness(self) -> Decimal:
@@ -109,19 +118,18 @@ class Quotient(NamedTuple):
 
     zero: Zero
     mean: float  # its mean rate in a nutation, in rad/s, without the body's turning by c
-    start: complex  # its value at t = 0; for omega_xy the conjugate
-    change: complex  # the time derivative of `start`, without the body's turning by c
+    start: FloatPair  # its value at t = 0; for omega_xy the conjugate
+    change: FloatPair  # the time derivative of `start`, without the body's turning by c
     from_start: Decimal  # |u_P - u0|
 
     def find_shift(self, roots: Roots, Kc: float, winding: int) -> Shift:
         """Return the shift of its theta function."""
-        sign = math.copysign(1.0, self.zero.d)
         complement = min(_compute_shift_complement(self.zero, roots), Kc)
-        return Shift(sign, complement, self.zero.is_below, winding)
+        return Shift(self.zero.sign, complement, self.zero.is_below, winding)
 
     def find_factor(
-        self, value: complex, find_slope: Callable[[], complex], width: float
-    ) -> complex:
+        self, value: FloatPair, find_slope: Callable[[], FloatPair], width: float
+    ) -> FloatPair:
         """Return C, so that the function is right at t = 0.
 
         C is start/value. If the function nearly vanishes at the start, both have lost their digits,
@@ -134,9 +142,10 @@ class Quotient(NamedTuple):
         # largest size it has all its digits.
         if 4 * self.from_start < max(self.zero.from_u1, self.zero.from_u2):
             slope = find_slope()
-            if abs(value) < width * abs(slope):
-                return (self.change - 1j * self.mean * self.start) / slope
-        return self.start / value
+            if find_modulus(value) < width * find_modulus(slope):
+                (x, y), (change_x, change_y) = self.start, self.change
+                return divide((change_x + self.mean * y, change_y - self.mean * x), slope)
+        return divide(self.start, value)
 
 
 def _compute_shift_complement(zero: Zero, roots: Roots) -> float:
@@ -151,12 +160,12 @@ def _compute_shift_complement(zero: Zero, roots: Roots) -> float:
     g1, g2, g3 = zero.from_u1, zero.from_u2, zero.from_u3
     if zero.is_below:
         share = float(s21 / g2)
-        return math.sqrt(g1 / g2) * float(elliprf(share, share * float(g3 / s31), 1.0))
+        return math.sqrt(g1 / g2) * integrate_rf_in_doubles(share, share * float(g3 / s31))
     if s32 == 0:
         return 0.0  # u2 = u3 is the pole itself, which is reached at t = infinity only
     share = float(s21 / g1)
     scale = math.sqrt(g2 / s32 * s31 / g1)
-    return scale * float(elliprf(share * float(g3 / s32), share, 1.0))
+    return scale * integrate_rf_in_doubles(share * float(g3 / s32), share)
 
 
 def compute_mean_rates(
@@ -180,7 +189,8 @@ def compute_mean_rates(
         near = zero.from_u2 if zero.is_below else zero.from_u1
         root = abs(zero.d) / (rate * near) if rate else zero.nearness.sqrt()
         integral = _third_kind(zero, root, k, mean, products)
-        rates.append((mean * HALF * rate * integral).copy_sign(zero.d))
+        size = mean * HALF * rate * integral
+        rates.append(-size if zero.sign < 0 else size)
     return mean, tuple(rates)
 
 

@@ -7,7 +7,7 @@ ever more slowly towards the separatrix m = 1. For m > 1/2 they are summed after
 transformation (DLMF 20.7.30 to 20.7.33) in the nome q' = exp(-pi K/K'). With the better of the two
 no nome exceeds exp(-pi) = 0.043, and the first term left out is below 1e-16 of the sum.
 
-`scipy.special.ellipj` is not used: for m near 1 and for large arguments it loses all digits (SciPy
+`scipy.special.ellipj` would not do: for m near 1 and for large arguments it loses all digits (SciPy
 issue 8480).
 """
 
@@ -16,7 +16,7 @@ from typing import Protocol
 
 from symtop_ros.physics.exact.complementary_series import ComplementarySeries
 from symtop_ros.physics.exact.direct_series import DirectSeries
-from symtop_ros.physics.exact.elementary import Location, Pair, Shift
+from symtop_ros.physics.exact.elementary import FloatPair, Location, Pair, Shift
 
 
 class Series(Protocol):
@@ -25,7 +25,7 @@ class Series(Protocol):
     def values(self, at: Location) -> list[Pair]:
         """Return real and imaginary parts of the three quotients."""
 
-    def slope(self, k: int, at: Location) -> complex:
+    def slope(self, k: int, at: Location) -> FloatPair:
         """Return the derivative of quotient k with respect to v, with the winding held."""
 
 

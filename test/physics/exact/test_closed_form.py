@@ -124,7 +124,7 @@ def test_an_axis_that_passes_the_pole_keeps_the_digits_of_its_tilt(theta_dot):
 def test_the_separatrix_itself_is_a_pendulum_that_rises_for_ever():
     # theta'' = sin(theta): from hanging with theta' = -2 it is theta = 4 atan(exp(-t))
     motion = Motion(Top(1.0, 0.5, 1.0), State((0.0, 1.0, 0.0, 0.0), (-2.0, 0.0, 0.0)))
-    assert motion.kind == "spiralling"
+    assert motion.kind == "asymptotic"
     assert motion.nutation_period == float("inf")
     for t in (0.0, 0.5, 3.0, 10.0, 30.0, -2.0):
         exact = 4 * mp.atan(mp.exp(-abs(t)))

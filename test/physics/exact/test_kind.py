@@ -38,14 +38,14 @@ def test_a_kind_is_the_same_upside_down(kind, start):
     assert motion.turning_angles == pytest.approx((math.pi - high, math.pi - low), abs=1e-15)
 
 
-def test_a_motion_to_the_vertical_is_spiralling_with_and_without_spin():
+def test_a_motion_to_the_vertical_is_asymptotic_with_and_without_spin():
     # p_phi = p_psi and the energy of rest upright, without rounding
     for top, start in (
         (Top(1.0, 0.5, 1.0), State((0.0, 1.0, 0.0, 0.0), (-2.0, 0.0, 0.0))),
         (Top(1.0, 0.5, 2.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 2.0, 4.0))),
     ):
         motion = Motion(top, start)
-        assert motion.kind == "spiralling"
+        assert motion.kind == "asymptotic"
         assert motion.nutation_period == math.inf
         assert motion.at(12.0).euler_angles.theta < 1e-3
 

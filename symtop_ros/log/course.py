@@ -1,0 +1,72 @@
+"""The events of a whole run, and which of them can hold at a stamp.
+
+The node publishes its events in their order, but a recorder may log them after their first samples.
+The stamps then decide. After a jump of the clock back they are repeated: several events can hold.
+"""
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.arrays import Stamps
+from symtop_ros.simulation.events import MAX_STAMP, Event
+from symtop_ros.simulation.segment import Segment
+
+MAX_CANDIDATES = 1000  # events that are tried for one sample; a log may be hostile
+MAX_SEGMENTS = 100  # that are in memory
+
+
+class Course:
+    """The events of a run in the order of the log."""
+
+    def __init__(self, events: Sequence[Event]) -> None:
+        self._events = events
+        # Kept, because a driven motion is integrated from its start.
+        self.segment = lru_cache(MAX_SEGMENTS)(self._find_segment)
+        self._begins = np.array([event.stamp for event in events], dtype=np.int64)
+        ends = [*(event.previous_end for event in events[1:]), MAX_STAMP]
+        self._ends = np.array(ends[: len(events)], dtype=np.int64)
+        # True if no stamp is repeated, so that the stamps alone decide.
+        self.is_ordered = bool((self._begins[1:] >= self._ends[:-1]).all())
+        self.is_ordered &= bool((self._begins <= self._ends).all())
+
+    def _find_segment(self, number: int) -> Segment:
+        """Return the segment that holds from an event on."""
+        return self._events[number].segment()
+
+    def holds(self, number: int, stamps: Stamps, in_order: bool = True) -> NDArray[np.bool_]:
+        """Return the mask of the stamps at which an event can hold.
+
+        If it is not taken for granted that the events are in order, that is at any later stamp.
+        """
+        later = stamps >= self._begins[number]
+        return np.asarray(later & (stamps < self._ends[number]) if in_order else later)
+
+    def find_owners(self, stamps: Stamps, places: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Return the number of the event to which each sample belongs; -1: before all of them.
+
+        `places` (n,) are the numbers of events before the samples in the log; they decide if the
+        stamps do not.
+        """
+        by_stamp = np.searchsorted(self._begins, stamps, side="right") - 1
+        if self.is_ordered:
+            return by_stamp
+        first = self._begins.min(initial=MAX_STAMP)
+        return np.where(stamps < first, -1, np.maximum(places - 1, 0))
+
+    def candidates(
+        self, stamps: Stamps, owners: NDArray[np.intp], in_order: bool = True
+    ) -> Iterator[int]:
+        """Yield the events that can hold at any of the stamps; the owners, or near ones, first."""
+        if self.is_ordered:
+            yield from np.unique(owners[owners >= 0]).tolist()
+            return
+        possible = self._begins <= stamps.max()
+        if in_order:
+            possible &= self._ends > stamps.min()
+        numbers = np.flatnonzero(possible)
+        low, high = owners.min(), owners.max()
+        distance = np.maximum(low - numbers, 0) + np.maximum(numbers - high, 0)
+        yield from numbers[np.argsort(distance, kind="stable")][:MAX_CANDIDATES].tolist()

@@ -1,0 +1,61 @@
+"""States under gravity from the kernel."""
+
+from functools import cached_property
+
+import numpy as np
+
+from symtop_ros.arrays import Quaternion, Real, Vector
+from symtop_ros.physics.exact.phases import Phases
+from symtop_ros.physics.kernel import KERNEL
+from symtop_ros.physics.times import ExactTimes
+
+AT_START = 2  # other times: 1 in the first instants, else 0
+
+Attitude = tuple[float, float, float, float, float, float]
+
+
+class CompiledMotion:
+    """The states of a `ClosedFormMotion`, bit for bit.
+
+    Times of more than 1e15 turns are not served: their phases need the digits of Python's numbers.
+    Exact times are: Python's integers reduce their phases to one turn for the kernel.
+    """
+
+    def __init__(
+        self, moments: Vector, orientation: Quaternion, omega: Vector, is_turned_over: bool
+    ) -> None:
+        self._motion = KERNEL.ClosedForm(moments, orientation, omega, is_turned_over)
+
+    def at(self, t: float) -> Attitude | None:
+        """Return w, x, y, z, omega_x and omega_y at a time in s, or None if it is too far."""
+        state: Attitude | None = self._motion.at(t)
+        return state
+
+    def fill(self, times: Real, orientation: Real, omega: Real) -> bool:
+        """Write the states at times (n,) in s; return False if some are too far."""
+        return bool(self._motion.fill(np.ascontiguousarray(times), orientation, omega))
+
+    def fill_exact(self, times: ExactTimes, orientation: Real, omega: Real) -> None:
+        """Write the states at exact times () or (n,)."""
+        first_end, phases, half_turn = self._phases
+        rough = np.asarray(times.rough_seconds)
+        places = np.where(rough == 0, AT_START, np.abs(rough) <= first_end).astype(np.uint8)
+        turns = np.array([phase.turns for phase in (*phases.at(times), *half_turn.at(times))])
+        self._motion.fill_phases(np.asarray(times.seconds), places, turns, orientation, omega)
+
+    @cached_property
+    def _phases(self) -> tuple[float, Phases, Phases]:
+        first_end, (exponent, steps), (half_exponent, half_step) = self._motion.steps()
+        return (
+            first_end,
+            Phases.from_steps(exponent, _read_steps(steps)),
+            Phases.from_steps(half_exponent, _read_steps(half_step)),
+        )
+
+
+def _read_steps(steps: bytes) -> list[int]:
+    """Return integers of 256 bits with sign."""
+    return [
+        int.from_bytes(steps[first : first + 32], "little", signed=True)
+        for first in range(0, len(steps), 32)
+    ]

@@ -1,0 +1,416 @@
+// Numbers of the kernel: floats of many bits, double-double, and elementary functions of doubles.
+//
+// Sums, products, quotients and square roots of doubles round in the same way on every machine if a
+// compiler does not fuse them (-ffp-contract=off). Everything here is made of those, in the same
+// order as in Python: symtop_ros/physics/exact/elementary.py and precise.py.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// Two variants of the inner loops are compiled where the processor may have wider registers. They
+// differ in speed only: nothing is fused, and sums keep their order.
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12
+#define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define SYMTOP_CLONES
+#endif
+
+namespace symtop {
+
+typedef unsigned __int128 Wide;
+
+// ---- Floats of N limbs of 64 bits ---------------------------------------------------------------
+//
+// The value is sign * 0.mantissa * 2^exponent. Results are truncated. Three limbs have 57 decimal
+// digits, which is more than the 50 of the context PRECISE of precise.py.
+
+template <int N>
+struct Float {
+  int sign = 0;
+  int exponent = 0;
+  uint64_t limbs[N] = {};  // the lowest one first; the highest bit is set unless the sign is 0
+
+  Float() = default;
+
+  Float(double x) {
+    if (x == 0) return;
+    sign = x < 0 ? -1 : 1;
+    const double fraction = std::frexp(std::fabs(x), &exponent);
+    limbs[N - 1] = static_cast<uint64_t>(std::ldexp(fraction, 53)) << 11;
+  }
+
+  // The same number with another length: truncated, or filled with zeros.
+  template <int M>
+  explicit Float(const Float<M>& x) : sign(x.sign), exponent(x.exponent) {
+    for (int i = 0; i < N; i++) limbs[i] = M - N + i >= 0 ? x.limbs[M - N + i] : 0;
+  }
+
+  // The nearest double; the even one of two.
+  double to_double() const {
+    if (!sign) return 0.0;
+    bool is_more = false;
+    for (int i = 0; i < N - 1; i++) is_more |= limbs[i] != 0;
+    const uint64_t top = limbs[N - 1], below = top & 2047;
+    uint64_t mantissa = top >> 11;
+    if (below > 1024 || (below == 1024 && (is_more || (mantissa & 1)))) mantissa++;
+    return sign * std::ldexp(static_cast<double>(mantissa), exponent - 53);
+  }
+
+  // This times 2^power.
+  Float scale(int power) const {
+    Float result = *this;
+    result.exponent += power;
+    return result;
+  }
+
+  Float operator-() const {
+    Float result = *this;
+    result.sign = -sign;
+    return result;
+  }
+};
+
+template <int N>
+int compare_sizes(const Float<N>& a, const Float<N>& b) {
+  if (!a.sign || !b.sign) return (a.sign != 0) - (b.sign != 0);
+  if (a.exponent != b.exponent) return a.exponent < b.exponent ? -1 : 1;
+  for (int i = N - 1; i >= 0; i--)
+    if (a.limbs[i] != b.limbs[i]) return a.limbs[i] < b.limbs[i] ? -1 : 1;
+  return 0;
+}
+
+template <int N>
+int compare(const Float<N>& a, const Float<N>& b) {
+  return a.sign != b.sign ? (a.sign < b.sign ? -1 : 1) : a.sign * compare_sizes(a, b);
+}
+
+template <int N>
+Float<N> operator*(const Float<N>& a, const Float<N>& b) {
+  Float<N> result;
+  result.sign = a.sign * b.sign;
+  if (!result.sign) return result;
+  uint64_t product[2 * N] = {};
+  for (int i = 0; i < N; i++) {
+    if (!a.limbs[i]) continue;  // doubles have many limbs of zero
+    uint64_t carry = 0;
+    for (int j = 0; j < N; j++) {
+      const Wide sum = static_cast<Wide>(a.limbs[i]) * b.limbs[j] + product[i + j] + carry;
+      product[i + j] = static_cast<uint64_t>(sum);
+      carry = static_cast<uint64_t>(sum >> 64);
+    }
+    product[i + N] = carry;
+  }
+  result.exponent = a.exponent + b.exponent;
+  const bool is_full = product[2 * N - 1] >> 63;
+  for (int i = 0; i < N; i++)
+    result.limbs[i] =
+        is_full ? product[N + i] : product[N + i] << 1 | product[N + i - 1] >> 63;
+  if (!is_full) result.exponent--;
+  return result;
+}
+
+// Shift the N + 1 limbs of a sum or a difference until the highest bit is set.
+template <int N>
+void normalize(uint64_t* limbs, Float<N>& result) {
+  int top = N;
+  while (top >= 0 && !limbs[top]) top--;
+  if (top < 0) {
+    result.sign = result.exponent = 0;
+    return;
+  }
+  const int places = N - top, bits = __builtin_clzll(limbs[top]);
+  for (int i = N; i >= 0; i--) {
+    const uint64_t upper = i >= places ? limbs[i - places] : 0;
+    const uint64_t lower = i >= places + 1 ? limbs[i - places - 1] : 0;
+    limbs[i] = bits ? upper << bits | lower >> (64 - bits) : upper;
+  }
+  result.exponent -= 64 * places + bits;
+  std::memcpy(result.limbs, limbs + 1, sizeof result.limbs);
+}
+
+template <int N>
+Float<N> operator+(const Float<N>& x, const Float<N>& y) {
+  if (!x.sign) return y;
+  if (!y.sign) return x;
+  const bool is_first = compare_sizes(x, y) >= 0;
+  const Float<N>&a = is_first ? x : y, &b = is_first ? y : x;
+  const int distance = a.exponent - b.exponent;
+  if (distance >= 64 * N + 2) return a;
+  // One more limb below, so that a bit that is lost in the shift is no bit of the result.
+  uint64_t large[N + 1] = {}, small[N + 1];
+  std::memcpy(large + 1, a.limbs, sizeof a.limbs);
+  const int places = distance / 64, bits = distance % 64;
+  for (int i = 0; i <= N; i++) {
+    const int j = i - 1 + places;
+    const uint64_t lower = j >= 0 && j < N ? b.limbs[j] : 0;
+    const uint64_t upper = j + 1 >= 0 && j + 1 < N ? b.limbs[j + 1] : 0;
+    small[i] = bits ? lower >> bits | upper << (64 - bits) : lower;
+  }
+  Float<N> result;
+  result.sign = a.sign;
+  result.exponent = a.exponent;
+  if (a.sign == b.sign) {
+    uint64_t carry = 0;
+    for (int i = 0; i <= N; i++) {
+      const Wide sum = static_cast<Wide>(large[i]) + small[i] + carry;
+      large[i] = static_cast<uint64_t>(sum);
+      carry = static_cast<uint64_t>(sum >> 64);
+    }
+    if (carry) {
+      for (int i = 0; i < N; i++) large[i] = large[i] >> 1 | large[i + 1] << 63;
+      large[N] = large[N] >> 1 | uint64_t(1) << 63;
+      result.exponent++;
+    }
+  } else {
+    uint64_t borrow = 0;
+    for (int i = 0; i <= N; i++) {
+      const Wide difference = static_cast<Wide>(large[i]) - small[i] - borrow;
+      large[i] = static_cast<uint64_t>(difference);
+      borrow = (difference >> 64) != 0;
+    }
+  }
+  normalize(large, result);
+  return result;
+}
+
+template <int N>
+Float<N> operator-(const Float<N>& a, const Float<N>& b) {
+  return a + -b;
+}
+
+// The reciprocal by Newton's method, from a double; each step doubles the digits.
+template <int N>
+Float<N> invert(const Float<N>& a) {
+  Float<N> mantissa = a;
+  mantissa.exponent = 0;
+  mantissa.sign = 1;
+  Float<N> result(1.0 / mantissa.to_double());
+  for (int digits = 53; digits < 64 * N; digits *= 2)
+    result = result + result * (Float<N>(1.0) - mantissa * result);
+  result.exponent -= a.exponent;
+  result.sign = a.sign;
+  return result;
+}
+
+template <int N>
+Float<N> operator/(const Float<N>& a, const Float<N>& b) {
+  return a * invert(b);
+}
+
+// The square root, from the reciprocal of the root by Newton's method.
+template <int N>
+Float<N> root(const Float<N>& a) {
+  if (a.sign <= 0) return Float<N>();
+  Float<N> mantissa = a;
+  const int odd = a.exponent & 1;
+  mantissa.exponent = odd;
+  Float<N> inverse(1.0 / std::sqrt(mantissa.to_double()));
+  for (int digits = 53; digits < 64 * N; digits *= 2) {
+    const Float<N> error = Float<N>(1.0) - mantissa * (inverse * inverse);
+    inverse = inverse + (inverse * error).scale(-1);
+  }
+  return (mantissa * inverse).scale((a.exponent - odd) / 2);
+}
+
+template <int N>
+Float<N> size(const Float<N>& a) {
+  return a.sign < 0 ? -a : a;
+}
+
+template <int N>
+bool operator<(const Float<N>& a, const Float<N>& b) { return compare(a, b) < 0; }
+template <int N>
+bool operator<=(const Float<N>& a, const Float<N>& b) { return compare(a, b) <= 0; }
+template <int N>
+bool operator>(const Float<N>& a, const Float<N>& b) { return compare(a, b) > 0; }
+template <int N>
+bool operator>=(const Float<N>& a, const Float<N>& b) { return compare(a, b) >= 0; }
+
+typedef Float<3> Precise;  // a Decimal of precise.py
+typedef Float<24> Exact;   // sums of products of five doubles, without rounding: a Fraction
+
+inline Precise precise(uint64_t high, uint64_t middle, uint64_t low, int exponent) {
+  Precise result;
+  result.sign = 1;
+  result.exponent = exponent;
+  result.limbs[2] = high, result.limbs[1] = middle, result.limbs[0] = low;
+  return result;
+}
+
+// TWO_PI, PER_TURN of phases.py, and ln(2); a test compares them with those of Python.
+const Precise TWO_PI = precise(0xc90fdaa22168c234, 0xc4c6628b80dc1cd1, 0x29024e088a67cc74, 3);
+const Precise PER_TURN = precise(0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, -2);
+const Precise LN2 = precise(0xb17217f7d1cf79ab, 0xc9e3b39803f2f6af, 0x40f343267298b62d, 0);
+// The same numbers as sums of two doubles, the first of 26 bits.
+const double QUARTER_HIGH = 0x1.921fb50000000p+0;
+const double QUARTER_LOW = 0x1.110b4611a6263p-26;
+const double QUARTERS = 0x1.45f306dc9c883p-1;
+const double LN2_HIGH = 0x1.62e42f8000000p-1;
+const double LN2_LOW = 0x1.be8e7bcd5e4f2p-27;
+const double DOUBLINGS = 0x1.71547652b82fep+0;
+
+inline double rest_of(const Precise& x, double high) { return (x - Precise(high)).to_double(); }
+
+// split_short
+inline void split_short(const Precise& x, double& high, double& low) {
+  int exponent;
+  const double fraction = std::frexp(x.to_double(), &exponent);
+  high = std::ldexp(std::floor(std::ldexp(fraction, 26)), exponent - 26);
+  low = rest_of(x, high);
+}
+
+// exp(x) of a number x <= 0, as a double: Decimal.exp()
+inline double exponential(const Precise& x) {
+  const double doublings = std::nearbyint(x.to_double() / 0.6931471805599453);
+  if (doublings < -1000) return 0.0;
+  const int HALVINGS = 16;
+  const Precise y = (x - Precise(doublings) * LN2).scale(-HALVINGS);
+  Precise term(1.0), sum(1.0);
+  for (int n = 1; n < 16; n++) {
+    term = term * y / Precise(double(n));
+    sum = sum + term;
+  }
+  for (int n = 0; n < HALVINGS; n++) sum = sum * sum;
+  return sum.scale(static_cast<int>(doublings)).to_double();
+}
+
+// integrate_rf
+inline Precise integrate_rf(Precise x, Precise y) {
+  const Precise one(1.0), third = one / Precise(3.0);
+  Precise z = one, mean, dx, dy;
+  for (;;) {
+    mean = (x + y + z) * third;
+    const Precise inverse = invert(mean);
+    dx = one - x * inverse, dy = one - y * inverse;
+    const double largest = std::fmax(std::fmax(std::fabs(dx.to_double()), std::fabs(dy.to_double())),
+                                     std::fabs((dx + dy).to_double()));
+    if (largest < 2e-6) break;
+    const Precise rx = root(x), ry = root(y), rz = root(z);
+    const Precise shift = rx * ry + rx * rz + ry * rz;
+    x = (x + shift).scale(-2), y = (y + shift).scale(-2), z = (z + shift).scale(-2);
+  }
+  const Precise dz = -(dx + dy), e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+  const Precise sum = one - e2 / Precise(10.0) + e3 / Precise(14.0) + e2 * e2 / Precise(24.0) -
+                      Precise(3.0) * e2 * e3 / Precise(44.0);
+  return sum / root(mean);
+}
+
+// ---- Elementary functions of doubles: elementary.py ---------------------------------------------
+
+const double PI = 3.141592653589793;
+const double PI_HIGH = 0x1.921fb54442d18p+1, PI_LOW = 0x1.1a62633145c07p-53;
+
+struct Pair {  // real and imaginary part, or a sum of two doubles
+  double x, y;
+};
+
+inline Pair multiply(Pair a, Pair b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+
+inline Pair multiply_by_conjugate(Pair a, Pair b) {
+  return {a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y};
+}
+
+inline Pair conjugate(Pair a) { return {a.x, -a.y}; }
+
+inline Pair divide(Pair a, Pair b) {
+  if (std::fabs(b.x) >= std::fabs(b.y)) {
+    const double ratio = b.y / b.x, size = b.x + b.y * ratio;
+    return {(a.x + a.y * ratio) / size, (a.y - a.x * ratio) / size};
+  }
+  const double ratio = b.x / b.y, size = b.x * ratio + b.y;
+  return {(a.x * ratio + a.y) / size, (a.y * ratio - a.x) / size};
+}
+
+inline double find_modulus(Pair a) {
+  const double x = std::fabs(a.x), y = std::fabs(a.y);
+  const double large = x > y ? x : y, small = x > y ? y : x;
+  if (large == 0) return 0.0;
+  const double ratio = small / large;
+  return large * std::sqrt(1.0 + ratio * ratio);
+}
+
+inline double find_sign(double x) { return std::copysign(1.0, x); }
+
+inline Pair cosine_and_sine_near_0(double x, double rest) {
+  static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,
+                                -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6};
+  static const double VERSINE[] = {-1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600,
+                                   1.0 / 3628800, -1.0 / 40320, 1.0 / 720, -1.0 / 24, 1.0 / 2};
+  const double square = x * x;
+  double versine = VERSINE[0] * square, series = SINE[0] * square;
+  for (int n = 1; n < 8; n++) {
+    versine = (versine + VERSINE[n]) * square;
+    series = (series + SINE[n]) * square;
+  }
+  return {1.0 - (versine + x * rest), x + (x * series + rest)};
+}
+
+inline Pair cosine_and_sine(double x) {
+  const double quarters = std::nearbyint(x * QUARTERS);
+  const double part = x - quarters * QUARTER_HIGH, low = quarters * QUARTER_LOW;
+  const double near = part - low;
+  const Pair unit = cosine_and_sine_near_0(near, (part - near) - low);
+  const int64_t turns = static_cast<int64_t>(quarters);
+  const double c = turns & 1 ? unit.y : unit.x, s = turns & 1 ? unit.x : unit.y;
+  return {(turns + 1) & 2 ? -c : c, turns & 2 ? -s : s};
+}
+
+const double LEAST_EXPONENT = -708.0;
+
+// expand_exponential: a power of two, and p with exp(x) = power (1 + p)
+inline Pair expand_exponential(double x) {
+  static const double SERIES[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
+                                  1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
+                                  1.0 / 24, 1.0 / 6, 1.0 / 2};
+  const double bounded = x > LEAST_EXPONENT ? x : LEAST_EXPONENT;
+  const double doublings = std::nearbyint(bounded * DOUBLINGS);
+  const double y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
+  double series = SERIES[0] * y;
+  for (int n = 1; n < 12; n++) series = (series + SERIES[n]) * y;
+  const uint64_t bits = static_cast<uint64_t>(static_cast<int64_t>(doublings) + 1023) << 52;
+  double power;
+  std::memcpy(&power, &bits, sizeof power);
+  return {x < LEAST_EXPONENT ? 0.0 : power, y + y * series};
+}
+
+inline double exponential(double x) {
+  const Pair e = expand_exponential(x);
+  return e.x + e.x * e.y;
+}
+
+inline double exponential_minus_1(double x) {
+  const Pair e = expand_exponential(x);
+  return (e.x - 1.0) + e.x * e.y;
+}
+
+inline double integrate_rf_in_doubles(double x, double y) {
+  double z = 1.0, mean, dx, dy;
+  for (;;) {
+    mean = (x + y + z) / 3;
+    dx = (mean - x) / mean, dy = (mean - y) / mean;
+    if (std::fmax(std::fmax(std::fabs(dx), std::fabs(dy)), std::fabs(dx + dy)) < 0.006) break;
+    const double rx = std::sqrt(x), ry = std::sqrt(y), rz = std::sqrt(z);
+    const double shift = rx * ry + rx * rz + ry * rz;
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+  const double dz = -(dx + dy), e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+  const double square = e2 * e2, cube = e3 * e3;
+  const double high = square / 24 - 3 * e2 * e3 / 44 - 5 * square * e2 / 208 + 3 * cube / 104;
+  return (1 + (-e2 / 10 + e3 / 14 + (high + square * e3 / 16))) / std::sqrt(mean);
+}
+
+// quarter_period of nutation_phase.py
+inline double quarter_period(double modulus) {
+  if (modulus == 0) return INFINITY;
+  double a = 1.0, b = modulus;
+  while (a - b > 1e-8 * a) {
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return PI / (a + b);
+}
+
+}  // namespace symtop

@@ -1,0 +1,134 @@
+"""The kernel gives the states of Python, bit for bit, and the package works without it."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from physics.tops import random_case, seeds
+
+from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated, motion
+from symtop_ros.physics.exact import elementary
+from symtop_ros.physics.exact.phases import PER_TURN
+from symtop_ros.physics.exact.precise import PRECISE, TWO_PI
+
+FOLDER = Path(__file__).parents[1]
+ROOT = FOLDER.parents[1]
+SOURCES = ROOT / "symtop_ros/physics/kernel"
+STORED = json.loads((FOLDER / "taylor_motions.json").read_text())
+FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
+
+compiled = pytest.mark.skipif(not accelerated, reason="the kernel is not built")
+
+
+def compute_both(monkeypatch, top, start, times):
+    """Return orientation and angular velocity from the kernel, and from Python."""
+    fast = Motion(top, start).at(times)
+    with monkeypatch.context() as patch:
+        patch.setattr(motion, "accelerated", False)
+        return fast, Motion(top, start).at(times)
+
+
+def list_times(t):
+    """Times of all sizes about t, of both signs, with the start and the first instants."""
+    return np.array([0.0, 1e-9 * t, -1e-5 * t, 1e-3 * t, -0.3 * t, t, 7.0 * t])
+
+
+def assert_same_bits(one, other):
+    for mine, its in zip(one, other, strict=True):
+        assert mine.tobytes() == its.tobytes()
+
+
+@compiled
+@pytest.mark.parametrize("data", STORED, ids=[data["family"] for data in STORED])
+def test_stored_motions_have_the_same_bits(monkeypatch, data):
+    times = np.concatenate([list_times(data["t"][0]), data["t"]])
+    top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
+    assert_same_bits(*compute_both(monkeypatch, top, start, times))
+    assert_same_bits(*compute_both(monkeypatch, top, start, float(times[-1])))
+
+
+@compiled
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("seed", seeds(1, 10))
+def test_random_motions_have_the_same_bits(monkeypatch, family, seed):
+    for n in range(334):
+        case = random_case(1000 * seed + n, f"{family}")
+        times = list_times(case.t)
+        assert_same_bits(*compute_both(monkeypatch, case.top, case.start, times))
+
+
+@compiled
+@pytest.mark.parametrize("data", STORED[::8], ids=[data["family"] for data in STORED[::8]])
+def test_exact_times_have_the_same_bits(monkeypatch, data):
+    top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
+    ticks = np.array([0, 1, 1000, -(10**9), 10**12 + 7, 10**17 + 1])
+    for stamps, elapsed in ((ticks, Fraction(1, 4)), (10**9 + 1, Fraction(1)), (0, Fraction(0))):
+        times = ExactTimes(stamps, factor=1 / 3, elapsed=elapsed)
+        assert_same_bits(*compute_both(monkeypatch, top, start, times))
+
+
+@compiled
+def test_times_beyond_the_counts_of_the_kernel_come_from_python(monkeypatch):
+    top, start = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
+    for times in (1e17, np.array([1.0, 1e17, -1e20])):
+        assert_same_bits(*compute_both(monkeypatch, top, start, times))
+
+
+def run_python(code, **environment):
+    result = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return result.stdout.split()
+
+
+def test_an_environment_variable_selects_python():
+    code = "from symtop_ros.physics import accelerated; print(accelerated)"
+    assert run_python(code, SYMTOP_PURE="1") == ["False"]
+    assert run_python(code, SYMTOP_PURE="0") == [str(accelerated)]
+
+
+def test_the_physics_imports_neither_scipy_nor_a_compiler_of_numpy():
+    code = "import sys, symtop_ros.physics; print('scipy' in sys.modules, 'numba' in sys.modules)"
+    assert run_python(code) == ["False", "False"]
+
+
+def test_without_a_compiler_the_build_succeeds_and_has_no_kernel(tmp_path):
+    command = [sys.executable, "setup.py", "-q", "build_ext"]
+    folders = ["--build-lib", str(tmp_path / "lib"), "--build-temp", str(tmp_path / "temp")]
+    environment = {**os.environ, "CC": "no-compiler", "CXX": "no-compiler"}
+    result = subprocess.run(
+        command + folders, cwd=ROOT, env=environment, capture_output=True, check=False
+    )
+    assert result.returncode == 0
+    assert not list(tmp_path.rglob("*.so"))
+
+
+def test_constants_of_the_kernel_are_those_of_python():
+    text = (SOURCES / "numbers.hpp").read_text()
+    pattern = r"const Precise (\w+) = precise\((\w+), (\w+), (\w+), (-?\d+)\)"
+    with localcontext(PRECISE):
+        expected = {"TWO_PI": TWO_PI, "PER_TURN": PER_TURN, "LN2": Decimal(2).ln()}
+        found = {
+            name: Decimal(
+                sum(int(limb, 16) << shift for limb, shift in zip(limbs, (128, 64, 0), strict=True))
+            )
+            / Decimal(2) ** (192 - int(exponent))
+            for name, *limbs, exponent in re.findall(pattern, text)
+        }
+        assert found.keys() == expected.keys()
+        for name, value in found.items():
+            assert abs(value / expected[name] - 1) < Decimal("1e-48")  # some units of 50 digits
+    doubles = dict(re.findall(r"const double (\w+) = (-?0x\S+|[\d.]+);", text))
+    for name in ("QUARTER_HIGH", "QUARTER_LOW", "QUARTERS", "LN2_HIGH", "LN2_LOW", "DOUBLINGS"):
+        assert float.fromhex(doubles[name]) == getattr(elementary, name)

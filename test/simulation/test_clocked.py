@@ -1,0 +1,199 @@
+"""A run in its own time: its stamps are the elapsed time, and rates are derivatives by them."""
+
+import time
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from simulation.runs import SECOND, Run
+
+from symtop_ros.simulation.validation import RefusedError
+
+MS = SECOND // 1000
+PERIOD = 5 * MS
+
+
+def start(scene="cusps", **changes):
+    run = Run(scene, publish_clock=True, **changes)
+    run.clock.is_simulated = False
+    return run
+
+
+def stamps_of(run):
+    return [stamp for stamp, _ in run.sink.samples]
+
+
+def differentiate(run):
+    """The largest error of body rates that a consumer finds from two samples and their stamps."""
+    worst = 0.0
+    for (early, p), (late, q) in pairwise(run.sink.samples):
+        x, y, z, w = p
+        a, b, c, d = q
+        # conjugate of the first quaternion times the second
+        turn = np.array(
+            [
+                w * a - x * d - y * c + z * b,
+                w * b + x * c - y * d - z * a,
+                w * c - x * b + y * a - z * d,
+            ]
+        )
+        real = w * d + x * a + y * b + z * c
+        size = np.linalg.norm(turn)
+        angle = 2 * np.arctan2(size, real)
+        found = turn / size * angle / ((late - early) / SECOND)
+        middle = (early + late) // 2
+        event = [each for each in run.sink.events if each.stamp <= early + 1][-1]
+        expected = event.segment().state_at(middle).angular_velocity
+        worst = max(worst, float(np.linalg.norm(found - expected)))
+    return worst
+
+
+def assert_recomputed(run):
+    for stamp, numbers in run.sink.samples:
+        event = [each for each in run.sink.events if each.stamp <= stamp][-1]
+        w, x, y, z = event.segment().state_at(stamp).orientation.tolist()
+        assert numbers == [x, y, z, w]
+
+
+@pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
+def test_stamps_advance_by_the_factor_and_differences_by_them_are_the_rates(factor):
+    run = start(real_time_factor=factor, publish_rate=400.0)
+    run.advance(0.6)
+    assert stamps_of(run) == [k * SECOND // 400 for k in range(round(0.6 * factor * 400) + 1)]
+    # a quotient of differences: h^2/24 times the second derivative of the rate, about 60^2 * 60
+    assert differentiate(run) < 0.1
+    assert_recomputed(run)
+
+
+@pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
+def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
+    run = start(real_time_factor=factor, publish_rate=400.0)
+    run.advance(0.3)
+    assert run.ask("pause", True)[0]
+    before, last = len(run.sink.samples), run.sink.samples[-1][0]
+    run.advance(3.0)
+    assert len(run.sink.samples) == before
+    assert run.simulation.now == last
+    assert not run.simulation.segment.running
+    assert run.ask("pause", False)[0]
+    run.advance(0.3)
+    assert set(np.diff(stamps_of(run))) == {SECOND // 400}
+    assert differentiate(run) < 0.1
+    assert_recomputed(run)
+
+
+def test_a_step_advances_time_by_its_duration_with_one_sample_at_the_end():
+    run = start()
+    run.advance(0.1)
+    assert run.ask("pause", True)[0]
+    last = stamps_of(run)[-1]
+    for duration in (0.001, 0.25, 1e-9):
+        assert run.ask("step", {"duration": duration})[0]
+        last += round(duration * SECOND)
+        assert stamps_of(run)[-1] == run.simulation.now == last
+    assert run.ask("step", {"duration": 0.0})[0]
+    assert stamps_of(run)[-1] == run.simulation.now == last
+    assert run.ask("pause", False)[0]
+    run.advance(0.1)
+    assert np.diff(stamps_of(run))[-20:].tolist() == [PERIOD] * 20
+    assert_recomputed(run)
+
+
+def test_a_torque_that_ends_in_a_step_acts_until_then():
+    run = start()
+    run.advance(0.1)
+    assert run.ask("pause", True)[0]
+    with run.simulation.turn("torque"):
+        run.simulation.hold_torque((0.0, 0.0, 2e-4))
+    assert run.ask("step", {"duration": 0.3})[0]
+    assert run.ask("pause", False)[0]
+    run.advance(0.1)
+    begin, end = (each.stamp for each in run.sink.events if each.name == "torque")
+    assert end - begin == 100 * MS
+    assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
+    assert_recomputed(run)
+
+
+@pytest.mark.parametrize("paused", [False, True])
+def test_no_request_sets_the_time_back(paused):
+    run = start("hurry_slow", real_time_factor=0.5)
+    run.advance(0.313)
+    requests = [
+        ("hurry_precession",),
+        ("pause", True),
+        *(
+            [
+                ("hurry_precession",),
+                ("step", {"duration": 0.001}),
+                ("reset",),
+                ("step", {"duration": 0.1}),
+            ]
+            if paused
+            else []
+        ),
+        ("set_initial_conditions", {"theta": 0.7, "psi_dot": 150.0}),
+        ("pause", False),
+        ("reset",),
+    ]
+    for request in requests:
+        granted, answer = run.ask(*request)
+        assert granted, answer
+        run.advance(0.004, step=0.002)
+    run.advance(0.1)
+    assert min(np.diff(stamps_of(run))) > 0
+    assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
+    assert_recomputed(run)
+
+
+def test_another_factor_and_rate_continue_on_the_same_time():
+    run = start(real_time_factor=0.1)
+    run.advance(1.0)
+    for changes in ({"real_time_factor": 5.0}, {"publish_rate": 100.0}):
+        settings = type(run.simulation.settings).from_values(
+            {**run.simulation.settings.values, **changes}
+        )
+        with run.simulation.turn("parameters"):
+            run.simulation.apply_settings(settings)
+        run.advance(1.0)
+    assert run.simulation.factor == 5.0
+    assert stamps_of(run)[-1] == pytest.approx(10.1 * SECOND, abs=10 * MS)
+    assert {each.segment().factor for each in run.sink.events} == {1.0}
+    assert_recomputed(run)
+
+
+def test_the_time_waits_for_a_process_that_was_stopped():
+    run = start(publish_rate=1000.0, real_time_factor=2.0)
+    run.advance(0.1)
+    run.clock.now += 3 * SECOND
+    run.tick()
+    run.advance(0.1)
+    assert set(np.diff(stamps_of(run))) == {MS}
+    assert run.simulation.ticker.missed == 0
+
+
+def test_more_samples_than_can_be_sent_are_refused():
+    with pytest.raises(RefusedError, match="publish_rate times real_time_factor must be at most"):
+        start(publish_rate=1000.0, real_time_factor=5.0)
+
+
+def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered():
+    # ten million steps for each second
+    run = start(
+        top__Ix=1e-4,
+        top__Iz=1e-4,
+        initial__psi_dot=5e6,
+        friction__transverse=1e-6,
+        real_time_factor=10.0,
+    )
+    begin = time.monotonic()
+    for _ in range(20):
+        run.clock.now += 5 * MS
+        run.simulation.tick()
+    assert run.simulation.factor < 0.1
+    assert run.sink.warnings[0].startswith("the motion is too fast for the compute budget")
+    assert run.ask("hurry_precession")[1]
+    assert run.ask("set_initial_conditions", {"psi_dot": 1.0})[0]
+    assert time.monotonic() - begin < 5.0
+    assert min(np.diff(stamps_of(run))) > 0
+    assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
+    assert_recomputed(run)
