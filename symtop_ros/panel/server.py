@@ -128,7 +128,7 @@ class Guard:
         loop = asyncio.get_running_loop()
         file = await loop.run_in_executor(None, self._files[path], page)
         if file is None:
-            return _respond(http.HTTPStatus.NOT_FOUND, "there is none yet")
+            return _respond(http.HTTPStatus.NOT_FOUND, "the file does not exist yet")
         headers = {"Content-Type": file.kind, "Content-Disposition": "attachment"}
         return _respond(http.HTTPStatus.OK, file.content, headers)
 

@@ -1,1 +1,1 @@
-"""What pages show: the run, its 3D scene, its facts and charts, and the file that keeps them."""
+"""Content of pages, live or saved to a file: the run, its 3D scene, its facts, the markup."""

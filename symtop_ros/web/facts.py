@@ -90,7 +90,7 @@ def write_headline(moment: Moment) -> str:
     if event.name in RESTARTS:
         form = KINDS.get(str(motion.kind), "The motion is {kind}, {range}.")
         return form.format(kind=motion.kind, range=_write_range(motion.turning_angles))
-    return f"The top is another one now: {_write_range(motion.turning_angles)}."
+    return f"The top has changed: {_write_range(motion.turning_angles)}."
 
 
 def _compare(was: tuple[float, float], now: tuple[float, float], name: str) -> str:

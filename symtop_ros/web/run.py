@@ -113,7 +113,7 @@ class Run:
     def csv(self) -> str:
         """Return the series as comma-separated values, in decimals that read back the same.
 
-        Where there is no ghost its column is empty.
+        The column of the ghost is empty if there is no ghost.
         """
         names = [f"{name} ({unit})" for name, unit in zip(SERIES, UNITS, strict=True)]
         rows = (
@@ -149,7 +149,7 @@ class Run:
         self.history.append(event)
 
     def _continue_time(self, event: Event, before: Segment | None, after: Segment) -> None:
-        """Let the time of the run go on over an event.
+        """Continue the time of the run after an event.
 
         It is the time of the motion plus an offset, which changes with the motion only. A step
         advances both, and a jump of the clock neither.
@@ -182,7 +182,7 @@ class Run:
         self._extend_trace(times, State.wrap(quaternions, rates))
 
     def _find_ghost(self, stamps: NDArray[np.int64]) -> Real:
-        """Return the tilt of the ghost at some stamps, nan where there is none."""
+        """Return the tilt of the ghost at some stamps; nan if there is no ghost."""
         ghost = self.ghost.reach(int(stamps[-1]))
         if ghost is None:
             return np.full(len(stamps), np.nan)
@@ -227,7 +227,7 @@ class Run:
 
 
 def _is_same(before: Motion, after: Motion) -> bool:
-    """Return True if both are the motion of one top from one start, which then just goes on."""
+    """Return True if both are the motion of one top from one start."""
     first, second = (
         (each.top, each.start, each.friction, each.applied_torque) for each in (before, after)
     )

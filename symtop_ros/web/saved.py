@@ -53,7 +53,7 @@ def save_run(events: Sequence[Event], end: int) -> str:
 
 @dataclass
 class _Film:
-    """What is played, and the data of the charts."""
+    """The recorded scene, and the data of the charts."""
 
     run: Run = field(default_factory=Run)
     frames: int = 0

@@ -31,11 +31,10 @@ def slow_line(url: str, rate: float) -> Iterator[str]:
     """Address of the same page behind a line of so many bytes per second."""
     target, line = urlsplit(url), Line(rate)
     listener = socket.create_server(("127.0.0.1", 0))
-    closed = threading.Event()
 
     def accept() -> None:
-        while not closed.is_set():
-            with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError):
+            while True:
                 near, _ = listener.accept()
                 far = socket.create_connection((target.hostname, target.port))
                 threading.Thread(target=_pass, args=(far, near, line), daemon=True).start()
@@ -45,7 +44,8 @@ def slow_line(url: str, rate: float) -> Iterator[str]:
     try:
         yield f"http://127.0.0.1:{listener.getsockname()[1]}"
     finally:
-        closed.set()
+        with contextlib.suppress(OSError):
+            listener.shutdown(socket.SHUT_RDWR)  # ends the thread that accepts
         listener.close()
 
 

@@ -201,7 +201,7 @@ def test_the_fragment_of_an_open_page_starts_its_experiment_too(watched):
         lambda: watched.tab.evaluate("location.hash = 'theta=0.7&psi_dot=120'"), "start"
     )
     assert event.state().euler_angles.theta == pytest.approx(0.7, abs=1e-15)
-    assert watched.tab.url == f"{watched.page.server.url}/"
+    watched.until(lambda: watched.tab.url == f"{watched.page.server.url}/")
 
 
 def test_a_link_of_another_site_is_offered_and_starts_nothing(watched, browser, tmp_path):
@@ -461,6 +461,7 @@ def test_a_recording_and_a_parameter_leave_the_time_of_the_series(watched, tmp_p
     assert watched.run.window == window
 
 
+@pytest.mark.long
 def test_a_page_behind_a_slow_line_is_not_late(watched, browser):
     with slow_line(watched.page.server.url, 300e3) as url:
         tab = browser.new_page(viewport={"width": 320, "height": 320})
@@ -621,6 +622,7 @@ def test_a_picture_is_saved(watched, tmp_path):
     assert picture[..., :3].std() > 10  # something is drawn
 
 
+@pytest.mark.long
 def test_two_pages_play_with_one_top_and_choose_each_what_they_show(watched, browser):
     other = watched.open(browser)
     kicks = len(watched.events("kick"))
