@@ -10,14 +10,13 @@ import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
 from symtop_ros.panel.actions import Actions
 from symtop_ros.simulation.presets import describe_scenes
 from symtop_ros.simulation.validation import RefusedError, number, one_line, reject
-from symtop_ros.web.facts import describe_constants, list_history, round_row, thin
+from symtop_ros.web.facts import describe_constants, identify, list_history, round_row, thin
 from symtop_ros.web.run import Run
 from symtop_ros.web.scene import LAYERS
 
@@ -129,7 +128,7 @@ class Pages:
             "start": lambda: actions.start(_select(message)),
             "scene": lambda: actions.choose_scene(str(message.get("name"))),
             "link": lambda: actions.follow_link(_texts(message.get("link"))),
-            "restart": lambda: self._restart(message.get("number")),
+            "restart": lambda: self._restart(message.get("entry")),
             "show": lambda: self._show(page, message),
         }
         name = message.get("act")
@@ -147,11 +146,11 @@ class Pages:
         answer, log = self._actions.switch_recording()
         return {"said": answer} if log is None else {"said": answer, "file": LOG}
 
-    def _restart(self, stamp: object) -> None:
+    def _restart(self, entry: object) -> None:
         with self._lock:
-            events = [event for event in list_history(self._run) if event.stamp == stamp]
+            events = [event for event in list_history(self._run) if identify(event) == entry]
         if not events:
-            raise reject("number", "that of an entry of the history", stamp)
+            raise reject("entry", "one of the history", entry)
         self._actions.restart_from(events[0])
 
     def _show(self, page: str, message: Message) -> None:
@@ -172,14 +171,3 @@ def _texts(link: object) -> dict[str, str]:
     if not isinstance(link, dict):
         raise reject("link", "an object of texts", link)
     return {str(name): str(value) for name, value in link.items()}
-
-
-def to_json(value: object) -> str:
-    """Return text that may stand in a script of a page."""
-    return json.dumps(value, default=_plain).replace("<", "\\u003c")
-
-
-def _plain(value: object) -> object:
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(type(value).__name__)

@@ -25,7 +25,7 @@ from symtop_ros.web.scene import EYES, TARGETS, Scene, layer_node
 
 RATE, CROWDED_RATE = 60.0, 40.0  # frames per second
 CROWD = 4  # pages above which fewer frames are drawn: each page is sent its own copy
-CHART_EVERY, TEXT_EVERY = 4, 15  # frames
+CHART_EVERY, TEXT_EVERY = 6, 15  # frames
 FITTING = 0.85  # width over height at which the whole sphere is visible
 RESIZED = 0.1  # relative change of the width after which the camera is placed anew
 UNWATCHED = 0.5  # s between two looks at the events of a top without pages

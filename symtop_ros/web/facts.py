@@ -53,7 +53,7 @@ def describe(run: Run) -> dict[str, Any]:
         "marks": [each.time for each in run.moments if each.event.name == "kick"],
         "potential": describe_potential(run, moment),
         "table": _list_rates(motion),
-        "history": [(event.stamp, _name(event)) for event in list_history(run)],
+        "history": [(identify(event), _name(event)) for event in list_history(run)],
         "link": write_link(run),
     }
 
@@ -61,6 +61,11 @@ def describe(run: Run) -> dict[str, Any]:
 def list_history(run: Run) -> list[Event]:
     """Return the events that a page lists, the newest first."""
     return list(run.history)[: -LISTED - 1 : -1]
+
+
+def identify(event: Event) -> str:
+    """Return a text that no other event of the history has; some have the same stamp."""
+    return str(id(event))
 
 
 def describe_constants(run: Run) -> dict[str, tuple[float, float, str]]:

@@ -180,8 +180,8 @@
       }),
     );
     find("entries").replaceChildren(
-      ...facts.history.map(([number, text]) =>
-        Object.assign(make("button", { textContent: text }), { onclick: () => send({ act: "restart", number }) }),
+      ...facts.history.map(([entry, text]) =>
+        Object.assign(make("button", { textContent: text }), { onclick: () => send({ act: "restart", entry }) }),
       ),
     );
     showValues();
