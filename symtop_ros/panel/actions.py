@@ -93,6 +93,11 @@ class Actions:
         if self._run.segment is None or self._run.segment.running:
             self.request("pause", True)
 
+    def rest(self) -> None:
+        """Pause for a page that prefers no motion; a node has others who watch it."""
+        if self._source.is_own:
+            self.pause()
+
     def step(self) -> None:
         """Advance by a part of a nutation; a running motion is paused first."""
         segment = self._run.segment

@@ -140,7 +140,7 @@ class Pages:
     def _rest(self) -> None:
         """Pause for a page that prefers no motion, if no other page is open."""
         if len(self._pages) == 1:
-            self._actions.pause()
+            self._actions.rest()
 
     def _record(self) -> dict[str, Any]:
         answer, log = self._actions.switch_recording()

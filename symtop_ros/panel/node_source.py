@@ -62,6 +62,8 @@ class SharedConnection(Connection):
 class NodeTop:
     """A running node; see `Source` for the methods."""
 
+    is_own = False
+
     def __init__(self, node: Node, name: str) -> None:
         self._connection = SharedConnection(node, name, TIMEOUT)
         self.name = self._connection.name

@@ -34,6 +34,8 @@ SAMPLES = 2000  # that are kept for the next batch: 10 s at 200 Hz
 class Source(Protocol):
     """A top that can be asked and watched. Methods may be called from any thread."""
 
+    is_own: bool  # True if the top belongs to its pages, and waits while none is open
+
     @property
     def name(self) -> str:
         """Name of the top for people."""
@@ -89,7 +91,7 @@ class PageClock:
 class LocalTop:
     """A top in this process, which is the host of its session; see `Source` for the methods."""
 
-    name = "local top"
+    name, is_own = "local top", True
 
     def __init__(self, scene: str, factor: float) -> None:
         settings = Settings.from_scene(
