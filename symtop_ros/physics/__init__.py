@@ -1,7 +1,7 @@
 """The heavy symmetric top: exact motion, constants, regular precession, kicks and Perry's rule.
 
-It needs NumPy only. A compiled kernel makes it faster where it could be built: `accelerated` is then
-True. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an orientation is a unit
+It needs NumPy only. A compiled kernel makes it faster where it could be built: then `accelerated`
+is True. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an orientation is a unit
 quaternion (w, x, y, z) from body to world. All names that other code needs are exported here.
 
 Examples

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics.kernel import KERNEL
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
@@ -88,7 +87,7 @@ class Arguments:
             start = State(self.orientation[n], self.omega[n])
             yield Top(*moments), start, Friction(*friction), tuple(torque)
 
-    def fill(self, times: Real, orientation: Real, omega: Real) -> list[int]:
+    def fill(self, kernel: Any, times: Real, orientation: Real, omega: Real) -> list[int]:
         """Write the states at times in s into (n, ..., 4) and (n, ..., 3), with the kernel.
 
         The numbers of the motions that are left are returned: those that need no elliptic
@@ -99,7 +98,7 @@ class Arguments:
         starts, is_turned_over = self._turn_over()
         far = np.zeros(len(kept), dtype=np.uint8)
         q, rates = np.empty((len(kept), flat.size, 4)), np.empty((len(kept), flat.size, 3))
-        KERNEL.fill_many(starts[kept], is_turned_over[kept], flat, q, rates, far)
+        kernel.fill_many(starts[kept], is_turned_over[kept], flat, q, rates, far)
         orientation[kept] = q.reshape(len(kept), *times.shape, 4)
         omega[kept] = rates.reshape(len(kept), *times.shape, 3)
         left = np.ones(count, dtype=bool)

@@ -5,6 +5,8 @@ compiler the package is installed without it. The environment variable SYMTOP_PU
 """
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
@@ -25,5 +27,22 @@ def _load() -> Any:
     return module
 
 
-KERNEL = _load()
-accelerated: bool = KERNEL is not None
+_KERNEL = _load()
+_is_used = [_KERNEL is not None]
+accelerated: bool = _KERNEL is not None
+
+
+def find_kernel() -> Any:
+    """Return the compiled module, or None if Python is to be used."""
+    return _KERNEL if _is_used[0] else None
+
+
+@contextmanager
+def python_alone() -> Iterator[None]:
+    """Have the motions that are created inside computed by Python, to compare the two."""
+    before = _is_used[0]
+    _is_used[0] = False
+    try:
+        yield
+    finally:
+        _is_used[0] = before
