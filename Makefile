@@ -10,7 +10,7 @@ BIN := $(VENV)/bin
 NODES := test/node test/system test/load
 PLAIN := test/report test/wire test/models test/testset
 # These run as on a machine without ROS and Rerun.
-WITHOUT_ROS := test/simulation test/session test/log test/panel
+WITHOUT_ROS := test/simulation test/session test/log test/panel test/web
 WITH_ROS := test/log/test_definitions.py test/panel/test_node_source.py
 # These run with NumPy 1.26 and without Rerun, as with the ROS 2 Jazzy of Ubuntu 24.04.
 WITH_NUMPY1 := test/client test/node/test_services.py test/node/test_recording.py

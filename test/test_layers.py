@@ -21,7 +21,9 @@ ARROWS = {
     "simulation": ({"physics", "wire"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
-    "playback": ({"drawing", "log", "physics", "simulation"}, {"numpy", *RERUN}),
+    # what pages show, live and saved; viser
+    "web": ({"drawing", "log", "physics", "session", "simulation"}, {"numpy", "viser"}),
+    "playback": ({"drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
     "session": ({"__init__", "log", "physics", "simulation", "wire"}, set()),
     "node": (
         {"distribution", "physics", "session", "shutdown", "simulation", "wire"},
@@ -42,8 +44,8 @@ ARROWS = {
     "panel": (
         # client, live and rclpy: only in node_source.py, which main.py imports for --node
         {
-            *("client", "drawing", "live", "log", "physics"),
-            *("session", "shutdown", "simulation", "wire"),
+            *("client", "live", "log", "physics", "session"),
+            *("shutdown", "simulation", "web", "wire"),
         },
         {
             *("numpy", "viser", "websockets", "imageio"),
