@@ -13,11 +13,10 @@ import numpy as np
 import pytest
 from physics.tops import random_case, seeds
 
-from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated
+from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated, python_alone
 from symtop_ros.physics.exact import elementary
 from symtop_ros.physics.exact.phases import PER_TURN
 from symtop_ros.physics.exact.precise import PRECISE, TWO_PI
-from symtop_ros.physics.kernel import python_alone
 
 FOLDER = Path(__file__).parents[1]
 ROOT = FOLDER.parents[1]
