@@ -21,6 +21,12 @@ namespace symtop {
 
 typedef unsigned __int128 Wide;
 
+// The nearest integer; the even one of two. Without a call of the library, which takes longer.
+inline double round_to_integer(double x) {
+  const double size = std::fabs(x);
+  return size < 0x1p51 ? std::copysign((size + 0x1p52) - 0x1p52, x) : std::rint(x);
+}
+
 // ---- Floats of N limbs of 64 bits ---------------------------------------------------------------
 //
 // The value is sign * 0.mantissa * 2^exponent. Results are truncated. Three limbs have 57 decimal
@@ -382,7 +388,7 @@ inline void split_short(const Precise& x, double& high, double& low) {
 
 // exp(x) of a number x <= 0, as a double: Decimal.exp()
 inline double exponential(const Precise& x) {
-  const double doublings = std::nearbyint(x.to_double() / 0.6931471805599453);
+  const double doublings = round_to_integer(x.to_double() / 0.6931471805599453);
   if (doublings < -1000) return 0.0;
   const int HALVINGS = 16;
   const Precise y = (x - Precise(doublings) * LN2).scale(-HALVINGS);
@@ -467,7 +473,7 @@ inline Pair cosine_and_sine_near_0(double x, double rest) {
 }
 
 inline Pair cosine_and_sine(double x) {
-  const double quarters = std::nearbyint(x * QUARTERS);
+  const double quarters = round_to_integer(x * QUARTERS);
   const double part = x - quarters * QUARTER_HIGH, low = quarters * QUARTER_LOW;
   const double near = part - low;
   const Pair unit = cosine_and_sine_near_0(near, (part - near) - low);
@@ -484,7 +490,7 @@ inline Pair expand_exponential(double x) {
                                   1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
                                   1.0 / 24, 1.0 / 6, 1.0 / 2};
   const double bounded = x > LEAST_EXPONENT ? x : LEAST_EXPONENT;
-  const double doublings = std::nearbyint(bounded * DOUBLINGS);
+  const double doublings = round_to_integer(bounded * DOUBLINGS);
   const double y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
   double series = SERIES[0] * y;
   for (int n = 1; n < 12; n++) series = (series + SERIES[n]) * y;
