@@ -49,6 +49,7 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
             entities.SPACE,
             entities.PANEL,
             entities.EVENTS,
+            entities.SENTENCE,
             entities.POTENTIAL,
             entities.CUBIC,
             *entities.PLOTS,

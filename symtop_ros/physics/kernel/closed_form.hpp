@@ -901,7 +901,8 @@ struct ClosedForm {
   // _initial_values
   void find_initial_values(Pair changes[FUNCTIONS]) {
     const Start& s = start;
-    const double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
+    double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
+    if (std::fabs(norm - 1.0) <= 4 * 0x1p-52) norm = 1.0;
     const double w = s.w / norm, x = s.x / norm, y = s.y / norm, z = s.z / norm;
     const Pair A = {w, z}, B = {x, y}, omega_xy = {s.wx, s.wy};
     const double spin = 0.5 * s.wz * (s.Iz / s.Ix), weight = 2 * (s.Mgl / s.Ix);
