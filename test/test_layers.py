@@ -55,6 +55,7 @@ ARROWS = {
         {*NUMERICAL, "PIL", "matplotlib", "pyarrow", "rerun"},
     ),
     "models": ({"physics", "simulation"}, set()),
+    "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),
     "testset": (set(), {"numpy"}),
     "judge": (
         {"drawing", "log", "shutdown", "simulation", "testset", "wire"},
@@ -62,7 +63,17 @@ ARROWS = {
     ),
     "report": (
         {
-            *("article", "drawing", "judge", "models", "physics", "simulation", "testset", "wire"),
+            *(
+                "article",
+                "drawing",
+                "imu",
+                "judge",
+                "models",
+                "physics",
+                "simulation",
+                "testset",
+                "wire",
+            ),
         },
         {*NUMERICAL, "matplotlib", "tqdm", *PEERS},
     ),

@@ -12,13 +12,14 @@ from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.judgement import Judgement, format_several, judge
 from symtop_ros.judge.problems import run_testset
 from symtop_ros.judge.tables import CSV, read_csv
-from symtop_ros.judge.truth import Truth, read_truth, scene_truth
+from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
 from symtop_ros.simulation.validation import RefusedError, one_line
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
 starts at the stamp 0."""
 REMOVABLE = ("offset", "delay", "drift")
+EVENTS = ".json"  # of a run, as top_imu writes them
 SENSOR, BODY = "sensor", "body"
 
 
@@ -53,7 +54,11 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="top_judge", description=DESCRIPTION)
     parser.add_argument(
-        "files", type=Path, nargs="*", metavar="LOG", help="logs and rosbag2 folders: one run"
+        "files",
+        type=Path,
+        nargs="*",
+        metavar="LOG",
+        help="logs, rosbag2 folders, or the JSON of top_imu: one run",
     )
     parser.add_argument(
         "--topic",
@@ -138,6 +143,8 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
 def _read_run(options: argparse.Namespace) -> Truth:
     if options.scene:
         return scene_truth(options.scene)
+    if [path.suffix for path in options.files] == [EVENTS]:
+        return read_events(options.files[0])
     from symtop_ros.log.bag import open_run  # logs need mcap
     from symtop_ros.log.top_log import TopLog
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.physics import Motion
 from symtop_ros.quaternions import compose
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.scene import start_event, start_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
@@ -100,8 +101,14 @@ def read_truth(log: TopLog) -> Truth:
 
 def scene_truth(name: str) -> Truth:
     """Return the exact motion of a scene that starts at the stamp 0."""
-    settings = Settings.from_scene(name)
-    start = initial_state(settings.top, settings.initial, {})
-    motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
-    segment = Segment.begin(motion, 0, 1.0, settings.rig(0))
-    return Truth([Event.of(0, "start", "", {}, start, segment)])
+    return Truth([start_event(start_motion(Settings.from_scene(name)))])
+
+
+def read_events(path: Path) -> Truth:
+    """Return the exact motion of a run whose events are in a JSON file of `top_imu`."""
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+        events = [Event(**each) for each in facts["events"]]
+        return Truth(events, int(facts["end"]))
+    except (ValueError, TypeError, KeyError):
+        raise RefusedError(f"{path} must have the events of a run as top_imu writes them") from None
