@@ -72,7 +72,6 @@ ARROWS = {
                 "physics",
                 "simulation",
                 "testset",
-                "wire",
             ),
         },
         {*NUMERICAL, "matplotlib", "tqdm", *PEERS},

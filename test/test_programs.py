@@ -31,7 +31,6 @@ ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
         (programs.top_live, "rerun", "pip install '.[playback]' in the checkout"),
         (programs.top_panel, "viser", "pip install '.[panel]' in the checkout"),
         (programs.top_replay, "mcap", "pip install mcap"),
-        (programs.top_judge, "mcap", "pip install mcap"),
     ],
 )
 def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, capsys):
