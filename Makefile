@@ -1,6 +1,8 @@
 # Everything is installed into .venv; the rest of the machine is unchanged.
 PYTHON ?= python3
 VENV := .venv
+# What is compiled at the installation.
+SOURCES := setup.py $(wildcard symtop_ros/physics/kernel/*.?pp)
 NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
@@ -8,7 +10,7 @@ BIN := $(VENV)/bin
 NODES := test/node test/system test/load
 PLAIN := test/report test/wire test/models test/testset
 # These run as on a machine without ROS and Rerun.
-WITHOUT_ROS := test/simulation test/session test/log test/panel
+WITHOUT_ROS := test/simulation test/session test/log test/panel test/web
 WITH_ROS := test/log/test_definitions.py test/panel/test_node_source.py
 # These run with NumPy 1.26 and without Rerun, as with the ROS 2 Jazzy of Ubuntu 24.04.
 WITH_NUMPY1 := test/client test/node/test_services.py test/node/test_recording.py
@@ -61,7 +63,7 @@ test-examples:
 test-realtime:  # alone: these tests measure time
 	@$(BIN)/coverage run -m pytest -m "realtime and not long" $(REALTIME)
 
-test-long: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium test-kilted matrix  ## trials that take longer (two hours), and the matrix
+test-long: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/aarch64 test-kilted matrix  ## trials that take longer (two hours), and the matrix
 	@$(BIN)/python -m pytest -m long test
 
 matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
@@ -85,7 +87,7 @@ docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warni
 	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
 	@echo "wrote site/README.html"
 
-report: $(VENV)/report  ## speed against error on this machine (3 minutes); plots in report/
+report: $(VENV)/report  ## speed against error on this machine (some minutes); plots in report/
 	@$(BIN)/top_report speed
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
@@ -100,12 +102,12 @@ node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9
 clean:  ## remove the environment and everything that was built
 	rm -rf $(VENV) site build install log *.egg-info
 
-$(VENV)/ros: setup.py $(VENV)/bin/python
+$(VENV)/ros: $(SOURCES) $(VENV)/bin/python
 	@echo "Setting up .venv: ROS 2, NumPy, SciPy and Rerun (about 1 GB, once) ..."
 	$(BIN)/python -m pip install --editable '.[ros,playback]'
 	@touch $@
 
-$(VENV)/panel: setup.py $(VENV)/bin/python
+$(VENV)/panel: $(SOURCES) $(VENV)/bin/python
 	@echo "Setting up .venv: the page of top_panel (about 300 MB, once) ..."
 	$(BIN)/python -m pip install --editable '.[panel]'
 	@touch $@
@@ -145,6 +147,11 @@ $(VENV)/vulkan: test/get_vulkan.sh $(VENV)/bin/python
 $(VENV)/chromium: test/get_chromium.sh $(VENV)/bin/python
 	@echo "Setting up .venv: a browser, for the tests of the page (once) ..."
 	@sh test/get_chromium.sh $@
+	@touch $@
+
+$(VENV)/aarch64: test/get_aarch64.sh $(VENV)/bin/python
+	@echo "Setting up .venv: a compiler and an emulator for ARM (once) ..."
+	@sh test/get_aarch64.sh $@
 	@touch $@
 
 $(VENV)/bin/python:

@@ -64,6 +64,7 @@ TEST = [
     "rosbags>=0.10",  # an independent reader of logs
     "pillow>=10",  # rendered scenes are compared
     "playwright>=1.40",  # drives a browser that is installed
+    "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page
     "mpmath>=1.3",  # reference motions with any number of digits
     "gmpy2>=2.1",  # mpmath uses it, and takes a quarter less time
     "mujoco>=3.3",  # reads the MJCF of the top
@@ -106,7 +107,13 @@ setup(
     ext_modules=[KERNEL],
     options={"bdist_wheel": {"py_limited_api": "cp311"}},
     package_data={
-        NAME: ["py.typed", "log/definitions.json", "panel/page.js", "report/reference.json"],
+        NAME: [
+            "py.typed",
+            "log/definitions.json",
+            "web/page.js",
+            "web/page.html",
+            "report/reference.json",
+        ],
         f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],
     },
     data_files=[
@@ -122,7 +129,7 @@ setup(
     python_requires=">=3.11",
     install_requires=[
         "numpy>=1.24",  # any NumPy of a supported ROS 2
-        "scipy>=1.8",  # 1.8 has Carlson's elliptic integral R_F
+        "scipy>=1.8",  # noise of the sensor, the judge; the physics does without
         "pyyaml>=5.4",  # scene files
     ],
     extras_require={

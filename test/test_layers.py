@@ -16,15 +16,17 @@ TOP = {"__init__", "arrays", "demo", "distribution", "programs", "quaternions", 
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
-    "physics": (set(), NUMERICAL),
+    "physics": (set(), {"numpy"}),
     "wire": (set(), {"numpy"}),
     "simulation": ({"physics", "wire"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
-    "playback": ({"drawing", "log", "physics", "simulation"}, {"numpy", *RERUN}),
+    # what pages show, live and saved; viser
+    "web": ({"drawing", "log", "physics", "session", "simulation"}, {"numpy", "viser"}),
+    "playback": ({"drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
     "session": ({"__init__", "log", "physics", "simulation", "wire"}, set()),
     "node": (
-        {"distribution", "session", "shutdown", "simulation", "wire"},
+        {"distribution", "physics", "session", "shutdown", "simulation", "wire"},
         {
             *("rclpy", "rcl_interfaces", "std_srvs"),
             *("builtin_interfaces", "geometry_msgs", "visualization_msgs"),
@@ -42,8 +44,8 @@ ARROWS = {
     "panel": (
         # client, live and rclpy: only in node_source.py, which main.py imports for --node
         {
-            *("client", "drawing", "live", "log", "physics"),
-            *("session", "shutdown", "simulation", "wire"),
+            *("client", "live", "log", "physics", "session"),
+            *("shutdown", "simulation", "web", "wire"),
         },
         {
             *("numpy", "viser", "websockets", "imageio"),

@@ -20,6 +20,7 @@ from symtop_ros.playback import viewer
 from symtop_ros.playback.main import add_view_options
 from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
+from symtop_ros.playback.web import HOST
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import full_name
 
@@ -145,7 +146,7 @@ def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View
 
 def _recording(port: int) -> rr.RecordingStream:
     recording = rr.RecordingStream(APPLICATION)
-    recording.connect_grpc(f"rerun+http://{viewer.HOST}:{port}/proxy")
+    recording.connect_grpc(f"rerun+http://{HOST}:{port}/proxy")
     return recording
 
 
@@ -157,7 +158,7 @@ def _spin(executor: SingleThreadedExecutor, deadline: float) -> None:
 def _listens(port: int) -> bool:
     with socket.socket() as probe:
         probe.settimeout(0.5)
-        return probe.connect_ex((viewer.HOST, port)) == 0
+        return probe.connect_ex((HOST, port)) == 0
 
 
 if __name__ == "__main__":

@@ -19,7 +19,9 @@ from symtop_ros.distribution import distribution_name
 from symtop_ros.node.host import NodeHost
 from symtop_ros.node.pacer import Pacer
 from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
+from symtop_ros.node.priority import use_real_time
 from symtop_ros.node.services import TYPES, fill_response
+from symtop_ros.physics import describe_engine
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
@@ -93,10 +95,19 @@ class TopNode(Node):
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.create_timer(1.0, self.session.keep_up)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._announce_speed(settings)
         self._clock_is_missing = False
         self.create_timer(CLOCK_WAIT, self._check_clock, clock=steady)
         self._pacer = Pacer(self.simulation.tick, self._fail)
         self._follow_clock()
+
+    def _announce_speed(self, settings: Settings) -> None:
+        """Report what computes the states, and whether real-time scheduling is granted."""
+        self.get_logger().info(f"states are computed by {describe_engine()}")
+        if settings.scheduling_priority:
+            failure = use_real_time(settings.scheduling_priority)
+            if failure:
+                self.get_logger().warning(failure)
 
     @property
     def simulation(self) -> Simulation:

@@ -6,6 +6,7 @@ import signal
 import sys
 import threading
 import webbrowser
+from pathlib import Path
 
 from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES
@@ -66,6 +67,9 @@ def _parser() -> argparse.ArgumentParser:
         default=LOCAL_HOST,
         help="address to listen on (default: this machine only); who can reach it may kick",
     )
+    parser.add_argument(
+        "--save", type=Path, metavar="PAGE.html", help="write the run as a page when it ends"
+    )
     parser.add_argument("--no-browser", action="store_true", help="print the address only")
     return parser
 
@@ -78,7 +82,8 @@ def _port(text: str) -> int:
 
 
 def _show(options: argparse.Namespace, source: Source, ending: threading.Event) -> int:
-    """Serve the page of a top until `ending` is set."""
+    """Serve the page of a top until `ending` is set; then write what was asked for."""
+    _check_target(options.save)
     try:
         page = Page(source, options.host, options.port)
     except OSError as error:
@@ -93,9 +98,25 @@ def _show(options: argparse.Namespace, source: Source, ending: threading.Event) 
         # With a time-out, because on Windows a wait without one does not see Ctrl-C.
         while not ending.wait(PERIOD):
             pass
+        if options.save:
+            _save(page, options.save)
     finally:
         page.close()
     return 0
+
+
+def _check_target(path: Path | None) -> None:
+    """Refuse a file that could not be written, before anything is played."""
+    if path and (path.suffix != ".html" or not path.parent.is_dir()):
+        raise ValueError(f"--save must be a name that ends in .html in a folder, got {path}")
+
+
+def _save(page: Page, path: Path) -> None:
+    content = page.save_run()
+    if content is None:
+        raise ValueError("nothing is saved: no page was open, so that the top did not move")
+    path.write_bytes(content.content)
+    print(f"wrote {path}; open it in a browser")
 
 
 def _explain(error: OSError, options: argparse.Namespace) -> str:

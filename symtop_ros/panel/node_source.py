@@ -18,9 +18,10 @@ from symtop_ros.arrays import Vector
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.live.feed import DEPTH, Feed
 from symtop_ros.log.batch import Batch
-from symtop_ros.panel.source import DRAWN, Argument
+from symtop_ros.panel.source import Argument
 from symtop_ros.session.session import Answer
 from symtop_ros.simulation.topics import STATE_TOPICS
+from symtop_ros.web.run import DRAWN
 
 USED = ("set_initial_conditions", "kick", "step", "reset", "pause", "record")
 PARAMETERS = "set_parameters_atomically"
@@ -60,6 +61,8 @@ class SharedConnection(Connection):
 
 class NodeTop:
     """A running node; see `Source` for the methods."""
+
+    is_own = False
 
     def __init__(self, node: Node, name: str) -> None:
         self._connection = SharedConnection(node, name, TIMEOUT)

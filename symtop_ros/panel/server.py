@@ -7,19 +7,24 @@ here (DNS rebinding), the Origin header of a WebSocket is this Host, and the pag
 no other server, nor stand in a frame of another page.
 """
 
+import asyncio
+import base64
 import contextlib
 import functools
 import gzip
+import hashlib
 import http
 import io
 import ipaddress
 import logging
+import re
 import socket
 import warnings
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
-from urllib.parse import parse_qsl, urlsplit
+from typing import Any, NamedTuple
+from urllib.parse import parse_qs, urlsplit
 
 import viser
 import websockets.asyncio.server
@@ -27,32 +32,49 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from symtop_ros.web.page import HIDING, write_page
+
 LOCAL_HOST = "127.0.0.1"  # viser's default is to listen on all networks
 LOCAL_NAMES = ("localhost", "127.0.0.1", "::1")
 ALL_NETWORKS = ("0.0.0.0", "::")  # no addresses that a browser can open
-START = "/start"  # to which the page passes the values of a link
-# A header that a page of another origin cannot send without being asked for permission first,
-# which this server never gives.
-MARK = "X-Top-Panel"
-MAX_QUERY = 2000  # characters of a link
-SCRIPT = Path(__file__).with_name("page.js")
-Start = Callable[[dict[str, str]], None]
+CONTROLS, SCENE = "/controls/", "/scene/"  # of the WebSockets, before the name of a page
+# Messages to one page that it has not acknowledged. More of them would be old when they arrive.
+MOST_SENT = 6
+# Requests by which a user came to a page from nowhere else; pages of other sites cannot claim it.
+TRUSTED = ("none", "same-origin")
+SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 # A page may be closed while a message for it is made: viser warns of it, and nothing is lost.
 warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
+Serve = Callable[[ServerConnection, str], Awaitable[None]]
+
+
+class File(NamedTuple):
+    """A file that a page loads: its content and its type."""
+
+    content: bytes
+    kind: str
+
+
+Files = Mapping[str, Callable[[str], File | None]]  # by path; they take the name of the page
 
 
 class PageServer(viser.ViserServer):
     """Viser's server, on one address and port, for its own pages only."""
 
-    def __init__(self, host: str, port: int, start: Start) -> None:
+    def __init__(self, host: str, port: int, serve: Serve, files: Files) -> None:
         listener = _listen(host, port)
-        shown = socket.gethostname() if host in ALL_NETWORKS else _bracket(host)
-        self.url = f"http://{shown}:{listener.getsockname()[1]}"  # address of the page
-        guard = Guard({host, *LOCAL_NAMES, socket.gethostname()}, start)
+        self.url = f"http://{_find_name(host)}:{listener.getsockname()[1]}"  # of the page
+        guard = Guard({host, *LOCAL_NAMES, socket.gethostname()}, files)
         # Viser takes the next free port if one is taken, and has no argument for the checks: both
         # are arguments of the call by which it starts its WebSocket server.
-        with _serving(listener, guard), contextlib.redirect_stdout(io.StringIO()):
+        with _serving(listener, guard, serve), contextlib.redirect_stdout(io.StringIO()):
             super().__init__(host, port, label="Heavy symmetric top", verbose=False)
+
+    def page_of(self, client: int) -> str:
+        """Return the name of the page whose scene a client of viser draws."""
+        connection = self._websock_server._live_connections.get(client)
+        path = connection.request.path if connection and connection.request else ""
+        return path.removeprefix(SCENE)
 
     def request_share_url(self, verbose: bool = True) -> None:
         """Do nothing: viser would open a tunnel to a public server when a page asks for it."""
@@ -64,13 +86,13 @@ class PageServer(viser.ViserServer):
 
 
 class Guard:
-    """Answers requests for the page and for links, and refuses all that come from elsewhere."""
+    """Answers requests for the page and its files, and refuses all that come from elsewhere."""
 
-    def __init__(self, names: set[str], start: Start) -> None:
-        self._names, self._start = names, start
+    def __init__(self, names: set[str], files: Files) -> None:
+        self._names, self._files = names, files
 
-    def answer(self, request: Request) -> Response | None:
-        """Return the response to a request; None for what viser may answer."""
+    async def answer(self, request: Request) -> Response | None:
+        """Return the response to a request; None for a WebSocket that may be opened."""
         # Two headers of one name are an attempt to pass one check with each.
         hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
         if len(hosts) != 1 or not self._is_own(hosts[0]):
@@ -80,11 +102,13 @@ class Guard:
                 return _respond(http.HTTPStatus.FORBIDDEN, "origin must be this server's own")
             return None
         path = urlsplit(request.path)
-        if path.path == START:
-            return self._take_link(request, path.query)
+        packed = "gzip" in request.headers.get("Accept-Encoding", "")
+        site = request.headers.get("Sec-Fetch-Site", "")
         if path.path in {"/", "/index.html"}:
-            return _send_page(hosts[0], "gzip" in request.headers.get("Accept-Encoding", ""))
-        return _respond(http.HTTPStatus.NOT_FOUND, "not found")
+            return _send_page(_load_page(site in TRUSTED), f"ws://{hosts[0]}", packed, framed=False)
+        if path.path == SCENE.rstrip("/"):
+            return _send_page(_load_scene(), f"ws://{hosts[0]}", packed, framed=True)
+        return await self._send_file(path.path, path.query, site)
 
     def _is_own(self, host: str) -> bool:
         """Return True for an address in numbers, with or without a port, or a name of this host."""
@@ -94,11 +118,31 @@ class Guard:
             return False
         return name in self._names or _is_address(name)
 
-    def _take_link(self, request: Request, query: str) -> Response:
-        if request.headers.get(MARK) is None or len(query) > MAX_QUERY:
-            return _respond(http.HTTPStatus.FORBIDDEN, "a start must come from this page")
-        self._start(dict(parse_qsl(query)))
-        return _respond(http.HTTPStatus.OK, "")
+    async def _send_file(self, path: str, query: str, site: str) -> Response:
+        """Send what the page offers for download; pages of other sites cannot have it made."""
+        if path not in self._files:
+            return _respond(http.HTTPStatus.NOT_FOUND, "not found")
+        if site not in ("", *TRUSTED):
+            return _respond(http.HTTPStatus.FORBIDDEN, "a file must be asked for by this page")
+        page = parse_qs(query).get("page", [""])[0]
+        loop = asyncio.get_running_loop()
+        file = await loop.run_in_executor(None, self._files[path], page)
+        if file is None:
+            return _respond(http.HTTPStatus.NOT_FOUND, "the file does not exist yet")
+        headers = {"Content-Type": file.kind, "Content-Disposition": "attachment"}
+        return _respond(http.HTTPStatus.OK, file.content, headers)
+
+
+def _find_name(host: str) -> str:
+    """Return a name by which other machines may find this one: its address on their network."""
+    if host not in ALL_NETWORKS:
+        return f"[{host}]" if ":" in host else host
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:  # no packet is sent: only the route is looked up
+            probe.connect(("192.0.2.1", 9))
+            return str(probe.getsockname()[0])
+        except OSError:
+            return LOCAL_HOST
 
 
 def _listen(host: str, port: int) -> socket.socket:
@@ -114,29 +158,53 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def _bracket(host: str) -> str:
-    return f"[{host}]" if ":" in host else host
-
-
 @contextlib.contextmanager
-def _serving(listener: socket.socket, guard: Guard) -> Iterator[None]:
+def _serving(listener: socket.socket, guard: Guard, controls: Serve) -> Iterator[None]:
     """In this context, let viser serve on an open socket and ask the guard first."""
     original: Any = websockets.asyncio.server.serve
 
-    def serve(handler: Any, _host: str, _port: int, **options: Any) -> Any:
-        others = options.pop("process_request")
+    def serve(scene: Any, _host: str, _port: int, **options: Any) -> Any:
+        async def process(_: ServerConnection, request: Request) -> Response | None:
+            return await guard.answer(request)
 
-        def process(connection: ServerConnection, request: Request) -> Response | None:
-            response = guard.answer(request)
-            return others(connection, request) if response is None else response
+        async def handle(connection: ServerConnection) -> None:
+            path = connection.request.path if connection.request else ""
+            _pace(connection)
+            if path.startswith(CONTROLS):
+                await controls(connection, path.removeprefix(CONTROLS))
+            else:
+                await scene(connection)
 
-        return original(handler, sock=listener, process_request=process, logger=_quiet(), **options)
+        def select(connection: ServerConnection, protocols: Any) -> Any:
+            return choose(connection, protocols) if protocols else None
+
+        choose = options.pop("select_subprotocol")
+        options |= {"process_request": process, "select_subprotocol": select}
+        return original(handle, sock=listener, logger=_quiet(), **options)
 
     websockets.asyncio.server.serve = serve  # type: ignore[misc, assignment]
     try:
         yield
     finally:
         websockets.asyncio.server.serve = original  # type: ignore[misc]
+
+
+def _pace(connection: ServerConnection) -> None:
+    """Let each message wait until the page has received all but the last few before it.
+
+    Sockets and networks keep megabytes: a page behind a slow line would see what was seconds ago.
+    The browser answers a ping when it has received what was sent before it. While a message waits,
+    newer ones of viser replace the older ones of their kind.
+    """
+    send, sent = connection.send, deque[Awaitable[float]]()
+
+    async def paced(message: Any, **options: Any) -> None:
+        while len(sent) >= MOST_SENT:
+            await asyncio.wait_for(asyncio.shield(sent.popleft()), None)
+        await send(message, **options)
+        sent.append(await connection.ping())
+
+    connection.send = paced  # type: ignore[method-assign, assignment]
 
 
 def _quiet() -> logging.Logger:
@@ -147,35 +215,51 @@ def _quiet() -> logging.Logger:
     return logger
 
 
-def _send_page(host: str, packed: bool) -> Response:
-    plain, compressed = _load_page()
+def _send_page(page: str, address: str, packed: bool, framed: bool) -> Response:
+    plain, compressed, hashes = _pack(page)
     # The address of viser's page can name another server to connect to, whose content would
     # then run with the rights of this page.
+    scripts = "'unsafe-inline' 'wasm-unsafe-eval' blob: data:" if framed else hashes
+    ancestors = "'self'" if framed else "'none'"
     policy = (
-        "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:; "
-        f"connect-src 'self' ws://{host} data: blob:; frame-ancestors 'none'"
+        f"default-src 'self' data: blob:; script-src 'self' {scripts}; "
+        "style-src 'self' 'unsafe-inline' data:; base-uri 'none'; form-action 'none'; "
+        f"connect-src 'self' {address} data: blob:; frame-ancestors {ancestors}"
     )
     headers = {
         "Content-Type": "text/html; charset=utf-8",
         "Content-Encoding": "gzip" if packed else "identity",
         "Content-Security-Policy": policy,
-        "X-Frame-Options": "DENY",
+        "X-Frame-Options": "SAMEORIGIN" if framed else "DENY",
+        "Cross-Origin-Opener-Policy": "same-origin",
         "Referrer-Policy": "no-referrer",
-        "Cache-Control": "no-cache",
+        "Cache-Control": "no-store",
     }
     return _respond(http.HTTPStatus.OK, compressed if packed else plain, headers)
 
 
 @functools.cache
-def _load_page() -> tuple[bytes, bytes]:
-    """Return viser's page with the script of this package, plain and compressed."""
+def _pack(page: str) -> tuple[bytes, bytes, str]:
+    """Return a page plain and compressed, and the hash of its script for its policy."""
+    plain = page.encode()
+    digests = [hashlib.sha256(script.encode()).digest() for script in SCRIPT.findall(page)]
+    hashes = " ".join(f"'sha256-{base64.b64encode(each).decode()}'" for each in digests[:1])
+    return plain, gzip.compress(plain), hashes
+
+
+@functools.cache
+def _load_page(is_trusted: bool) -> str:
+    """Return the page; it starts what its address asks for only if the user has typed that."""
+    return write_page().replace(
+        "<html ", f'<html data-trusted="{"yes" if is_trusted else "no"}" ', 1
+    )
+
+
+@functools.cache
+def _load_scene() -> str:
+    """Return viser's page without its own panel: the controls are those of this package."""
     client = Path(viser.__file__).parent / "client" / "build" / "index.html"
-    text = client.read_text(encoding="utf-8")
-    script = SCRIPT.read_text(encoding="utf-8")
-    text = text.replace("<head>", f"<head>\n<script>\n{script}</script>", 1)
-    text = text.replace("<title>Viser</title>", "<title>Heavy symmetric top</title>", 1)
-    plain = text.encode()
-    return plain, gzip.compress(plain)
+    return client.read_text(encoding="utf-8").replace("<head>", f"<head>{HIDING}", 1)
 
 
 def _respond(
@@ -183,5 +267,6 @@ def _respond(
 ) -> Response:
     body = content.encode() if isinstance(content, str) else content
     fields = {"Content-Type": "text/plain; charset=utf-8", **(headers or {})}
+    fields |= {"X-Content-Type-Options": "nosniff", "Cross-Origin-Resource-Policy": "same-origin"}
     all_headers = Headers({**fields, "Content-Length": str(len(body)), "Connection": "close"})
     return Response(status.value, status.phrase, all_headers, body)

@@ -21,12 +21,11 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import AT_ONCE
 from symtop_ros.simulation.topics import Topic
+from symtop_ros.web.run import DRAWN
 from symtop_ros.wire.diagnostics import Status
 from symtop_ros.wire.layout import NANOSECONDS
 
 Argument = Mapping[str, Any] | bool | None
-# The topic of the samples: with the motion of the last event it gives all others.
-DRAWN = "orientation"
 LONGEST_STEP = 0.05  # s of the clock in one batch; a browser that is slow makes the motion slow
 TORQUE_TIMEOUT = 0.3  # s; a held button repeats its torque 20 times a second, but not exactly
 SAMPLES = 2000  # that are kept for the next batch: 10 s at 200 Hz
@@ -34,6 +33,8 @@ SAMPLES = 2000  # that are kept for the next batch: 10 s at 200 Hz
 
 class Source(Protocol):
     """A top that can be asked and watched. Methods may be called from any thread."""
+
+    is_own: bool  # True if the top belongs to its pages, and waits while none is open
 
     @property
     def name(self) -> str:
@@ -90,7 +91,7 @@ class PageClock:
 class LocalTop:
     """A top in this process, which is the host of its session; see `Source` for the methods."""
 
-    name = "local top"
+    name, is_own = "local top", True
 
     def __init__(self, scene: str, factor: float) -> None:
         settings = Settings.from_scene(

@@ -7,6 +7,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.top import validate_one
 from symtop_ros.physics.values import refuse, validate_number
 
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
@@ -64,6 +65,7 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     >>> bool(np.abs(balance(motion, end=2.0, longest=1.0).angular_momentum).max() < 1e-13)
     True
     """
+    validate_one(motion, "motion")
     end, longest = validate_number("end", end, "s"), validate_number("longest", longest, "s")
     if longest <= 0:
         raise refuse("longest", "> 0 s", longest)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import refuse, validate_number, validate_vector
 
 STANDARD_GRAVITY = 9.81  # m/s^2
@@ -78,6 +78,7 @@ class Body:
         Traceback (most recent call last):
         ValueError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J to exist, got 2
         """
+        validate_one(top)
         gravity = validate_number("gravity", gravity, "m/s^2")
         if gravity <= 0:
             raise refuse("gravity", "> 0 m/s^2", gravity)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import refuse, validate_number, validate_vector
 
 Hold = Literal["spin_rate", "spin_momentum"]
@@ -107,6 +107,7 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     >>> apply_impulse(top, state, (0.000228, 0, 0)).angular_velocity.tolist()
     [1.0, 0.0, 200.0]
     """
+    validate_one(top)
     J = validate_vector("impulse", impulse, "N m s, world frame")
     change = state.to_body(J) / np.array([top.Ix, top.Ix, top.Iz])
     return State(state.orientation, state.angular_velocity + change)

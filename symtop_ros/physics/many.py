@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics.kernel import KERNEL
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
@@ -43,6 +42,13 @@ def for_each(function: Function[T]) -> Function[T]:
 
 def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple[int, ...]:
     """Return the shape of the motions; () for one."""
+    if (
+        not top.shape
+        and not friction.shape
+        and start.orientation.ndim == 1
+        and type(torque) is tuple
+    ):
+        return ()  # the common case, and NumPy needs 10 us for the question
     shapes = top.shape, start.orientation.shape[:-1], friction.shape, np.shape(torque)[:-1]
     try:
         return np.broadcast_shapes(*shapes)
@@ -88,29 +94,25 @@ class Arguments:
             start = State(self.orientation[n], self.omega[n])
             yield Top(*moments), start, Friction(*friction), tuple(torque)
 
-    def fill(self, times: Real, orientation: Real, omega: Real) -> list[int]:
+    def fill(self, kernel: Any, times: Real, orientation: Real, omega: Real) -> list[int]:
         """Write the states at times in s into (n, ..., 4) and (n, ..., 3), with the kernel.
 
         The numbers of the motions that are left are returned: those that need no elliptic
         functions, and those for which a time is too far.
         """
         count, flat = len(self.moments), times.reshape(-1)
-        kept = np.flatnonzero(~self._find_free())
+        with np.errstate(under="ignore"):  # of a rate far below the weight
+            free = is_free(self.moments.T, self.orientation.T, self.omega.T)
+        kept = np.flatnonzero(~free)
         starts, is_turned_over = self._turn_over()
         far = np.zeros(len(kept), dtype=np.uint8)
         q, rates = np.empty((len(kept), flat.size, 4)), np.empty((len(kept), flat.size, 3))
-        KERNEL.fill_many(starts[kept], is_turned_over[kept], flat, q, rates, far)
+        kernel.fill_many(starts[kept], is_turned_over[kept], flat, q, rates, far)
         orientation[kept] = q.reshape(len(kept), *times.shape, 4)
         omega[kept] = rates.reshape(len(kept), *times.shape, 3)
         left = np.ones(count, dtype=bool)
         left[kept[far == 0]] = False
         return np.flatnonzero(left).tolist()
-
-    def _find_free(self) -> NDArray[np.bool_]:
-        rows = zip(
-            self.moments.tolist(), self.orientation.tolist(), self.omega.tolist(), strict=True
-        )
-        return np.array([is_free(*row) for row in rows], dtype=bool)
 
     def _turn_over(self) -> tuple[Real, NDArray[np.bool_]]:
         """Return (n, 10) arguments of the closed form, which wants Mgl > 0, and those turned."""
@@ -122,9 +124,14 @@ class Arguments:
         return np.concatenate([moments, q, self.omega], axis=1), is_turned_over
 
 
-def is_free(moments: Any, orientation: Any, omega: Any) -> bool:
-    """Return True if no torque turns the axis: for circular functions instead of elliptic ones."""
+def is_free(moments: Any, orientation: Any, omega: Any) -> Any:
+    """Return True if no torque turns the axis: for circular functions instead of elliptic ones.
+
+    The arguments are numbers, or arrays (3, n), (4, n) and (3, n) of many motions.
+    """
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, omega
-    is_resting = wx == wy == 0 and (w == z == 0 or x == y == 0)
-    rate = max(abs(wx), abs(wy), Iz / Ix * abs(wz))  # not wz: a rod may spin fast
-    return bool(is_resting or abs(Mgl) / Ix <= WEIGHTLESS * rate * rate)
+    is_vertical = ((w == 0) & (z == 0)) | ((x == 0) & (y == 0))
+    free, weight = (wx == 0) & (wy == 0) & is_vertical, abs(Mgl) / Ix
+    for rate in (wx, wy, Iz / Ix * wz):  # not wz: a rod may spin fast
+        free |= weight <= WEIGHTLESS * rate * rate
+    return free

@@ -16,7 +16,7 @@ from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.exact.precise import PRECISE
-from symtop_ros.physics.kernel import accelerated
+from symtop_ros.physics.kernel import find_kernel
 from symtop_ros.physics.kernel.compiled import CompiledMotion
 from symtop_ros.physics.many import Arguments, find_shape, for_each, is_free
 from symtop_ros.physics.state import State
@@ -134,6 +134,7 @@ class Motion:
         self.applied_torque: Any = _validate_torque(torque)
         self.shape = find_shape(top, start, friction, self.applied_torque)
         self.engine = "closed form"
+        self._kernel = find_kernel()
         self._driven: DrivenMotion | None = None
         if self.shape:
             return
@@ -165,7 +166,7 @@ class Motion:
 
     @cached_property
     def _is_free(self) -> bool:
-        return is_free(*self._arguments)
+        return bool(is_free(*self._arguments))
 
     @cached_property
     def _engine(self) -> Engine:
@@ -176,9 +177,9 @@ class Motion:
     @cached_property
     def _compiled(self) -> CompiledMotion | None:
         """The kernel's engine, for states alone."""
-        if not accelerated or self._is_free:
+        if self._is_free or not self._kernel:
             return None
-        return CompiledMotion(*self._arguments, self._is_turned_over)
+        return CompiledMotion(self._kernel, self._arguments, self._is_turned_over)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""
@@ -187,7 +188,8 @@ class Motion:
     @property
     def is_driven(self) -> bool:
         """True if friction or an applied torque acts: there is no closed form, only series."""
-        return bool(self.friction) or bool(np.any(self.applied_torque))
+        torque = self.applied_torque
+        return bool(self.friction) or (any(torque) if type(torque) is tuple else bool(torque.any()))
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -265,8 +267,8 @@ class Motion:
         shape = times.shape if isinstance(times, ExactTimes) else np.shape(times)
         orientation, omega = np.empty((count, *shape, 4)), np.empty((count, *shape, 3))
         left: Iterable[int] = range(count)
-        if accelerated and not self.is_driven and not isinstance(times, ExactTimes):
-            left = self._all_arguments.fill(np.asarray(times), orientation, omega)
+        if self._kernel and not self.is_driven and not isinstance(times, ExactTimes):
+            left = self._all_arguments.fill(self._kernel, np.asarray(times), orientation, omega)
         for n in left:
             orientation[n], omega[n] = self.members[n].at(times)
         return _wrap(orientation, omega, (*self.shape, *shape))

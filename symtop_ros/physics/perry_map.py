@@ -70,6 +70,7 @@ def compare_hurried(
     Parameters
     ----------
     top : Top
+        One top, or many of a shape that fits the other arguments.
     theta, phi_dot, psi_dot : array_like, broadcast to (...)
         Tilt in rad, precession and spin rate in rad/s; theta' is 0.
     factor : float
@@ -90,7 +91,8 @@ def compare_hurried(
     [True, False]
     """
     factor, hold = validate_number("factor", factor), validate_hold(hold)
-    theta, phi_dot, psi_dot = np.broadcast_arrays(
+    _, theta, phi_dot, psi_dot = np.broadcast_arrays(
+        np.empty(top.shape),
         validate_array("theta", theta, unit="rad"),
         validate_array("phi_dot", phi_dot, unit="rad/s"),
         validate_array("psi_dot", psi_dot, unit="rad/s"),

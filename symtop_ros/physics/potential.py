@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import validate_array
 
 
@@ -47,6 +47,7 @@ class EffectivePotential:
     @classmethod
     def of(cls, top: Top, state: State) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
+        validate_one(top)
         axial = float(top.axial_momentum(state))
         wx, wy, _ = state.angular_velocity.tolist()
         # Without the energy of the spin from the start: as a difference it would lose digits.

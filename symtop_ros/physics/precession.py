@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real
 from symtop_ros.physics.exact.precise import PRECISE, ZERO, compute_cosine
 from symtop_ros.physics.kicks import Hold
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import EPS, START_ROUNDING, refuse, validate_number
 
 LARGEST_TILT = 1e15  # rad
@@ -137,6 +137,7 @@ def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[fl
     >>> [round(rate, 2) for rate in regular_precession_rates(top, theta=0.5, psi_dot=200.0)]
     [6.5, 69.82]
     """
+    validate_one(top)
     theta = validate_number("theta", theta, "rad")
     psi_dot = validate_number("psi_dot", psi_dot, "rad/s")
     if abs(theta) > LARGEST_TILT:

@@ -67,7 +67,7 @@ class Top:
     @property
     def shape(self) -> tuple[int, ...]:
         """() for one top, (...) for many."""
-        return np.shape(self.Ix)
+        return getattr(self.Ix, "shape", ())
 
     def __eq__(self, other: object) -> bool:
         """Compare all moments."""
@@ -108,6 +108,7 @@ class Top:
         state : State
             One state, with a vertical axis.
         """
+        validate_one(self)
         weight = self.Mgl if state.vertical[2] > 0 else -self.Mgl
         if weight <= 0:
             return True
@@ -164,6 +165,12 @@ def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
         raise refuse("Mgl", f"at most {LARGEST_MOMENT:g} J in size", Mgl)
 
 
+def validate_one(given: Any, name: str = "top") -> None:
+    """Refuse many tops, or many motions, where one is wanted."""
+    if given.shape:
+        raise refuse(name, f"one {name}", f"{name}s of shape {given.shape}")
+
+
 def match(value: Any, state: State) -> Any:
     """Return a number of each top, (...), with axes added for the times of its states."""
     shape = np.shape(value)
@@ -210,7 +217,7 @@ class Friction:
     @property
     def shape(self) -> tuple[int, ...]:
         """() for one friction, (...) for many."""
-        return np.shape(self.axial)
+        return getattr(self.axial, "shape", ())
 
     def __eq__(self, other: object) -> bool:
         """Compare both coefficients."""
@@ -229,7 +236,9 @@ class Friction:
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
-        return bool(np.any(self.axial) or np.any(self.transverse))
+        if self.shape:
+            return bool(np.any(self.axial) or np.any(self.transverse))
+        return self.axial > 0 or self.transverse > 0
 
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""

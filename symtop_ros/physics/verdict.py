@@ -17,7 +17,7 @@ from symtop_ros.physics.perry import (
     format_rate,
 )
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top
+from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     START_ROUNDING,
@@ -107,6 +107,7 @@ def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_
     True
     False
     """
+    validate_one(top)
     factor, hold = validate_number("factor", factor), validate_hold(hold)
     motion = Motion(top, state)
     direction = _find_direction(top, state)
@@ -166,6 +167,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> str:
     higher and the lowest point unchanged. On average phi' is 6.41 rad/s, 0.157 turns in a nutation
     (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
+    validate_one(motion, "motion")
     top, after = motion.top, motion.start
     if hold is not None:
         hold = validate_hold(hold)

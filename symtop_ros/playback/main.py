@@ -53,7 +53,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--node", help="full name of the node if the log has several tops")
     add_view_options(parser)
     ways = parser.add_mutually_exclusive_group()
-    ways.add_argument("--save", type=Path, metavar="OUT.rrd", help="write a Rerun recording")
+    ways.add_argument(
+        "--save",
+        type=Path,
+        metavar="OUT",
+        help="write a Rerun recording (OUT.rrd) or a page for any browser (OUT.html)",
+    )
     ways.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
     ways.add_argument(
         "--check", action="store_true", help="compute the run again from its events and compare"
@@ -121,11 +126,13 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
     from symtop_ros.playback.replay import replay
     from symtop_ros.playback.view.view import ViewOptions
 
+    if options.save and options.save.suffix == ".html":
+        return _save_page(log, options.save)
     drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
     save: Path | None = options.save
     if save:
         if save.suffix != ".rrd":
-            raise LogError(f"--save must be a name that ends in .rrd, got {save}")
+            raise LogError(f"--save must be a name that ends in .rrd or .html, got {save}")
         replay(log, save, drawn)
         _print_problems(log.problems)
         print(f"wrote {save}; open it with: rerun {save}")
@@ -140,6 +147,25 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         replay(log, recording, drawn)
         _print_problems(log.problems)
         return viewer.show(recording, options.web)
+
+
+def _save_page(log: TopLog, path: Path) -> int:
+    from symtop_ros.web.saved import save_run  # viser, which is needed for nothing else here
+
+    events, end = [], 0
+    for batch in log.batches():
+        events += [event for _, event in batch.events]
+        stamps = [int(columns.stamps[-1]) for columns in batch.columns.values()]
+        end = max([end, *stamps])
+    _print_problems(log.problems)
+    try:
+        path.write_text(save_run(events, end), encoding="utf-8")
+    except ValueError as error:
+        raise LogError(f"{log.file.path}: {error}") from None
+    except OSError as error:
+        raise LogError(f"cannot write {path}: {error.strerror}") from None
+    print(f"wrote {path}; open it in a browser")
+    return 0
 
 
 def _print_problems(problems: list[str]) -> None:

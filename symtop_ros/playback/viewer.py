@@ -9,7 +9,7 @@ from pathlib import Path
 
 import rerun_cli
 
-HOST = "127.0.0.1"  # Rerun's default is to listen on all networks
+from symtop_ros.playback.web import HOST, serve_page
 
 
 def has_screen() -> bool:
@@ -31,7 +31,8 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
         page = free_port()
         options += ["--serve-web", "--web-viewer-port", str(page)]
         source = f"rerun%2Bhttp%3A%2F%2F{HOST}%3A{port}%2Fproxy"
-        print(f"open http://{HOST}:{page}/?url={source} in a browser; Ctrl-C ends it", flush=True)
+        address = f"http://{HOST}:{serve_page(page, port)}/?url={source}"
+        print(f"open {address} in a browser; Ctrl-C ends it", flush=True)
     program = Path(rerun_cli.__file__).parent / "rerun"
     if sys.platform != "win32":  # a closed terminal ends the caller, which ends the viewer
         signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))

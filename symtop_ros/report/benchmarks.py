@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.report.footprint import Footprint, measure_footprint
+from symtop_ros.report.many import ManyCost, Program, find_programs, measure_many
 from symtop_ros.report.peers import CLOSED_FORM, TAYLOR, prepare
 from symtop_ros.report.peers.peer import Peer, PrepareArrays, Solution, Task, spread_times
 from symtop_ros.report.reference import EPS, Reference, ReferenceMotion
@@ -39,6 +40,7 @@ class Scope:
     states: tuple[int, ...]  # numbers of states in an array
     hard_peers: tuple[str, ...]  # peers that try the hard cases
     driven: int = 1  # 1 to try all motions with friction and torques, n to try each n-th
+    many: int = 100_000  # number of different motions
 
     def includes(self, peer: Peer, number: int) -> bool:
         """Return True if a peer integrates the article's motion of this number."""
@@ -48,7 +50,7 @@ class Scope:
 FIRST = "first motion"
 QUICK = Scope(False, 7, 4.0, 1.0, tuple(10**k for k in range(8)), HARD_PEERS[1:])
 FULL = Scope(True, 7, 60.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
-SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9)  # for tests
+SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9, 8)  # for tests
 
 
 @dataclass(frozen=True)
@@ -103,6 +105,7 @@ class Results:
     states: list[ArrayCost] = field(default_factory=list)
     hard: list[HardCase] = field(default_factory=list)
     driven: list[DrivenCase] = field(default_factory=list)
+    many: list[ManyCost] = field(default_factory=list)
     footprint: Footprint | None = None
 
     @classmethod
@@ -119,6 +122,7 @@ class Results:
             [ArrayCost(**_freeze(each)) for each in facts["states"]],
             [HardCase(**each) for each in facts["hard"]],
             [DrivenCase(**each) for each in facts.get("driven", ())],
+            [ManyCost(**each) for each in facts.get("many", ())],
             Footprint(**footprint) if footprint else None,
         )
 
@@ -190,6 +194,9 @@ def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterato
         if peer.prepare_arrays:
             work = partial(_time_arrays, peer.name, peer.prepare_arrays, first, scope, results)
             yield f"{peer.name}: arrays", work
+    for name, program in find_programs():
+        work = partial(_time_many, name, program, scope, results)
+        yield f"{name}: many motions", work
     tried = [peer for peer in peers if peer.name in scope.hard_peers]
     for motion in reference.hard:
         yield motion.name, partial(_try, motion, tried, results)
@@ -246,6 +253,10 @@ def _time_arrays(
         times = np.linspace(0.0, SPAN, number + 1)[1:]
         seconds.append(time_call(partial(arrays, times), scope.limit / REPEATS))
     results.states.append(ArrayCost(name, scope.states, tuple(seconds), error))
+
+
+def _time_many(name: str, program: Program, scope: Scope, results: Results) -> None:
+    results.many.append(measure_many(name, program, scope.many, SPAN))
 
 
 def _try(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> None:

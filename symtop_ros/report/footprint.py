@@ -10,7 +10,7 @@ RUNS = 3
 IMPORTS = """
 import time
 began = time.perf_counter()
-import numpy, scipy.special
+import numpy
 libraries = time.perf_counter() - began
 import symtop_ros.physics
 print(libraries, time.perf_counter() - began)
@@ -38,9 +38,9 @@ print(peak() - before)
 class Footprint:
     """Cost of the library apart from the time of a state."""
 
-    # import of `symtop_ros.physics`, with NumPy and what it needs of SciPy; a median
+    # import of `symtop_ros.physics`, with NumPy; a median
     import_seconds: float
-    libraries_seconds: float  # the part of NumPy and `scipy.special` in it
+    libraries_seconds: float  # the part of NumPy in it
     states: int  # number of states for which the memory was measured
     # largest additional memory while they are computed, the states themselves included
     peak_bytes: int

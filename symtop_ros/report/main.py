@@ -13,7 +13,7 @@ LARGEST_LIMIT = 3600  # s
 DESCRIPTION = """Measures speed against error, compared with the integrators that are installed,
 retells the article with its numbers, and draws the lesson and the maps of Perry's rule."""
 COMMANDS = {
-    "speed": "speed against error: tables, plots and JSON (two minutes)",
+    "speed": "speed against error: tables, plots and JSON (some minutes)",
     "testset": "scores of programs in the test set (20 minutes)",
     "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
     "article": "the article's figures, its motions in 3D, and its claims",
@@ -46,7 +46,7 @@ def _parser() -> argparse.ArgumentParser:
     of["speed"].add_argument(
         "--full",
         action="store_true",
-        help="every peer, every motion, long times: hours instead of two minutes",
+        help="every peer, every motion, long times: hours instead of minutes",
     )
     for name, default in (("speed", "4 s (--full: 60)"), ("testset", "0.2 s")):
         text = f"largest time of one run, {default}"

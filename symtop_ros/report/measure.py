@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from symtop_ros.physics import describe_engine
 from symtop_ros.report.benchmarks import Results, Scope, list_steps
 from symtop_ros.report.document import Environment, format_document
 from symtop_ros.report.peers import find_peers
@@ -24,7 +25,9 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
     """Write report.md, report.json and the plots; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     peers, missing = find_peers()
-    environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
+    environment = Environment(
+        command, find_machine(), _find_versions(), missing, scope.limit, describe_engine()
+    )
     results = _run(scope, peers)
     _write(folder, results, environment)
     if docs:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
-from symtop_ros.physics import balance, perrys_rule
+from symtop_ros.physics import balance, describe_engine, perrys_rule
 from symtop_ros.session.summary import constants_of_motion, summarize_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
@@ -65,6 +65,7 @@ def _pace_status(simulation: Simulation) -> Status:
         "missed": ticker.missed,
         "real_time_factor": asked,
         "real_time_factor.achieved": achieved,
+        "states_computed_by": describe_engine(),
     }
     if kept < asked:
         message = (

@@ -3,8 +3,9 @@
 import os
 import sys
 from collections.abc import Iterator, Mapping
+from itertools import takewhile
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -31,6 +32,25 @@ def config_folder() -> Path:
 def scene_names() -> tuple[str, ...]:
     """Return the names of all scenes."""
     return tuple(sorted(path.stem for path in config_folder().glob("*.yaml")))
+
+
+class Scene(NamedTuple):
+    """A scene for people: the comment at the head of its file is `# Title: story`."""
+
+    name: str
+    title: str
+    story: str
+
+
+def describe_scenes() -> list[Scene]:
+    """Return names, titles and stories of all scenes."""
+    found = []
+    for name in scene_names():
+        text = (config_folder() / f"{name}.yaml").read_text(encoding="utf-8")
+        comment = takewhile(lambda line: line.startswith("#"), text.splitlines())
+        title, _, story = " ".join(line.lstrip("# ") for line in comment).partition(": ")
+        found.append(Scene(name, title or name, story))
+    return found
 
 
 def load_scene(name: object) -> dict[str, Any]:

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtri
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
@@ -241,6 +240,9 @@ def _normals(seed: int, streams: Sequence[int], counters: Any) -> Real:
     They are a hash, not a sequence: that of SplitMix64 (Steele, Lea and Flood 2014), twice. The
     inverse of the normal distribution makes normal numbers of it.
     """
+    # Imported here, because its import takes longer than that of the physics.
+    from scipy.special import ndtri  # noqa: PLC0415
+
     counters = np.asarray(counters).astype(np.uint64)
     numbers = np.array(streams, dtype=np.uint64).reshape(-1, *[1] * counters.ndim)
     keys = _hash(_hash(np.array([seed], dtype=np.uint64))[0] + numbers)

@@ -28,6 +28,7 @@ MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
 MAX_ARM = 1e6  # m
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
+MAX_PRIORITY = 99  # of SCHED_FIFO
 MAX_FRAME = 200  # characters of a frame name, which stands in every message
 
 
@@ -109,11 +110,11 @@ def _noise(description: str, unit: str) -> Parameter:
     return _fix(_number(0.0, description, unit, 0.0, MAX_NOISE))
 
 
-def _seed(name: str, value: Any) -> int:
-    seed = number(name, value, "", 0, MAX_SEED)
-    if seed != int(seed):
-        raise reject(name, f"a whole number, 0 to {MAX_SEED}", value)
-    return int(seed)
+def _whole(largest: int, name: str, value: Any) -> int:
+    whole = number(name, value, "", 0, largest)
+    if whole != int(whole):
+        raise reject(name, f"a whole number, 0 to {largest}", value)
+    return int(whole)
 
 
 PARAMETERS: dict[str, Parameter] = {
@@ -167,8 +168,17 @@ PARAMETERS: dict[str, Parameter] = {
     "imu.noise.gyroscope_random_walk": _noise("random walk of the bias", "rad/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
-    "imu.noise.seed": Parameter(0, "seed of the noise", "a whole number", _seed, read_only=True),
+    "imu.noise.seed": Parameter(
+        0, "seed of the noise", "a whole number", partial(_whole, MAX_SEED), read_only=True
+    ),
     "odometry.enabled": _flag(False, "publish ~/odometry", read_only=True),
+    "scheduling_priority": Parameter(
+        0,
+        "priority of SCHED_FIFO, real-time scheduling; 0: none",
+        f"a whole number, 0 to {MAX_PRIORITY}",
+        partial(_whole, MAX_PRIORITY),
+        read_only=True,
+    ),
     "world_frame": _frame("world", "fixed frame, z up"),
     "top_frame": _frame("top", "frame of the body"),
 }
@@ -220,6 +230,7 @@ class Settings:
     gravity: float
     imu: Imu | None
     odometry: bool
+    scheduling_priority: int
     world_frame: str
     top_frame: str
 

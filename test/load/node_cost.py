@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -29,6 +30,8 @@ LATE = 1e-3  # fraction of late samples below which a rate counts as reached
 KICKS = 100
 PAUSE = 0.0137  # s between kicks; no multiple of a period
 TOP, RECORDING, BARE, PREPARED = "top_node", "top_node, recording", "bare rclpy", "prepared bytes"
+TOP_FIFO, BARE_FIFO = "top_node, SCHED_FIFO", "bare rclpy, SCHED_FIFO"
+PRIORITY = 50
 CPU, LATE_SAMPLES, JITTER = "CPU, % (one core)", "late samples, %", "jitter p99, ms"
 KICK, SLOW_KICK = "kick to first sample, ms", "kick to first sample p99, ms"
 HIGHEST = f"highest rate with < {LATE:.1%} late, Hz"
@@ -40,18 +43,33 @@ Runs = dict[str, dict[str, list[float]]]  # values of each run, by the row and t
 def list_commands(folder: str) -> dict[str, Command]:
     """Return the command line of each node as a function of the rate; logs go to a folder."""
 
-    def top(rate: float, recording: bool = False) -> list[str]:
+    def top(rate: float, recording: bool = False, priority: int = 0) -> list[str]:
         return top_node(
             *(f"publish_rate:={rate}", f"record.enabled:={recording}".lower()),
+            f"scheduling_priority:={priority}",
             *(f"record.directory:={folder}", "hurry_factor:=1.0"),
         )
 
-    return {
+    commands: dict[str, Command] = {
         TOP: top,
         RECORDING: lambda rate: top(rate, recording=True),
         BARE: lambda rate: script("bare.py", rate),
         PREPARED: lambda rate: script("bare.py", rate, "--prepared"),
     }
+    if _may_use_real_time():
+        chrt = ["chrt", "--fifo", str(PRIORITY)]
+        commands[TOP_FIFO] = lambda rate: top(rate, priority=PRIORITY)
+        commands[BARE_FIFO] = lambda rate: [*chrt, *script("bare.py", rate)]
+    return commands
+
+
+def _may_use_real_time() -> bool:
+    """Return True if this machine grants real-time scheduling."""
+    command = ["chrt", "--fifo", str(PRIORITY), "true"]
+    try:
+        return subprocess.run(command, capture_output=True, check=False).returncode == 0
+    except FileNotFoundError:
+        return False
 
 
 def measure(command: Command, rate: float, seconds: float) -> dict[str, float]:
@@ -115,7 +133,7 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     runs: Runs = facts["runs"]
     source = f"`make node-cost` on {facts['machine']}"
     spread = f"medians of {facts['count']} runs (lowest to highest), {len(TOPICS)} topics"
-    table = _format_table(runs, (TOP, RECORDING, BARE, PREPARED))
+    table = _format_table(runs, tuple(dict.fromkeys(node for row in runs.values() for node in row)))
     return {"node cost": f"{source}: {spread} with one subscriber each.\n\n{table}"}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from browser import running_browser
 
@@ -15,13 +15,12 @@ from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 
 DOCS = Path(__file__).parents[2] / "docs"
-NOTICE = ".mantine-Notification-closeButton"
 STEPS = 64  # of a nutation, so that the trace is smooth
 TIMEOUT = 60.0  # s
 
 
 class Picture(NamedTuple):
-    """A picture: file, size of the window, scene, what is done, and what is pressed."""
+    """A picture: file, size of the window, scene, what is done, colours, and the tab."""
 
     name: str
     width: int
@@ -29,12 +28,12 @@ class Picture(NamedTuple):
     scene: str
     act: Callable[[Actions], Any]
     nutations: tuple[float, float]  # of the motion before and after the act
-    pressed: tuple[str, ...] = ()
+    scheme: Literal["light", "dark"] = "light"
     tab: str = "Top"
 
 
 PICTURES = (
-    Picture("panel", 1280, 720, "hurry_slow", lambda actions: actions.hurry(1.4), (2.9, 2.5)),
+    Picture("panel", 1280, 720, "hurry_slow", lambda actions: actions.kick(1.4), (2.9, 2.5)),
     Picture(
         "panel_dark",
         1280,
@@ -42,7 +41,7 @@ PICTURES = (
         "looping",
         lambda actions: actions.push_tilt(-6.0),
         (2.2, 2.4),
-        ("dark",),
+        "dark",
         "History",
     ),
     Picture(
@@ -50,10 +49,11 @@ PICTURES = (
         820,
         1180,
         "cusps",
-        lambda actions: actions.hurry(1.0),
+        lambda actions: actions.kick(1.0),
         (2.5, 0.0),
         tab="Push",
     ),
+    Picture("panel_phone", 390, 844, "hurry_slow", lambda actions: actions.kick(1.4), (2.0, 2.2)),
 )
 
 
@@ -63,7 +63,10 @@ def main() -> None:
         page = Page(LocalTop(picture.scene, factor=0.1), LOCAL_HOST, 0)
         try:
             with running_browser() as browser:
-                tab = browser.new_page(viewport={"width": picture.width, "height": picture.height})
+                tab = browser.new_page(
+                    viewport={"width": picture.width, "height": picture.height},
+                    color_scheme=picture.scheme,
+                )
                 draw(picture, page, tab)
         finally:
             page.close()
@@ -72,8 +75,8 @@ def main() -> None:
 def draw(picture: Picture, page: Page, tab: Any) -> None:
     """Play what a picture shows, and save it."""
     tab.goto(page.server.url)
-    tab.wait_for_selector(".panel-verdict", timeout=TIMEOUT * 1000)
-    tab.locator(NOTICE).first.click()
+    tab.wait_for_selector("#headline:not(:empty)", timeout=TIMEOUT * 1000)
+    tab.frame_locator("iframe").locator("canvas").first.wait_for(timeout=TIMEOUT * 1000)
     page.actions.request("pause", True)
     page.actions.request("reset")
     before, after = picture.nutations
@@ -81,10 +84,6 @@ def draw(picture: Picture, page: Page, tab: Any) -> None:
     if after:
         picture.act(page.actions)
         move(page, after)
-    if picture.pressed:
-        tab.get_by_role("tab", name="View").click()
-        for label in picture.pressed:
-            tab.get_by_text(label, exact=True).click()
     tab.get_by_role("tab", name=picture.tab).click()
     tab.mouse.move(picture.width / 2, 5)
     tab.wait_for_timeout(3000)  # the browser may be some frames behind

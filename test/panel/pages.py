@@ -10,11 +10,13 @@ import subprocess
 import threading
 import time
 from collections.abc import Iterator
+from typing import Any
 from urllib.parse import urlsplit
 
 import msgspec
 import viser
 import websockets
+import zstandard
 from programs import command
 from viser import _messages
 
@@ -33,10 +35,12 @@ CAMERA = _messages.ViewerCameraMessage(
 
 
 class Pages:
-    """Open pages, each with the number of messages that it has received."""
+    """Open pages, each with the messages and bytes that it has received of its scene and charts."""
 
     def __init__(self, url: str, count: int) -> None:
         self.counts = [0] * count
+        self.bytes = [0] * count
+        self.ages: list[float] = []  # s between a frame's sending and its arrival
         self._address = urlsplit(url).netloc
         self._loop = asyncio.new_event_loop()
         self._all: asyncio.Future[list[None]]
@@ -57,26 +61,52 @@ class Pages:
 
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
-        self._all = asyncio.gather(*(self._watch(k) for k in range(len(self.counts))))
+        self._all = asyncio.gather(
+            *(
+                each(k)
+                for k in range(len(self.counts))
+                for each in (self._watch_scene, self._watch_charts)
+            )
+        )
         with contextlib.suppress(asyncio.CancelledError):
             self._loop.run_until_complete(self._all)
         self._loop.close()
 
-    async def _watch(self, k: int) -> None:
-        protocol = websockets.Subprotocol(f"viser-v{viser.__version__}")
-        async with websockets.connect(
-            f"ws://{self._address}",
+    def _open(self, path: str, **options: Any) -> Any:
+        return websockets.connect(
+            f"ws://{self._address}/{path}",
             origin=websockets.Origin(f"http://{self._address}"),
-            subprotocols=[protocol],
             compression=None,
             max_size=None,
-        ) as connection:
+            **options,
+        )
+
+    async def _watch_scene(self, k: int) -> None:
+        protocol = websockets.Subprotocol(f"viser-v{viser.__version__}")
+        async with self._open(f"scene/{k}", subprotocols=[protocol]) as connection:
             await connection.send(msgspec.msgpack.encode(CAMERA.as_serializable_dict([])))
             try:
-                async for _ in connection:
+                async for message in connection:
                     self.counts[k] += 1
+                    self.bytes[k] += len(message)
+                    self.ages.append(time.perf_counter() - sent_at(message))
             finally:
                 connection.transport.abort()  # as a browser that is closed: with no last words
+
+    async def _watch_charts(self, k: int) -> None:
+        async with self._open(f"controls/{k}") as connection:
+            try:
+                async for message in connection:
+                    self.bytes[k] += len(message)
+            finally:
+                connection.transport.abort()
+
+
+def sent_at(message: bytes) -> float:
+    """Time on this machine's `perf_counter` at which viser made a message."""
+    size, packed = (int.from_bytes(message[k : k + 8], "little") for k in (0, 8))
+    content = zstandard.ZstdDecompressor().decompress(message[16 : 16 + packed], size)
+    return float(msgspec.msgpack.decode(content)["timestampSec"])
 
 
 @contextlib.contextmanager

@@ -3,14 +3,14 @@
 import time
 
 import pytest
-from panel.page_cost import measure
+from panel.page_cost import SLOW, measure, measure_age
 from panel.pages import open_pages, running_panel
 from usage import memory
 
-from symtop_ros.panel.controls import LISTED
 from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
+from symtop_ros.web.scene import CHUNKS
 
 pytestmark = pytest.mark.untraced
 HALF_AN_HOUR = 1800.0  # s
@@ -29,6 +29,18 @@ def test_a_closed_page_costs_next_to_nothing():
         assert measure(process.pid, url, 0, 1.0).cpu < max(2.1, cost.cpu / 4)
 
 
+@pytest.mark.realtime
+def test_a_frame_is_not_old_behind_a_slow_line():
+    with running_panel() as (_, url):
+        assert measure_age(url, SLOW, 3.0) < 0.3  # s; measured 0.04
+
+
+@pytest.mark.realtime
+def test_a_page_gets_less_than_100_kilobytes_a_second():
+    with running_panel() as (process, url):
+        assert measure(process.pid, url, 1, 3.0).kilobytes < 100  # measured 50
+
+
 @pytest.mark.long
 def test_one_page_is_updated_60_times_a_second_for_a_quarter_of_a_core():
     with running_panel() as (process, url):
@@ -45,17 +57,16 @@ def test_frames_leave_nothing_behind():
         with open_pages(page.server.url):
             counts = []
             for k in range(4):
-                for _ in range(LISTED // 2):  # from then on no entry of the history is new
-                    page.actions.start({"theta": 0.3 + 0.1 * k})
-                    page.actions.hurry(1.4)  # last, so that the ghost moves in all frames below
+                page.actions.start({"theta": 0.3 + 0.1 * k})
+                page.actions.kick(1.4)  # so that the ghost moves in all frames below
                 frame = page.frames
                 deadline = time.monotonic() + 60
                 while page.frames < frame + 30:
                     assert time.monotonic() < deadline
                     time.sleep(0.01)
                 counts.append(len(kept))
-        # A slider that was replaced, for its marks, leaves one message until a page connects.
-        assert counts[3] - counts[1] <= 2
+        # The nodes of the trace are written one after the other, each for the first time once.
+        assert counts[3] - counts[1] <= CHUNKS
     finally:
         page.close()
 

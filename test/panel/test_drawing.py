@@ -12,6 +12,8 @@ from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.web.run import TRACE
+from symtop_ros.web.scene import CHUNK
 
 TIMEOUT = 60.0
 
@@ -31,7 +33,7 @@ def wait(page, condition=lambda: True, frames=4):
     """Wait for some frames, and for a condition."""
     begin, deadline = page.frames, time.monotonic() + TIMEOUT
     while page.frames < begin + frames or not condition():
-        assert time.monotonic() < deadline, page.actions.message
+        assert time.monotonic() < deadline, page.pages._notices
         time.sleep(0.005)
 
 
@@ -41,7 +43,7 @@ def test_a_scene_is_drawn(page, name):
     page.actions.push_tilt(0.5)  # so that there is a ghost, and a potential before
     page.actions.step()
     wait(page, lambda: page.run.stamp > page.run.event.stamp)
-    assert page.actions.message == ""
+    assert page.pages._notices == []
     state, scene = page.run.state, page._scene
     assert np.array_equal(scene._body.wxyz, state.orientation)
     assert scene.handle.position == pytest.approx(state.to_world([0.0, 0.0, 1.0]), abs=1e-15)
@@ -61,42 +63,30 @@ def test_the_arrows_have_the_directions_of_the_vectors(page):
     assert turns == pytest.approx(round(turns), abs=1e-15)
 
 
-def test_a_hidden_layer_is_not_drawn(page):
-    page.actions.choose_scene("cusps")
-    nodes = (page._scene._trace, page._scene._arrows["L"])
-    for shown in (False, True):
-        page._scene.shown["trace"] = page._scene.shown["L"] = shown
-        wait(page)
-        assert [node.visible for node in nodes] == [shown, shown]
-
-
-def test_the_marks_of_the_precession_are_the_regular_rates(page):
-    page.actions.choose_scene("hurry_slow")
+def test_the_ends_of_the_trace_meet_its_newest_points(page):
+    page.actions.choose_scene("looping")
+    for _ in range(40):
+        page.actions.step()
     wait(page, lambda: page.run.stamp > page.run.event.stamp)
-    assert page._controls._marked == pytest.approx((6.497, 69.82), rel=1e-3)
-    assert page._controls._phi_dot.value == pytest.approx(6.497, abs=1e-3)
-    page.actions.set_parameters({"top.Mgl": 0.01})
-    page.actions.start({"theta": 0.5, "psi_dot": 100.0, "precession": "slow"})
-    wait(page, lambda: page._controls._marked[0] < 6)
-    assert page._controls._marked == pytest.approx((1.84, 36.3), rel=1e-2)
-
-
-def test_markup_in_a_link_is_shown_as_text(page):
-    page.actions.follow_link({"<script>alert(1)</script>": "0"})
-    wait(page, lambda: "&lt;script&gt;alert(1)" in page._controls._verdict.content)
-    assert "<script" not in page._controls._verdict.content
+    run, scene = page.run, page._scene
+    drawn = np.concatenate([node.points.reshape(-1, 3) for node in scene._trace])
+    newest = run.axes[-1 - min(run.traced, TRACE - CHUNK) :][:-1]  # with the place of the head
+    distances = np.abs(drawn[:, None] - newest[None]).max(axis=2).min(axis=0)
+    assert distances.max() < 1e-7  # single precision
+    assert np.abs(scene._head.points[0, 1] - run.axes[-1]).max() < 1e-7
 
 
 def test_a_bug_in_the_drawing_is_a_message_and_the_next_frames_are_drawn(page, monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(page._scene, "draw", lambda *_: 1 / 0)
         deadline = time.monotonic() + TIMEOUT
-        while "drawing failed: ZeroDivisionError" not in page.actions.message:
+        while not any("failed: ZeroDivisionError" in text for text in page.pages._notices):
             assert time.monotonic() < deadline
             time.sleep(0.01)
     page.actions.choose_scene("cusps")
+    page.pages._notices.clear()
     wait(page)
-    assert page.actions.message == ""
+    assert page.pages._notices == []
 
 
 def test_the_specific_force_is_drawn_if_the_top_carries_a_sensor(page):
@@ -110,6 +100,3 @@ def test_the_specific_force_is_drawn_if_the_top_carries_a_sensor(page):
     wait(page)
     assert arrow.visible
     assert arrow.wxyz == pytest.approx([1.0, 0.0, 0.0, 0.0], abs=1e-15)  # upwards, against gravity
-    page._scene.shown["specific force"] = False
-    wait(page)
-    assert not arrow.visible

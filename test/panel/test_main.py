@@ -1,10 +1,12 @@
 """The program: one message for what cannot be done, and a silent end."""
 
+import ipaddress
 import os
 import signal
 import socket
 import subprocess
 import sys
+from urllib.parse import urlsplit
 
 import pytest
 from panel.pages import open_pages, running_panel
@@ -48,7 +50,9 @@ def test_another_host_is_warned_of():
     with running_panel("--host", "0.0.0.0") as (process, url):
         process.terminate()
         _, errors = process.communicate(timeout=TIMEOUT)
-    assert url.startswith(f"http://{socket.gethostname()}:")
+    host = urlsplit(url).hostname
+    ipaddress.ip_address(host)  # other machines may not know the name of this one
+    assert host != "0.0.0.0"
     assert errors == (
         "top_panel: warning: anyone who can reach 0.0.0.0 may kick this top and change its "
         "parameters; nothing is encrypted\n"
@@ -105,3 +109,23 @@ def test_a_screen_is_found(platform, display, expected, monkeypatch):
     monkeypatch.setenv("DISPLAY", display)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     assert module._has_screen() is expected
+
+
+def test_the_run_is_saved_when_it_ends(tmp_path):
+    path = tmp_path / "run.html"
+    with running_panel("--save", str(path)) as (process, url):
+        with open_pages(url, least=30):
+            process.terminate()
+            output, errors = process.communicate(timeout=TIMEOUT)
+        assert (process.returncode, errors) == (0, "")
+    assert output == f"wrote {path}; open it in a browser\n"
+    assert "window.SAVED_RUN" in path.read_text()
+
+
+@pytest.mark.parametrize("name", ["run.txt", "missing/run.html"])
+def test_a_file_that_cannot_be_written_is_refused_at_the_start(name, tmp_path, capsys):
+    path = tmp_path / name
+    assert module.main(["--port", "0", "--no-browser", "--save", str(path)]) == 1
+    assert capsys.readouterr().err == (
+        f"top_panel: --save must be a name that ends in .html in a folder, got {path}\n"
+    )

@@ -13,17 +13,25 @@ from listening import tcp_addresses
 from panel.pages import open_pages
 from websockets.sync.client import connect
 
-from symtop_ros.panel.server import LOCAL_HOST, MARK, PageServer
+from symtop_ros.panel.server import LOCAL_HOST, File, PageServer
 
 PROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
 
 
 @pytest.fixture(scope="module", name="started")
 def _started():
-    """A server, and the links that it was given."""
-    links = []
-    server = PageServer(LOCAL_HOST, 0, links.append)
-    yield server, links
+    """A server, and the pages that have asked for its file."""
+    asked = []
+
+    async def serve(connection, _):
+        await connection.wait_closed()
+
+    def write(page):
+        asked.append(page)
+        return File(b"1,2", "text/csv") if page else None
+
+    server = PageServer(LOCAL_HOST, 0, serve, {"/series.csv": write})
+    yield server, asked
     server.stop()
 
 
@@ -41,11 +49,11 @@ def ask(server, path="/", **headers):
         return answer.status, dict(answer.getheaders()), answer.read()
 
 
-def refuses(server, origin, **headers):
+def refuses(server, origin, path="/scene/a", **headers):
     """Return the status with which a WebSocket is refused; None if it is accepted."""
     try:
         with connect(
-            f"ws://{address(server)}",
+            f"ws://{address(server)}{path}",
             origin=origin,
             subprotocols=[PROTOCOL],
             compression=None,
@@ -66,6 +74,7 @@ def test_it_listens_on_this_machine_only(started):
 def test_its_own_page_is_accepted(started):
     server, _ = started
     assert refuses(server, server.url) is None
+    assert refuses(server, server.url, "/controls/a") is None
 
 
 @pytest.mark.parametrize(
@@ -85,6 +94,7 @@ def test_another_origin_is_refused(started, origin):
     server, _ = started
     text = origin and origin.format(address=address(server), port=server.get_port())
     assert refuses(server, text) == 403
+    assert refuses(server, text, "/controls/a") == 403
 
 
 def test_a_second_origin_does_not_help(started):
@@ -117,8 +127,24 @@ def test_the_page_may_connect_to_nobody_else_and_stand_in_no_frame(started):
     policy = headers["Content-Security-Policy"]
     assert f"connect-src 'self' ws://{address(server)} data: blob:;" in policy
     assert "frame-ancestors 'none'" in policy
+    assert "unsafe-eval'" not in policy
     assert b"<title>Heavy symmetric top</title>" in content
-    assert MARK.encode() in content
+    scene = ask(server, "/scene")[1]["Content-Security-Policy"]
+    assert f"connect-src 'self' ws://{address(server)} data: blob:;" in scene
+    assert "frame-ancestors 'self'" in scene
+    assert "'unsafe-eval'" not in scene
+
+
+@pytest.mark.parametrize(
+    ("site", "trusted"), [("none", "yes"), ("same-origin", "yes"), ("cross-site", "no"), ("", "no")]
+)
+def test_only_a_page_to_which_no_other_site_has_led_starts_what_its_address_asks_for(
+    started, site, trusted
+):
+    server, _ = started
+    headers = {"Sec-Fetch-Site": site} if site else {}
+    content = ask(server, "/?theta=1", **headers)[2]
+    assert f'data-trusted="{trusted}"'.encode() in content
 
 
 def test_compressed_and_plain_pages_are_the_same(started):
@@ -128,13 +154,15 @@ def test_compressed_and_plain_pages_are_the_same(started):
     assert gzip.decompress(content) == ask(server, Accept_Encoding="identity")[2]
 
 
-def test_a_link_must_come_from_the_page(started):
-    server, links = started
-    assert ask(server, "/start?theta=0.5")[0] == 403
-    assert ask(server, "/start?theta=" + "0" * 3000, X_Top_Panel="start")[0] == 403
-    assert links == []
-    assert ask(server, "/start?theta=0.5&psi_dot=200", X_Top_Panel="start")[0] == 200
-    assert links == [{"theta": "0.5", "psi_dot": "200"}]
+def test_a_file_is_for_this_page(started):
+    server, asked = started
+    status, headers, content = ask(server, "/series.csv?page=a")
+    assert (status, content, asked) == (200, b"1,2", ["a"])
+    assert headers["Content-Disposition"] == "attachment"
+    assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
+    assert ask(server, "/series.csv")[0] == 404  # as long as there is none
+    assert ask(server, "/series.csv?page=a", **{"Sec-Fetch-Site": "cross-site"})[0] == 403
+    assert asked == ["a", ""]
 
 
 @pytest.mark.parametrize("path", ["/assets/x.js", "/../secret", "/%2e%2e/secret", "/favicon.ico"])
@@ -145,7 +173,7 @@ def test_there_is_nothing_else(started, path):
 
 def test_a_port_that_is_taken_is_an_error_and_not_another_port():
     with socket.create_server((LOCAL_HOST, 0)) as taken, pytest.raises(OSError, match="in use"):
-        PageServer(LOCAL_HOST, taken.getsockname()[1], lambda _: None)
+        PageServer(LOCAL_HOST, taken.getsockname()[1], None, {})
 
 
 def test_a_page_cannot_ask_for_a_public_address(started):
@@ -156,6 +184,6 @@ def test_a_page_cannot_ask_for_a_public_address(started):
 
 def test_an_open_page_is_counted_while_it_is_open(started):
     server, _ = started
-    server.gui.add_markdown("text")
+    server.scene.add_frame("/frame")
     with open_pages(server.url, 2, least=1):
         assert len(server.get_clients()) == 2

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpc, mpf
 from physics.exact_motion import Inputs, exact_motion
-from physics.refusals import FINITE_ARRAY, ONE_STATE, refused
+from physics.refusals import FINITE_ARRAY, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case
 
 from symtop_ros.physics import Friction, Motion, State, Top
@@ -70,11 +70,6 @@ def test_a_time_that_is_not_a_number_is_refused(t):
 def test_an_argument_of_another_type_is_refused(arguments, name, condition):
     with refused(name, condition):
         Motion(*arguments)
-
-
-def test_many_states_are_no_start():
-    with refused("start", ONE_STATE, "states of shape (2,)"):
-        Motion(ARTICLE, Motion(ARTICLE, CUSPS).at([0.0, 1.0]))
 
 
 @pytest.mark.parametrize("Mgl", [0.0, 5e-324, 1e-300, -1e-15, 1e100])

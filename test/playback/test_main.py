@@ -1,6 +1,7 @@
 """top_replay as a user types it; in an environment that has no rclpy."""
 
 import importlib.metadata
+import json
 import random
 import re
 import shutil
@@ -126,7 +127,7 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
         (["none.mcap", "--check"], "cannot open none.mcap: No such file or directory"),
         (
             ["{log}", "--save", "out.mp4"],
-            "--save must be a name that ends in .rrd, got out.mp4",
+            "--save must be a name that ends in .rrd or .html, got out.mp4",
         ),
         (
             ["{log}", "--save", "none/out.rrd"],
@@ -183,3 +184,23 @@ def test_a_log_with_any_flipped_bit_is_status_1_or_agrees_in_every_bit(tmp_path,
             assert said.err == ""
             assert set(re.findall(r"largest difference (\S+)", said.out)) == {"0"}
     assert wrong > 5  # more than half of so short a log are indexes and descriptions
+
+
+def test_a_log_is_saved_as_a_page(log, tmp_path, capsys):
+    pytest.importorskip("viser")
+    path = tmp_path / "run.html"
+    assert module.main([str(log), "--save", str(path)]) == 0
+    assert capsys.readouterr().out == f"wrote {path}; open it in a browser\n"
+    data = json.loads(re.search(r"window.SAVED_RUN = (.*);\n", path.read_text())[1])
+    times = [row[0] for row in data["rows"]]
+    assert len(times) > 5
+    assert times == sorted(times)
+    assert all(facts["headline"] for _, facts, _, _ in data["facts"])
+
+
+def test_a_page_that_cannot_be_written_is_one_line(log, tmp_path, capsys):
+    path = tmp_path / "missing" / "run.html"
+    assert module.main([str(log), "--save", str(path)]) == 1
+    assert capsys.readouterr().err == (
+        f"top_replay: cannot write {path}: No such file or directory\n"
+    )

@@ -12,7 +12,7 @@ import numpy as np
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.driven.equations import DrivenEquations, Extended
 from symtop_ros.physics.driven.series import Knot, Piece, Stepper
-from symtop_ros.physics.kernel import KERNEL
+from symtop_ros.physics.kernel import find_kernel
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
@@ -33,13 +33,14 @@ class DrivenMotion:
         self._start = start
         self._decay = max(friction.transverse / top.Ix, friction.axial / top.Iz)  # 1/s
         self._lock = Lock()
-        if KERNEL:
+        kernel = find_kernel()
+        if kernel:
             arguments = (
                 *(top.moments, (friction.axial, friction.transverse), torque),
                 *(start.given_orientation.tolist(), start.angular_velocity.tolist()),
             )
-            self._forward: AnyTrail = CompiledTrail(*map(tuple, arguments), 1)
-            self._backward: AnyTrail = CompiledTrail(*map(tuple, arguments), -1)
+            self._forward: AnyTrail = CompiledTrail(kernel, *map(tuple, arguments), 1)
+            self._backward: AnyTrail = CompiledTrail(kernel, *map(tuple, arguments), -1)
         else:
             equations = DrivenEquations(top, friction, torque)
             stepper, knot = Stepper(equations), Knot(0.0, equations.start(start))
@@ -90,8 +91,8 @@ def refuse_too_fast(t: float, end: float) -> ValueError:
 class CompiledTrail:
     """A `Trail` of the kernel: in sums of two doubles, so that it has the same bits everywhere."""
 
-    def __init__(self, *arguments: Any) -> None:
-        self._trail = KERNEL.Trail(*arguments)
+    def __init__(self, kernel: Any, *arguments: Any) -> None:
+        self._trail = kernel.Trail(*arguments)
 
     def compute_states(self, times: Real, rests: Real) -> tuple[Real, Real]:
         """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""

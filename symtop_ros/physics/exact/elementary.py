@@ -125,10 +125,12 @@ def exponential_minus_1(x: Number) -> Number:
 
 
 def integrate_rf_in_doubles(x: float, y: float) -> float:
-    """Return Carlson's symmetric integral R_F(x, y, 1).
+    """Return Carlson's symmetric integral R_F(x, y, 1); it is infinite for x = y = 0.
 
     See `integrate_rf`. The series is that of DLMF 19.36.1 up to the seventh power.
     """
+    if x == y == 0:  # both have underflowed
+        return math.inf
     z = 1.0
     while True:
         mean = (x + y + z) / 3

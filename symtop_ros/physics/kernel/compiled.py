@@ -1,12 +1,12 @@
 """States under gravity from the kernel."""
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from symtop_ros.arrays import Quaternion, Real, Vector
 from symtop_ros.physics.exact.phases import Phases
-from symtop_ros.physics.kernel import KERNEL
 from symtop_ros.physics.times import ExactTimes
 
 AT_START = 2  # other times: 1 in the first instants, else 0
@@ -22,9 +22,12 @@ class CompiledMotion:
     """
 
     def __init__(
-        self, moments: Vector, orientation: Quaternion, omega: Vector, is_turned_over: bool
+        self,
+        kernel: Any,
+        arguments: tuple[Vector, Quaternion, Vector],
+        is_turned_over: bool,
     ) -> None:
-        self._motion = KERNEL.ClosedForm(moments, orientation, omega, is_turned_over)
+        self._motion = kernel.ClosedForm(*arguments, is_turned_over)
 
     def at(self, t: float) -> Attitude | None:
         """Return w, x, y, z, omega_x and omega_y at a time in s, or None if it is too far."""

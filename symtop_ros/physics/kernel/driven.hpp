@@ -125,7 +125,7 @@ struct DrivenEquations {
     const Double2 Ix = {top.Ix, 0.0}, Iz = {top.Iz, 0.0}, Mgl = {top.Mgl, 0.0};
     const Double2 exact_ratio = Iz / Ix;
     ratio = exact_ratio.high;
-    const double share = std::nearbyint(ratio * 0x1p26) / 0x1p26;
+    const double share = round_to_integer(ratio * 0x1p26) / 0x1p26;
     half_rest = (1 - share) / 2;
     static const int TURNING[12][4] = {
         {W, X, OMEGA_X, -1}, {W, Y, OMEGA_Y, -1}, {W, Z, OMEGA_Z, -1}, {X, W, OMEGA_X, 1},
@@ -183,15 +183,18 @@ struct DrivenEquations {
 
 // ---- series.py ----------------------------------------------------------------------------------
 
-const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 6;
-const double LAST = 5e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 3.5;
+const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 12;  // twice as many as in Python: they cost little
+const double LAST = 1e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 3.5;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
 const int LENGTH_BITS = 10;
 
 // 1/n
 const Double2 INVERSES[EXTENDED_TERMS + 1] = {
-    {0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}, {1.0 / 3, 0x1.5555555555555p-56}, {0.25, 0.0},
-    {1.0 / 5, -0x1.999999999999ap-57}, {1.0 / 6, 0x1.5555555555555p-57}};
+    {0.0, 0.0}, {1.0, 0.0}, {1.0 / 2, 0.0}, {1.0 / 3, 0x1.5555555555555p-56}, {1.0 / 4, 0.0},
+    {1.0 / 5, -0x1.999999999999ap-57}, {1.0 / 6, 0x1.5555555555555p-57},
+    {1.0 / 7, 0x1.2492492492492p-57}, {1.0 / 8, 0.0}, {1.0 / 9, 0x1.c71c71c71c71cp-58},
+    {1.0 / 10, -0x1.999999999999ap-58}, {1.0 / 11, -0x1.745d1745d1746p-59},
+    {1.0 / 12, 0x1.5555555555555p-58}};
 
 typedef double Four __attribute__((vector_size(32), may_alias));
 
@@ -203,8 +206,8 @@ struct Knot {
 struct Piece {
   Knot start;
   double end, unit;
-  Double2 low[EXTENDED_TERMS + 1][VARIABLES];  // coefficients of powers 1 to 6
-  double high[DRIVEN_TERMS + 1][VARIABLES];    // and of powers 7 to 30
+  Double2 low[EXTENDED_TERMS + 1][VARIABLES];  // coefficients of the first powers
+  double high[DRIVEN_TERMS + 1][VARIABLES];    // and of the others
 
   // Variables at start.t + u unit: the smallest terms first.
   void evaluate(Double2 u, Double2 values[VARIABLES]) const {
@@ -330,14 +333,18 @@ class Stepper {
     double sum[MOST_PAIRS] = {}, rest[MOST_PAIRS] = {};
     for (int m = 0; m <= order; m++)
       add_extended(left_[m], left_rest_[m], right_[order - m], right_rest_[order - m], sum, rest);
-    // The number 1 is constant, so that a product with it is the other factor: its sum has one term.
+    Double2 products[MOST_PAIRS];
+    for (int p = 0; p < MOST_PAIRS; p++) products[p] = sum_of(sum[p], rest[p]);
     for (int row = 0; row < FACTORS; row++) {
-      Double2 total = {0.0, 0.0};
+      double total = 0.0, lost = 0.0;
       for (int n = equations.first_terms[row]; n < equations.first_terms[row + 1]; n++) {
-        const int pair = equations.pairs[n];
-        total = total + constants_[n] * fast_sum_of(sum[pair], rest[pair]);
+        const Double2 c = constants_[n], x = products[equations.pairs[n]];
+        const double term = c.high * x.high, below = __builtin_fma(c.high, x.high, -term);
+        const Double2 next = sum_of(total, term);
+        total = next.high;
+        lost += next.low + (below + (c.high * x.low + c.low * x.high));
       }
-      low_[order + 1][row] = total * INVERSES[order + 1];
+      low_[order + 1][row] = sum_of(total, lost) * INVERSES[order + 1];
     }
     put_low(order + 1);
   }
@@ -491,7 +498,7 @@ class Trail {
   // Cosine and sine of an angle, to some digits more than doubles have.
   static void find_unit(Double2 angle, Double2& c, Double2& s) {
     const Double2 QUARTER = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-    const double quarters = std::nearbyint(angle.high * QUARTERS);
+    const double quarters = round_to_integer(angle.high * QUARTERS);
     const Double2 near = angle - QUARTER * quarters;
     const double x = near.high, square = x * x;
     static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,

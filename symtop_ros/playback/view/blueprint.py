@@ -46,39 +46,22 @@ class Framing:
 
 
 def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
-    """Return the layout for a motion; a live view follows the newest data."""
+    """Return the layout for a motion; a live view follows the newest data.
+
+    The first tab is for the first look: the top, what follows, and why. The second has the rest.
+    """
     window = around_cursor(-framing.window, 0.0 if live else framing.window)
-    plots = [
-        rrb.TimeSeriesView(
-            origin=entity,
-            name=name,
-            plot_legend=rrb.Corner2D.RightTop,
-            background=PLOT_BACKGROUND,
-            time_ranges=window,
-        )
-        for entity, name in entities.PLOTS.items()
-    ]
-    half = (len(plots) + 1) // 2
-    charts = rrb.Tabs(
-        _chart(entities.POTENTIAL, "effective potential (J)"),
-        _chart(entities.CUBIC, "f(u), u = cos(theta)"),
-    )
-    motion = rrb.TextDocumentView(origin=entities.PANEL, name="this motion")
-    left = rrb.Vertical(
-        create_space_view(framing),
-        rrb.Horizontal(motion, charts, column_shares=[5, 4]),
-        row_shares=[3, 2],
-    )
-    right = rrb.Vertical(*plots[:half]), rrb.Vertical(*plots[half:])
-    events = rrb.TextLogView(
-        origin=entities.EVENTS,
-        name="events",
-        columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+    plots = {entity: _plot(entity, name, window) for entity, name in entities.PLOTS.items()}
+    first = [plots.pop(entity) for entity in (entities.THETA, entities.PHI_DOT)]
+    sentence = rrb.TextDocumentView(origin=entities.SENTENCE, name="what follows")
+    top = rrb.Horizontal(
+        rrb.Vertical(create_space_view(framing), sentence, row_shares=[3, 1]),
+        rrb.Vertical(*first, _chart(entities.POTENTIAL, "effective potential (J)")),
+        column_shares=[3, 2],
+        name="the top",
     )
     return rrb.Blueprint(
-        rrb.Vertical(
-            rrb.Horizontal(left, *right, column_shares=[6, 3, 3]), events, row_shares=[6, 1]
-        ),
+        rrb.Tabs(top, _lay_out_rest(list(plots.values())), active_tab=0),
         rrb.TimePanel(
             timeline=entities.TIMELINE,
             state="collapsed",
@@ -86,6 +69,34 @@ def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
         ),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
+    )
+
+
+def _lay_out_rest(plots: list[rrb.TimeSeriesView]) -> rrb.Vertical:
+    """Return the tab of all that the first one leaves out."""
+    half = (len(plots) + 1) // 2
+    motion = rrb.TextDocumentView(origin=entities.PANEL, name="this motion")
+    left = rrb.Vertical(motion, _chart(entities.CUBIC, "f(u), u = cos(theta)"))
+    events = rrb.TextLogView(
+        origin=entities.EVENTS,
+        name="events",
+        columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+    )
+    return rrb.Vertical(
+        rrb.Horizontal(left, rrb.Vertical(*plots[:half]), rrb.Vertical(*plots[half:])),
+        events,
+        row_shares=[5, 1],
+        name="momenta, energy, events",
+    )
+
+
+def _plot(entity: str, name: str, window: rrb.VisibleTimeRanges) -> rrb.TimeSeriesView:
+    return rrb.TimeSeriesView(
+        origin=entity,
+        name=name,
+        plot_legend=rrb.Corner2D.RightTop,
+        background=PLOT_BACKGROUND,
+        time_ranges=window,
     )
 
 

@@ -30,6 +30,7 @@ HERPOLHODE = "/space/herpolhode"
 GHOST = "/space/ghost"
 GHOST_TRACE = "/space/ghost_trace"
 PANEL = "/motion"
+SENTENCE = "/sentence"  # the verdict of the last event
 POTENTIAL = "/potential"
 CUBIC = "/cubic"
 EVENTS = "/events"

@@ -31,6 +31,8 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
 
+SPOKEN = ("start", "reset", "kick")  # events whose verdict is shown
+
 
 class Arrow(NamedTuple):
     """An arrow of the scene."""
@@ -130,6 +132,8 @@ class View:
         equations = inertial.EQUATIONS if self._options.torques else {}
         text = describe_motion(self._segment, event.state(), scales, equations)
         self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
+        if event.name in SPOKEN:
+            self._stream.log(entities.SENTENCE, rr.TextDocument(event.verdict))
 
     def _send_cones(self, motion: Motion, state: State) -> None:
         """Draw the cones of a free motion; remove them when it ceases to be free."""

@@ -1,12 +1,16 @@
 """The integrators that are measured: the package's own engines here, peers in a file each."""
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from functools import partial
 from importlib import import_module
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion
+from symtop_ros.physics import Motion, accelerated, python_alone
 from symtop_ros.report.peers.peer import Arrays, Peer, Solution, Task, spread_times
 
 CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"
+ALONE = ", Python alone"  # follows these names where there is a kernel to do without
 OPTIONAL = {  # package, and the file here that needs it
     "heyoka": "heyoka_peer",
     "CyRK": "cyrk_peer",
@@ -18,12 +22,16 @@ OPTIONAL = {  # package, and the file here that needs it
 }
 
 
-def prepare(task: Task, _: float) -> Solution:
+Path = Callable[[], AbstractContextManager[None]]
+
+
+def prepare(task: Task, _: float, path: Path = nullcontext) -> Solution:
     """Return a solution that sets the motion up at each call: that is part of its cost."""
-    arrays = prepare_arrays(task)
+    arrays = prepare_arrays(task, path)
 
     def reach(t: float) -> Real:
-        return Motion(task.top, task.start, task.friction, task.torque).at(t).orientation
+        with path():
+            return Motion(task.top, task.start, task.friction, task.torque).at(t).orientation
 
     def record(t: float) -> tuple[Real, Real]:
         times = spread_times(t)
@@ -32,16 +40,25 @@ def prepare(task: Task, _: float) -> Solution:
     return Solution(reach, record)
 
 
-def prepare_arrays(task: Task) -> Arrays:
+def prepare_arrays(task: Task, path: Path = nullcontext) -> Arrays:
     """Return a function for the orientations at many times."""
-    given = task.top, task.start, task.friction, task.torque
-    return lambda times: Motion(*given).at(times).orientation
+
+    def compute(times: Real) -> Real:
+        with path():
+            return Motion(task.top, task.start, task.friction, task.torque).at(times).orientation
+
+    return compute
 
 
-OWN = [
-    Peer(CLOSED_FORM, (0.0,), prepare, prepare_arrays=prepare_arrays, quick="every motion"),
-    Peer(TAYLOR, (0.0,), prepare, friction="only", quick="every motion"),
-]
+def _list_own(ending: str, path: Path) -> list[Peer]:
+    solve, arrays = partial(prepare, path=path), partial(prepare_arrays, path=path)
+    return [
+        Peer(CLOSED_FORM + ending, (0.0,), solve, prepare_arrays=arrays, quick="every motion"),
+        Peer(TAYLOR + ending, (0.0,), solve, friction="only", quick="every motion"),
+    ]
+
+
+OWN = _list_own("", nullcontext) + (_list_own(ALONE, python_alone) if accelerated else [])
 
 
 def find_peers() -> tuple[list[Peer], list[str]]:

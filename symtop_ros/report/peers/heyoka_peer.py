@@ -95,6 +95,44 @@ def _run_over(taylor: Any, equations: Equations, times: Real) -> Real:
     return equations.read(taylor.propagate_grid(grid)[-1][1:])
 
 
+def prepare_batches(tolerance: float) -> Callable[[Any, float], Real]:
+    """Return a function for many motions: one compilation, and several motions at a time.
+
+    The form is that with two constants of motion. What differs between the motions are parameters:
+    Mgl/Ix, p_phi/Ix, p_psi/Ix and omega_z.
+    """
+    weight, momentum, a, wz = (hy.par[k] for k in range(4))
+    _, theta, _, theta_dot = variables = hy.make_vars("phi", "theta", "psi", "theta_dot")
+    c, s = hy.cos(theta), hy.sin(theta)
+    phi_dot = (momentum - a * c) / (s * s)
+    theta_ddot = s * (phi_dot * (phi_dot * c - a) + weight)
+    rates = [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
+    size = hy.recommended_simd_size()
+    system = list(zip(variables, rates, strict=True))
+    taylor = hy.taylor_adaptive_batch(
+        system, np.zeros((4, size)), pars=np.zeros((4, size)), tol=tolerance
+    )
+
+    def compute(motions: Any, t: float) -> Real:
+        top, start = motions.top, motions.start
+        angles, wz = start.euler_angles, start.angular_velocity[:, 2]
+        pars = [
+            *(top.Mgl / top.Ix, top.angular_momentum(start)[:, 2] / top.Ix),
+            *(top.Iz * wz / top.Ix, wz),
+        ]
+        variables = np.array([*angles, start.euler_rates.theta])
+        found = np.empty((3, len(wz)))
+        for first in range(0, len(wz), size):
+            places = np.arange(first, first + size) % len(wz)
+            taylor.set_time(0.0)
+            taylor.state[:], taylor.pars[:] = variables[:, places], np.array(pars)[:, places]
+            taylor.propagate_until(t)
+            found[:, places] = taylor.state[:3]
+        return from_euler_angles(found.T)
+
+    return compute
+
+
 PEERS = [
     Peer(
         f"heyoka, {name}",

@@ -17,7 +17,7 @@ FRICTION = Friction(2e-6, 1e-5)
 
 def trail(direction=1):
     equations = DrivenEquations(ARTICLE, FRICTION, (0.0, 0.0, 0.0))
-    return Trail(Stepper(equations), Knot(0.0, equations.start(CUSPS)), direction)
+    return Trail(equations, Stepper(equations), Knot(0.0, equations.start(CUSPS)), direction)
 
 
 def values_at(way, t):

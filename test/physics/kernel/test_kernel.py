@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from physics.tops import random_case, seeds
 
-from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated, motion
+from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated, python_alone
 from symtop_ros.physics.exact import elementary
 from symtop_ros.physics.exact.phases import PER_TURN
 from symtop_ros.physics.exact.precise import PRECISE, TWO_PI
@@ -27,11 +27,10 @@ FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
 compiled = pytest.mark.skipif(not accelerated, reason="the kernel is not built")
 
 
-def compute_both(monkeypatch, top, start, times):
+def compute_both(top, start, times):
     """Return orientation and angular velocity from the kernel, and from Python."""
     fast = Motion(top, start).at(times)
-    with monkeypatch.context() as patch:
-        patch.setattr(motion, "accelerated", False)
+    with python_alone():
         return fast, Motion(top, start).at(times)
 
 
@@ -47,38 +46,38 @@ def assert_same_bits(one, other):
 
 @compiled
 @pytest.mark.parametrize("data", STORED, ids=[data["family"] for data in STORED])
-def test_stored_motions_have_the_same_bits(monkeypatch, data):
+def test_stored_motions_have_the_same_bits(data):
     times = np.concatenate([list_times(data["t"][0]), data["t"]])
     top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
-    assert_same_bits(*compute_both(monkeypatch, top, start, times))
-    assert_same_bits(*compute_both(monkeypatch, top, start, float(times[-1])))
+    assert_same_bits(*compute_both(top, start, times))
+    assert_same_bits(*compute_both(top, start, float(times[-1])))
 
 
 @compiled
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("seed", seeds(1, 10))
-def test_random_motions_have_the_same_bits(monkeypatch, family, seed):
+def test_random_motions_have_the_same_bits(family, seed):
     for n in range(334):
         case = random_case(1000 * seed + n, f"{family}")
         times = list_times(case.t)
-        assert_same_bits(*compute_both(monkeypatch, case.top, case.start, times))
+        assert_same_bits(*compute_both(case.top, case.start, times))
 
 
 @compiled
 @pytest.mark.parametrize("data", STORED[::8], ids=[data["family"] for data in STORED[::8]])
-def test_exact_times_have_the_same_bits(monkeypatch, data):
+def test_exact_times_have_the_same_bits(data):
     top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
     ticks = np.array([0, 1, 1000, -(10**9), 10**12 + 7, 10**17 + 1])
     for stamps, elapsed in ((ticks, Fraction(1, 4)), (10**9 + 1, Fraction(1)), (0, Fraction(0))):
         times = ExactTimes(stamps, factor=1 / 3, elapsed=elapsed)
-        assert_same_bits(*compute_both(monkeypatch, top, start, times))
+        assert_same_bits(*compute_both(top, start, times))
 
 
 @compiled
-def test_times_beyond_the_counts_of_the_kernel_come_from_python(monkeypatch):
+def test_times_beyond_the_counts_of_the_kernel_come_from_python():
     top, start = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
     for times in (1e17, np.array([1.0, 1e17, -1e20])):
-        assert_same_bits(*compute_both(monkeypatch, top, start, times))
+        assert_same_bits(*compute_both(top, start, times))
 
 
 def run_python(code, **environment):

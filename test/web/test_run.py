@@ -6,8 +6,8 @@ import io
 import numpy as np
 import pytest
 
-from symtop_ros.panel.run import ROWS, SERIES, TRACE, Run
 from symtop_ros.panel.source import LocalTop
+from symtop_ros.web.run import ROWS, SERIES, TRACE, Run
 
 FRAME = 0.02  # s; `batch` advances the clock by at most 0.05 s
 
@@ -43,7 +43,7 @@ def test_a_kick_has_a_ghost_and_a_verdict(watched):
     assert run.ghost.segment is None
     top.request("kick", {"precession_rate_factor": 1.4})
     move(3)
-    assert run.verdict.startswith("Precession 6.50 -> 9.10 rad/s")
+    assert run.announced.event.verdict.startswith("Precession 6.50 -> 9.10 rad/s")
     assert run.ghost.segment is not None
     assert run.ghost.segment.motion.kind == "regular"
     assert run.motion.kind == "unidirectional"
@@ -118,7 +118,9 @@ def test_the_file_of_the_series_reads_back_to_the_same_numbers(watched):
     move(10)
     names, *rows = csv.reader(io.StringIO(run.csv()))
     assert names[:3] == ["time (s)", "theta (rad)", "phi_dot (rad/s)"]
-    assert np.array_equal(np.array(rows, dtype=float), run.series())
+    numbers = np.array([[value or "nan" for value in row] for row in rows], dtype=float)
+    assert np.array_equal(numbers, run.series(), equal_nan=True)
+    assert np.isnan(numbers[:, -1]).all()  # no kick, no ghost
 
 
 def test_a_recording_is_noticed(watched, tmp_path, monkeypatch):
@@ -130,3 +132,64 @@ def test_a_recording_is_noticed(watched, tmp_path, monkeypatch):
     top.request("record", False)
     move(2)
     assert not run.is_recording
+
+
+def test_what_leaves_the_motion_leaves_the_time_of_the_run(watched, tmp_path, monkeypatch):
+    """A recording, another hurry factor, another speed, a pause: the motion just goes on."""
+    monkeypatch.chdir(tmp_path)
+    top, run, move = watched
+    move(5)
+    window, offset = run.window, run.time - run.segment.time_at(run.stamp)
+    for act in (
+        lambda: top.request("record", True),
+        lambda: top.set_parameters({"hurry_factor": 1.7}),
+        lambda: top.request("record", False),
+        lambda: top.set_parameters({"real_time_factor": 0.2}),
+        lambda: top.request("pause", True),
+        lambda: top.request("step", {"duration": 0.01}),
+        lambda: top.request("pause", False),
+    ):
+        assert act()[0]
+        move(5)
+        assert run.time - run.segment.time_at(run.stamp) == pytest.approx(offset, abs=1e-15)
+        assert run.window == window
+    times = run.series()[:, 0]
+    assert np.diff(times).min() > 1e-9  # no sample twice
+
+
+def test_the_time_goes_on_over_a_kick(watched):
+    top, run, move = watched
+    move(5)
+    before = run.time
+    top.request("kick", {"precession_rate_factor": 1.4})
+    move(1)
+    assert run.moments[-1].time == pytest.approx(before, abs=0.0006)  # a sample period
+    assert 0 < run.time - before < 0.003  # a frame of 0.02 s at a tenth, and a sample period
+    assert np.isfinite(run.series()[-1, -1])  # the ghost's tilt
+
+
+def test_speed_and_torque_are_not_announced(watched):
+    top, run, move = watched
+    top.request("kick", {"precession_rate_factor": 1.4})
+    move(1)
+    kick = run.announced
+    top.set_parameters({"real_time_factor": 0.3})
+    top.hold_torque((0.0, 0.0, 1e-4))
+    move(2)
+    assert run.event.name == "torque"
+    assert run.announced is kick
+    top.set_parameters({"top.Mgl": 0.05})
+    move(1)
+    assert run.announced.event.name == "parameters"
+
+
+def test_rows_are_given_once(watched):
+    _, run, move = watched
+    move(3)
+    count, rows = run.series_since(0)
+    assert count == len(rows) == len(run.series())
+    move(2)
+    later, more = run.series_since(count)
+    assert len(more) == later - count > 0
+    run._make_room(2 * ROWS - len(run.series()) + 1)  # rows are dropped
+    assert run.series_since(later)[0] == later

@@ -1,54 +1,75 @@
-"""The run that the page shows: its history, motion, ghost, trace and series."""
+"""The run that a page shows: its history, motion, ghost, trace and series."""
 
 import math
 from collections import deque
-from collections.abc import Mapping
+from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.ghost import Ghost
 from symtop_ros.log.batch import Batch, Columns
-from symtop_ros.panel.source import DRAWN
 from symtop_ros.physics import EffectivePotential, Motion, State
 from symtop_ros.session.summary import constants_of_motion
 from symtop_ros.simulation.budget import StepBudget
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 
-SERIES = ("theta", "phi_dot", "psi_dot", "energy", "L_z", "L_z'")
-UNITS = ("rad", "rad/s", "rad/s", "J", "N m s", "N m s")
+# The topic of the samples: with the motion of the last event it gives all others.
+DRAWN = "orientation"
+SERIES = ("theta", "phi_dot", "psi_dot", "energy", "L_z", "L_z'", "ghost theta")
+UNITS = ("rad", "rad/s", "rad/s", "J", "N m s", "N m s", "rad")
 ROWS = 20_000  # samples in the series at least: 100 s of the clock at 200 Hz
 TRACE = 240  # lines of the trace
 TRACE_NUTATIONS = 12  # longest trace and longest plot, in nutations
 MOST_STEPS = 3000  # of an integration, for one batch
 HISTORY = 100  # events, as many as the node keeps
+KEPT = 4000  # events that are kept for a saved page
+# Two samples that are nearer are one: the times of a run are sums of rounded parts.
+SAME_TIME = 1e-9  # s
 # Events that are no act of a user, or that change nothing of the motion.
 UNLISTED = ("pause", "resume", "step", "record", "pace", "clock", "failure")
 REPEATED = ("start", "reset", "parameters", "torque")  # of several in a row the last is listed
+ANNOUNCED = ("start", "reset", "kick")  # events of which a page says what follows
+
+
+class Moment(NamedTuple):
+    """An event in the time of the run, and the motions without it and with it."""
+
+    time: float  # s of the run
+    event: Event
+    before: Segment | None
+    after: Segment
 
 
 class Run:
-    """State of the page, from the events and samples of a run."""
+    """State of a page, from the events and samples of a run."""
 
     def __init__(self) -> None:
         # the motion of the last event, None before the first one
         self.segment: Segment | None = None
         self.event: Event | None = None  # the last event
-        self.verdict = ""  # effect of the last start, kick or change, in a sentence
         self.ghost = Ghost()  # the run without its last kick
         # starts, kicks and changes, the newest last
         self.history: deque[Event] = deque(maxlen=HISTORY)
+        self.moments: deque[Moment] = deque(maxlen=KEPT)  # all events, the newest last
+        # the last start, kick or change of the top
+        self.announced: Moment | None = None
         self.state: State | None = None  # the state of the last sample
         self.stamp = 0  # its stamp in ns
+        self.time = 0.0  # its time of the run in s
         self.is_recording = False  # True while a log is written
         self.window = 1.0  # time (s of the motion) that the plots show
-        # points of the trace in scene units, the newest last
+        # Points of the trace in scene units, the newest last, and how many there were.
         self.axes: Real = np.zeros((TRACE + 1, 3))
+        self.traced = 0
         self._rows: Real = np.empty((2 * ROWS, 1 + len(SERIES)))
         self._count = 0  # of the rows in use
-        self._begin = 0.0  # s of the run at the last event
-        self._traced: float | None = None  # s of the run at the newest point of the trace
+        self._dropped = 0  # of the oldest rows
+        self._offset = Fraction(0)  # ns: time of the run minus time of the motion
+        self._last = -math.inf  # time of the run at the newest point of the trace
 
     def follow(self, batch: Batch) -> list[Event]:
         """Take over events and samples in their order; return the events."""
@@ -56,7 +77,7 @@ class Run:
             if event:
                 self._take_event(event)
             if columns and self.segment:
-                self._take_samples(columns, self.segment)
+                self._take_samples(columns[DRAWN], self.segment)
         return [event for _, event in batch.events]
 
     @property
@@ -81,32 +102,45 @@ class Run:
         return {name: (value, value - start[name]) for name, value in now.items()}
 
     def series(self) -> Real:
-        """Return time of the run (s) and the quantities of `SERIES`, (n, 7)."""
+        """Return time of the run (s) and the quantities of `SERIES`, (n, 8)."""
         return self._rows[: self._count]
 
+    def series_since(self, number: int) -> tuple[int, Real]:
+        """Return how many rows there were in all, and those from a number on that are left."""
+        skipped = max(0, number - self._dropped)
+        return self._dropped + self._count, self._rows[min(skipped, self._count) : self._count]
+
     def csv(self) -> str:
-        """Return the series as comma-separated values, in decimals that read back the same."""
+        """Return the series as comma-separated values, in decimals that read back the same.
+
+        The column of the ghost is empty if there is no ghost.
+        """
         names = [f"{name} ({unit})" for name, unit in zip(SERIES, UNITS, strict=True)]
-        rows = (",".join(map(repr, row)) for row in self.series().tolist())
+        rows = (
+            ",".join("" if math.isnan(value) else repr(value) for value in row)
+            for row in self.series().tolist()
+        )
         return "\n".join([",".join(["time (s)", *names]), *rows, ""])
 
     def _take_event(self, event: Event) -> None:
         before, after = self.segment, event.segment()
-        self._begin = self._time_after(event, before, after)
+        self._continue_time(event, before, after)
+        moment = Moment(self._run_time(after, event.stamp), event, before, after)
+        self.moments.append(moment)
         self.segment, self.event = after, event
         self.ghost.follow(event.name, before, after)
         if event.name == "record":
-            verdict = event.verdict
-            self.is_recording = verdict.startswith("recording to ") and not verdict.endswith(
-                "ended"
-            )
+            ended = event.verdict.endswith("ended")
+            self.is_recording = event.verdict.startswith("recording to ") and not ended
+        changed = before is None or not _is_same(before.motion, after.motion)
+        if event.name in ANNOUNCED or (event.name == "parameters" and changed):
+            self.announced = moment
         if event.name not in UNLISTED:
-            self.verdict = event.verdict
             self._list(event)
-        if before is None or after.motion != before.motion:
+        if changed:
             self.window = _choose_window(after.motion)
-        if event.name in ("start", "reset"):
-            self._traced = None
+        if event.name in RESTARTS:
+            self.traced, self._last = 0, -math.inf
 
     def _list(self, event: Event) -> None:
         """Add an event to the history; a slider or a held button sends many of one kind."""
@@ -114,34 +148,47 @@ class Run:
             self.history.pop()
         self.history.append(event)
 
-    def _time_after(self, event: Event, before: Segment | None, after: Segment) -> float:
-        """Return the time of the run (s) at an event; a step takes no time of the clock."""
-        if before is None:
-            return 0.0
-        elapsed = before.elapsed_at(event.stamp) - before.elapsed
-        if event.name == "step":
-            elapsed += after.elapsed - before.elapsed_at(event.stamp)
-        return self._begin + float(elapsed) * 1e-9
+    def _continue_time(self, event: Event, before: Segment | None, after: Segment) -> None:
+        """Continue the time of the run after an event.
 
-    def _take_samples(self, columns: Mapping[str, Columns], segment: Segment) -> None:
-        orientation = columns[DRAWN]
+        It is the time of the motion plus an offset, which changes with the motion only. A step
+        advances both, and a jump of the clock neither.
+        """
+        if before is None:
+            self._offset = -after.elapsed_at(event.stamp)
+        elif event.name in ANNOUNCED or not _is_same(before.motion, after.motion):
+            self._offset += before.elapsed_at(event.stamp) - after.elapsed_at(event.stamp)
+
+    def _run_time(self, segment: Segment, stamp: int) -> float:
+        return float((self._offset + segment.elapsed_at(stamp)) / 10**9)
+
+    def _take_samples(self, orientation: Columns, segment: Segment) -> None:
         stamps, motion = orientation.stamps, segment.motion
         end = segment.time_at(int(stamps[-1]))
         if not StepBudget().reach(motion, end, MOST_STEPS):
             return  # a driven motion is too fast: the next samples find it further on
-        elapsed = segment.time_at(stamps) - segment.time_at(segment.stamp)
-        times = self._begin + np.broadcast_to(elapsed, stamps.shape)
+        times = np.broadcast_to(segment.time_at(stamps), stamps.shape)
+        times = times + float(self._offset / 10**9)
         # The attitude is the published one; the rates follow from the motion, which is exact.
         quaternions = orientation.numbers[:, [3, 0, 1, 2]]
         rates = np.broadcast_to(segment.state_at(stamps).angular_velocity, (len(stamps), 3)).copy()
         self.stamp, self.state = int(stamps[-1]), State.wrap(quaternions[-1], rates[-1])
+        self.time = float(times[-1])
         last = self._rows[self._count - 1, 0] if self._count else -math.inf
-        fresh = np.flatnonzero(times > last)
+        fresh = np.flatnonzero(np.diff(times, prepend=last) > SAME_TIME)
         if len(fresh):
-            self._extend_series(times[fresh], State.wrap(quaternions[fresh], rates[fresh]))
+            states = State.wrap(quaternions[fresh], rates[fresh])
+            self._extend_series(times[fresh], states, self._find_ghost(stamps[fresh]))
         self._extend_trace(times, State.wrap(quaternions, rates))
 
-    def _extend_series(self, times: Real, states: State) -> None:
+    def _find_ghost(self, stamps: NDArray[np.int64]) -> Real:
+        """Return the tilt of the ghost at some stamps; nan if there is no ghost."""
+        ghost = self.ghost.reach(int(stamps[-1]))
+        if ghost is None:
+            return np.full(len(stamps), np.nan)
+        return np.broadcast_to(ghost.state_at(stamps).euler_angles.theta, stamps.shape)
+
+    def _extend_series(self, times: Real, states: State, ghost: Real) -> None:
         top = self.segment.motion.top if self.segment else None
         if top is None:
             return
@@ -154,6 +201,7 @@ class Run:
             top.energy(states),
             top.axial_momentum(states),
             top.vertical_momentum(states),
+            ghost,
         ]
         self._make_room(len(times))
         self._rows[self._count : self._count + len(times)] = np.stack(columns, axis=1)
@@ -163,19 +211,27 @@ class Run:
         """Drop the oldest rows, many at once: each move of the others takes time."""
         if self._count + count > len(self._rows):
             kept = self._rows[self._count - ROWS + count : self._count].copy()
+            self._dropped += self._count - len(kept)
             self._rows[: len(kept)], self._count = kept, len(kept)
 
     def _extend_trace(self, times: Real, states: State) -> None:
         """Add points at equal distances in time, so that the trace lasts for the window."""
         period = self.window / TRACE
-        if self._traced is None:
-            self.axes[:] = _axis(states)[0]
-            self._traced = float(times[0])
         for time, point in zip(times.tolist(), _axis(states), strict=True):
-            if time >= self._traced + period:
+            if self._last == -math.inf:
+                self.axes[:], self._last = point, time
+            if time >= self._last + period:
                 self.axes[:-1] = self.axes[1:]
-                self._traced = time
+                self.traced, self._last = self.traced + 1, time
             self.axes[-1] = point
+
+
+def _is_same(before: Motion, after: Motion) -> bool:
+    """Return True if both are the motion of one top from one start."""
+    first, second = (
+        (each.top, each.start, each.friction, each.applied_torque) for each in (before, after)
+    )
+    return first == second
 
 
 def _axis(states: State) -> Real:

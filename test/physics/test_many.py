@@ -1,0 +1,182 @@
+"""Many motions at once: each is the motion alone, bit for bit."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from physics.refusals import refused
+from physics.tops import ARTICLE, CUSPS, random_case
+
+from symtop_ros.physics import (
+    Body,
+    EffectivePotential,
+    ExactTimes,
+    Friction,
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    balance,
+    compare_hurried,
+    kick_verdict,
+    perrys_rule,
+    python_alone,
+    regular_precession_rates,
+)
+
+PROPERTIES = (
+    *("kind", "nutation_period", "mean_precession_rate", "mean_spin_rate", "nutation_rate"),
+    *("precession_per_nutation", "spin_reverses", "fast_top_precession_rate"),
+    *("fast_top_nutation_rate", "turning_angles"),
+)
+TIMES = np.array([[0.0, 1e-4, 0.7], [-3.0, 12.0, 1e17]])  # the last one is too far for the kernel
+
+
+def many(count):
+    """Tops of all families, some weightless, some asleep, and their starts."""
+    cases = [
+        random_case(n, family)
+        for family in ("any", "fast", "critical", "pendulum", "from below")
+        for n in range(count // 5)
+    ]
+    tops, starts = [case.top for case in cases], [case.start for case in cases]
+    tops[3] = Top(tops[3].Ix, tops[3].Iz, 0.0)
+    starts[4] = State((1, 0, 0, 0), (0, 0, 3.0))
+    return tops, starts
+
+
+def stack(tops, starts):
+    columns = zip(*(top.moments for top in tops), strict=True)
+    q, omega = (np.stack(parts) for parts in zip(*starts, strict=True))
+    return Top(*map(np.array, columns)), State(q, omega)
+
+
+def assert_each_is_alone(motion, singles, times):
+    states = motion.at(times)
+    for n, single in enumerate(singles):
+        alone = single.at(times)
+        assert states.orientation[n].tobytes() == alone.orientation.tobytes()
+        assert states.angular_velocity[n].tobytes() == alone.angular_velocity.tobytes()
+
+
+@pytest.mark.parametrize("times", [TIMES, 2.5, ExactTimes(np.array([0, 10**9 + 1]))])
+def test_each_state_is_that_of_the_motion_alone(times):
+    tops, starts = many(50)
+    motion = Motion(*stack(tops, starts))
+    assert motion.at(times).orientation.shape[0] == 50
+    assert_each_is_alone(motion, list(map(Motion, tops, starts)), times)
+
+
+def test_without_the_kernel_the_bits_are_the_same():
+    motion = Motion(*stack(*many(20)))
+    with python_alone():
+        other = Motion(motion.top, motion.start)
+        assert motion.at(TIMES) == other.at(TIMES)
+
+
+@pytest.mark.parametrize("name", PROPERTIES)
+def test_each_property_is_that_of_the_motion_alone(name):
+    tops, starts = many(50)
+    found = getattr(Motion(*stack(tops, starts)), name)
+    singles = [getattr(Motion(*each), name) for each in zip(tops, starts, strict=True)]
+    if isinstance(found, tuple):
+        found = np.stack(found, axis=1)
+    np.testing.assert_array_equal(found, singles)
+
+
+def test_tops_starts_frictions_and_torques_are_broadcast():
+    tops = Top(0.000228, 0.0000572, [[0.06], [0.07]])
+    frictions = Friction(axial=[1e-6, 2e-6, 0.0])
+    motion = Motion(tops, CUSPS, frictions, torque=np.zeros((1, 1, 3)))
+    assert motion.shape == (2, 3)
+    assert motion.at([0.1, 0.2]).orientation.shape == (2, 3, 2, 4)
+    singles = [
+        Motion(Top(0.000228, 0.0000572, Mgl), CUSPS, Friction(axial))
+        for Mgl in (0.06, 0.07)
+        for axial in (1e-6, 2e-6, 0.0)
+    ]
+    states = motion.at(0.3).orientation.reshape(6, 4)
+    for state, single in zip(states, singles, strict=True):
+        assert state.tolist() == single.at(0.3).orientation.tolist()
+
+
+def test_quantities_of_the_states_belong_to_their_tops():
+    tops = Top([1.0, 2.0], 1.0, [3.0, -4.0])
+    states = Motion(tops, CUSPS).at([0.0, 1.0, 2.0])
+    total = Motion(tops, CUSPS, Friction([1e-3, 0.0]), torque=[[0, 0, 1], [0, 0, 2]])
+    for n, Mgl in enumerate((3.0, -4.0)):
+        top = Top(n + 1.0, 1.0, Mgl)
+        alone = Motion(top, CUSPS).at([0.0, 1.0, 2.0])
+        for name in ("energy", "angular_momentum", "gravity_torque", "vertical_momentum"):
+            found = np.asarray(getattr(tops, name)(states))
+            expected = np.asarray(getattr(top, name)(alone))
+            assert np.array_equal(found[..., n, :] if name == "energy" else found[n], expected)
+        single = Motion(top, CUSPS, Friction([1e-3, 0.0][n]), torque=(0, 0, n + 1.0))
+        assert np.array_equal(total.total_torque(states)[n], single.total_torque(alone))
+
+
+def test_the_effect_of_hurrying_takes_many_tops():
+    tops = Top([0.000228, 0.0003], 0.0000572, [0.068, -0.05])
+    effect = compare_hurried(tops, theta=0.5, phi_dot=9.0, psi_dot=200.0)
+    for n, top in enumerate((Top(0.000228, 0.0000572, 0.068), Top(0.0003, 0.0000572, -0.05))):
+        assert effect.rise[n] == compare_hurried(top, 0.5, 9.0, 200.0).rise
+
+
+def test_one_top_compares_and_hashes_by_its_numbers():
+    top = Top(1.0, 1.0, 2.0)
+    assert top == Top(1, 1, 2) != Top(1, 1, 3)
+    assert {top: 1}[Top(1, 1, 2)] == 1
+    assert Friction(1e-3) == Friction(0.001, 0) != Friction(0, 1e-3)
+    tops = Top([1.0, 1.0], 1.0, 2.0)
+    assert tops == Top(1.0, [1.0, 1.0], 2.0) != top
+    for each in (top, tops):
+        assert copy.copy(each) == pickle.loads(pickle.dumps(each)) == each
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name", "condition"),
+    [
+        (([1.0, -1.0], 1.0, 1.0), "Ix", "> 0 kg m^2"),
+        ((1.0, [1.0, 3.0], 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2"),
+        (([1.0, 2.0], [1.0] * 3, 1.0), "Ix and Iz and Mgl", "of shapes that fit together"),
+        ((1.0, 1.0, [1.0, np.nan]), "Mgl", "an array of finite numbers (J)"),
+    ],
+)
+def test_a_wrong_top_among_many_is_refused(arguments, name, condition):
+    with refused(name, condition):
+        Top(*arguments)
+
+
+def test_shapes_that_do_not_fit_are_refused():
+    with refused("top, start, friction and torque", "of shapes that fit together"):
+        Motion(Top([1.0, 2.0], 1.0, 1.0), State([[1, 0, 0, 0]] * 3, [[0, 0, 1]] * 3))
+
+
+def test_an_empty_array_of_motions_has_empty_states():
+    motion = Motion(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
+    assert motion.at([1.0, 2.0]).orientation.shape == (0, 2, 4)
+
+
+ONE_TOP = {
+    "perrys_rule": perrys_rule,
+    "EffectivePotential": EffectivePotential.of,
+    "regular_precession_rates": lambda top, _: regular_precession_rates(top, 0.5, 2.0),
+    "apply_impulse": lambda top, state: apply_impulse(top, state, (0, 0, 1)),
+    "Body": lambda top, _: Body.of(top),
+    "sleeping_is_stable": lambda top, state: top.sleeping_is_stable(state),
+}
+
+
+@pytest.mark.parametrize("name", ONE_TOP)
+def test_what_is_said_of_one_top_is_refused_for_many(name):
+    with refused("top", "one top", "tops of shape (2,)"):
+        ONE_TOP[name](Top([1.0, 2.0], 1.0, 1.0), CUSPS)
+
+
+def test_a_verdict_and_a_balance_are_those_of_one_motion():
+    motions = Motion(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
+    with refused("motion", "one motion", "motions of shape (2,)"):
+        kick_verdict(motions, CUSPS, "spin_rate")
+    with refused("motion", "one motion", "motions of shape (2,)"):
+        balance(motions, 1.0, 1.0)
