@@ -43,6 +43,14 @@ def test_the_reference_of_kynema_is_off_by_a_millionth(heavy_top):
     assert 1e-6 < np.abs(place - published).max() < 1.3e-6
 
 
+def test_the_pinned_precession_of_openturbine_has_the_error_of_its_steps():
+    state = Motion(Top(1.0, 0.5, 0.0), State((1, 0, 0, 0), (0.5, 0.5, 1.0))).at(5.0)
+    angles = Rotation.from_quat(state.orientation[[1, 2, 3, 0]]).as_euler("xyz")
+    # half of the last digit that the page states
+    assert angles == pytest.approx((-1.412996633, 1.001911275, 0.211633417), abs=5e-10)
+    assert np.abs(angles - (-1.413542763, 0.999382175, 0.213492011)).max() > 2e-3
+
+
 def test_the_top_of_simo_and_wong():
     top = Top(Ix=5.0, Iz=1.0, Mgl=20.0)
     start = State((math.cos(0.025), math.sin(0.025), 0, 0), (0, 0, 50))
