@@ -100,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
         nargs="?",
         const="",
         metavar="PROBLEM",
-        help="list the problems; with a name: score LOG, a CSV file, or copy it to --output",
+        help="list the problems; with a name: score LOG, a CSV file, or copy it (all: each) to -o",
     )
     return parser
 

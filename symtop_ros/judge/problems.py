@@ -6,6 +6,9 @@ from pathlib import Path
 
 from symtop_ros.testset import score
 
+ALL = "all"  # in place of a name: copies every problem into a folder of its own
+SHARED = ("score.py", "README.md", "LICENSE")
+
 
 def run_testset(options: argparse.Namespace) -> int:
     """List the problems of the test set, score a trajectory, or copy a problem."""
@@ -17,18 +20,22 @@ def run_testset(options: argparse.Namespace) -> int:
         print(result.format())
         if options.max_error and result.angles.max() > options.max_error:
             return 1
+    elif options.testset == ALL:
+        for name in problems:
+            _copy(problems, name, (options.output or Path()) / name)
     else:
         _copy(problems, options.testset, options.output or Path())
     return 0
 
 
 def _copy(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
-    """Write a problem as JSON, and its models, into a folder."""
+    """Write a problem, its models, and what is needed to score it alone, into a folder."""
     problem = score.find_problem(problems, name)
     folder.mkdir(parents=True, exist_ok=True)
     target = folder / f"{name}.json"
     target.write_text(problem.format_json(), encoding="utf-8")
-    models = sorted((score.FILE.parent / "models").glob(f"{name}.*"))
-    for model in models:
-        shutil.copy(model, folder / model.name)
-    print(f"wrote {', '.join([target.name, *(model.name for model in models)])} to {folder}")
+    source = score.FILE.parent
+    copied = [*sorted((source / "models").glob(f"{name}.*")), *(source / each for each in SHARED)]
+    for each in copied:
+        shutil.copy(each, folder / each.name)
+    print(f"wrote {', '.join([target.name, *(each.name for each in copied)])} to {folder}")

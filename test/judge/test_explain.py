@@ -38,7 +38,7 @@ def test_the_sleeping_top_hides_which_of_the_frames_is_turned():
 
 
 @pytest.mark.parametrize("scene", ["cusps", "looping"])
-@pytest.mark.parametrize("rate", [0.0, 0.01, -0.2])
+@pytest.mark.parametrize("rate", [0.01, -0.2])
 def test_offset_delay_and_drift_of_a_nutating_top_are_found_together(scene, rate):
     truth = scene_truth(scene)
     world, body = Rotation.from_rotvec([0.1, -0.4, 2.0]), Rotation.from_rotvec([0.3, 0.2, -1.0])

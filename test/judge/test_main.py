@@ -114,7 +114,8 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert len(capsys.readouterr().out.splitlines()) == 61
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {
-        *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf"))
+        *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
+        *("score.py", "README.md", "LICENSE"),
     }
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
@@ -127,6 +128,15 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
+    # The folder stands alone: score.py knows no package.
+    alone = subprocess.run(
+        [sys.executable, "-I", str(tmp_path / "score.py"), "cusps", str(path)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert alone.stdout.startswith("cusps: attitude ")
     assert main(["--testset", "none", str(path)]) == 1
     assert "top_judge: problem must be one of plane_pendulum, " in capsys.readouterr().err
 
@@ -188,3 +198,9 @@ def test_the_judge_works_without_mcap_and_matplotlib(arguments, tmp_path):
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout
+
+
+def test_all_problems_are_copied_into_folders_of_their_own(tmp_path):
+    assert main(["--testset", "all", "-o", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == set(score.read_problems())
+    assert all((path / f"{path.name}.json").exists() for path in tmp_path.iterdir())

@@ -35,7 +35,7 @@ RATES = {
 }
 
 
-@pytest.mark.parametrize("scene", ["cusps", "regular_precession", "conical_pendulum"])
+@pytest.mark.parametrize("scene", ["cusps", "regular_precession"])
 @pytest.mark.parametrize("mistake", ATTITUDES)
 def test_a_mistake_of_the_attitude_is_named(scene, mistake):
     truth = scene_truth(scene)
