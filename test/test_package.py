@@ -60,6 +60,7 @@ def assert_tree(prefix, programs):
         "top_panel",
         "top_report",
         "top_model",
+        "top_imu",
         "top_judge",
     ):
         assert os.access(programs / name, os.X_OK)
