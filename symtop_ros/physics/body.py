@@ -42,12 +42,19 @@ class Body:
     gravity : float
         Acceleration of gravity in m/s^2.
 
+    Raises
+    ------
+    ValueError
+        If a value is not a finite number or no rigid body has it.
+
     Examples
     --------
     >>> from symtop_ros.physics import Body, Top
     >>> body = Body.of(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068))
     >>> round(body.mass, 4), round(body.arm, 4)
     (0.4819, 0.0144)
+    >>> Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81).top
+    Top(Ix=15.234375, Iz=0.46875, Mgl=147.15)
     """
 
     mass: float
@@ -55,6 +62,60 @@ class Body:
     Ix: float
     Iz: float
     gravity: float
+
+    def __post_init__(self) -> None:
+        units = {"mass": "kg", "arm": "m", "Ix": "kg m^2", "Iz": "kg m^2", "gravity": "m/s^2"}
+        for name, unit in units.items():
+            value = validate_number(name, getattr(self, name), unit)
+            if name != "arm" and not value > 0:
+                raise refuse(name, f"> 0 {unit}", value)
+            object.__setattr__(self, name, value)
+        if self.Iz > 2 * self.Ix:
+            raise refuse("Iz", f"<= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
+
+    @property
+    def top(self) -> Top:
+        """The top that moves as the body does: moments about the pivot, and Mgl.
+
+        Raises
+        ------
+        ValueError
+            If a moment is out of the range of a `Top`.
+        """
+        Mgl = self.mass * self.gravity * self.arm
+        return Top(self.Ix + self.mass * self.arm**2, self.Iz, Mgl)
+
+    @classmethod
+    def about_pivot(
+        cls, mass: float, arm: float, Ix: float, Iz: float, gravity: float = STANDARD_GRAVITY
+    ) -> "Body":
+        """Return the body with these moments of inertia about the pivot.
+
+        Parameters
+        ----------
+        mass, arm : float
+            In kg, and position of the centre of mass on the z axis in m.
+        Ix, Iz : float
+            Transverse and axial moment of inertia about the pivot, in kg m^2.
+        gravity : float
+            Acceleration of gravity in m/s^2, > 0.
+
+        Raises
+        ------
+        ValueError
+            If a value is refused, or if Ix is too small for this mass at this distance.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Body
+        >>> Body.about_pivot(mass=2.0, arm=0.5, Ix=1.5, Iz=0.25, gravity=10.0).Ix
+        1.0
+        """
+        mass, arm = validate_number("mass", mass, "kg"), validate_number("arm", arm, "m")
+        Ix, lost = validate_number("Ix", Ix, "kg m^2"), mass * arm**2
+        if Ix <= lost:
+            raise refuse("Ix", f"> mass arm^2 = {lost:g} kg m^2", Ix)
+        return cls(mass, arm, Ix - lost, Iz, gravity)
 
     @classmethod
     def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> "Body":

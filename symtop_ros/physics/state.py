@@ -255,6 +255,99 @@ class State:
         w, x, y, z = self._components
         return rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
+    @property
+    def matrix(self) -> Real:
+        """Rotation matrices from body to world, (..., 3, 3): the columns are the body's axes.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import State
+        >>> State((0, 0, 0, 1), (0, 0, 5)).matrix.tolist()
+        [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
+        """
+        w, x, y, z = self._components
+        rows = (
+            stack((w * w + x * x) - (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+            stack(2 * (x * y + w * z), (w * w + y * y) - (x * x + z * z), 2 * (y * z - w * x)),
+            stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y)),
+        )
+        return np.stack(rows, axis=-2)
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike, angular_velocity: ArrayLike) -> "State":
+        """Return the state with these rotation matrices from body to world.
+
+        The largest component of each quaternion comes from the trace, the others from it
+        (S. W. Shepperd, J. Guidance and Control 1 (1978) 223): nothing cancels.
+
+        Parameters
+        ----------
+        matrix : array_like (..., 3, 3)
+            Orthogonal matrices of determinant 1, within 1e-3.
+        angular_velocity : array_like (..., 3)
+            Angular velocity in the body frame, in rad/s.
+
+        Raises
+        ------
+        ValueError
+            If a matrix is no rotation, or an argument of `State` is refused.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import State
+        >>> State.from_matrix([[1, 0, 0], [0, -1, 0], [0, 0, -1]], (0, 0, 5)).orientation.tolist()
+        [0.0, 1.0, 0.0, 0.0]
+        """
+        R = validate_array("matrix", matrix, 3)
+        if R.ndim < 2 or R.shape[-2] != 3:
+            raise refuse("matrix", "of shape (..., 3, 3)", f"shape {R.shape}")
+        off = np.abs(R @ np.swapaxes(R, -1, -2) - np.eye(3)).max(initial=0.0)
+        if off > NORM_TOLERANCE or (np.linalg.det(R) < 0).any():
+            condition = f"a rotation (orthogonal within {NORM_TOLERANCE:g}, determinant 1)"
+            raise refuse("matrix", condition, repr(matrix))
+        # 4 q q^T for each quaternion: its row with the largest diagonal is the best one.
+        a, b, c = R[..., 0, 0], R[..., 1, 1], R[..., 2, 2]
+        wx, wy, wz = (R[..., i, j] - R[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0)))
+        xy, xz, yz = (R[..., i, j] + R[..., j, i] for i, j in ((0, 1), (0, 2), (1, 2)))
+        rows = np.stack(
+            [
+                np.stack([1 + a + b + c, wx, wy, wz], axis=-1),
+                np.stack([wx, 1 + a - b - c, xy, xz], axis=-1),
+                np.stack([wy, xy, 1 - a + b - c, yz], axis=-1),
+                np.stack([wz, xz, yz, 1 - a - b + c], axis=-1),
+            ],
+            axis=-2,
+        )
+        best = np.diagonal(rows, axis1=-2, axis2=-1).argmax(axis=-1)
+        q = np.take_along_axis(rows, best[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
+        return cls(q / np.linalg.norm(q, axis=-1, keepdims=True), angular_velocity)
+
+    def __getitem__(self, place: Any) -> "State":
+        """Return some of many states, as NumPy's indexing of the leading axes does.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> states = Motion(Top(1.0, 1.0, 1.0), State((1, 0, 0, 0), (1, 0, 0))).at([0.0, 1.0, 2.0])
+        >>> len(states), states[-1] == states[1:][1]
+        (3, True)
+        """
+        if self.orientation.ndim == 1:
+            raise IndexError("one state has no places; orientation and angular_velocity have")
+        places = place if isinstance(place, tuple) else (place,)
+        where = (*places, slice(None)) if Ellipsis in places else (*places, ..., slice(None))
+        return State.wrap(*(part[where] for part in self))
+
+    def __len__(self) -> int:
+        """Return the number of states along the first axis."""
+        if self.orientation.ndim == 1:
+            raise TypeError("one state has no length")
+        return len(self.orientation)
+
+    def __bool__(self) -> bool:
+        """Return True: an empty array of states is a state, too."""
+        return True
+
     def __iter__(self) -> Iterator[Real]:
         """Unpack as orientation, angular_velocity."""
         return iter((self.orientation, self.angular_velocity))

@@ -7,6 +7,7 @@ import pytest
 from mpmath import mp, mpf
 from physics.driven_motion import DrivenTop
 from physics.exact_motion import Inputs, exact_motion
+from physics.refusals import refused
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
 
@@ -165,3 +166,29 @@ def test_a_top_without_weight_has_its_centre_in_the_pivot():
 def test_a_body_that_cannot_exist_is_refused(top, gravity, reason):
     with pytest.raises(ValueError, match=reason):
         Body.of(top, gravity)
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "condition"),
+    [
+        ({"mass": -1.0}, "mass", "> 0 kg"),
+        ({"arm": math.nan}, "arm", "a finite number (m)"),
+        ({"Iz": 2.5}, "Iz", "<= 2 Ix = 2 kg m^2"),
+        ({"gravity": 0.0}, "gravity", "> 0 m/s^2"),
+    ],
+)
+def test_what_is_no_body_is_refused(change, name, condition):
+    with refused(name, condition):
+        Body(**{"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81, **change})
+
+
+def test_a_body_and_its_top_lead_to_each_other():
+    top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    found = Body.of(top).top
+    # each number is a sum or a product of some rounded ones
+    assert found.moments == pytest.approx(top.moments, rel=4 * 2.0**-52)
+    body = Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81)
+    again = Body.about_pivot(15.0, 1.0, body.top.Ix, body.top.Iz)
+    assert again == body
+    with refused("Ix", "> mass arm^2 = 15 kg m^2"):
+        Body.about_pivot(15.0, 1.0, 15.0, 0.5)

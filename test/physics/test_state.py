@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.refusals import FINITE_ARRAY, FINITE_NUMBER, refused
-from physics.tops import EPS, random_states
+from physics.tops import CUSPS, EPS, distance, random_states
 
-from symtop_ros.physics import State
+from symtop_ros.physics import Motion, State, Top
 
 
 @pytest.mark.parametrize(
@@ -117,3 +117,39 @@ def test_a_quaternion_of_large_angles_is_right_to_rounding_of_its_sines(size):
                 abs(a - b) for a, b in zip(state.given_orientation.tolist(), exact, strict=True)
             )
         assert off <= 2 * EPS  # two sines and their product; 0.9 measured
+
+
+def test_matrices_rotate_as_quaternions_do_and_lead_back():
+    states = random_states(500)
+    vectors = np.random.default_rng(3).normal(size=(500, 3))
+    turned = np.einsum("nij,nj->ni", states.matrix, vectors)
+    # sums of three products of numbers of about 1
+    assert np.abs(turned - states.to_world(vectors)).max() < 16 * EPS
+    back = State.from_matrix(states.matrix, states.angular_velocity)
+    assert distance(states, back) < 8 * EPS
+
+
+@pytest.mark.parametrize("q", [*np.eye(4).tolist(), (0.5, -0.5, 0.5, 0.5)])
+def test_half_turns_have_a_quaternion(q):
+    state = State(q, (1, 2, 3))
+    assert distance(State.from_matrix(state.matrix, (1, 2, 3)), state) == 0
+
+
+@pytest.mark.parametrize("wrong", [np.diag([1.0, 1.0, -1.0]), 2 * np.eye(3)])
+def test_what_is_no_rotation_is_refused(wrong):
+    with refused("matrix", "a rotation (orthogonal within 0.001, determinant 1)"):
+        State.from_matrix(wrong, (0, 0, 0))
+    with refused("matrix", "of shape (..., 3, 3)"):
+        State.from_matrix([1.0, 0.0, 0.0], (0, 0, 0))
+
+
+def test_many_states_have_places_and_a_length():
+    states = Motion(Top([1.0, 2.0], 1.0, 1.0), CUSPS).at([0.0, 1.0, 2.0])
+    assert len(states) == 2
+    assert states[1].orientation.shape == (3, 4)
+    assert states[1, 2] == states[1][2] == states[..., 2][1]
+    assert bool(states[:0])
+    with pytest.raises(IndexError, match="one state has no places"):
+        _ = states[1, 2][0]
+    with pytest.raises(TypeError, match="one state has no length"):
+        len(states[1, 2])
