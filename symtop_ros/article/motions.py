@@ -4,11 +4,13 @@ Every start has theta = 0.5 rad, theta' = 0 and psi' = 200 rad/s; the precession
 start decides what follows.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import (
@@ -123,6 +125,22 @@ def seven_motions(top: Top = TOP) -> list[Motion]:
 def precession_period(motion: Motion) -> float:
     """Return the time in s of one turn of the precession."""
     return float(2 * np.pi / abs(motion.mean_precession_rate))
+
+
+def first_turn(motion: Motion) -> float:
+    """Return the time in s at which phi has first grown or fallen by 2 pi.
+
+    A nutation that does not fit into a turn puts it off `precession_period`, which is a mean.
+    """
+    times = np.linspace(0.0, 1.5 * precession_period(motion), 6001)
+    phi = np.unwrap(motion.at(times).euler_angles.phi)
+    k = int(np.argmax(np.abs(phi - phi[0]) >= 2 * np.pi))
+
+    def missing(t: float) -> float:
+        return math.remainder(float(motion.at(t).euler_angles.phi) - float(phi[0]), 2 * math.pi)
+
+    # One step more on each side: a sample may lie on the turn to rounding.
+    return float(brentq(missing, times[k - 2], times[k + 1], xtol=1e-15))
 
 
 def accelerations(top: Top, states: State) -> Real:
