@@ -27,7 +27,8 @@ THETA, PSI_DOT = 0.5, 200.0  # rad, rad/s
 PRINTED_ROOTS = ("6.50", "69.8")  # rad/s, with the digits that the article gives
 SLOW, FAST = regular_precession_rates(TOP, THETA, PSI_DOT)
 
-# A disc that hangs from its pivot and spins backwards: Iz > Ix, Mgl < 0, psi' < 0.
+# A disc that hangs from its pivot and spins backwards: Iz > Ix, Mgl < 0, psi' < 0. At -25 rad/s
+# its slow root is as fast as that of the top, so that a hurry lowers the axis by 0.044 rad.
 HANGING_DISC = Top(Ix=0.0002, Iz=0.00035, Mgl=-0.05)
 
 # f'(t) = sum of WEIGHTS[k-1] (f(t + k h) - f(t - k h)) / h, exact for polynomials of degree 8.
@@ -67,7 +68,7 @@ class HurryCase:
 SLOW_ROOT_HURRIED = HurryCase(PSI_DOT, 0, "at the slow root", "rises")
 FAST_ROOT_HURRIED = HurryCase(PSI_DOT, 1, "at the fast root", "falls")
 DISC_HURRIED = HurryCase(
-    -120.0, 0, "at the slow root for psi' < 0, Mgl < 0, Iz > Ix and theta < pi/2", "falls"
+    -25.0, 0, "at the slow root for psi' < 0, Mgl < 0, Iz > Ix and theta < pi/2", "falls"
 )
 
 
