@@ -154,6 +154,7 @@ setup(
             f"top_report = {NAME}.programs:top_report",
             f"top_judge = {NAME}.programs:top_judge",
             f"top_model = {NAME}.programs:top_model",
+            f"top_imu = {NAME}.programs:top_imu",
         ]
     },
     author="The symtop_ros authors",

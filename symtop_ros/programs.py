@@ -56,6 +56,11 @@ def top_model() -> int:
     return _run("top_model", "symtop_ros.models.main")
 
 
+def top_imu() -> int:
+    """Write a record of an inertial sensor on a top."""
+    return _run("top_imu", "symtop_ros.imu.main", interruptible=True)
+
+
 def top_judge() -> int:
     """Compare estimates with the exact motion; score trajectories of the test set."""
     return _run("top_judge", "symtop_ros.judge.main", interruptible=True)
@@ -118,5 +123,5 @@ def _remedy(package: str) -> str:
         name = "pyyaml" if package == "yaml" else package
         return f"pip install {name}, on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
     if package in EXTRAS:
-        return f"pip install 'symtop_ros[{EXTRAS[package]}]'"
-    return "source a ROS 2, or pip install 'symtop_ros[ros]'"
+        return f"pip install '.[{EXTRAS[package]}]' in the checkout"
+    return "source a ROS 2, or pip install '.[ros]' in the checkout"

@@ -28,7 +28,7 @@ OPTIONS = (
 def running_browser() -> Iterator[Browser]:
     """Run a browser; the test is skipped without one."""
     api = pytest.importorskip(
-        "playwright.sync_api", reason="no playwright: pip install 'symtop_ros[test]'"
+        "playwright.sync_api", reason="no playwright: pip install '.[test]' in the checkout"
     )
     program, environment = _find()
     with api.sync_playwright() as playwright:

@@ -6,6 +6,7 @@ from odd_values import CONTROL, assert_one_sentence
 from programs import run as run_program
 
 from symtop_ros.client import main as client
+from symtop_ros.imu import main as imu
 from symtop_ros.judge import main as judge
 from symtop_ros.live import main as live
 from symtop_ros.models import main as models
@@ -25,6 +26,7 @@ MAINS = {
     "top_report": report.main,
     "top_model": models.main,
     "top_judge": judge.main,
+    "top_imu": imu.main,
 }
 FAILED = [
     ("top_ctl", "--ros-args", "-p", "bad"),
@@ -64,6 +66,16 @@ FAILED = [
     ("top_model", "--format", "urdf", "--gravity", "1e999"),
     ("top_model", "--format", "urdf", "-o", LONG),
     ("top_model", "--format", "urdf", "-o", "a\0b"),
+    ("top_imu", "--scene", CONTROL, "-o", "x.csv"),
+    ("top_imu", "--noise", "/dev/null", "-o", "x.csv"),
+    ("top_imu", "--noise", LONG, "-o", "x.csv"),
+    ("top_imu", "--rate", "nan", "-o", "x.csv"),
+    ("top_imu", "--rate", "1e6", "--seconds", "1e6", "-o", "x.csv"),
+    ("top_imu", "--seconds", "-1", "-o", "x.csv"),
+    ("top_imu", "--position", "1e999", "0", "0", "-o", "x.csv"),
+    ("top_imu", "--orientation", "0", "0", "0", "0", "-o", "x.csv"),
+    ("top_imu", "--seconds", "1", "-o", "/dev/null/x.csv"),
+    ("top_imu", "--seconds", "1", "-o", "a\0b"),
 ]
 MISUSED = [
     ("top_ctl", "kick", CONTROL),

@@ -99,6 +99,7 @@ def find_runner(program, words):
         "pip": check_extra,
         "ros2": call_ros2,
         "top_ctl": call_node,
+        "top_imu": run_program,
         "top_judge": judge,
         "top_model": run_program,
         "top_node": start_node,

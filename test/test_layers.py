@@ -57,6 +57,7 @@ ARROWS = {
         {*NUMERICAL, "PIL", "matplotlib", "pyarrow", "rerun"},
     ),
     "models": ({"physics", "simulation"}, set()),
+    "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),
     "testset": (set(), {"numpy"}),
     "judge": (
         {"drawing", "log", "shutdown", "simulation", "testset", "wire"},
@@ -64,7 +65,16 @@ ARROWS = {
     ),
     "report": (
         {
-            *("article", "drawing", "judge", "models", "physics", "simulation", "testset", "wire"),
+            *(
+                "article",
+                "drawing",
+                "imu",
+                "judge",
+                "models",
+                "physics",
+                "simulation",
+                "testset",
+            ),
         },
         {*NUMERICAL, "matplotlib", "tqdm", *PEERS},
     ),

@@ -60,6 +60,7 @@ def assert_tree(prefix, programs):
         "top_panel",
         "top_report",
         "top_model",
+        "top_imu",
         "top_judge",
     ):
         assert os.access(programs / name, os.X_OK)
@@ -111,7 +112,8 @@ def test_an_sdist_has_what_is_installed(sources, tmp_path):
     with tarfile.open(next(tmp_path.glob("*.tar.gz"))) as archive:
         packed = {name.partition("/")[2] for name in archive.getnames()}
     parts = [path for part in PARTS[:4] for path in (sources / part).rglob("*") if path.is_file()]
-    needed = {str(path.relative_to(sources)) for path in parts if path.suffix != ".pyc"}
+    built = ".pyc", ".so"
+    needed = {str(path.relative_to(sources)) for path in parts if path.suffix not in built}
     assert {*needed, *PARTS[4:]} <= packed
     assert not any(name.startswith("test") for name in packed)
 

@@ -19,7 +19,7 @@ def _signals_and_environment_as_before(monkeypatch):
         signal.signal(number, handler)
 
 
-ROS = "source a ROS 2, or pip install 'symtop_ros[ros]'"
+ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
 
 
 @pytest.mark.parametrize(
@@ -28,10 +28,9 @@ ROS = "source a ROS 2, or pip install 'symtop_ros[ros]'"
         (programs.top_node, "rclpy", ROS),
         (programs.top_ctl, "rclpy", ROS),
         (programs.top_live, "rclpy", ROS),
-        (programs.top_live, "rerun", "pip install 'symtop_ros[playback]'"),
-        (programs.top_panel, "viser", "pip install 'symtop_ros[panel]'"),
+        (programs.top_live, "rerun", "pip install '.[playback]' in the checkout"),
+        (programs.top_panel, "viser", "pip install '.[panel]' in the checkout"),
         (programs.top_replay, "mcap", "pip install mcap"),
-        (programs.top_judge, "mcap", "pip install mcap"),
     ],
 )
 def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, capsys):

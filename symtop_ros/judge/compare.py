@@ -1,43 +1,43 @@
-"""Errors of estimates, and the constant rotation and delay behind them.
+"""Errors of estimates, with or without what explains them.
 
-An estimate is modelled as q_est(t) = W q(t - delay) M with constant rotations W of the world (a
-heading that no gyroscope knows) and M of the body (how the sensor is mounted).
+An estimate is modelled as q_est(t) = D(t) W q(t - delay) M with constant rotations W of the world
+(a heading that no gyroscope knows) and M of the body (how the sensor is mounted), and a rotation
+D(t) about the vertical that grows steadily (a drift of the heading).
 """
 
-import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
-SAMPLES = 500  # estimates that a fit of offset and delay takes, spread over the run
-MAX_DELAY = 0.1  # s
-# Delays are tried in steps in which the fastest turn is so many rad; the best one is refined.
-GRID_STEP = 0.5  # rad
-MOST_DELAYS = 2001
-WORTHWHILE = 1.001  # a delay counts if it makes the mean square smaller by this factor
-ROUNDING = 1e-30  # mean square of errors that are rounding
 PERCENTILES = (50, 90, 99, 100)
 WINDOWS = 10  # of the run, for the growth of the error
 
 
 @dataclass(frozen=True, eq=False)
 class Offset:
-    """A constant rotation of the world and one of the body, and a delay."""
+    """Constant rotations of the world and of the body, a delay, and a drift of the heading."""
 
     # quaternions w, x, y, z
     world: Real
     body: Real
     delay: float = 0.0  # time in s by which the estimates are late
+    drift: float = 0.0  # rate in rad/s about the vertical of the world
+    begin: int = 0  # stamp in ns at which the drift has not yet turned anything
+
+    def turn_world(self, stamps: Stamps) -> Real:
+        """Return the rotations of the world, D(t) W, at stamps, (n, 4)."""
+        half = self.drift * (stamps - self.begin) / NANOSECONDS / 2
+        zero = np.zeros(len(stamps))
+        return compose(np.stack((np.cos(half), zero, zero, np.sin(half)), axis=-1), self.world)
 
     @property
     def angles(self) -> tuple[float, float]:
@@ -58,6 +58,7 @@ class Errors:
     heading: Real  # its part about the vertical (twist), in rad, with its sign
     rate: Real | None  # |omega_est - omega| in rad/s
     unknown: int  # estimates at stamps of which the exact motion is not known
+    late: int = 0  # estimates after the last sample of the run
 
     @property
     def seconds(self) -> Real:
@@ -75,112 +76,34 @@ class Errors:
 
 
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:
-    """Return the errors of estimates after an offset and its delay are removed."""
+    """Return the errors of estimates after an offset is removed."""
     stamps = estimates.stamps - round(offset.delay * NANOSECONDS)
-    exact, rates, known = truth.states_at(stamps)
+    exact, rates, known = truth.states_at(stamps, estimates.of_sensor)
     chosen, exact, rates = estimates.select(known), exact[known], rates[known]
-    q = compose(compose(invert(offset.world), chosen.orientations), invert(offset.body))
+    world = offset.turn_world(chosen.stamps)
+    q = compose(compose(invert(world), chosen.orientations), invert(offset.body))
     wrong = compose(q, invert(exact))
     # |q - exact| is 2 sin(angle/4). An arccosine of their product would lose half of the digits.
-    sine = np.linalg.norm(_subtract(q, exact), axis=1) / 2
+    sine = np.linalg.norm(subtract(q, exact), axis=1) / 2
     total = 4 * np.arcsin(np.minimum(sine, 1.0))
     w, x, y, z = wrong.T
     tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
     heading = _wrap(2 * np.arctan2(z, w))
     rate = None
     if chosen.angular_velocities is not None:
-        turned = _to_rotation(offset.body).apply(chosen.angular_velocities)
+        turned = to_rotation(offset.body).apply(chosen.angular_velocities)
         rate = np.linalg.norm(turned - rates, axis=1)
-    return Errors(chosen.stamps, total, tilt, heading, rate, int((~known).sum()))
+    late = truth.count_late(stamps)
+    unknown = int((~known).sum()) - late
+    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late)
 
 
-def find_offset(
-    estimates: Estimates, truth: Truth, *, rotations: bool = True, delay: bool = True
-) -> Offset:
-    """Return the constant rotations and the delay that explain most of the errors.
-
-    For each delay the rotations follow by least squares (Kabsch 1976, in four dimensions). All
-    delays up to 0.1 s are tried, since a spinning top repeats itself with each turn.
-    """
-    every = max(1, len(estimates) // SAMPLES)
-    some = estimates.select(np.arange(len(estimates)) % every == 0)
-    if not len(some):
-        return NONE
-
-    def fit(seconds: float) -> tuple[float, Offset]:
-        exact, _, known = truth.states_at(some.stamps - round(seconds * NANOSECONDS))
-        q, exact = some.orientations[known], exact[known]
-        if len(q) < max(2, len(some) // 2):
-            return np.inf, NONE
-        found = _fit_rotations(q, exact) if rotations else NONE
-        modelled = compose(compose(found.world, exact), found.body)
-        cost = float((_subtract(q, modelled) ** 2).sum(axis=1).mean())
-        return cost, replace(found, delay=seconds)
-
-    if not delay:
-        return fit(0.0)[1]
-    fastest = float(np.abs(truth.states_at(some.stamps)[1]).max(initial=0.0))
-    count = min(max(2 * MAX_DELAY * fastest / GRID_STEP, 21), MOST_DELAYS)
-    tried = np.linspace(-MAX_DELAY, MAX_DELAY, int(count))
-    best = tried[int(np.argmin([fit(each)[0] for each in tried.tolist()]))]
-    width = tried[1] - tried[0]
-    refined = minimize_scalar(
-        lambda each: fit(float(each))[0],
-        bounds=(best - width, best + width),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    (cost, late), (without, none) = fit(float(refined.x)), fit(0.0)
-    return none if without <= WORTHWHILE * cost + ROUNDING else late
-
-
-def _fit_rotations(q: Real, exact: Real) -> Offset:
-    """Return the rotations W and M for which W exact M is nearest to q.
-
-    Both together are one rotation of the four components of a quaternion, found by Kabsch's method
-    (a singular value decomposition). The signs of the quaternions follow from a first guess.
-    """
-    guess = _guess_rotations(q, exact)
-    images = compose(compose(guess.world, exact), guess.body)
-    signs = np.where((images * q).sum(axis=1) < 0, -1.0, 1.0)
-    u, _, vt = np.linalg.svd((q * signs[:, np.newaxis]).T @ exact)
-    u[:, -1] *= np.sign(np.linalg.det(u @ vt))  # a rotation, not a reflection
-    # The images of 1, i, j, k: (W i M) (W 1 M)^-1 = W i W^-1 is a column of W's matrix.
-    images = (u @ vt).T
-    columns = compose(images[1:], invert(images[0]))[:, 1:]
-    world = _to_quaternion(Rotation.from_matrix(columns.T))
-    body = compose(invert(world), images[0])
-    return Offset(world, body * np.copysign(1.0, body[0]))
-
-
-def _guess_rotations(q: Real, exact: Real) -> Offset:
-    """Return W and M by a way that does not ask for the signs of the quaternions.
-
-    The turns from one estimate to the next have the same angles as the exact ones, about axes that
-    M has turned (the hand-eye problem, Park and Martin 1994). W is then a mean of rotations, the
-    eigenvector of the largest eigenvalue (Markley et al. 2007).
-    """
-    ours = _to_rotation(compose(invert(q[:-1]), q[1:])).as_rotvec()
-    theirs = _to_rotation(compose(invert(exact[:-1]), exact[1:])).as_rotvec()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a top at rest leaves M open
-        body = _to_quaternion(Rotation.align_vectors(theirs, ours)[0])
-    left = compose(q, invert(compose(exact, body)))
-    return Offset(np.linalg.eigh(left.T @ left)[1][:, -1], body)
-
-
-def _to_rotation(q: Real) -> Rotation:
+def to_rotation(q: Real) -> Rotation:
+    """Return the rotation of quaternions w, x, y, z, (..., 4)."""
     return Rotation.from_quat(q[..., [1, 2, 3, 0]])
 
 
-def _to_quaternion(rotation: Rotation) -> Real:
-    """Return w, x, y, z with w >= 0."""
-    x, y, z, w = rotation.as_quat()
-    q: Real = np.array((w, x, y, z)) * np.copysign(1.0, w)
-    return q
-
-
-def _subtract(q: Real, p: Real) -> Real:
+def subtract(q: Real, p: Real) -> Real:
     """Return q - p, or q + p where that is smaller: both signs are the same rotation."""
     return q - np.where((q * p).sum(axis=1, keepdims=True) < 0, -p, p)
 

@@ -1,18 +1,16 @@
-"""Estimates of attitude and angular velocity: from topics of a log, or from CSV files."""
+"""Estimates of attitude and angular velocity, and the messages that hold them."""
 
-import csv
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from decimal import Decimal, InvalidOperation
-from pathlib import Path
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.log.bag import MessageSource
-from symtop_ros.log.reader import LogError
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.cdr import DecodeError, Reader
 from symtop_ros.wire.layout import NANOSECONDS, Doubles, Layout, Stamp, Text
 from symtop_ros.wire.messages import (
@@ -25,8 +23,9 @@ from symtop_ros.wire.messages import (
     define_stamped,
 )
 
-CSV = ".csv"
-COLUMNS, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+if TYPE_CHECKING:  # logs need mcap
+    from symtop_ros.log.bag import MessageSource
+
 MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000
 LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
@@ -40,9 +39,11 @@ class Estimates:
     """Estimates at their own stamps."""
 
     stamps: Stamps  # in ns
-    orientations: Real  # unit quaternions w, x, y, z, sensor frame to world
-    angular_velocities: Real | None  # in the sensor frame, in rad/s
+    orientations: Real  # unit quaternions w, x, y, z, frame of body or sensor to world
+    angular_velocities: Real | None  # in that frame, in rad/s
     left_out: int = 0  # messages without an attitude, or which could not be read
+    of_sensor: bool = False  # True: of the sensor as it is mounted, not of the body
+    notes: tuple[str, ...] = ()  # what was odd about the file, in sentences
 
     @classmethod
     def of(
@@ -51,7 +52,7 @@ class Estimates:
         orientations: Sequence[Sequence[float]] | Real,
         angular_velocities: Real | None = None,
         left_out: int = 0,
-    ) -> "Estimates":
+    ) -> Estimates:
         """Return estimates sorted by stamp, without numbers that are no attitude."""
         times = np.asarray(stamps, dtype=np.int64)
         q = np.asarray(orientations, dtype=float).reshape(-1, 4)
@@ -74,14 +75,14 @@ class Estimates:
         """Return the number of estimates."""
         return len(self.stamps)
 
-    def select(self, chosen: NDArray[np.bool_]) -> "Estimates":
+    def select(self, chosen: NDArray[np.bool_]) -> Estimates:
         """Return the estimates for which `chosen` (n,) is True."""
         rates = self.angular_velocities
-        return Estimates(
-            self.stamps[chosen],
-            self.orientations[chosen],
-            None if rates is None else rates[chosen],
-            self.left_out,
+        return replace(
+            self,
+            stamps=self.stamps[chosen],
+            orientations=self.orientations[chosen],
+            angular_velocities=None if rates is None else rates[chosen],
         )
 
 
@@ -107,7 +108,9 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
         return _decode_transforms(messages, frame)
     if kind not in FORMATS:
         known = ", ".join(name.rpartition("/")[2] for name in (*FORMATS, TF_TYPE))
-        raise LogError(f"topic must have a type with an attitude ({known}), got {one_line(kind)}")
+        raise RefusedError(
+            f"topic must have a type with an attitude ({known}), got {one_line(kind)}"
+        )
     form = FORMATS[kind]
     parts, refused = decode_messages(form, messages)
     parts = [part for part in parts if frame is None or frame == part.names[-1]]
@@ -123,7 +126,8 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
     covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
     if covariance is not None:
         q[covariance[:, 0] == NO_ORIENTATION] = 0.0
-    return Estimates.of(stamps, q, rates, len(refused))
+    found = Estimates.of(stamps, q, rates, len(refused))
+    return replace(found, of_sensor=kind == IMU.type)
 
 
 def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimates:
@@ -137,7 +141,7 @@ def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimate
         except DecodeError:
             refused += 1
     if frame is None and len(found) > 1:
-        raise LogError(f"--frame must be one of {', '.join(sorted(found)[:20])}, got none")
+        raise RefusedError(f"--frame must be one of {', '.join(sorted(found)[:20])}, got none")
     chosen = found.get(frame, []) if frame else next(iter(found.values()), [])
     return Estimates.of([stamp for stamp, _ in chosen], [q for _, q in chosen], None, refused)
 
@@ -153,59 +157,23 @@ def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ..
 
 
 def read_topic(source: MessageSource, topic: str, frame: str | None = None) -> Estimates:
-    """Return the estimates on a topic of a log, or LogError; /tf needs the child frame."""
+    """Return the estimates on a topic of a log, or RefusedError; /tf needs the child frame."""
     messages: list[bytes] = []
     for chunk in source.chunks():
         numbers = {n for n, channel in source.channels.items() if channel.topic == topic}
         messages += [bytes(each.data) for each in chunk if each.channel_id in numbers]
         if len(messages) > MAX_ESTIMATES:
-            raise LogError(f"{topic} must have at most {MAX_ESTIMATES} messages, got more")
+            raise RefusedError(f"{topic} must have at most {MAX_ESTIMATES} messages, got more")
     channels = [channel for channel in source.channels.values() if channel.topic == topic]
     if not channels:
         known = sorted({one_line(channel.topic) for channel in source.channels.values()})
-        raise LogError(
+        raise RefusedError(
             f"--topic must be one of {', '.join(known[:20]) or 'none'}, got {one_line(topic)}"
         )
     schema = source.schemas.get(channels[0].schema_id)
-    return decode_estimates(schema.name if schema else "unknown", messages, frame)
-
-
-def read_csv(path: Path) -> Estimates:
-    """Return the estimates of a CSV file."""
-    try:
-        with path.open(encoding="utf-8", newline="") as file:
-            return _read_rows(path, csv.DictReader(file))
-    except OSError as error:
-        raise LogError(f"cannot open {path}: {error.strerror}") from None
-    except (csv.Error, UnicodeDecodeError, ValueError) as error:
-        if isinstance(error, LogError):
-            raise
-        raise LogError(f"cannot read {path}: not a CSV file ({one_line(error)})") from None
-
-
-def _read_rows(path: Path, rows: "csv.DictReader[str]") -> Estimates:
-    names = rows.fieldnames or ()
-    time = "stamp" if "stamp" in names else "t"
-    missing = [name for name in (time, *COLUMNS) if name not in names]
-    if missing:
-        raise LogError(
-            f"{path} must have the columns stamp (ns) or t (s), w, x, y, z; got no {missing[0]}"
+    found = decode_estimates(schema.name if schema else "unknown", messages, frame)
+    if frame and not len(found):
+        raise RefusedError(
+            f"--frame must be the child frame of an estimate on {topic}, got {frame}"
         )
-    to_ns: Callable[[str], int] = int if time == "stamp" else _to_nanoseconds
-    wanted = [*COLUMNS, *(RATES if set(RATES) <= set(names) else ())]
-    stamps, numbers = [], []
-    for line, row in enumerate(rows, start=2):
-        try:
-            stamps.append(min(max(to_ns(row[time]), -1), MAX_STAMP))
-            numbers.append([float(row[name]) for name in wanted])
-        except (TypeError, ValueError, InvalidOperation, OverflowError):
-            raise LogError(
-                f"line {line} of {path} must consist of numbers, got {one_line(dict(row))}"
-            ) from None
-    table = np.array(numbers, dtype=float).reshape(-1, len(wanted))
-    return Estimates.of(stamps, table[:, :4], table[:, 4:] if len(wanted) > 4 else None)
-
-
-def _to_nanoseconds(text: str) -> int:
-    """Return a time in s as ns, without the rounding of a double."""
-    return int((Decimal(text) * NANOSECONDS).to_integral_value())
+    return found

@@ -1,6 +1,7 @@
 """`top_judge --live`: estimates on a topic, judged while the top runs."""
 
 import argparse
+import json
 import sys
 import time
 
@@ -12,12 +13,12 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 
 from symtop_ros.judge.compare import Errors, compare
 from symtop_ros.judge.estimates import decode_estimates
+from symtop_ros.judge.judgement import summarize
 from symtop_ros.judge.truth import Truth
-from symtop_ros.log.reader import LogError
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.events import decode_events
 from symtop_ros.simulation.topics import DEFAULT_NAME, EVENTS, Topic
-from symtop_ros.simulation.validation import full_name, one_line
+from symtop_ros.simulation.validation import RefusedError, full_name, one_line
 
 PERIOD = 1.0  # s between two lines
 PATIENCE = 5.0  # s for the topic to be found
@@ -60,7 +61,7 @@ class Court:
 
 def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
     """Print a line each second; return 0, or 1 if the attitude was further off than allowed."""
-    topic, seconds, limit = options.topic, options.seconds, options.max_error
+    topic, seconds, limit = options.topic[0], options.seconds, options.max_error
     worst = 0.0
     try:
         with ros_context(arguments) as listen:
@@ -75,10 +76,11 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
                 _spin(executor, min(end, time.monotonic() + PERIOD))
                 errors = court.judge()
                 worst = max(worst, float(errors.total.max()) if errors else 0.0)
-                print(_format(errors, court.truth), flush=True)
+                text = _dump(errors) if options.json else _format(errors, court.truth)
+                print(text, flush=True)
     except ExternalShutdownException:
         pass
-    except LogError:
+    except RefusedError:
         raise
     except Exception as error:
         print(f"top_judge: {describe_failure(error)}", file=sys.stderr)
@@ -97,12 +99,21 @@ def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
         if found:
             return str(found[0])
         _spin(executor, time.monotonic() + 0.1)
-    raise LogError(f"--topic must be a topic that is published, got {one_line(topic)}")
+    raise RefusedError(f"--topic must be a topic that is published, got {one_line(topic)}")
 
 
 def _spin(executor: SingleThreadedExecutor, until: float) -> None:
     while (left := until - time.monotonic()) > 0:
         executor.spin_once(timeout_sec=left)
+
+
+def _dump(errors: Errors | None) -> str:
+    """Return the figures of a second as a line of JSON."""
+    values = {} if errors is None else {"attitude": errors.total, "tilt": errors.tilt}
+    if errors is not None and errors.rate is not None:
+        values["angular_velocity"] = errors.rate
+    facts = {name: summarize(each) for name, each in values.items()}
+    return json.dumps({"estimates": 0 if errors is None else len(errors.total), **facts})
 
 
 def _format(errors: Errors | None, truth: Truth) -> str:

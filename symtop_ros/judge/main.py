@@ -3,23 +3,24 @@
 import argparse
 import json
 import math
-import shutil
 import sys
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
-from symtop_ros.judge.compare import compare, find_offset
-from symtop_ros.judge.estimates import CSV, Estimates, read_csv, read_topic
-from symtop_ros.judge.judgement import Judgement
-from symtop_ros.judge.truth import Truth, read_truth
-from symtop_ros.log.bag import open_run
-from symtop_ros.log.reader import LogError
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.simulation.validation import one_line
-from symtop_ros.testset import score
+from symtop_ros.judge.estimates import Estimates, read_topic
+from symtop_ros.judge.judgement import Judgement, format_several, judge
+from symtop_ros.judge.problems import run_testset
+from symtop_ros.judge.tables import CSV, read_csv
+from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
+from symtop_ros.simulation.validation import RefusedError, one_line
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
-top at the estimates' own stamps. The run must be in the log with its ~/events."""
-REMOVABLE = ("offset", "delay")
+top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
+starts at the stamp 0."""
+REMOVABLE = ("offset", "delay", "drift")
+EVENTS = ".json"  # of a run, as top_imu writes them
+SENSOR, BODY = "sensor", "body"
 
 
 def main(args: list[str] | None = None) -> int:
@@ -31,11 +32,17 @@ def main(args: list[str] | None = None) -> int:
     if rest and not (options.live and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest))}")
     has_estimates = options.topic or (options.estimates and not options.live)
-    if options.testset is None and not (has_estimates and (options.live or options.files)):
-        parser.error("LOG with --topic or --estimates, --live with --topic, or --testset is needed")
+    has_run = options.live or options.files or options.scene
+    if options.testset is None and not (has_estimates and has_run):
+        parser.error(
+            "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
+            "--testset is needed"
+        )
+    if options.live and len(options.topic) > 1:
+        parser.error("--live judges one --topic")
     try:
         return _run(options, rest)
-    except (LogError, ValueError) as error:
+    except ValueError as error:
         print(f"top_judge: {one_line(error)}", file=sys.stderr)
     except OSError as error:
         print(
@@ -47,10 +54,25 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="top_judge", description=DESCRIPTION)
     parser.add_argument(
-        "files", type=Path, nargs="*", metavar="LOG", help="logs and rosbag2 folders: one run"
+        "files",
+        type=Path,
+        nargs="*",
+        metavar="LOG",
+        help="logs, rosbag2 folders, or the JSON of top_imu: one run",
     )
-    parser.add_argument("--topic", help="full name of the topic with the estimates")
+    parser.add_argument(
+        "--topic",
+        action="append",
+        default=[],
+        help="full name of the topic with the estimates; repeat it for a table of several",
+    )
     parser.add_argument("--frame", help="child frame of the estimates, for /tf")
+    parser.add_argument(
+        "--attitude-of",
+        choices=(BODY, SENSOR),
+        help="what the estimates turn; default: the sensor for Imu messages, else the body",
+    )
+    parser.add_argument("--scene", help="in place of LOG: a scene that starts at the stamp 0")
     parser.add_argument("--node", help="full name of the top if there are several")
     parser.add_argument(
         "--estimates",
@@ -63,8 +85,10 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         choices=REMOVABLE,
         default=[],
-        help="take away the constant rotations, or the delay (up to 0.1 s), that were found",
+        help="take away the constant rotations, the delay (up to 0.1 s), or the drift of the "
+        "heading that were found",
     )
+    parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="for JSON and plots")
     parser.add_argument(
         "--max-error", type=_angle, metavar="RAD", help="status 1 if the attitude is further off"
@@ -76,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
         nargs="?",
         const="",
         metavar="PROBLEM",
-        help="list the problems; with a name: score LOG, a CSV file, or copy it to --output",
+        help="list the problems; with a name: score LOG, a CSV file, or copy it (all: each) to -o",
     )
     return parser
 
@@ -93,91 +117,81 @@ def _angle(text: str) -> float:
 
 def _run(options: argparse.Namespace, rest: list[str]) -> int:
     if options.testset is not None:
-        return _score(options)
+        return run_testset(options)
     if options.live:
         from symtop_ros.judge.live import judge_live
 
         return judge_live(options, ["top_judge", *rest])
-    truth = read_truth(TopLog(open_run(options.files), options.node))
-    judgement = judge(
-        _read_estimates(options),
-        truth,
-        options.topic or str(options.estimates),
-        tuple(options.remove),
-    )
-    print(judgement.format())
+    truth = _read_run(options)
+    judgements = [
+        judge(estimates, truth, source, tuple(options.remove))
+        for source, estimates in _read_estimates(options)
+    ]
+    print(_format(judgements, options.json))
     if options.output:
-        _write(judgement, options.output)
-    if options.max_error and judgement.largest > options.max_error:
+        _write(judgements, options.output)
+    largest = max(each.largest for each in judgements)
+    if options.max_error and largest > options.max_error:
         limit = f"{options.max_error:g} rad"
         print(
-            f"top_judge: the attitude is off by {judgement.largest:.3g} rad, limit {limit}",
-            file=sys.stderr,
+            f"top_judge: the attitude is off by {largest:.3g} rad, limit {limit}", file=sys.stderr
         )
         return 1
     return 0
 
 
-def _write(judgement: Judgement, folder: Path) -> None:
-    """Write judge.json, and the plot if Matplotlib is installed."""
+def _read_run(options: argparse.Namespace) -> Truth:
+    if options.scene:
+        return scene_truth(options.scene)
+    if [path.suffix for path in options.files] == [EVENTS]:
+        return read_events(options.files[0])
+    from symtop_ros.log.bag import open_run  # logs need mcap
+    from symtop_ros.log.top_log import TopLog
+
+    return read_truth(TopLog(open_run(options.files), options.node))
+
+
+def _format(judgements: list[Judgement], as_json: bool) -> str:
+    if as_json:
+        return _dump(judgements)
+    return judgements[0].format() if len(judgements) == 1 else format_several(judgements)
+
+
+def _dump(judgements: list[Judgement]) -> str:
+    """Return an object for one judgement, a list for several."""
+    facts = [each.facts() for each in judgements]
+    return json.dumps(facts[0] if len(facts) == 1 else facts, indent=1)
+
+
+def _write(judgements: list[Judgement], folder: Path) -> None:
+    """Write judge.json, and the plot of one source if Matplotlib is installed."""
     folder.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(judgement.facts(), indent=1)
-    (folder / "judge.json").write_text(text + "\n", encoding="utf-8")
+    (folder / "judge.json").write_text(_dump(judgements) + "\n", encoding="utf-8")
+    if len(judgements) > 1:
+        return
     try:
         from symtop_ros.judge.plots import write_plot
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:
-        write_plot(judgement.errors, folder)
+        write_plot(judgements[0].errors, folder)
 
 
-def judge(
-    estimates: Estimates, truth: Truth, source: str, removed: tuple[str, ...] = ()
-) -> Judgement:
-    """Compare estimates with the exact motion; `removed` may name "offset" and "delay"."""
-    found = find_offset(estimates, truth)
-    wanted = {"rotations": "offset" in removed, "delay": "delay" in removed}
-    taken = found if all(wanted.values()) else find_offset(estimates, truth, **wanted)
-    errors = compare(estimates, truth, taken)
-    if not len(errors.total):
-        count = len(estimates)
-        raise LogError(
-            f"{source} must have an attitude at a stamp within the run, got none of {count}"
-        )
-    return Judgement(source, errors, found, removed, estimates.left_out)
-
-
-def _read_estimates(options: argparse.Namespace) -> Estimates:
+def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimates]]:
+    """Yield the sources and their estimates."""
     other: Path | None = options.estimates
     if other and other.suffix == CSV:
-        return read_csv(other)
+        yield str(other), _choose_frame(read_csv(other), options.attitude_of)
+        return
     if not options.topic:
-        raise LogError(f"--topic must name the estimates in {other}, got none")
-    return read_topic(open_run([other] if other else options.files), options.topic, options.frame)
+        raise RefusedError(f"--topic must name the estimates in {other}, got none")
+    from symtop_ros.log.bag import open_run  # logs need mcap
+
+    for topic in options.topic:
+        source = open_run([other] if other else options.files)
+        found = read_topic(source, topic, options.frame)
+        yield topic, _choose_frame(found, options.attitude_of)
 
 
-def _score(options: argparse.Namespace) -> int:
-    """List the problems of the test set, score a trajectory, or copy a problem."""
-    problems = score.read_problems()
-    if not options.testset:
-        print(score.list_problems(problems))
-    elif options.files:
-        result = score.score_file(problems, options.testset, options.files[0])
-        print(result.format())
-        if options.max_error and result.angles.max() > options.max_error:
-            return 1
-    else:
-        _copy(problems, options.testset, options.output or Path())
-    return 0
-
-
-def _copy(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
-    """Write a problem as JSON, and its models, into a folder."""
-    problem = score.find_problem(problems, name)
-    folder.mkdir(parents=True, exist_ok=True)
-    target = folder / f"{name}.json"
-    target.write_text(problem.format_json(), encoding="utf-8")
-    models = sorted((score.FILE.parent / "models").glob(f"{name}.*"))
-    for model in models:
-        shutil.copy(model, folder / model.name)
-    print(f"wrote {', '.join([target.name, *(model.name for model in models)])} to {folder}")
+def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:
+    return replace(estimates, of_sensor=attitude_of == SENSOR) if attitude_of else estimates

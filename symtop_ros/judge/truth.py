@@ -1,16 +1,26 @@
 """The exact motion of a run, at any stamps, from the events of the run."""
 
+from __future__ import annotations
+
+import json
 from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.log.reader import LogError
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.quaternions import compose
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.scene import start_event, start_motion
 from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.validation import RefusedError
+
+if TYPE_CHECKING:  # logs need mcap
+    from symtop_ros.log.top_log import TopLog
 
 
 class Truth:
@@ -21,7 +31,8 @@ class Truth:
     later run replaces what it repeats.
     """
 
-    def __init__(self, events: Sequence[Event] = ()) -> None:
+    def __init__(self, events: Sequence[Event] = (), end: int | None = None) -> None:
+        self.end = end  # stamp of the last sample in ns; None: the run has no known end
         self._events: list[Event] = []
         self._segments: dict[int, Segment] = {}  # by the number of the event
         self._budget = StepBudget(SPARE_STEPS)
@@ -40,18 +51,32 @@ class Truth:
         """Stamp of the first event in ns, or None."""
         return self._events[0].stamp if self._events else None
 
-    def states_at(self, stamps: Stamps) -> tuple[Real, Real, NDArray[np.bool_]]:
-        """Return quaternions (n, 4), body rates (n, 3) and the mask of those known, at stamps."""
+    def count_late(self, stamps: Stamps) -> int:
+        """Return how many stamps are after the last sample of the run."""
+        return 0 if self.end is None else int((stamps > self.end).sum())
+
+    def states_at(
+        self, stamps: Stamps, of_sensor: bool = False
+    ) -> tuple[Real, Real, NDArray[np.bool_]]:
+        """Return quaternions (n, 4), rates (n, 3) and the mask of those known, at stamps.
+
+        They are those of the body and in its frame; with `of_sensor` those of the sensor that is
+        mounted on it.
+        """
         orientations, rates = np.zeros((len(stamps), 4)), np.zeros((len(stamps), 3))
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)
+        inside = stamps <= (np.iinfo(np.int64).max if self.end is None else self.end)
         begins = [event.stamp for event in self._events]
         owners = np.searchsorted(begins, stamps, side="right") - 1
-        for number in np.unique(owners[owners >= 0]).tolist():
-            chosen = owners == number
+        for number in np.unique(owners[inside & (owners >= 0)]).tolist():
+            chosen = inside & (owners == number)
             segment = self._segment(number)
             if self._budget.reach_stamps(segment, stamps[chosen]):
-                orientations[chosen], rates[chosen] = segment.state_at(stamps[chosen])
+                q, omega = segment.state_at(stamps[chosen])
+                if of_sensor and (imu := segment.rig.imu):
+                    q, omega = compose(q, imu.mount.orientation), imu.mount.to_body(omega)
+                orientations[chosen], rates[chosen] = q, omega
                 known[chosen] = True
         return orientations, rates, known
 
@@ -62,8 +87,28 @@ class Truth:
 
 
 def read_truth(log: TopLog) -> Truth:
-    """Return the exact motion of the run in a log."""
-    truth = Truth([event for batch in log.batches() for _, event in batch.events])
-    if truth.begin is None:
-        raise LogError(f"{log.file.path} must have the events of a top (~/events), got none")
-    return truth
+    """Return the exact motion of the run in a log, up to its last sample."""
+    events: list[Event] = []
+    end: int | None = None
+    for batch in log.batches():
+        events += (event for _, event in batch.events)
+        ends = [int(columns.stamps.max()) for columns in batch.columns.values()]
+        end = max(ends if end is None else [end, *ends], default=None)
+    if not events:
+        raise RefusedError(f"{log.file.path} must have the events of a top (~/events), got none")
+    return Truth(events, end)
+
+
+def scene_truth(name: str) -> Truth:
+    """Return the exact motion of a scene that starts at the stamp 0."""
+    return Truth([start_event(start_motion(Settings.from_scene(name)))])
+
+
+def read_events(path: Path) -> Truth:
+    """Return the exact motion of a run whose events are in a JSON file of `top_imu`."""
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+        events = [Event(**each) for each in facts["events"]]
+        return Truth(events, int(facts["end"]))
+    except (ValueError, TypeError, KeyError):
+        raise RefusedError(f"{path} must have the events of a run as top_imu writes them") from None

@@ -21,7 +21,7 @@ from symtop_ros.node.pacer import Pacer
 from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
 from symtop_ros.node.priority import use_real_time
 from symtop_ros.node.services import TYPES, fill_response
-from symtop_ros.physics.kernel import describe_engine
+from symtop_ros.physics import describe_engine
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings

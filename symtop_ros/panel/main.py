@@ -40,7 +40,7 @@ def main(args: list[str] | None = None) -> int:
             return _show_node(options, ["top_panel", *arguments], ending)
         return _show(options, LocalTop(options.scene, SPEED), ending)
     except ModuleNotFoundError as error:
-        text = f"{error.name} is missing: source a ROS 2, or pip install 'symtop_ros[ros]'"
+        text = f"{error.name} is missing: source a ROS 2, or pip install '.[ros]' in the checkout"
         print(f"top_panel: {text}", file=sys.stderr)
         return 1
     except Exception as error:

@@ -16,7 +16,7 @@ Examples
 from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
 from symtop_ros.physics.exact.kind import Kind
-from symtop_ros.physics.kernel import accelerated
+from symtop_ros.physics.kernel import accelerated, describe_engine, python_alone
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -61,11 +61,13 @@ __all__ = [
     "apply_impulse",
     "balance",
     "compare_hurried",
+    "describe_engine",
     "hurry",
     "kick_verdict",
     "perrys_rule",
     "point_acceleration",
     "precession_rate",
+    "python_alone",
     "regular_precession_rates",
     "set_precession_rate",
     "specific_force",

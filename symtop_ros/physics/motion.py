@@ -188,7 +188,8 @@ class Motion:
     @property
     def is_driven(self) -> bool:
         """True if friction or an applied torque acts: there is no closed form, only series."""
-        return bool(self.friction) or bool(np.any(self.applied_torque))
+        torque = self.applied_torque
+        return bool(self.friction) or (any(torque) if type(torque) is tuple else bool(torque.any()))
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.

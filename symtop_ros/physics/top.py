@@ -67,7 +67,7 @@ class Top:
     @property
     def shape(self) -> tuple[int, ...]:
         """() for one top, (...) for many."""
-        return np.shape(self.Ix)
+        return getattr(self.Ix, "shape", ())
 
     def __eq__(self, other: object) -> bool:
         """Compare all moments."""
@@ -217,7 +217,7 @@ class Friction:
     @property
     def shape(self) -> tuple[int, ...]:
         """() for one friction, (...) for many."""
-        return np.shape(self.axial)
+        return getattr(self.axial, "shape", ())
 
     def __eq__(self, other: object) -> bool:
         """Compare both coefficients."""
@@ -236,7 +236,9 @@ class Friction:
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
-        return bool(np.any(self.axial) or np.any(self.transverse))
+        if self.shape:
+            return bool(np.any(self.axial) or np.any(self.transverse))
+        return self.axial > 0 or self.transverse > 0
 
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""

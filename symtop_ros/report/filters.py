@@ -7,7 +7,7 @@ start from the exact attitude, so that nothing but the motion and the noise is j
 import math
 import shutil
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,23 +18,16 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
+from symtop_ros.imu import CONSUMER, record_imu
 from symtop_ros.judge.compare import NONE, Errors, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.physics import STANDARD_GRAVITY, Motion
 from symtop_ros.quaternions import invert
 from symtop_ros.report.document import format_table
 from symtop_ros.report.publish import track, write_results
-from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import initial_state
-from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.scene import start_motion
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
-from symtop_ros.wire.layout import NANOSECONDS
-from symtop_ros.wire.messages import IMU
 
-MEASURED = ("angular_velocity", "linear_acceleration")
 RATE, SPAN = 1000, 20  # Hz, s
 SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
 MOUNTS = {  # m, in the body frame
@@ -42,9 +35,6 @@ MOUNTS = {  # m, in the body frame
     "1 cm along the axis": (0.0, 0.0, 0.01),
     "1 cm beside the axis": (0.01, 0.0, 0.0),
 }
-# Densities and random walks of a good consumer sensor (Bosch BMI088, with walks from its bias
-# stability): rad/s/sqrt(Hz), rad/s^2/sqrt(Hz), m/s^2/sqrt(Hz), m/s^3/sqrt(Hz).
-NOISE = (2.4e-4, 1e-5, 1.7e-3, 1e-4)
 FILTERS = ("AngularRate", "Complementary", "Madgwick", "Mahony", "AQUA", "EKF", "UKF")
 SHOWN = ("Madgwick", "Mahony", "EKF", "AngularRate")  # in the plot
 PLOTTED = ("cusps", "in the pivot")
@@ -76,17 +66,10 @@ class SensorRecord:
 
 def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> SensorRecord:
     """Return what a sensor measures at a place (m, body frame) on the top of a scene."""
-    settings = Settings.from_scene(scene)
-    start = initial_state(settings.top, settings.initial, {})
-    imu = Imu(place, (0.0, 0.0, 0.0, 1.0), *NOISE, seed=seed, rate=float(RATE))
-    motion = Motion(settings.top, start)
-    segment = Segment.begin(motion, 0, 1.0, Rig(STANDARD_GRAVITY, imu))
-    stamps = np.arange(RATE * SPAN) * (NANOSECONDS // RATE)
-    numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, stamps))
-    truth = Truth([Event.of(0, "start", "", {}, start, segment)])
-    q = numbers[:, [3, 0, 1, 2]]
-    rates, forces = (numbers[:, IMU.quantities[name]] for name in MEASURED)
-    return SensorRecord(stamps, q, rates, forces, truth)
+    imu = replace(CONSUMER, position=place, seed=seed, rate=float(RATE))
+    found = record_imu(start_motion(Settings.from_scene(scene)), imu, SPAN)
+    rates, forces = found.measured[:, :3], found.measured[:, 3:]
+    return SensorRecord(found.stamps, found.orientations, rates, forces, Truth([found.event]))
 
 
 def run_filter(name: str, recording: SensorRecord) -> Errors:

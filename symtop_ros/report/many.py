@@ -10,8 +10,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, State, Top, accelerated
-from symtop_ros.physics.kernel import python_alone
+from symtop_ros.physics import Motion, State, Top, accelerated, python_alone
 from symtop_ros.report.peers import ALONE, CLOSED_FORM
 
 SEED = 1

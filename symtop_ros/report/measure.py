@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from symtop_ros.physics.kernel import describe_engine
+from symtop_ros.physics import describe_engine
 from symtop_ros.report.benchmarks import Results, Scope, list_steps
 from symtop_ros.report.document import Environment, format_document
 from symtop_ros.report.peers import find_peers

@@ -3,8 +3,7 @@
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
-from symtop_ros.physics import balance, perrys_rule
-from symtop_ros.physics.kernel import describe_engine
+from symtop_ros.physics import balance, describe_engine, perrys_rule
 from symtop_ros.session.summary import constants_of_motion, summarize_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation

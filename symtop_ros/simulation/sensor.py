@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
 from symtop_ros.quaternions import compose
+from symtop_ros.simulation.validation import number, vector
 from symtop_ros.wire.layout import NANOSECONDS
 
 EXACT = 1e-18  # (1e-9)^2, a covariance of what is exact: zero would mean "unknown" (sensor_msgs)
@@ -27,25 +28,79 @@ BLOCK_BITS, LEVELS = 40, 24
 BLOCK = 1 << BLOCK_BITS  # ns; 18 minutes
 LONGEST_WALK = 1 << 57  # ns; four years and a half
 AXES = 3
+MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz
+MAX_DISTANCE = 1e6  # m
+MAX_NOISE = 1e6
+NOISE = (
+    "gyroscope_noise_density",
+    "gyroscope_random_walk",
+    "accelerometer_noise_density",
+    "accelerometer_random_walk",
+)
 # Streams of numbers: three of the gyroscope, then three of the accelerometer.
 WHITE, WALKS = range(2 * AXES), range(2 * AXES, 4 * AXES)
 
 
 @dataclass(frozen=True)
 class Imu:
-    """An inertial measurement unit."""
+    """An inertial measurement unit on a top.
 
-    position: Vector = CENTRE  # its place in the body frame in m
-    orientation: tuple[float, float, float, float] = ALONG  # quaternion x, y, z, w, sensor to body
-    # White noise and random walks of the biases, in the units of Kalibr's YAML.
-    gyroscope_noise_density: float = 0.0  # rad/s/sqrt(Hz)
-    gyroscope_random_walk: float = 0.0  # rad/s^2/sqrt(Hz)
-    accelerometer_noise_density: float = 0.0  # m/s^2/sqrt(Hz)
-    accelerometer_random_walk: float = 0.0  # m/s^3/sqrt(Hz)
-    seed: int = 0  # of the noise
-    # samples per second: the noise of a sample is its density times the root of the rate
+    Noise densities and random walks are in the units of datasheets and of Kalibr's YAML. A sample
+    has white noise of a density times the root of the rate.
+
+    Attributes
+    ----------
+    position : tuple (3,)
+        Its place in the body frame in m.
+    orientation : tuple (4,)
+        Quaternion x, y, z, w, sensor to body.
+    gyroscope_noise_density : float
+        White noise in rad/s/sqrt(Hz).
+    gyroscope_random_walk : float
+        Random walk of the bias in rad/s^2/sqrt(Hz).
+    accelerometer_noise_density : float
+        White noise in m/s^2/sqrt(Hz).
+    accelerometer_random_walk : float
+        Random walk of the bias in m/s^3/sqrt(Hz).
+    seed : int
+        Of the noise, >= 0.
+    rate : float
+        Samples per second.
+    begin : int
+        Stamp in ns at which the biases are zero.
+
+    Raises
+    ------
+    ValueError
+        If a number is refused.
+
+    Examples
+    --------
+    >>> from symtop_ros.imu import Imu
+    >>> Imu(position=(0, 0, 0.02), rate=1000).has_noise
+    False
+    >>> Imu(rate=0)
+    Traceback (most recent call last):
+    symtop_ros.simulation.validation.RefusedError: rate must be 0.001 to 1e+06 Hz, got 0
+    """
+
+    position: Vector = CENTRE
+    orientation: tuple[float, float, float, float] = ALONG
+    gyroscope_noise_density: float = 0.0
+    gyroscope_random_walk: float = 0.0
+    accelerometer_noise_density: float = 0.0
+    accelerometer_random_walk: float = 0.0
+    seed: int = 0
     rate: float = 200.0
-    begin: int = 0  # stamp in ns at which the biases are zero
+    begin: int = 0
+
+    def __post_init__(self) -> None:
+        vector("position", self.position, 3, MAX_DISTANCE, "m, body frame")
+        number("rate", self.rate, "Hz", MIN_RATE, MAX_RATE)
+        number("seed", self.seed, "", 0, 2**63 - 1)
+        for name in NOISE:
+            number(name, getattr(self, name), "in SI units", 0.0, MAX_NOISE)
+        _ = self.mount  # refused here if it is no unit quaternion
 
     @property
     def has_noise(self) -> bool:
@@ -88,15 +143,24 @@ class Imu:
     def noise(self, stamps: Any) -> Real:
         """Return the errors of angular velocity and acceleration at stamps."""
         times = np.asarray(stamps, dtype=np.int64)
-        errors = np.zeros((*times.shape, 2 * AXES))
+        errors = self.biases(times)
         sizes = np.repeat([each * math.sqrt(self.rate) for each in self._densities], AXES)
         if any(self._densities):
             white = _normals(self.seed, WHITE, times)
             errors += np.moveaxis(sizes.reshape(-1, *[1] * times.ndim) * white, 0, -1)
-        if any(self._walks):
-            walks = random_walks(self.seed, WALKS, times - self.begin)
-            errors += np.moveaxis(walks, 0, -1) * np.repeat(self._walks, AXES)
         return errors
+
+    def biases(self, stamps: Any) -> Real:
+        """Return the slow part of the errors: the random walks."""
+        times = np.asarray(stamps, dtype=np.int64)
+        if not any(self._walks):
+            return np.zeros((*times.shape, 2 * AXES))
+        walks = random_walks(self.seed, WALKS, times - self.begin)
+        return np.asarray(np.moveaxis(walks, 0, -1) * np.repeat(self._walks, AXES))
+
+
+# A good consumer sensor (Bosch BMI088, with walks from its bias stability).
+CONSUMER = Imu(CENTRE, ALONG, 2.4e-4, 1e-5, 1.7e-3, 1e-4)
 
 
 @dataclass(frozen=True)
@@ -132,13 +196,7 @@ class Rig:
         a, b, c, x, y, z, w = map(float, values["imu.mount"].split())
         gyro, gyro_walk, accel, accel_walk, rate = map(float, values["imu.noise"].split())
         seed, begin = int(values["imu.seed"]), int(values["imu.begin"])
-        numbers = (a, b, c, gyro, gyro_walk, accel, accel_walk, rate)
-        if not all(map(math.isfinite, numbers)) or rate <= 0 or not 0 <= seed < 2**63:
-            raise ValueError(
-                "the numbers of the imu must be finite, with a rate above 0 and a seed >= 0"
-            )
         imu = Imu((a, b, c), (x, y, z, w), gyro, gyro_walk, accel, accel_walk, seed, rate, begin)
-        _ = imu.mount  # refused here if it is no unit quaternion
         return cls(gravity, imu)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Top
 from symtop_ros.simulation.presets import load_scene
-from symtop_ros.simulation.sensor import ALONG, CENTRE, Imu, Rig
+from symtop_ros.simulation.sensor import ALONG, CENTRE, MAX_NOISE, Imu, Rig
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,
@@ -26,7 +26,6 @@ PRECESSIONS = ("slow", "fast")
 MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
 MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
 MAX_ARM = 1e6  # m
-MAX_NOISE = 1e6
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
 MAX_PRIORITY = 99  # of SCHED_FIFO
@@ -289,13 +288,12 @@ class Settings:
 
 def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
     """Return the sensor, or None if it is off."""
-    imu = Imu(
-        clean["imu.position"] or CENTRE,
-        clean["imu.orientation"] or ALONG,
-        **_group(clean, "imu.noise."),
-    )
     try:
-        _ = imu.mount
+        imu = Imu(
+            clean["imu.position"] or CENTRE,
+            clean["imu.orientation"] or ALONG,
+            **_group(clean, "imu.noise."),
+        )
     except ValueError as error:
         raise RefusedError(f"imu.{error}") from None
     return imu if clean["imu.enabled"] else None

@@ -150,13 +150,20 @@ class Score:
 def read_problems(path: Path = FILE) -> dict[str, Problem]:
     """Return the problems by their names.
 
+    Without that file, as in the folder of a copied problem, every other JSON file next to it is
+    read.
+
     Examples
     --------
     >>> len(read_problems())
     60
     """
-    facts = json.loads(path.read_text(encoding="utf-8"))
-    return {each["name"]: Problem(each) for each in facts["problems"]}
+    if path.exists():
+        found = json.loads(path.read_text(encoding="utf-8"))["problems"]
+    else:
+        copies = sorted(path.parent.glob("*.json"))
+        found = [json.loads(each.read_text(encoding="utf-8")) for each in copies]
+    return {each["name"]: Problem(each) for each in found}
 
 
 def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:

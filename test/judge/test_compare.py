@@ -7,8 +7,9 @@ import pytest
 from judge.cases import SECOND, make_estimates, truth_and_stamps
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.judge.compare import compare, find_offset
+from symtop_ros.judge.compare import compare
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.explain import explain
 
 EPS = 2.0**-52
 
@@ -54,20 +55,20 @@ def test_rotations_of_any_size_and_a_delay_are_found(seed):
     delay = random.uniform(-0.05, 0.05)
     truth, stamps = truth_and_stamps(seed=seed)
     estimates = make_estimates(truth, stamps, world, body, delay)
-    found = find_offset(estimates, truth)
+    found = explain(estimates, truth).offset
     # A spin is a delay and a rotation of the body at once; nutation, kick and pauses tell them
     # apart. The stamps are whole nanoseconds, in which the top turns by 2e-7 rad.
     assert found.delay == pytest.approx(delay, abs=1e-8)
     errors = compare(estimates, truth, found)
     assert errors.total.max() < 3e-6
     assert errors.rate.max() < 1e-3
-    alone = find_offset(estimates, truth, rotations=False)
+    alone = explain(estimates, truth, rotations=False).offset
     assert alone.angles == (0.0, 0.0)
 
 
 def test_without_an_offset_none_is_found():
     truth, stamps = truth_and_stamps()
-    found = find_offset(make_estimates(truth, stamps), truth)
+    found = explain(make_estimates(truth, stamps), truth).offset
     assert found.delay == 0.0
     assert max(found.angles) < 8 * EPS
 

@@ -1,11 +1,10 @@
-"""Estimates from each message type, from logs of any kind and from CSV files."""
+"""Estimates from each message type."""
 
-import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps
 
-from symtop_ros.judge.estimates import FORMATS, TF_TYPE, decode_estimates, read_csv
-from symtop_ros.log.reader import LogError
+from symtop_ros.judge.estimates import FORMATS, TF_TYPE, decode_estimates
+from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import TRANSFORM
 
 
@@ -57,51 +56,12 @@ def test_an_imu_without_orientation_is_left_out(estimates):
 def test_transforms_of_several_frames_need_a_name(estimates):
     numbers = [0.0, 0, 0, 0, 0, 0, 1]
     data = [TRANSFORM.layout("world", child).encode(9, numbers) for child in ("a", "b")]
-    with pytest.raises(LogError, match="--frame must be one of a, b, got none"):
+    with pytest.raises(RefusedError, match="--frame must be one of a, b, got none"):
         decode_estimates(TF_TYPE, data)
     assert decode_estimates(TF_TYPE, data, "b").stamps.tolist() == [9]
     assert len(decode_estimates(TF_TYPE, data, "c")) == 0
 
 
 def test_a_type_without_attitude_is_refused():
-    with pytest.raises(LogError, match="topic must have a type with an attitude"):
+    with pytest.raises(RefusedError, match="topic must have a type with an attitude"):
         decode_estimates("std_msgs/msg/String", [])
-
-
-def test_a_csv_file_with_stamps_or_seconds_is_read(tmp_path, estimates):
-    numbers = np.hstack((estimates.orientations, estimates.angular_velocities)).tolist()
-    stamps = estimates.stamps.tolist()
-    times = {"stamp": map(str, stamps), "t": (f"{s // 10**9}.{s % 10**9:09d}" for s in stamps)}
-    for name, column in times.items():
-        path = tmp_path / f"{name}.csv"
-        rows = [",".join([t, *map(repr, n)]) for t, n in zip(column, numbers, strict=True)]
-        path.write_text("\n".join([f"{name},w,x,y,z,wx,wy,wz", *rows]) + "\n")
-        found = read_csv(path)
-        assert found.stamps.tolist() == stamps
-        assert (found.orientations == estimates.orientations).all()
-        assert (found.angular_velocities == estimates.angular_velocities).all()
-
-
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z; got no t"),
-        ("t,w,x,y\n", "got no z"),
-        ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
-        ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a CSV file|must consist of numbers"),
-        ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
-    ],
-)
-def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
-    path = tmp_path / "bad.csv"
-    path.write_text(text)
-    with pytest.raises(LogError, match=reason):
-        read_csv(path)
-
-
-def test_what_is_no_attitude_is_left_out(tmp_path):
-    path = tmp_path / "odd.csv"
-    path.write_text("t,w,x,y,z\n0,0,0,0,0\n1,nan,0,0,0\n-1,1,0,0,0\n1e30,1,0,0,0\n2,3,0,0,0\n")
-    found = read_csv(path)
-    assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
-    assert found.left_out == 4

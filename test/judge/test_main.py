@@ -1,15 +1,22 @@
 """`top_judge` as its users call it."""
 
 import json
+import os
 import sqlite3
+import subprocess
+import sys
+from pathlib import Path
 
+import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.main import main
+from symtop_ros.judge.truth import scene_truth
 from symtop_ros.testset import score
 
+ROOT = Path(__file__).parents[2]
 IMU = "sensor_msgs/msg/Imu"
 
 
@@ -107,7 +114,8 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert len(capsys.readouterr().out.splitlines()) == 61
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {
-        *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf"))
+        *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
+        *("score.py", "README.md", "LICENSE"),
     }
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
@@ -120,5 +128,79 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
+    # The folder stands alone: score.py knows no package.
+    alone = subprocess.run(
+        [sys.executable, "-I", str(tmp_path / "score.py"), "cusps", str(path)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert alone.stdout.startswith("cusps: attitude ")
     assert main(["--testset", "none", str(path)]) == 1
     assert "top_judge: problem must be one of plane_pendulum, " in capsys.readouterr().err
+
+
+def write_csv(path, scene="cusps"):
+    truth = scene_truth(scene)
+    stamps = np.arange(0, 10**9, 10**7)
+    q, _, _ = truth.states_at(stamps)
+    rows = [
+        f"{s},{','.join(map(repr, x))}" for s, x in zip(stamps.tolist(), q.tolist(), strict=True)
+    ]
+    path.write_text("stamp,w,x,y,z\n" + "\n".join(rows) + "\n")
+    return path
+
+
+def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):
+    path = write_csv(tmp_path / "mine.csv")
+    assert main(["--scene", "cusps", "--estimates", str(path), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["attitude"]["p100"] == 0.0
+    assert main(["--scene", "none", "--estimates", str(path)]) == 1
+    assert capsys.readouterr().err.startswith("top_judge: scene must be one of ")
+
+
+def test_several_topics_give_one_table(log, capsys, tmp_path):
+    topics = ("--topic", "/imu/data", "--topic", "/filter")
+    assert main([str(log), *topics, "-o", str(tmp_path)]) == 0
+    table = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in table[:3]] == ["attitude", "/imu/data", "/filter"]
+    facts = json.loads((tmp_path / "judge.json").read_text())
+    assert [each["source"] for each in facts] == ["/imu/data", "/filter"]
+
+
+def test_a_wrong_frame_is_refused(log, capsys):
+    assert main([str(log), "--topic", "/imu/data", "--frame", "odd"]) == 1
+    assert "--frame must be the child frame of an estimate on /imu/data" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["--testset"], ["--scene", "cusps", "--estimates", "mine.csv"]]
+)
+def test_the_judge_works_without_mcap_and_matplotlib(arguments, tmp_path):
+    write_csv(tmp_path / "mine.csv")
+    code = (
+        "import sys\n"
+        "missing = 'mcap', 'lz4', 'zstandard', 'matplotlib', 'rclpy'\n"
+        "sys.modules.update(dict.fromkeys(missing))\n"
+        "from symtop_ros.programs import top_judge\n"
+        "sys.exit(top_judge())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout
+
+
+def test_all_problems_are_copied_into_folders_of_their_own(tmp_path):
+    assert main(["--testset", "all", "-o", str(tmp_path)]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == set(score.read_problems())
+    assert all((path / f"{path.name}.json").exists() for path in tmp_path.iterdir())

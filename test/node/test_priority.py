@@ -6,7 +6,7 @@ import pytest
 from geometry_msgs.msg import QuaternionStamped
 
 from symtop_ros.node.priority import use_real_time
-from symtop_ros.physics.kernel import describe_engine
+from symtop_ros.physics import describe_engine
 
 
 def test_the_thread_gets_the_priority(monkeypatch):

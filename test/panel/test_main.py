@@ -82,7 +82,7 @@ def test_a_node_without_ros_is_one_message(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "rclpy", None)
     assert module.main(["--node", "/top"]) == 1
     assert capsys.readouterr().err == (
-        "top_panel: rclpy is missing: source a ROS 2, or pip install 'symtop_ros[ros]'\n"
+        "top_panel: rclpy is missing: source a ROS 2, or pip install '.[ros]' in the checkout\n"
     )
 
 

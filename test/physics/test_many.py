@@ -21,9 +21,9 @@ from symtop_ros.physics import (
     compare_hurried,
     kick_verdict,
     perrys_rule,
+    python_alone,
     regular_precession_rates,
 )
-from symtop_ros.physics.kernel import python_alone
 
 PROPERTIES = (
     *("kind", "nutation_period", "mean_precession_rate", "mean_spin_rate", "nutation_rate"),

@@ -165,7 +165,7 @@ def test_a_missing_rerun_is_reported_with_the_extra_that_installs_it(log):
     )
     assert result.returncode == 1
     assert result.stderr == (
-        "top_replay: rerun_cli is missing: pip install 'symtop_ros[playback]'\n"
+        "top_replay: rerun_cli is missing: pip install '.[playback]' in the checkout\n"
     )
 
 

@@ -16,7 +16,7 @@ from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import EYE_UPPER_HALF, EYE_WHOLE_SPHERE
 from symtop_ros.playback.view.view import View
 
-VIEWS = 13
+VIEWS = 14
 FOV = np.radians(55.0)  # vertical, Rerun's own
 SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
 HANGING = Top(2.28e-4, 5.72e-5, -0.068)
@@ -49,6 +49,7 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
             entities.SPACE,
             entities.PANEL,
             entities.EVENTS,
+            entities.SENTENCE,
             entities.POTENTIAL,
             entities.CUBIC,
             *entities.PLOTS,

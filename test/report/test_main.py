@@ -80,6 +80,6 @@ def test_a_missing_package_is_named_with_the_extra_that_brings_it(module, comman
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60,
     )  # fmt: skip
     assert result.returncode == 1
-    remedy = f"pip install 'symtop_ros[{extra}]'"
+    remedy = f"pip install '.[{extra}]' in the checkout"
     assert result.stderr == f"top_report: {module} is missing: {remedy}\n"
     assert list(tmp_path.iterdir()) == []

@@ -77,6 +77,7 @@ def test_the_document_has_every_chapter_and_its_plots(folder):
         "Friction and applied torques, by family",
         "Long times",
         "Many states",
+        "Many different motions",
         "Hard cases",
         "Where a peer is ahead",
     ]

@@ -88,11 +88,11 @@ class DirectSeries:
         sine_x, cosine_x = 2 * s * c, (c - s) * (c + s)
         lower, upper = self._list_versines(s * s, c * c, cosine_x)
         sines = self._list_sines(sine_x, cosine_x)
-        divisor = _sum(self._divisor.versines, lower)
+        per_divisor = 1 / _sum(self._divisor.versines, lower)
         quotients = []
         for each in self._numerators:
-            real = _sum(each.versines, lower if each.is_below else upper) / divisor
-            quotient = real, _sum(each.odd, sines) / divisor
+            real = _sum(each.versines, lower if each.is_below else upper) * per_divisor
+            quotient = real, _sum(each.odd, sines) * per_divisor
             if each.winding:
                 turn = cosine_x, -math.copysign(1.0, each.winding) * sine_x
                 for _ in range(abs(each.winding)):

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Quaternion, Real
 from symtop_ros.physics.exact.precise import PRECISE, TWO_PI, split_short
+from symtop_ros.physics.values import EPS
 
 Number: TypeAlias = float | Real
 Pair: TypeAlias = tuple[Number, Number]  # real and imaginary part, or a sum of two doubles
@@ -213,9 +214,11 @@ def find_modulus(a: FloatPair) -> float:
 
 
 def normalize(orientation: Quaternion) -> Quaternion:
-    """Return the quaternion with norm 1, to rounding."""
+    """Return the quaternion with norm 1; one that has it to rounding is unchanged, bit for bit."""
     w, x, y, z = orientation
     norm = math.sqrt((w * w + z * z) + (x * x + y * y))
+    if abs(norm - 1.0) <= 4 * EPS:
+        return orientation
     return w / norm, x / norm, y / norm, z / norm
 
 

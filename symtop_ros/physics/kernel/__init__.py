@@ -38,7 +38,14 @@ def find_kernel() -> Any:
 
 
 def describe_engine() -> str:
-    """Return what computes the states, in words."""
+    """Return what computes the states, in words.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import accelerated, describe_engine
+    >>> (describe_engine() == "the compiled kernel") == accelerated
+    True
+    """
     if accelerated:
         return "the compiled kernel"
     if os.environ.get("SYMTOP_PURE", "0") not in ("", "0"):
@@ -48,7 +55,20 @@ def describe_engine() -> str:
 
 @contextmanager
 def python_alone() -> Iterator[None]:
-    """Have the motions that are created inside computed by Python, to compare the two."""
+    """Have the motions that are created inside computed by Python, to compare the two.
+
+    Under gravity alone the states have the same bits. The environment variable SYMTOP_PURE=1 has
+    the same effect for a whole program.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Motion, State, Top, python_alone
+    >>> top, start = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
+    >>> with python_alone():
+    ...     slow = Motion(top, start)
+    >>> slow.at(10.0) == Motion(top, start).at(10.0)
+    True
+    """
     before = _is_used[0]
     _is_used[0] = False
     try:

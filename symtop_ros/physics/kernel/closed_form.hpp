@@ -357,7 +357,7 @@ inline int64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
 
 // Phases.at
 inline void find_phases(const Steps& steps, int number, double t, Phase* phases) {
-  const double ticks = t * steps.ticks, counts = std::nearbyint(ticks), rest = ticks - counts;
+  const double ticks = t * steps.ticks, counts = round_to_integer(ticks), rest = ticks - counts;
   const int64_t count = static_cast<int64_t>(counts);
   for (int i = 0; i < number; i++)
     phases[i] = {multiply_step(steps.limbs[i], count), steps.rest_rates[i] * rest};
@@ -422,7 +422,7 @@ struct NutationPhase {
     double total = high + origin.x;
     const double part = total - high;
     double error = (high - (total - part)) + (origin.x - part) + (low + origin.y);
-    const double turns = std::nearbyint(total / (2 * PI));
+    const double turns = round_to_integer(total / (2 * PI));
     total = total - turns * (2 * PI_HIGH);
     error = error - turns * (2 * PI_LOW);
     const double sign = find_sign(total), distance = std::fabs(total);
@@ -599,10 +599,10 @@ struct DirectSeries {
       sines[3] = sines[1] * (square - 2);
     }
     if (order > 3) below[4] = above[4] = below[2] * (cosine_x * cosine_x);
-    const double divisor = add(versines[DIVISOR], below, order + 1);
+    const double per_divisor = 1 / add(versines[DIVISOR], below, order + 1);
     for (int k = 0; k < FUNCTIONS; k++)
-      values[k] = {add(versines[k], is_below(k) ? below : above, order + 1) / divisor,
-                   add(odd[k], sines, order) / divisor};
+      values[k] = {add(versines[k], is_below(k) ? below : above, order + 1) * per_divisor,
+                   add(odd[k], sines, order) * per_divisor};
     const Pair turn = {cosine_x, winding < 0 ? sine_x : -sine_x};
     for (int n = 0; n < (winding < 0 ? -winding : winding); n++)
       values[OF_OMEGA_XY] = multiply(values[OF_OMEGA_XY], turn);
@@ -881,7 +881,7 @@ struct ClosedForm {
     int winding = 0;
     if (nutation_rate.sign) {
       const Precise difference = means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - n.a.scale(-1);
-      winding = static_cast<int>(std::nearbyint((difference / nutation_rate).to_double()));
+      winding = static_cast<int>(round_to_integer((difference / nutation_rate).to_double()));
     }
     if (nutation_phase.is_direct())
       direct.prepare(nutation_phase.K, nutation_phase.Kc, shifts, winding);
@@ -901,7 +901,8 @@ struct ClosedForm {
   // _initial_values
   void find_initial_values(Pair changes[FUNCTIONS]) {
     const Start& s = start;
-    const double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
+    double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
+    if (std::fabs(norm - 1.0) <= 4 * 0x1p-52) norm = 1.0;
     const double w = s.w / norm, x = s.x / norm, y = s.y / norm, z = s.z / norm;
     const Pair A = {w, z}, B = {x, y}, omega_xy = {s.wx, s.wy};
     const double spin = 0.5 * s.wz * (s.Iz / s.Ix), weight = 2 * (s.Mgl / s.Ix);

@@ -125,7 +125,7 @@ struct DrivenEquations {
     const Double2 Ix = {top.Ix, 0.0}, Iz = {top.Iz, 0.0}, Mgl = {top.Mgl, 0.0};
     const Double2 exact_ratio = Iz / Ix;
     ratio = exact_ratio.high;
-    const double share = std::nearbyint(ratio * 0x1p26) / 0x1p26;
+    const double share = round_to_integer(ratio * 0x1p26) / 0x1p26;
     half_rest = (1 - share) / 2;
     static const int TURNING[12][4] = {
         {W, X, OMEGA_X, -1}, {W, Y, OMEGA_Y, -1}, {W, Z, OMEGA_Z, -1}, {X, W, OMEGA_X, 1},
@@ -498,7 +498,7 @@ class Trail {
   // Cosine and sine of an angle, to some digits more than doubles have.
   static void find_unit(Double2 angle, Double2& c, Double2& s) {
     const Double2 QUARTER = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-    const double quarters = std::nearbyint(angle.high * QUARTERS);
+    const double quarters = round_to_integer(angle.high * QUARTERS);
     const Double2 near = angle - QUARTER * quarters;
     const double x = near.high, square = x * x;
     static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,

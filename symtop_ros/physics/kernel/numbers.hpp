@@ -21,6 +21,12 @@ namespace symtop {
 
 typedef unsigned __int128 Wide;
 
+// The nearest integer; the even one of two. Without a call of the library, which takes longer.
+inline double round_to_integer(double x) {
+  const double size = std::fabs(x);
+  return size < 0x1p51 ? std::copysign((size + 0x1p52) - 0x1p52, x) : std::rint(x);
+}
+
 // ---- Floats of N limbs of 64 bits ---------------------------------------------------------------
 //
 // The value is sign * 0.mantissa * 2^exponent. Results are truncated. Three limbs have 57 decimal
@@ -37,8 +43,16 @@ struct Float {
   Float(double x) {
     if (x == 0) return;
     sign = x < 0 ? -1 : 1;
-    const double fraction = std::frexp(std::fabs(x), &exponent);
-    limbs[N - 1] = static_cast<uint64_t>(std::ldexp(fraction, 53)) << 11;
+    uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    const int stored = (bits >> 52) & 0x7ff;
+    if (stored && stored != 0x7ff) {
+      exponent = stored - 1022;
+      limbs[N - 1] = (bits & 0xfffffffffffff) << 11 | uint64_t(1) << 63;
+    } else {  // below the normal doubles
+      const double fraction = std::frexp(std::fabs(x), &exponent);
+      limbs[N - 1] = static_cast<uint64_t>(std::ldexp(fraction, 53)) << 11;
+    }
   }
 
   // The same number with another length: truncated, or filled with zeros.
@@ -55,7 +69,12 @@ struct Float {
     const uint64_t top = limbs[N - 1], below = top & 2047;
     uint64_t mantissa = top >> 11;
     if (below > 1024 || (below == 1024 && (is_more || (mantissa & 1)))) mantissa++;
-    return sign * std::ldexp(static_cast<double>(mantissa), exponent - 53);
+    const double size = sign * static_cast<double>(mantissa);
+    if (exponent < -900 || exponent > 1000) return std::ldexp(size, exponent - 53);
+    const uint64_t bits = static_cast<uint64_t>(exponent - 53 + 1023) << 52;
+    double power;
+    std::memcpy(&power, &bits, sizeof power);
+    return size * power;
   }
 
   // This times 2^power.
@@ -111,6 +130,36 @@ Float<N> operator*(const Float<N>& a, const Float<N>& b) {
   return result;
 }
 
+// The same for three limbs, from six of the nine products: those left out are below the last bit.
+inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
+  Float<3> result;
+  result.sign = a.sign * b.sign;
+  if (!result.sign) return result;
+  const Wide a0b2 = static_cast<Wide>(a.limbs[0]) * b.limbs[2];
+  const Wide a1b1 = static_cast<Wide>(a.limbs[1]) * b.limbs[1];
+  const Wide a2b0 = static_cast<Wide>(a.limbs[2]) * b.limbs[0];
+  const Wide a1b2 = static_cast<Wide>(a.limbs[1]) * b.limbs[2];
+  const Wide a2b1 = static_cast<Wide>(a.limbs[2]) * b.limbs[1];
+  const Wide a2b2 = static_cast<Wide>(a.limbs[2]) * b.limbs[2];
+  const auto low = [](Wide x) { return static_cast<Wide>(static_cast<uint64_t>(x)); };
+  const Wide second = low(a0b2) + low(a1b1) + low(a2b0);
+  const Wide third = (second >> 64) + (a0b2 >> 64) + (a1b1 >> 64) + (a2b0 >> 64) + low(a1b2) +
+                     low(a2b1);
+  const Wide fourth = (third >> 64) + (a1b2 >> 64) + (a2b1 >> 64) + low(a2b2);
+  const uint64_t p2 = static_cast<uint64_t>(second), p3 = static_cast<uint64_t>(third);
+  const uint64_t p4 = static_cast<uint64_t>(fourth);
+  const uint64_t p5 = static_cast<uint64_t>((fourth >> 64) + (a2b2 >> 64));
+  result.exponent = a.exponent + b.exponent;
+  if (p5 >> 63) {
+    result.limbs[0] = p3, result.limbs[1] = p4, result.limbs[2] = p5;
+  } else {
+    result.limbs[0] = p3 << 1 | p2 >> 63, result.limbs[1] = p4 << 1 | p3 >> 63;
+    result.limbs[2] = p5 << 1 | p4 >> 63;
+    result.exponent--;
+  }
+  return result;
+}
+
 // Shift the N + 1 limbs of a sum or a difference until the highest bit is set.
 template <int N>
 void normalize(uint64_t* limbs, Float<N>& result) {
@@ -138,15 +187,15 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   const Float<N>&a = is_first ? x : y, &b = is_first ? y : x;
   const int distance = a.exponent - b.exponent;
   if (distance >= 64 * N + 2) return a;
-  // One more limb below, so that a bit that is lost in the shift is no bit of the result.
-  uint64_t large[N + 1] = {}, small[N + 1];
+  // One more limb below, so that a bit that is lost in the shift is no bit of the result. The smaller
+  // number lies between limbs of zero, of which the shift is a choice.
+  uint64_t large[N + 1] = {}, small[N + 1], between[2 * N + 3] = {};
   std::memcpy(large + 1, a.limbs, sizeof a.limbs);
+  std::memcpy(between + 1, b.limbs, sizeof b.limbs);
   const int places = distance / 64, bits = distance % 64;
   for (int i = 0; i <= N; i++) {
-    const int j = i - 1 + places;
-    const uint64_t lower = j >= 0 && j < N ? b.limbs[j] : 0;
-    const uint64_t upper = j + 1 >= 0 && j + 1 < N ? b.limbs[j + 1] : 0;
-    small[i] = bits ? lower >> bits | upper << (64 - bits) : lower;
+    const Wide both = static_cast<Wide>(between[i + places + 1]) << 64 | between[i + places];
+    small[i] = static_cast<uint64_t>(both >> bits);
   }
   Float<N> result;
   result.sign = a.sign;
@@ -163,6 +212,8 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
       large[N] = large[N] >> 1 | uint64_t(1) << 63;
       result.exponent++;
     }
+    std::memcpy(result.limbs, large + 1, sizeof result.limbs);
+    return result;
   } else {
     uint64_t borrow = 0;
     for (int i = 0; i <= N; i++) {
@@ -175,43 +226,117 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   return result;
 }
 
+// The same for three limbs, in two halves of 128 bits, of which the lowest 64 are the guard limb.
+inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
+  if (!x.sign) return y;
+  if (!y.sign) return x;
+  const auto upper = [](const Float<3>& f) { return static_cast<Wide>(f.limbs[2]) << 64 | f.limbs[1]; };
+  const auto lower = [](const Float<3>& f) { return static_cast<Wide>(f.limbs[0]) << 64; };
+  const Wide upper_x = upper(x), upper_y = upper(y);
+  const bool is_first =
+      x.exponent != y.exponent
+          ? x.exponent > y.exponent
+          : upper_x != upper_y ? upper_x > upper_y : x.limbs[0] >= y.limbs[0];
+  const Float<3>&a = is_first ? x : y, &b = is_first ? y : x;
+  const int distance = a.exponent - b.exponent;
+  if (distance >= 194) return a;
+  Wide high = is_first ? upper_x : upper_y, low = lower(a);
+  Wide small_high = is_first ? upper_y : upper_x, small_low = lower(b);
+  if (distance >= 128) {
+    small_low = small_high >> (distance - 128);
+    small_high = 0;
+  } else if (distance) {
+    small_low = small_low >> distance | small_high << (128 - distance);
+    small_high >>= distance;
+  }
+  Float<3> result;
+  result.sign = a.sign;
+  result.exponent = a.exponent;
+  if (a.sign == b.sign) {
+    low += small_low;
+    const Wide carry = low < small_low, total = high + small_high, sum = total + carry;
+    if (total < high || sum < total) {
+      low = low >> 1 | sum << 127;
+      high = sum >> 1 | static_cast<Wide>(1) << 127;
+      result.exponent++;
+    } else {
+      high = sum;
+    }
+  } else {
+    const Wide borrow = low < small_low;
+    low -= small_low;
+    high = high - small_high - borrow;
+    if (!high) {
+      if (!low) return Float<3>();
+      high = low, low = 0;
+      result.exponent -= 128;
+    }
+    const uint64_t top = static_cast<uint64_t>(high >> 64);
+    const int bits = top ? __builtin_clzll(top)
+                         : 64 + __builtin_clzll(static_cast<uint64_t>(high));
+    if (bits) {
+      high = high << bits | low >> (128 - bits);
+      low <<= bits;
+      result.exponent -= bits;
+    }
+  }
+  result.limbs[2] = static_cast<uint64_t>(high >> 64);
+  result.limbs[1] = static_cast<uint64_t>(high);
+  result.limbs[0] = static_cast<uint64_t>(low >> 64);
+  return result;
+}
+
 template <int N>
 Float<N> operator-(const Float<N>& a, const Float<N>& b) {
   return a + -b;
 }
 
-// The reciprocal by Newton's method, from a double; each step doubles the digits.
-template <int N>
-Float<N> invert(const Float<N>& a) {
-  Float<N> mantissa = a;
+// The first 106 bits of a mantissa, as a sum of two doubles.
+inline void split_mantissa(const Float<3>& a, double& high, double& low) {
+  const uint64_t top = a.limbs[2];
+  high = static_cast<double>(top >> 11) * 0x1p-53;
+  low = static_cast<double>((top & 2047) << 42 | a.limbs[1] >> 22) * 0x1p-106;
+}
+
+// The reciprocal by Newton's method, from a double; each step doubles the digits. The first step is
+// made in doubles: what is left of 1 is formed without rounding.
+inline Float<3> invert(const Float<3>& a) {
+  Float<3> mantissa = a;
   mantissa.exponent = 0;
   mantissa.sign = 1;
-  Float<N> result(1.0 / mantissa.to_double());
-  for (int digits = 53; digits < 64 * N; digits *= 2)
-    result = result + result * (Float<N>(1.0) - mantissa * result);
+  double high, low;
+  split_mantissa(a, high, low);
+  const double estimate = 1.0 / high;
+  const double rest = __builtin_fma(-high, estimate, 1.0) - low * estimate;
+  const Float<3> first = Float<3>(estimate) + Float<3>(estimate * rest);
+  const Float<2> error(Float<3>(1.0) - mantissa * first);
+  Float<3> result = first + Float<3>(Float<2>(first) * error);
   result.exponent -= a.exponent;
   result.sign = a.sign;
   return result;
 }
 
-template <int N>
-Float<N> operator/(const Float<N>& a, const Float<N>& b) {
-  return a * invert(b);
-}
+inline Float<3> operator/(const Float<3>& a, const Float<3>& b) { return a * invert(b); }
 
-// The square root, from the reciprocal of the root by Newton's method.
-template <int N>
-Float<N> root(const Float<N>& a) {
-  if (a.sign <= 0) return Float<N>();
-  Float<N> mantissa = a;
+// The square root, from the reciprocal of the root, as above.
+inline Float<3> root(const Float<3>& a) {
+  if (a.sign <= 0) return Float<3>();
+  Float<3> mantissa = a;
   const int odd = a.exponent & 1;
   mantissa.exponent = odd;
-  Float<N> inverse(1.0 / std::sqrt(mantissa.to_double()));
-  for (int digits = 53; digits < 64 * N; digits *= 2) {
-    const Float<N> error = Float<N>(1.0) - mantissa * (inverse * inverse);
-    inverse = inverse + (inverse * error).scale(-1);
-  }
-  return (mantissa * inverse).scale((a.exponent - odd) / 2);
+  double high, low;
+  split_mantissa(a, high, low);
+  if (odd) high *= 2, low *= 2;
+  const double inverse = 1.0 / std::sqrt(high);
+  const double square = inverse * inverse, below = __builtin_fma(inverse, inverse, -square);
+  const double product = high * square, lost = __builtin_fma(high, square, -product);
+  const double rest = (1.0 - product) - lost - high * below - low * square;
+  const Float<3> first = Float<3>(inverse) + Float<3>(inverse * (0.5 * rest));
+  // The root itself is corrected, by half of what its square lacks.
+  const Float<3> estimate = mantissa * first;
+  const Float<2> lacking(mantissa - estimate * estimate);
+  const Float<3> result = estimate + Float<3>((lacking * Float<2>(first)).scale(-1));
+  return result.scale((a.exponent - odd) / 2);
 }
 
 template <int N>
@@ -263,7 +388,7 @@ inline void split_short(const Precise& x, double& high, double& low) {
 
 // exp(x) of a number x <= 0, as a double: Decimal.exp()
 inline double exponential(const Precise& x) {
-  const double doublings = std::nearbyint(x.to_double() / 0.6931471805599453);
+  const double doublings = round_to_integer(x.to_double() / 0.6931471805599453);
   if (doublings < -1000) return 0.0;
   const int HALVINGS = 16;
   const Precise y = (x - Precise(doublings) * LN2).scale(-HALVINGS);
@@ -348,7 +473,7 @@ inline Pair cosine_and_sine_near_0(double x, double rest) {
 }
 
 inline Pair cosine_and_sine(double x) {
-  const double quarters = std::nearbyint(x * QUARTERS);
+  const double quarters = round_to_integer(x * QUARTERS);
   const double part = x - quarters * QUARTER_HIGH, low = quarters * QUARTER_LOW;
   const double near = part - low;
   const Pair unit = cosine_and_sine_near_0(near, (part - near) - low);
@@ -365,7 +490,7 @@ inline Pair expand_exponential(double x) {
                                   1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
                                   1.0 / 24, 1.0 / 6, 1.0 / 2};
   const double bounded = x > LEAST_EXPONENT ? x : LEAST_EXPONENT;
-  const double doublings = std::nearbyint(bounded * DOUBLINGS);
+  const double doublings = round_to_integer(bounded * DOUBLINGS);
   const double y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
   double series = SERIES[0] * y;
   for (int n = 1; n < 12; n++) series = (series + SERIES[n]) * y;

@@ -6,8 +6,7 @@ from functools import partial
 from importlib import import_module
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, accelerated
-from symtop_ros.physics.kernel import python_alone
+from symtop_ros.physics import Motion, accelerated, python_alone
 from symtop_ros.report.peers.peer import Arrays, Peer, Solution, Task, spread_times
 
 CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"

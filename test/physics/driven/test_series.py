@@ -12,11 +12,10 @@ from physics.driven_motion import DrivenTop
 from physics.refusals import NOT_TOO_FAST, VECTOR, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, random_states
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated, python_alone
 from symtop_ros.physics.driven.equations import ONE, RATES, DrivenEquations
 from symtop_ros.physics.driven.series import Knot, Stepper
 from symtop_ros.physics.driven.trail import DrivenMotion
-from symtop_ros.physics.kernel import python_alone
 
 pytestmark = pytest.mark.untraced
 NONE = (0.0, 0.0, 0.0)

@@ -1,0 +1,90 @@
+"""Files of a sensor record: one table, or the folders of EuRoC with poses as TUM has them."""
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from symtop_ros.arrays import Real
+from symtop_ros.imu.record import ImuRecord
+from symtop_ros.simulation.sensor import NOISE
+from symtop_ros.wire.layout import NANOSECONDS
+
+XYZ = "xyz"
+# The columns of the table; those of the mean exist with --average.
+TABLE = ["stamp", *"wxyz", "px", "py", "pz", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz"]
+MEANS = [f"mean_{name}" for name in TABLE[-6:]]
+MEASURED = [f"measured_{name}" for name in TABLE[-6:]]
+EUROC_IMU = [
+    "#timestamp [ns]",
+    *(f"w_RS_S_{axis} [rad s^-1]" for axis in XYZ),
+    *(f"a_RS_S_{axis} [m s^-2]" for axis in XYZ),
+]
+EUROC_TRUTH = [
+    "#timestamp",
+    *(f" p_RS_R_{axis} [m]" for axis in XYZ),
+    *(f" q_RS_{axis} []" for axis in "wxyz"),
+    *(f" v_RS_R_{axis} [m s^-1]" for axis in XYZ),
+    *(f" b_w_RS_S_{axis} [rad s^-1]" for axis in XYZ),
+    *(f" b_a_RS_S_{axis} [m s^-2]" for axis in XYZ),
+]
+
+
+def write_table(record: ImuRecord, path: Path) -> None:
+    """Write one CSV file with everything, and the event of the run into a JSON file next to it."""
+    means = [] if record.means is None else [record.means]
+    names = [*TABLE, *(MEANS if means else []), *MEASURED]
+    truth = [record.orientations, record.positions, record.velocities, record.rates, record.forces]
+    _write_csv(path, names, record.stamps.tolist(), [*truth, *means, record.measured])
+    write_events(record, path.with_suffix(".json"))
+
+
+def write_folder(record: ImuRecord, folder: Path) -> None:
+    """Write the two folders of EuRoC, poses.tum, and events.json."""
+    inertial, truth = folder / "imu0", folder / "state_groundtruth_estimate0"
+    for each in (inertial, truth):
+        each.mkdir(parents=True, exist_ok=True)
+    stamps = record.stamps.tolist()
+    _write_csv(inertial / "data.csv", EUROC_IMU, stamps, [record.measured])
+    (inertial / "sensor.yaml").write_text(_describe_sensor(record), encoding="utf-8")
+    states = [record.positions, record.orientations, record.velocities, record.biases]
+    _write_csv(truth / "data.csv", EUROC_TRUTH, stamps, states)
+    _write_tum(record, folder / "poses.tum")
+    write_events(record, folder / "events.json")
+
+
+def write_events(record: ImuRecord, path: Path) -> None:
+    """Write the event of the run as JSON, for `top_judge`."""
+    events = [{**asdict(record.event), "values": dict(record.event.values)}]
+    text = json.dumps({"events": events, "end": int(record.stamps[-1])}, indent=1)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def _describe_sensor(record: ImuRecord) -> str:
+    """Return sensor.yaml: the noise by its names in EuRoC and in Kalibr."""
+    imu = record.imu
+    lines = ["%YAML:1.0", "sensor_type: imu", f"rate_hz: {imu.rate!r}"]
+    lines += [f"{name}: {getattr(imu, name)!r}" for name in NOISE]
+    return "\n".join(lines) + "\n"
+
+
+def _write_tum(record: ImuRecord, path: Path) -> None:
+    """Write poses: timestamp tx ty tz qx qy qz qw."""
+    poses = np.concatenate((record.positions, record.orientations[:, [1, 2, 3, 0]]), axis=1)
+    stamps = (f"{s // NANOSECONDS}.{s % NANOSECONDS:09d}" for s in record.stamps.tolist())
+    rows = (
+        f"{stamp} {' '.join(map(repr, row))}\n"
+        for stamp, row in zip(stamps, poses.tolist(), strict=True)
+    )
+    path.write_text("".join(rows), encoding="utf-8")
+
+
+def _write_csv(
+    path: Path, names: Sequence[str], stamps: Iterable[int], columns: Sequence[Real]
+) -> None:
+    """Write stamps and numbers, in decimals that read back to the same doubles."""
+    rows = np.concatenate(columns, axis=1).tolist()
+    lines = (f"{s},{','.join(map(repr, row))}\n" for s, row in zip(stamps, rows, strict=True))
+    path.write_text(f"{','.join(names)}\n{''.join(lines)}", encoding="utf-8")

@@ -1,0 +1,79 @@
+"""A sensor record as an MCAP log, with the event from which `top_judge` computes the run."""
+
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from symtop_ros.arrays import Real
+from symtop_ros.imu.record import ImuRecord
+from symtop_ros.log.definitions import Channel
+from symtop_ros.log.writer import LogFile
+from symtop_ros.simulation.sensor import EXACT
+from symtop_ros.simulation.topics import EVENTS, SENSOR_TOPICS, STATE_TOPICS, StateTopic, imu_frame
+from symtop_ros.wire.messages import IMU, ODOMETRY
+
+NODE, WORLD = "/top", "world"
+SENSOR = imu_frame("top")
+Content = tuple[str, StateTopic, tuple[str, ...], Real]  # name, type, frames and numbers
+
+
+def write_log(record: ImuRecord, path: Path) -> None:
+    """Write the topics of a record in the order of their stamps."""
+    contents = [*_contents(record)]
+    channels = [Channel(f"{NODE}/events", EVENTS)]
+    channels += [Channel(f"{NODE}/{name}", topic) for name, topic, *_ in contents]
+    layouts = [topic.format.layout(*frames) for _, topic, frames, _ in contents]
+    rows = [numbers.tolist() for *_, numbers in contents]
+    with tempfile.TemporaryDirectory(dir=path.absolute().parent) as folder:
+        log = LogFile(Path(folder), channels, {"program": "top_imu"}, {})
+        log.write(0, 0, record.event.encode(WORLD))
+        for place, stamp in enumerate(record.stamps.tolist()):
+            for channel, (layout, table) in enumerate(zip(layouts, rows, strict=True), start=1):
+                log.write(channel, stamp, layout.encode(stamp, table[place]))
+        log.finish({"dropped": "0"})
+        os.replace(log.path, path)
+
+
+def _contents(record: ImuRecord) -> Iterator[Content]:
+    """Yield the attitude of the body, measurements, exact values, and odometry of the sensor."""
+    imu, exact = record.imu, np.concatenate((record.rates, record.forces), axis=1)
+    yield "orientation", STATE_TOPICS["orientation"], (WORLD,), record.attitudes[:, [1, 2, 3, 0]]
+    measured = exact + imu.noise(record.stamps)
+    variances = tuple(imu.covariances.values())[1:]
+    yield _inertial("imu", record, measured, variances)
+    if record.means is not None:
+        yield _inertial("imu_average", record, record.measured, variances)
+        yield _inertial("imu_average_exact", record, record.means)
+    yield _inertial("imu_exact", record, exact)
+    yield "imu_odometry", SENSOR_TOPICS["odometry"], (WORLD, SENSOR), _odometry(record)
+
+
+def _inertial(
+    name: str, record: ImuRecord, values: Real, variances: tuple[float, ...] = (EXACT, EXACT)
+) -> Content:
+    numbers, places = np.zeros((len(values), IMU.width)), IMU.quantities
+    numbers[:, places["orientation"]] = record.orientations[:, [1, 2, 3, 0]]
+    numbers[:, places["angular_velocity"]] = values[:, :3]
+    numbers[:, places["linear_acceleration"]] = values[:, 3:]
+    for each, variance in zip(
+        ("orientation", "angular_velocity", "linear_acceleration"),
+        (EXACT, *variances),
+        strict=True,
+    ):
+        numbers[:, places[f"{each}_covariance"]] = variance * np.eye(3).reshape(-1)
+    return name, SENSOR_TOPICS["imu"], (SENSOR,), numbers
+
+
+def _odometry(record: ImuRecord) -> Real:
+    """Return pose of the sensor in the world, and twist in its own frame."""
+    numbers, places = np.zeros((len(record.stamps), ODOMETRY.width)), ODOMETRY.quantities
+    numbers[:, places["position"]] = record.positions
+    numbers[:, places["orientation"]] = record.orientations[:, [1, 2, 3, 0]]
+    numbers[:, places["linear"]] = record.to_sensor(record.velocities)
+    numbers[:, places["angular"]] = record.rates
+    for name in ("pose_covariance", "twist_covariance"):
+        numbers[:, places[name]] = EXACT * np.eye(6).reshape(-1)
+    return numbers

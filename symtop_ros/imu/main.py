@@ -1,0 +1,133 @@
+"""Entry point of `top_imu`: a record of an inertial sensor on the top of a scene."""
+
+import argparse
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from symtop_ros.imu.files import write_folder, write_table
+from symtop_ros.imu.record import ImuRecord, record_imu
+from symtop_ros.simulation.scene import start_motion
+from symtop_ros.simulation.sensor import CONSUMER, NOISE
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.validation import RefusedError, one_line
+
+MAX_BYTES = 65_536  # of a file with noise
+DESCRIPTION = """Writes what an inertial sensor on the top measures, next to the exact truth: a log
+(FILE.mcap), a table (FILE.csv, with the event of the run in FILE.json), or a folder with the CSV
+files of EuRoC and poses as TUM has them. Stamps begin at 0."""
+
+
+def main(args: list[str] | None = None) -> int:
+    """Write a record; return 0 (good), 1 (refused or failed) or 2 (usage)."""
+    options = _parser().parse_args(args)
+    try:
+        record = make_record(options)
+        write(record, options.output)
+    except ValueError as error:
+        print(f"top_imu: {one_line(error)}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        name = one_line(error.filename or options.output)
+        print(f"top_imu: {name}: {error.strerror}", file=sys.stderr)
+        return 1
+    print(f"{options.output}: {len(record.stamps)} samples at {record.imu.rate:g} Hz")
+    return 0
+
+
+def make_record(options: argparse.Namespace) -> ImuRecord:
+    """Return the record that the options ask for."""
+    noise = {f"imu__noise__{name}": value for name, value in read_noise(options.noise).items()}
+    settings = Settings.from_scene(
+        options.scene,
+        imu__enabled=True,
+        imu__position=options.position,
+        imu__orientation=options.orientation,
+        imu__noise__seed=options.seed,
+        **noise,
+    )
+    assert settings.imu  # it is enabled
+    return record_imu(
+        start_motion(settings),
+        replace(settings.imu, rate=options.rate),
+        options.seconds,
+        gravity=settings.gravity,
+        average=options.average,
+    )
+
+
+def read_noise(name: str | None) -> dict[str, Any]:
+    """Return the noise of "consumer", or of a YAML file with the names of Kalibr."""
+    if name is None:
+        return {}
+    if name == "consumer":
+        return {each: getattr(CONSUMER, each) for each in NOISE}
+    path = Path(name)
+    with path.open("rb") as file:
+        text = file.read(MAX_BYTES + 1)
+    try:
+        content = yaml.safe_load(text[:MAX_BYTES].removeprefix(b"%YAML:1.0"))
+        found = {each: content[each] for each in NOISE if each in content}
+    except (yaml.YAMLError, TypeError, ValueError):
+        found = {}
+    if not found:
+        raise RefusedError(
+            f"--noise must be consumer or YAML with {NOISE[0]}, got {one_line(name)}"
+        )
+    return found
+
+
+def write(record: ImuRecord, path: Path) -> None:
+    """Write a record in the form that the name of its path asks for."""
+    if path.suffix == ".mcap":
+        from symtop_ros.imu.log import write_log  # logs need mcap
+
+        write_log(record, path)
+    elif path.suffix == ".csv":
+        write_table(record, path)
+    else:
+        write_folder(record, path)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="top_imu", description=DESCRIPTION)
+    parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
+    parser.add_argument("--rate", type=float, default=200.0, help="samples per second, default 200")
+    parser.add_argument("--seconds", type=float, default=20.0, help="length, default 20")
+    parser.add_argument(
+        "--position",
+        type=float,
+        nargs=3,
+        default=(),
+        metavar=("X", "Y", "Z"),
+        help="place of the sensor in the body frame, m; default: the pivot",
+    )
+    parser.add_argument(
+        "--orientation",
+        type=float,
+        nargs=4,
+        default=(),
+        metavar=("X", "Y", "Z", "W"),
+        help="quaternion, sensor to body; default: along the body",
+    )
+    parser.add_argument(
+        "--noise", metavar="FILE", help="consumer, or YAML as of Kalibr; default: exact"
+    )
+    parser.add_argument("--seed", type=int, default=0, help="of the noise, default 0")
+    parser.add_argument(
+        "--average",
+        action="store_true",
+        help="measure means over the sample interval, as a sensor that integrates does",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        required=True,
+        metavar="PATH",
+        help="FILE.mcap, FILE.csv or a folder",
+    )
+    return parser

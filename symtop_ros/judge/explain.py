@@ -1,0 +1,274 @@
+"""The constant rotations, the delay and the drift that explain most of the errors of estimates.
+
+A steady motion cannot show all of them: the top in regular precession looks the same after any
+delay, but for rotations of the world and of the body. The rank of the problem says what it hides.
+"""
+
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.arrays import Real
+from symtop_ros.judge.compare import IDENTITY, NONE, Offset, subtract, to_rotation
+from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.truth import Truth
+from symtop_ros.quaternions import compose, invert
+from symtop_ros.wire.layout import NANOSECONDS
+
+SAMPLES = 500  # estimates that a fit takes, spread over the run
+MAX_DELAY = 0.1  # s
+# Delays are tried in steps in which the fastest turn is so many rad; the best ones are refined.
+GRID_STEP = 0.5  # rad
+MOST_DELAYS = 2001
+CANDIDATES = 3
+ITERATIONS = 30  # of Gauss and Newton; they converge quadratically
+STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried
+WORTHWHILE = 1.01  # a delay or drift counts if it makes the mean square smaller by this factor
+ROUNDING = 1e-28  # mean square of errors that are rounding
+# Columns of the derivatives: a rotation vector of the world and of the body, delay, and drift.
+ROTATIONS, DELAY, DRIFT = range(6), 6, 7
+# Singular values below this are zero. Those of steady motions are rounding, those of visible
+# nutation are larger than its amplitude.
+RANK = 1e-7
+VISIBLE = 1e-3  # part of a parameter in what the motion hides
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """What explains most of the errors."""
+
+    offset: Offset = NONE
+    # what the motion cannot show: "delay", "drift", or "rotations" (the world's and the body's)
+    hidden: tuple[str, ...] = ()
+    residual: float = 0.0  # root mean square of the angle that is left in rad
+
+
+def explain(
+    estimates: Estimates,
+    truth: Truth,
+    *,
+    rotations: bool = True,
+    delay: bool = True,
+    drift: bool = True,
+) -> Explanation:
+    """Return the explanation by constant rotations, a delay up to 0.1 s, and a drift.
+
+    The rotations follow by least squares for each delay (Kabsch 1976, in four dimensions); all
+    delays are tried, since a spinning top repeats itself with each turn. What is found is refined
+    by the method of Gauss and Newton. The simplest explanation that leaves no more is taken.
+    """
+    every = max(1, len(estimates) // SAMPLES)
+    fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
+    if len(fit.some) < 2:
+        return Explanation()
+    fit.hidden.extend(fit.find_hidden())
+    found = [fit.start(0.0)]
+    if delay and "delay" not in fit.hidden:
+        found += [fit.refine(each, (DELAY,)) for each in fit.search()]
+    if drift and "drift" not in fit.hidden:
+        found += [fit.refine(fit.guess_drift(each), _free(each)) for each in found]
+    costs = [fit.cost(each) for each in found]
+    best = next(k for k, cost in enumerate(costs) if cost <= WORTHWHILE * min(costs) + ROUNDING)
+    return Explanation(found[best], tuple(fit.hidden), float(np.sqrt(4 * costs[best])))
+
+
+def _free(offset: Offset) -> tuple[int, ...]:
+    return (DELAY, DRIFT) if offset.delay else (DRIFT,)
+
+
+@dataclass(eq=False)
+class Fit:
+    """Some estimates, and the ways to compare them with the exact motion."""
+
+    some: Estimates
+    truth: Truth
+    rotations: bool  # False: they stay the identity
+    hidden: list[str] = field(default_factory=list)
+
+    @cached_property
+    def seconds(self) -> Real:
+        """Times since the first estimate in s, (n,)."""
+        return np.asarray((self.some.stamps - self.some.stamps[0]) / NANOSECONDS)
+
+    def exact(self, delay: float) -> tuple[Real, Real, NDArray[np.bool_]]:
+        """Return exact quaternions, rates and the mask of those known, for a delay."""
+        stamps = self.some.stamps - round(delay * NANOSECONDS)
+        return self.truth.states_at(stamps, self.some.of_sensor)
+
+    def residuals(self, offset: Offset) -> tuple[Real, Real, NDArray[np.bool_]]:
+        """Return q_est, the model of it, and the mask of those known."""
+        exact, _, known = self.exact(offset.delay)
+        world = offset.turn_world(self.some.stamps)
+        model = compose(compose(world, exact), offset.body)
+        return self.some.orientations, model, known
+
+    def cost(self, offset: Offset) -> float:
+        """Return the mean square of the distances of quaternions."""
+        q, model, known = self.residuals(offset)
+        if known.sum() < max(2, len(known) // 2):
+            return np.inf
+        return float((subtract(q[known], model[known]) ** 2).sum(axis=1).mean())
+
+    def start(self, delay: float) -> Offset:
+        """Return the best rotations for a delay."""
+        begin = int(self.some.stamps[0])
+        exact, _, known = self.exact(delay)
+        if not self.rotations or known.sum() < 2:
+            return replace(NONE, delay=delay, begin=begin)
+        q, exact = self.some.orientations[known], exact[known]
+        if "rotations" in self.hidden:  # the world's alone: the body's are as well the identity
+            left = compose(q, invert(exact))
+            found = Offset(np.linalg.eigh(left.T @ left)[1][:, -1], IDENTITY, delay, 0.0, begin)
+            return self.refine(found, ())
+        return replace(fit_rotations(q, exact), delay=delay, begin=begin)
+
+    def search(self) -> Iterator[Offset]:
+        """Yield the best delays, each the best of a valley of a grid, with their rotations."""
+        fastest = float(np.linalg.norm(self.exact(0.0)[1], axis=1).max(initial=0.0))
+        count = min(max(2 * MAX_DELAY * fastest / GRID_STEP, 21), MOST_DELAYS)
+        tried = np.linspace(-MAX_DELAY, MAX_DELAY, int(count))
+        costs = np.array([self.cost(self.start(each)) for each in tried.tolist()])
+        padded = np.concatenate(([np.inf], costs, [np.inf]))
+        valleys = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:]))
+        for k in valleys[np.argsort(costs[valleys])][:CANDIDATES].tolist():
+            bounds = tried[max(k - 1, 0)], tried[min(k + 1, len(tried) - 1)]
+            yield self.start(self._refine_delay(*bounds))
+
+    def _refine_delay(self, low: float, high: float) -> float:
+        """Return the best delay between two. The rotations follow from each, which is robust."""
+        found = minimize_scalar(
+            lambda delay: self.cost(self.start(float(delay))),
+            bounds=(low, high),
+            method="bounded",
+            options={"xatol": 1e-9},
+        )
+        return float(found.x)
+
+    def guess_drift(self, offset: Offset) -> Offset:
+        """Return the offset with the drift that most steps of the heading have."""
+        q, model, known = self.residuals(offset)
+        turn = compose(q[known], invert(model[known]))
+        steps = compose(turn[1:], invert(turn[:-1]))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            angles = 2 * np.arctan(steps[:, 3] / steps[:, 0])
+            rates = angles / np.diff(self.seconds[known])
+        rates = rates[np.isfinite(rates)]
+        drift = float(np.median(rates)) if len(rates) else 0.0
+        return replace(offset, drift=drift)
+
+    def refine(self, offset: Offset, more: tuple[int, ...]) -> Offset:
+        """Return the least squares near an offset, in its rotations and `more` columns."""
+        free = [*(ROTATIONS if self.rotations else ()), *more]
+        best, cost = offset, self.cost(offset)
+        for _ in range(ITERATIONS):
+            step = np.zeros(8)
+            if free:
+                step[free] = self._solve(best, free)
+            tried = [_move(best, step * part) for part in STEPS]
+            costs = [self.cost(each) for each in tried]
+            if not min(costs) < cost:
+                break
+            cost = min(costs)
+            best = tried[costs.index(cost)]
+        return best
+
+    def _solve(self, offset: Offset, free: list[int]) -> Real:
+        q, model, known = self.residuals(offset)
+        left = to_rotation(compose(q[known], invert(model[known]))).as_rotvec().ravel()
+        columns = self.derive(offset)[:, free]
+        norms = np.linalg.norm(columns, axis=0)
+        norms[norms == 0] = 1.0
+        return np.asarray(np.linalg.lstsq(columns / norms, left, rcond=RANK)[0] / norms)
+
+    def derive(self, offset: Offset) -> Real:
+        """Return derivatives of the model's rotation vectors in the world frame, (3 n, 8)."""
+        exact, rates, known = self.exact(offset.delay)
+        world = offset.turn_world(self.some.stamps)[known]
+        turned = compose(world, exact[known])
+        columns = np.zeros((int(known.sum()), 3, 8))
+        columns[:, :, :3] = np.eye(3)
+        columns[:, :, 3:6] = to_rotation(compose(turned, offset.body)).as_matrix()
+        columns[:, :, DELAY] = -to_rotation(turned).apply(rates[known])
+        columns[:, 2, DRIFT] = self.seconds[known]
+        return columns.reshape(-1, 8)
+
+    def find_hidden(self) -> list[str]:
+        """Return what the motion cannot show, from the rank of the derivatives."""
+        columns = self.derive(replace(NONE, begin=int(self.some.stamps[0])))
+        hidden = []
+        if len(self._null_space(columns[:, ROTATIONS])):
+            hidden.append("rotations")
+        for name, place in (("delay", DELAY), ("drift", DRIFT)):
+            chosen = [*(ROTATIONS if self.rotations else ()), place]
+            if np.abs(self._null_space(columns[:, chosen])[:, -1]).max(initial=0.0) > VISIBLE:
+                hidden.append(name)
+        return hidden
+
+    @staticmethod
+    def _null_space(columns: Real) -> Real:
+        """Return the directions that change nothing, (k, m), of columns scaled to norm 1."""
+        norms = np.linalg.norm(columns, axis=0)
+        _, sizes, directions = np.linalg.svd(
+            columns / np.where(norms > 0, norms, 1.0), full_matrices=False
+        )
+        return np.asarray(directions[sizes <= RANK * sizes[0]])
+
+
+def _move(offset: Offset, step: Real) -> Offset:
+    """Return the offset changed by a step in the eight columns; a delay stays within its bound."""
+    world = compose(_from_vector(step[:3]), offset.world)
+    delay = float(np.clip(offset.delay + step[DELAY], -MAX_DELAY, MAX_DELAY))
+    body = compose(offset.body, _from_vector(step[3:6]))
+    return replace(offset, world=world, body=body, delay=delay, drift=offset.drift + step[DRIFT])
+
+
+def fit_rotations(q: Real, exact: Real) -> Offset:
+    """Return the rotations W and M for which W exact M is nearest to q.
+
+    Both together are one rotation of the four components of a quaternion, found by Kabsch's method
+    (a singular value decomposition). The signs of the quaternions follow from a first guess.
+    """
+    guess = _guess_rotations(q, exact)
+    images = compose(compose(guess.world, exact), guess.body)
+    signs = np.where((images * q).sum(axis=1) < 0, -1.0, 1.0)
+    u, _, vt = np.linalg.svd((q * signs[:, np.newaxis]).T @ exact)
+    u[:, -1] *= np.sign(np.linalg.det(u @ vt))  # a rotation, not a reflection
+    # The images of 1, i, j, k: (W i M) (W 1 M)^-1 = W i W^-1 is a column of W's matrix.
+    images = (u @ vt).T
+    columns = compose(images[1:], invert(images[0]))[:, 1:]
+    world = _to_quaternion(Rotation.from_matrix(columns.T))
+    body = compose(invert(world), images[0])
+    return Offset(world, body * np.copysign(1.0, body[0]))
+
+
+def _guess_rotations(q: Real, exact: Real) -> Offset:
+    """Return W and M by a way that does not ask for the signs of the quaternions.
+
+    The turns from one estimate to the next have the same angles as the exact ones, about axes that
+    M has turned (the hand-eye problem, Park and Martin 1994). W is then a mean of rotations, the
+    eigenvector of the largest eigenvalue (Markley et al. 2007).
+    """
+    ours = to_rotation(compose(invert(q[:-1]), q[1:])).as_rotvec()
+    theirs = to_rotation(compose(invert(exact[:-1]), exact[1:])).as_rotvec()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # a top at rest leaves M open
+        body = _to_quaternion(Rotation.align_vectors(theirs, ours)[0])
+    left = compose(q, invert(compose(exact, body)))
+    return Offset(np.linalg.eigh(left.T @ left)[1][:, -1], body)
+
+
+def _from_vector(vector: Real) -> Real:
+    return _to_quaternion(Rotation.from_rotvec(vector))
+
+
+def _to_quaternion(rotation: Rotation) -> Real:
+    """Return w, x, y, z with w >= 0."""
+    x, y, z, w = rotation.as_quat()
+    q: Real = np.array((w, x, y, z)) * np.copysign(1.0, w)
+    return q

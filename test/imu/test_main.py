@@ -1,0 +1,102 @@
+"""`top_imu` as its users call it: its files, and what `top_judge` and `top_replay` make of them."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from symtop_ros.imu.main import main
+from symtop_ros.judge.main import main as judge
+from symtop_ros.playback.main import main as replay
+
+ROOT = Path(__file__).parents[2]
+SHORT = "--scene", "cusps", "--seconds", "0.5", "--rate", "500"
+MOUNTED = "--position", "0", "0", "0.02", "--orientation", "0.5", "0.5", "0.5", "0.5"
+NOISY = "--noise", "consumer", "--seed", "7"
+
+
+def read(path):
+    with path.open(newline="") as file:
+        head, *rows = csv.reader(file)
+    return head, rows
+
+
+def test_a_log_is_judged_and_computed_again(tmp_path, capsys):
+    path = tmp_path / "run.mcap"
+    assert main([*SHORT, *MOUNTED, *NOISY, "--average", "-o", str(path)]) == 0
+    assert [each.name for each in tmp_path.iterdir()] == ["run.mcap"]
+    for topic in ("imu", "imu_exact", "imu_average", "orientation"):
+        # exact attitudes: the products with the mount are the same
+        assert judge([str(path), "--topic", f"/top/{topic}", "--max-error", "1e-15"]) == 0
+    capsys.readouterr()
+    assert replay([str(path), "--check"]) == 0
+    assert "250 samples, largest difference 0" in capsys.readouterr().out
+
+
+def test_a_table_is_judged_with_its_events(tmp_path, capsys):
+    path = tmp_path / "run.csv"
+    assert main([*SHORT, *MOUNTED, *NOISY, "-o", str(path)]) == 0
+    arguments = [str(tmp_path / "run.json"), "--estimates", str(path), "--json"]
+    capsys.readouterr()
+    assert judge([*arguments, "--attitude-of", "sensor"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["estimates"], facts["angular_velocity"]["p100"]) == (250, 0.0)
+    assert facts["attitude"]["p100"] < 1e-15  # numbers are written so that they read back
+    head, rows = read(path)
+    assert head[:5] == ["stamp", "w", "x", "y", "z"]
+    assert len(rows) == 250
+    assert {len(row) for row in rows} == {len(head)}
+
+
+def test_the_folder_has_the_columns_of_euroc_and_tum(tmp_path):
+    assert main([*SHORT, *NOISY, "-o", str(tmp_path / "run")]) == 0
+    head, rows = read(tmp_path / "run/imu0/data.csv")
+    assert head[0] == "#timestamp [ns]"
+    assert (len(head), len(rows), rows[1][0]) == (7, 250, "2000000")
+    head, truth = read(tmp_path / "run/state_groundtruth_estimate0/data.csv")
+    assert (len(head), len(truth)) == (17, 250)
+    poses = np.loadtxt(tmp_path / "run/poses.tum")
+    assert poses.shape == (250, 8)
+    exact = np.array(truth, dtype=float)
+    assert (poses[:, [7, 4, 5, 6]] == exact[:, 4:8]).all()
+    events = json.loads((tmp_path / "run/events.json").read_text())
+    assert events["end"] == int(rows[-1][0])
+
+
+def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
+    noise = tmp_path / "imu.yaml"
+    noise.write_text("rostopic: /imu0\naccelerometer_noise_density: 0.01\nupdate_rate: 200.0\n")
+    assert main([*SHORT, "--noise", str(noise), "-o", str(tmp_path / "run.csv")]) == 0
+    _, rows = read(tmp_path / "run.csv")
+    table = np.array(rows, dtype=float)
+    rates, forces = table[:, -6:-3] - table[:, -12:-9], table[:, -3:] - table[:, -9:-6]
+    assert not rates.any()
+    # 750 normal numbers: 2.6 %, four sigma
+    assert forces.std() == pytest.approx(0.01 * np.sqrt(500.0), rel=0.11)
+    noise.write_text("- 1\n")
+    assert main(["--noise", str(noise), "-o", str(tmp_path / "run.csv")]) == 1
+    assert capsys.readouterr().err.startswith("top_imu: --noise must be consumer or YAML")
+
+
+def test_a_table_needs_neither_ros_nor_mcap(tmp_path):
+    code = (
+        "import sys\n"
+        "sys.modules.update(dict.fromkeys(('mcap', 'rclpy', 'matplotlib', 'rerun')))\n"
+        "from symtop_ros.programs import top_imu\n"
+        "sys.exit(top_imu())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, *SHORT, "-o", "run.csv"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")

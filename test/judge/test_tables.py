@@ -1,0 +1,80 @@
+"""Estimates from CSV files."""
+
+import numpy as np
+import pytest
+from judge.cases import make_estimates, truth_and_stamps
+
+from symtop_ros.judge.tables import read_csv
+from symtop_ros.simulation.validation import RefusedError
+
+
+@pytest.fixture(scope="module")
+def estimates():
+    truth, stamps = truth_and_stamps(50)
+    return make_estimates(truth, stamps)
+
+
+def test_a_csv_file_with_stamps_or_seconds_is_read(tmp_path, estimates):
+    numbers = np.hstack((estimates.orientations, estimates.angular_velocities)).tolist()
+    stamps = estimates.stamps.tolist()
+    times = {"stamp": map(str, stamps), "t": (f"{s // 10**9}.{s % 10**9:09d}" for s in stamps)}
+    for name, column in times.items():
+        path = tmp_path / f"{name}.csv"
+        rows = [",".join([t, *map(repr, n)]) for t, n in zip(column, numbers, strict=True)]
+        path.write_text("\n".join([f"{name},w,x,y,z,wx,wy,wz", *rows]) + "\n")
+        found = read_csv(path)
+        assert found.stamps.tolist() == stamps
+        assert (found.orientations == estimates.orientations).all()
+        assert (found.angular_velocities == estimates.angular_velocities).all()
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z; got no t"),
+        ("t,w,x,y\n", "got no z"),
+        ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a CSV file|must consist of numbers"),
+        ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+    ],
+)
+def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
+    path = tmp_path / "bad.csv"
+    path.write_text(text)
+    with pytest.raises(RefusedError, match=reason):
+        read_csv(path)
+
+
+def test_what_is_no_attitude_is_left_out(tmp_path):
+    path = tmp_path / "odd.csv"
+    path.write_text("t,w,x,y,z\n0,0,0,0,0\n1,nan,0,0,0\n-1,1,0,0,0\n1e30,1,0,0,0\n2,3,0,0,0\n")
+    found = read_csv(path)
+    assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
+    assert found.left_out == 4
+
+
+def test_a_byte_order_mark_and_spaces_are_no_obstacle(tmp_path):
+    path = tmp_path / "spaces.csv"
+    path.write_text("\ufefft, w, x, y, z\n0, 1, 0, 0, 0\n", encoding="utf-8")
+    assert read_csv(path).orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("rows", "note"),
+    [
+        ("0,1,0,0,0\n1,nan,0,0,0\n", "1 rows have nan or infinity, the first in line 3"),
+        ("0,1,0,0,0\n2,1,0,0,0\n2,1,0,0,0\n", "1 rows repeat a time, among them 2 s"),
+        ("1700000000.12,1,0,0,0\n", "doubles of epoch seconds"),
+    ],
+)
+def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
+    path = tmp_path / "odd.csv"
+    path.write_text(f"t,w,x,y,z\n{rows}")
+    (found,) = read_csv(path).notes
+    assert note in found
+
+
+def test_exact_epoch_seconds_are_not_odd(tmp_path):
+    path = tmp_path / "exact.csv"
+    path.write_text("t,w,x,y,z\n1700000000.123456789,1,0,0,0\n")
+    assert read_csv(path).notes == ()

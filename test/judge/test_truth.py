@@ -1,0 +1,52 @@
+"""The exact motion of a run: its end, and the mount of its sensor."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from judge.cases import SECOND, START, TOP, make_estimates
+
+from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.judgement import judge
+from symtop_ros.judge.truth import Truth, scene_truth
+from symtop_ros.physics import Motion
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
+from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wire.messages import IMU
+
+STAMPS = np.arange(0, SECOND, SECOND // 200)
+
+
+def test_the_mount_of_the_sensor_is_applied_to_its_messages():
+    mounted = Imu(position=(0.0, 0.0, 0.02), orientation=(0.5, -0.5, 0.5, 0.5))
+    segment = Segment.begin(Motion(TOP, START), 0, 1.0, Rig(imu=mounted))
+    truth = Truth([Event.of(0, "start", "", {}, START, segment)])
+    numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, STAMPS))
+    rates = numbers[:, IMU.quantities["angular_velocity"]]
+    estimates = Estimates.of(STAMPS, numbers[:, [3, 0, 1, 2]], rates)
+    sensor = judge(replace(estimates, of_sensor=True), truth, "imu")
+    assert sensor.largest < 1e-15  # the same products of the same doubles
+    assert sensor.errors.rate.max() == 0.0
+    body = judge(estimates, truth, "imu")
+    assert body.largest > 2.0
+    (note,) = body.notes
+    assert note.endswith("--attitude-of sensor")
+
+
+def test_stamps_after_the_last_sample_are_counted_apart():
+    truth = Truth(scene_truth("cusps")._events, end=SECOND // 2)
+    judgement = judge(make_estimates(scene_truth("cusps"), STAMPS), truth, "x")
+    assert judgement.errors.late == 99  # the stamp of the end itself is judged
+    assert judgement.errors.unknown == 0
+    assert "left out: 99 estimates after the last sample of the run" in judgement.format()
+
+
+def test_a_refusal_has_both_spans_of_time():
+    begin = 1_700_000_000 * SECOND
+    events = [replace(event, stamp=begin) for event in scene_truth("cusps")._events]
+    estimates = make_estimates(scene_truth("cusps"), STAMPS)
+    with pytest.raises(RefusedError, match=r"within the run, 17.* s to 17.* s, got 0\.0"):
+        judge(estimates, Truth(events, begin + SECOND), "x")
