@@ -151,7 +151,7 @@ def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
     for name, color in OUTCOMES.items():
         axes.fill_between([], [], facecolor=color, edgecolor="k", linewidth=0.3, label=name)
     misled = effect.rule_holds & (find_outcome(effect) == LOWER)
-    title = f"in the end (lower on {misled.mean():.1%} of the map although the rule holds)"
+    title = f"in the end (rule holds, yet lower: {misled.mean():.1%})"
     axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=perry_map.label)
     axes.set_title(title, fontsize="medium")
     axes.legend(loc="lower left", fontsize="small")
