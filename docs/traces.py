@@ -12,6 +12,7 @@ from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 SLOW = regular_precession_rates(TOP, theta=0.5, psi_dot=200.0)[0]
 STARTS = {"regular precession": SLOW, "cusps": 0.0, "loops": -8.0, "hurried: it rises": 1.4 * SLOW}
+TURN = 2 * np.pi / SLOW  # s; regular precession closes its circle
 SIZE, SCALE = 220, 125  # points; points per unit of the sphere, seen from above
 
 
@@ -31,7 +32,7 @@ def circle(theta: float) -> NDArray[np.float64]:
 def panel(name: str, phi_dot: float) -> str:
     """One start: turning circles, and the trace of the axis."""
     path = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot))
-    trace = path.at(np.linspace(0.0, 0.95, 1500)).to_world(np.array([0.0, 0.0, 1.0]))
+    trace = path.at(np.linspace(0.0, TURN, 1500)).to_world(np.array([0.0, 0.0, 1.0]))
     circles = "".join(
         polyline(circle(theta), 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
         for theta in path.turning_angles

@@ -15,7 +15,7 @@ from symtop_ros.article.motions import (
     THETA,
     TOP,
     cusps,
-    precession_period,
+    first_turn,
     regular,
     start,
 )
@@ -35,6 +35,7 @@ TIMES = np.linspace(0.0, 0.5, 2001)  # s; three nutations of cusps
 PHI_DOTS = np.linspace(-8.0, 85.0, 400)  # rad/s
 DEPTH = r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)"
 COMPARED = {"regular precession": regular(), "cusps": cusps()}
+ROUNDING = 1e-9  # relative; a gap below it is rounding
 LOOKS = {"falls": (RED, "--"), "stays": (INK, "-"), "rises": (BLUE, "-.")}
 
 
@@ -113,15 +114,21 @@ def draw_angular_momentum() -> Figure:
 
 
 def draw_horizontal_momentum() -> Figure:
-    """Draw the end of L from above, over one turn of the precession."""
+    """Draw the end of L from above, for phi from 0 to 2 pi, and the gap that is left."""
     figure = new_figure(3.4)
     both = columns(figure, 2, sharex=True, sharey=True)
     for axes, (title, motion) in zip(both, COMPARED.items(), strict=True):
-        times = np.linspace(0.0, precession_period(motion), 3001)
-        L = 1e3 * motion.top.angular_momentum(motion.at(times))
+        times = np.linspace(0.0, first_turn(motion), 3001)
+        L = 1e3 * motion.top.angular_momentum(motion.at(times))[:, :2]
         axes.plot(L[:, 0], L[:, 1], color=BLUE)
-        axes.plot(*L[0, :2], "o", color=RED)
-        axes.annotate("start", (L[0, 0], L[0, 1]), (0, 8), textcoords="offset points", ha="center")
+        axes.plot(L[[0, -1], 0], L[[0, -1], 1], color=RED, lw=2.5)
+        axes.plot(*L[0], "o", color=RED)
+        axes.plot(*L[-1], "s", color=RED, mfc="white")
+        gap = np.linalg.norm(L[-1] - L[0]) / np.linalg.norm(L[0])
+        words = f"gap at $\\phi = 2\\pi$: {gap:.1%}" if gap > ROUNDING else "closed"
+        axes.annotate(
+            words, L[-1] / 2, ha="center", va="center", xytext=(0, 22), textcoords="offset points"
+        )
         axes.plot(0, 0, "+", color=INK)
         ticks = range(-6, 7, 2)
         axes.set(aspect="equal", xticks=ticks, yticks=ticks, title=title)

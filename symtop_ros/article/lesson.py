@@ -46,7 +46,7 @@ SCENES = {  # tops and initial conditions of the nodes
     "/top": (TOP, InitialConditions(theta=0.5, psi_dot=200.0)),
     "/disc": (
         HANGING_DISC,
-        InitialConditions(theta=0.5, psi_dot=-120.0, precession="slow"),
+        InitialConditions(theta=0.5, psi_dot=-25.0, precession="slow"),
     ),
 }
 Draw = Callable[[Axes, dict[str, KickedMotion]], None]
@@ -230,7 +230,7 @@ STEPS = (
         draw_tilt,
     ),
     LessonStep(
-        "Perry's rule fails on the slow root too",
+        "The axis falls, and the body rises",
         ("top_ctl --node /disc reset", "top_ctl --node /disc hurry"),
         draw_tilt,
     ),

@@ -17,6 +17,7 @@ import pyarrow.parquet as pq
 import rerun as rr
 import rerun.blueprint as rrb
 from matplotlib import colormaps
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
@@ -28,6 +29,17 @@ PHI_DOTS = (-60.0, 120.0)  # rad/s
 PSI_DOTS = (-400.0, 400.0)  # rad/s
 THETAS = (0.02, np.pi - 0.02)  # rad; on the vertical itself phi' is undefined
 RELIEF_POINTS = 250  # along a side of a relief, at most
+# What becomes of the height: both turning points are as high or higher, or lower, or they part or
+# approach each other.
+OUTCOMES = {
+    "higher": "#4f8fca",
+    "lower": "#d9634c",
+    "swings wider": "#e8c468",
+    "swings less": "#8cc28a",
+    "as before": "#ffffff",
+}
+HIGHER, LOWER, WIDER, NARROWER, SAME = range(len(OUTCOMES))
+SAME_ANGLE = 1e-7  # rad: turning angles that differ by less are equal (physics/verdict.py)
 COLOR_LIMIT = 0.3  # rad at which the colours end
 
 
@@ -83,38 +95,76 @@ def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> Pe
     for suffix in ("png", "svg"):
         draw_map(perry_map, stem.with_suffix(f".{suffix}"))
     write_table(perry_map, stem.with_suffix(".parquet"))
-    share = perry_map.effect.rule_holds.mean()
-    print(f"{perry_map.title}: {points} x {points} points in {seconds:.2f} s; ", end="")
-    print(f"the rule holds on {share:.1%} of them: {stem}.png, .svg, .parquet", flush=True)
+    effect = perry_map.effect
+    misled = effect.rule_holds & (find_outcome(effect) == LOWER)
+    print(
+        f"{perry_map.title}: {points} x {points} points in {seconds:.2f} s; the rule holds on "
+        f"{effect.rule_holds.mean():.1%} of them (theta'' at the kick), though on "
+        f"{misled.mean():.1%} the top is lower in the end: {stem}.png, .svg, .parquet",
+        flush=True,
+    )
     return perry_map
 
 
 def draw_map(perry_map: PerryMap, target: Path | BinaryIO) -> None:
-    """Draw the change of the highest and of the lowest point; PNG, or the format of a suffix."""
-    figure = Figure(figsize=(11, 5), layout="constrained")
-    left, right = figure.subplots(1, 2, sharey=True)
+    """Draw the changes of the turning points and the outcome; PNG, or the format of a suffix."""
+    figure = Figure(figsize=(15, 5), layout="constrained")
+    left, right, end = figure.subplots(1, 3, sharey=True)
     effect = perry_map.effect
     _draw_panel(left, perry_map, effect.rise, "highest point")
     image = _draw_panel(right, perry_map, -effect.fall, "lowest point")
     left.set_ylabel("precession rate phi' before (rad/s)")
+    _draw_outcome(end, perry_map)
     figure.colorbar(image, ax=[left, right], label="raised by (rad)", extend="both")
     figure.suptitle(f"The precession hurried by {FACTOR:g}, {perry_map.title}")
     left.legend(loc="lower left", fontsize="small")
     figure.savefig(target, dpi=150)
 
 
+def _extent(perry_map: PerryMap) -> tuple[float, float, float, float]:
+    across, phi_dot = perry_map.across, perry_map.phi_dot
+    return (float(across[0]), float(across[-1]), float(phi_dot[0]), float(phi_dot[-1]))
+
+
 def _draw_panel(axes: Any, perry_map: PerryMap, raised: Real, title: str) -> Any:
     across, phi_dot = perry_map.across, perry_map.phi_dot
-    extent = (across[0], across[-1], phi_dot[0], phi_dot[-1])
+    extent = _extent(perry_map)
     limits = {"vmin": -COLOR_LIMIT, "vmax": COLOR_LIMIT}
     image = axes.imshow(raised, origin="lower", extent=extent, aspect="auto", cmap="RdBu", **limits)
     fails = np.where(perry_map.effect.rule_holds, np.nan, 1.0)
     axes.contourf(across, phi_dot, fails, levels=[0.5, 1.5], colors="none", hatches=["..."])
-    axes.fill_between([], [], facecolor="none", hatch="...", label="Perry's rule fails")
+    axes.fill_between(
+        [], [], facecolor="none", hatch="...", label="rule fails at the kick: theta'' is not lower"
+    )
     axes.contour(across, phi_dot, perry_map.torque, levels=[0.0], colors="k", linewidths=1.5)
     axes.plot([], [], "k", linewidth=1.5, label="regular precession")
     axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=perry_map.label, title=title)
     return image
+
+
+def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
+    """Draw what becomes of the height in the end, whatever theta'' is at the kick."""
+    effect, extent = perry_map.effect, _extent(perry_map)
+    colors = ListedColormap(list(OUTCOMES.values()))
+    image = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
+    axes.imshow(find_outcome(effect), cmap=colors, vmin=-0.5, vmax=len(OUTCOMES) - 0.5, **image)
+    for name, color in OUTCOMES.items():
+        axes.fill_between([], [], facecolor=color, edgecolor="k", linewidth=0.3, label=name)
+    misled = effect.rule_holds & (find_outcome(effect) == LOWER)
+    title = f"in the end (rule holds, yet lower: {misled.mean():.1%})"
+    axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=perry_map.label)
+    axes.set_title(title, fontsize="medium")
+    axes.legend(loc="lower left", fontsize="small")
+
+
+def find_outcome(effect: HurryEffect) -> Any:
+    """Return the place of each point among the `OUTCOMES`."""
+    highest, lowest = (
+        np.where(np.abs(lift) > SAME_ANGLE, lift, 0.0) for lift in (effect.rise, -effect.fall)
+    )
+    up, down = np.maximum(highest, lowest) > 0, np.minimum(highest, lowest) < 0
+    mixed = np.where(highest > 0, WIDER, NARROWER)
+    return np.where(up & down, mixed, np.where(up, HIGHER, np.where(down, LOWER, SAME)))
 
 
 def write_table(perry_map: PerryMap, file: Path) -> None:
@@ -129,6 +179,7 @@ def write_table(perry_map: PerryMap, file: Path) -> None:
         "lowest_before": effect.before[1],
         "lowest_after": effect.after[1],
         "rule_holds": effect.rule_holds,
+        "outcome": np.array(list(OUTCOMES))[find_outcome(effect)],
     }
     table = pa.table({name: values.ravel() for name, values in columns.items()})
     pq.write_table(table, file, compression="zstd")

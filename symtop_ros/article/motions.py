@@ -4,11 +4,13 @@ Every start has theta = 0.5 rad, theta' = 0 and psi' = 200 rad/s; the precession
 start decides what follows.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import (
@@ -25,7 +27,8 @@ THETA, PSI_DOT = 0.5, 200.0  # rad, rad/s
 PRINTED_ROOTS = ("6.50", "69.8")  # rad/s, with the digits that the article gives
 SLOW, FAST = regular_precession_rates(TOP, THETA, PSI_DOT)
 
-# A disc that hangs from its pivot and spins backwards: Iz > Ix, Mgl < 0, psi' < 0.
+# A disc that hangs from its pivot and spins backwards: Iz > Ix, Mgl < 0, psi' < 0. At -25 rad/s
+# its slow root is as fast as that of the top, so that a hurry lowers the axis by 0.044 rad.
 HANGING_DISC = Top(Ix=0.0002, Iz=0.00035, Mgl=-0.05)
 
 # f'(t) = sum of WEIGHTS[k-1] (f(t + k h) - f(t - k h)) / h, exact for polynomials of degree 8.
@@ -65,7 +68,7 @@ class HurryCase:
 SLOW_ROOT_HURRIED = HurryCase(PSI_DOT, 0, "at the slow root", "rises")
 FAST_ROOT_HURRIED = HurryCase(PSI_DOT, 1, "at the fast root", "falls")
 DISC_HURRIED = HurryCase(
-    -120.0, 0, "at the slow root for psi' < 0, Mgl < 0, Iz > Ix and theta < pi/2", "falls"
+    -25.0, 0, "at the slow root for psi' < 0, Mgl < 0, Iz > Ix and theta < pi/2", "falls"
 )
 
 
@@ -123,6 +126,22 @@ def seven_motions(top: Top = TOP) -> list[Motion]:
 def precession_period(motion: Motion) -> float:
     """Return the time in s of one turn of the precession."""
     return float(2 * np.pi / abs(motion.mean_precession_rate))
+
+
+def first_turn(motion: Motion) -> float:
+    """Return the time in s at which phi has first grown or fallen by 2 pi.
+
+    A nutation that does not fit into a turn puts it off `precession_period`, which is a mean.
+    """
+    times = np.linspace(0.0, 1.5 * precession_period(motion), 6001)
+    phi = np.unwrap(motion.at(times).euler_angles.phi)
+    k = int(np.argmax(np.abs(phi - phi[0]) >= 2 * np.pi))
+
+    def missing(t: float) -> float:
+        return math.remainder(float(motion.at(t).euler_angles.phi) - float(phi[0]), 2 * math.pi)
+
+    # One step more on each side: a sample may lie on the turn to rounding.
+    return float(brentq(missing, times[k - 2], times[k + 1], xtol=1e-15))
 
 
 def accelerations(top: Top, states: State) -> Real:

@@ -1,6 +1,8 @@
 """Claims on precession rates: the two roots, the six rates, the parabola, Perry's rule."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -21,7 +23,9 @@ from symtop_ros.article.motions import (
 )
 from symtop_ros.physics import (
     Direction,
+    Hold,
     Motion,
+    State,
     Top,
     hurry,
     perrys_rule,
@@ -31,6 +35,14 @@ from symtop_ros.physics import (
 
 STILL = 1e-3  # rad; a root printed with three digits moves the top by less
 FITTED = 1e-9  # of the largest theta''; differences and the fit are good to 1e-11
+SMALL, INSTANT = 1.02, 1e-5  # a small hurry, and the s after which the motion is looked at
+TRIED, SEED = 120, 1890  # random tops, the same every time
+Root = Literal["slow", "fast"]
+# The leading coefficient of the quadratic for theta'' by what a kick holds, over cos(theta)
+LEADING: dict[Hold, Callable[[Top], float]] = {
+    "spin_rate": lambda top: top.Ix - top.Iz,
+    "spin_momentum": lambda top: top.Ix,
+}
 FACTOR = 1.4  # by which the precession is hurried
 PARABOLA = np.linspace(-10.0, 90.0, 41)  # rad/s
 SHORT = 0.02  # of a nutation period
@@ -49,6 +61,8 @@ def claims_on_rates(top: Top) -> list[Claim]:
         hurrying_decides(top, SLOW_ROOT_HURRIED),
         hurrying_decides(top, FAST_ROOT_HURRIED),
         hurrying_decides(HANGING_DISC, DISC_HURRIED),
+        sign_decides("slow", top),
+        sign_decides("fast", top),
     ]
 
 
@@ -171,9 +185,12 @@ def acceleration_is_a_parabola(top: Top) -> Claim:
 def hurrying_decides(top: Top, case: HurryCase) -> Claim:
     """Check what a hurried regular precession does, and that `perrys_rule` agrees."""
     holds = case.direction == "rises"
+    moved = "top" if top.Mgl > 0 else "axis"
     sentence = (
         f'Perry\'s rule "hurry on the precession, and the body rises" '
-        f"{'holds' if holds else 'fails'} {case.place}: the hurried top {case.direction}."
+        f"{'holds' if holds else 'fails'} for the {moved} {case.place}: the hurried {moved} "
+        f"{case.direction}"
+        + ("." if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises.")
     )
     roots = _roots(top, case.psi_dot)
     if not roots:
@@ -188,6 +205,57 @@ def hurrying_decides(top: Top, case: HurryCase) -> Claim:
         ACCELERATION,
         SIGNS,
     )
+
+
+def sign_decides(root: Root, top: Top) -> Claim:
+    """Check the exact rule for a small hurry, on random tops of both signs and on this one.
+
+    From the slow root s the kick by k makes Ix theta''/sin(theta) of zero
+    (k - 1) Mgl (k s/f - 1), from the fast root f it makes (k - 1) a f^2 (k - s/f), and |s| < |f|.
+    The height of the centre of mass accelerates like -Mgl theta''.
+    """
+    counts = {hold: _count_risen(root, hold, top) for hold in LEADING}
+    rule = (
+        "raises the centre of mass of every top, and lowers the axis exactly if Mgl < 0"
+        if root == "slow"
+        else "raises the centre of mass exactly if Mgl (Ix - Iz) cos(theta) < 0, and exactly if "
+        "Mgl cos(theta) < 0 if it holds the spin momentum"
+    )
+    words = [
+        f"{good} of {tried} with the {hold.replace('_', ' ')} held"
+        for hold, (good, tried) in counts.items()
+    ]
+    listed = " and ".join(words)
+    return Claim(
+        f"A small hurry on the {root} root (two distinct roots, first instant) {rule}.",
+        f"kick by {SMALL:g}; the motion after {INSTANT * 1e6:g} us agrees for {listed}",
+        all(good == tried > 0 for good, tried in counts.values()),
+        "Ix theta''/sin(theta) = (k - 1) Mgl (k s/f - 1) on the slow root s, "
+        "(k - 1) a f^2 (k - s/f) on the fast root f; a = (Ix - Iz) cos(theta), or Ix cos(theta)",
+        "none: signs",
+    )
+
+
+def _count_risen(root: Root, hold: Hold, top: Top) -> tuple[int, int]:
+    """Return how many tops move as the rule says, and how many were tried."""
+    random, good, tried = np.random.default_rng(SEED), 0, 0
+    for _ in range(TRIED):
+        Iz, weight = random.uniform(0.1, 1.9), random.uniform(20.0, 200.0) * random.choice([-1, 1])
+        each = Top(top.Ix, Iz * top.Ix, weight * top.Ix) if tried else top
+        theta, spin = random.uniform(0.2, 2.9), random.choice([-1, 1]) * random.uniform(30.0, 200.0)
+        a = LEADING[hold](each) * np.cos(theta)
+        roots = np.roots([a, -each.Iz * spin, each.Mgl])
+        slow, fast = sorted(roots.tolist(), key=abs)
+        if isinstance(slow, complex) or abs(slow) > 0.9 * abs(fast):
+            continue
+        rate = slow if root == "slow" else fast
+        psi_dot = spin if hold == "spin_rate" else spin - rate * float(np.cos(theta))
+        before = State.from_euler(theta=theta, phi_dot=rate, psi_dot=psi_dot)
+        motion = Motion(each, hurry(before, SMALL, hold))
+        fell = float(motion.at(INSTANT).euler_angles.theta) - theta
+        expected = each.Mgl > 0 if root == "slow" else a < 0
+        good, tried = good + ((fell < 0) == expected), tried + 1
+    return good, tried
 
 
 def _roots(top: Top, psi_dot: float = PSI_DOT) -> tuple[float, ...]:

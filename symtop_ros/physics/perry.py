@@ -9,8 +9,19 @@ not kicked: phi' is multiplied by a factor while the spin rate or the spin momen
   impulse, if theta'' is the same with the kick as without it, and on the vertical, where phi' is
   undefined.
 
-At a root of regular precession theta'' is 0 without the kick, so the hurried top rises if and only
-if the rule holds there. This is the article's case. Elsewhere the top may rise although the rule
+These words mean the axis. The height of the centre of mass is cos(theta) times an arm of the sign
+of Mgl, so for Mgl < 0 it moves the other way, and the answers name both.
+
+At a root of regular precession theta'' is 0 without the kick, so the hurried axis rises if and only
+if the rule holds there. This is the article's case. With two distinct roots s (slow) and f (fast)
+of a p^2 - b p + Mgl = 0, Ix theta''/sin(theta) after a kick by k is
+
+    (k - 1) Mgl (k s/f - 1)  from the slow root,    (k - 1) a f^2 (k - s/f)  from the fast one.
+
+Since |s| < |f|, a small hurry on the slow root raises the centre of mass of every top, and lowers
+the axis if and only if Mgl < 0. A hurry on the fast root raises the centre of mass if and only if
+Mgl a < 0, where a = (Ix - Iz) cos(theta) if the spin rate is held and Ix cos(theta) if the spin
+momentum is. docs/derivation.md has the derivation. Elsewhere the top may rise although the rule
 fails, and the reverse. The answer to a kick says so.
 """
 
@@ -157,7 +168,9 @@ class PrecessionChange:
         """
         if self.silence:
             return f"{NOTHING}: {self.silence} ({place})."
-        verb = "holds" if self.rule_holds else "fails"
+        verb, other = ("holds", "fails") if self.rule_holds else ("fails", "holds")
+        if self.tilt.quadratic.Mgl < 0:
+            verb += f" for the axis and {other} for the centre of mass"
         action = "hurried" if self._is_hurried else "delayed"
         now, was = (f"{self.tilt.at(rate):.3g}" for rate in (self.after, self.before))
         return f"Perry's rule {verb}: {action}{link} {now} instead of {was} rad/s^2 ({place})."

@@ -28,7 +28,7 @@ from symtop_ros.physics.values import (
 # Turning angles that differ by less are reported as equal: next to a pole, or where two roots of
 # the cubic nearly meet, an angle is the square root of a quantity that is known to EPS.
 SAME_ANGLE = 1e-7  # rad
-AXIS_NOTE = " For Mgl < 0 these words mean the axis; the centre of mass moves the other way."
+OPPOSITE: dict[Direction, Direction] = {"rises": "falls", "falls": "rises", "stays": "stays"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +37,8 @@ class Verdict:
 
     Attributes
     ----------
+    subject : str
+        The top with its direction, in words; for Mgl < 0 the axis and the centre of mass apart.
     direction : {"rises", "falls", "stays"}
         Direction of the axis from this state on, without the kick: by theta', or by theta'' if
         theta' = 0.
@@ -45,7 +47,8 @@ class Verdict:
     regular_rates : tuple of float
         Rates of regular precession in rad/s at this tilt and at the held spin rate or momentum.
     rule_holds : bool or None
-        True if Perry's rule holds for the kick; None if it says nothing.
+        True if Perry's rule holds for the axis; None if it says nothing. For Mgl < 0 the rule is
+        the opposite for the centre of mass, which lies on the other side of the pivot.
     reason : str
         The reason, in a sentence: theta'' with the kick and without it.
     average : str
@@ -64,6 +67,7 @@ class Verdict:
     nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
 
+    subject: str
     direction: Direction
     turning_angles: tuple[float, float]
     regular_rates: tuple[float, ...]
@@ -73,7 +77,7 @@ class Verdict:
 
     def __str__(self) -> str:
         """Return direction, turning angles, reason and averages, in sentences."""
-        where = f"The top {self.direction}: {_describe_range(self.turning_angles)}."
+        where = f"{self.subject}: {_describe_range(self.turning_angles)}."
         return " ".join(filter(None, (where, self.reason, self.average)))
 
 
@@ -111,11 +115,11 @@ def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_
     factor, hold = validate_number("factor", factor), validate_hold(hold)
     motion = Motion(top, state)
     direction = _find_direction(top, state)
-    note = AXIS_NOTE if top.Mgl < 0 else ""
+    subject = _describe_direction(top, direction)
     if state.is_vertical:
-        reason = f"{NOTHING}: {_describe_vertical(top, state)}.{note}"
+        reason = f"{NOTHING}: {_describe_vertical(top, state)}."
         return Verdict(
-            direction, motion.turning_angles, (), None, reason, _describe_average(motion)
+            subject, direction, motion.turning_angles, (), None, reason, _describe_average(motion)
         )
     tilt, rate = TiltAcceleration.of(top, state, hold), find_precession(state)
     if abs(factor * rate) > LARGEST_ANGULAR_VELOCITY:
@@ -123,8 +127,9 @@ def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_
         raise refuse("factor", condition, factor)
     kick = PrecessionChange(tilt, rate, factor * rate, factor)
     rates = f" from {format_rate(rate)} to {format_rate(kick.after)} rad/s, theta'' would be"
-    reason = kick.explain(rates, tilt.describe_place(rate)) + note
+    reason = kick.explain(rates, tilt.describe_place(rate))
     return Verdict(
+        subject,
         direction,
         motion.turning_angles,
         tilt.quadratic.roots,
@@ -182,7 +187,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> str:
         rule = kick.explain(", theta'' is", kick.tilt.describe_place(kick.after))
         expected, holds = kick.expected_direction, kick.rule_holds
     facts = _Facts(
-        _find_direction(top, after), Motion(top, before).turning_angles, motion.turning_angles
+        top, _find_direction(top, after), Motion(top, before).turning_angles, motion.turning_angles
     )
     sentences = [change, facts.describe_motion(motion.is_driven), rule, facts.describe_lift()]
     contradictions = " and ".join(facts.contradictions(expected))
@@ -191,7 +196,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> str:
         sentences.append(f"Although Perry's rule {verb}, {contradictions}.")
     if not motion.is_driven:
         sentences += filter(None, [_describe_average(motion)])
-    return " ".join(sentences) + (AXIS_NOTE if top.Mgl < 0 else "")
+    return " ".join(sentences)
 
 
 def _describe_average(motion: Motion) -> str:
@@ -212,6 +217,7 @@ def _describe_average(motion: Motion) -> str:
 class _Facts:
     """Direction after a kick, and the turning angles without it and with it, in rad."""
 
+    top: Top
     direction: Direction
     before: tuple[float, float]
     after: tuple[float, float]
@@ -219,21 +225,22 @@ class _Facts:
     def describe_motion(self, is_driven: bool) -> str:
         """Return the sentence on direction and turning angles."""
         condition = "without friction and applied torque " if is_driven else ""
-        return f"The top {self.direction}: {condition}{_describe_range(self.after)}."
+        subject = _describe_direction(self.top, self.direction)
+        return f"{subject}: {condition}{_describe_range(self.after)}."
 
     def describe_lift(self) -> str:
         """Return the sentence on the highest and the lowest point."""
         highest, lowest = map(_describe_lift, self._lifts)
-        return (
-            f"Compared with no kick, the highest point is {highest} and the lowest point {lowest}."
-        )
+        name = "highest point of the axis" if self.top.Mgl < 0 else "highest point"
+        return f"Compared with no kick, the {name} is {highest} and the lowest point {lowest}."
 
     def contradictions(self, expected: Direction | None) -> Iterator[str]:
         """Yield the facts that are contrary to the direction in which theta'' changes."""
         if expected is None:
             return
         if self.direction not in (expected, "stays"):
-            yield f"the top {self.direction}"
+            name = "axis" if self.top.Mgl < 0 else "top"
+            yield f"the {name} {self.direction}"
         sign = 1 if expected == "rises" else -1
         for name, lift in zip(("highest", "lowest"), self._lifts, strict=True):
             if sign * lift < 0:
@@ -261,6 +268,12 @@ def _find_direction(top: Top, state: State) -> Direction:
     if change == 0:
         return "stays"
     return "rises" if change < 0 else "falls"
+
+
+def _describe_direction(top: Top, direction: Direction) -> str:
+    if top.Mgl >= 0:
+        return f"The top {direction}"
+    return f"The axis {direction} (and the centre of mass {OPPOSITE[direction]})"
 
 
 def _describe_vertical(top: Top, state: State) -> str:

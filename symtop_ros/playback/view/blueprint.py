@@ -4,11 +4,14 @@ The framing of a motion says how much of it is visible: of its trace, and in the
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
+import numpy as np
 import rerun.blueprint as rrb
 from rerun.blueprint.archetypes import PlotBackground
 
+from symtop_ros.physics import Motion
 from symtop_ros.playback.view import entities
 from symtop_ros.simulation.segment import Segment
 
@@ -20,6 +23,7 @@ EYE_WHOLE_SPHERE = ((1.85, -2.1, 0.9), (0.0, 0.0, 0.0))
 PLOT_BACKGROUND = PlotBackground(color=entities.BACKGROUND)
 TRACE_NUTATIONS = 12  # longest trace in nutations, if one turn of the precession has more
 PLOT_NUTATIONS = 30  # nutations on each side of the cursor
+LEAST_SPAN = 0.02  # of the size of a quantity: what a plot spans at least
 HORIZON = 1.65  # rad; slightly below the horizontal plane of the pivot
 
 
@@ -31,6 +35,8 @@ class Framing:
     window: float = 10.0  # range of the plots on each side of the cursor, s of the clock
     # True if the axis moves below the pivot: the whole sphere is drawn, and no stand
     below_pivot: bool = True
+    # ranges of plots, by entity, of quantities that hardly change: else rounding would fill them
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, segment: Segment) -> "Framing":
@@ -42,7 +48,43 @@ class Framing:
             trace=_clip(0.2, min(turn, TRACE_NUTATIONS * nutation) / segment.factor, 30.0),
             window=_clip(2.0, PLOT_NUTATIONS * nutation / segment.factor, 60.0),
             below_pivot=motion.top.Mgl < 0 or motion.turning_angles[1] > HORIZON,
+            ranges=_find_ranges(motion),
         )
+
+    def after(self, before: "Framing | None") -> "Framing":
+        """Return the framing with ranges for the motion before, too: plots show both."""
+        if before is None:
+            return self
+        both = self.ranges.keys() & before.ranges.keys()
+        pairs = {each: (self.ranges[each], before.ranges[each]) for each in both}
+        ranges = {
+            each: (min(low for low, _ in pair), max(high for _, high in pair))
+            for each, pair in pairs.items()
+        }
+        return replace(self, ranges=ranges)
+
+
+def _find_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
+    """Return a range for each plotted quantity that hardly changes, `LEAST_SPAN` of it wide."""
+    if motion.is_driven:
+        return {}
+    times = np.linspace(0.0, _clip(0.01, motion.nutation_period, 10.0), 201)
+    states = motion.at(times)
+    rates = states.euler_rates
+    horizontal = motion.top.angular_momentum(states)[:, :2]
+    found = {}
+    for entity, values in (
+        (entities.THETA, np.asarray(states.euler_angles.theta)),
+        (entities.PHI_DOT, np.asarray(rates.phi)),
+        (entities.PSI_DOT, np.asarray(rates.psi)),
+        (entities.L_HORIZONTAL, (horizontal**2).sum(axis=1)),
+    ):
+        low, high = float(values.min()), float(values.max())
+        least = LEAST_SPAN * max(abs(low), abs(high))
+        if high - low < least < math.inf:
+            middle = (low + high) / 2
+            found[entity] = (middle - least / 2, middle + least / 2)
+    return found
 
 
 def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
@@ -51,7 +93,10 @@ def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
     The first tab is for the first look: the top, what follows, and why. The second has the rest.
     """
     window = around_cursor(-framing.window, 0.0 if live else framing.window)
-    plots = {entity: _plot(entity, name, window) for entity, name in entities.PLOTS.items()}
+    plots = {
+        entity: _plot(entity, name, window, framing.ranges.get(entity))
+        for entity, name in entities.PLOTS.items()
+    }
     first = [plots.pop(entity) for entity in (entities.THETA, entities.PHI_DOT)]
     sentence = rrb.TextDocumentView(origin=entities.SENTENCE, name="what follows")
     top = rrb.Horizontal(
@@ -90,13 +135,16 @@ def _lay_out_rest(plots: list[rrb.TimeSeriesView]) -> rrb.Vertical:
     )
 
 
-def _plot(entity: str, name: str, window: rrb.VisibleTimeRanges) -> rrb.TimeSeriesView:
+def _plot(
+    entity: str, name: str, window: rrb.VisibleTimeRanges, span: tuple[float, float] | None
+) -> rrb.TimeSeriesView:
     return rrb.TimeSeriesView(
         origin=entity,
         name=name,
         plot_legend=rrb.Corner2D.RightTop,
         background=PLOT_BACKGROUND,
         time_ranges=window,
+        axis_y=rrb.ScalarAxis(range=span) if span else None,
     )
 
 

@@ -107,9 +107,9 @@ class View:
 
     def _send_event(self, event: Event) -> None:
         previous, self._segment = self._segment, event.segment()
-        motion, framing = self._segment.motion, Framing.of(self._segment)
+        motion, framing = self._segment.motion, Framing.of(self._segment).after(self._framing)
         before, self._framing = self._framing, framing
-        if before is None:
+        if before is None or before.ranges != framing.ranges:
             self._send_layout(framing)
         self._stream.set_time(event.stamp)
         if self._top != motion.top:
