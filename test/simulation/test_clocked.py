@@ -186,7 +186,8 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
         real_time_factor=10.0,
     )
     begin = time.monotonic()
-    for _ in range(20):
+    # some ticks in Python alone; the kernel takes hundreds until it has tried for long enough
+    while run.simulation.factor >= 0.1 and time.monotonic() - begin < 4.0:
         run.clock.now += 5 * MS
         run.simulation.tick()
     assert run.simulation.factor < 0.1
