@@ -224,7 +224,10 @@ def _find_largest_root(a2: Decimal, a1: Decimal, a0: Decimal, s: Decimal) -> Dec
 
     The iterates decrease until rounding stops them, or until the next step would be lost in it:
     the root is apart from the others, so that each step is about the square of the one before.
+    A start at the turning point is the root 0, which relative steps would approach for ever.
     """
+    if a0 == 0 and a1 > 0 and a2 > 0:
+        return ZERO
     estimate = _estimate_largest_root(float(a2), float(a1), float(a0), float(s))
     if 3 * estimate > -a2 and _cubic(estimate, a2, a1, a0) > 0:  # above the root as well
         s = estimate

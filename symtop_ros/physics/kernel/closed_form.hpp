@@ -90,6 +90,7 @@ inline Precise estimate_largest_root(const Cubic& cubic, double s) {
 // _find_largest_root
 inline Precise find_largest_root(const Cubic& cubic, Precise s) {
   static const Precise CONVERGED = Precise(1e-26);
+  if (!cubic.a0.sign && cubic.a1.sign > 0 && cubic.a2.sign > 0) return Precise();
   const Precise three(3.0), estimate = estimate_largest_root(cubic, s.to_double());
   if (three * estimate > -cubic.a2 && cubic.at(estimate).sign > 0) s = estimate;
   for (;;) {
