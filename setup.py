@@ -110,8 +110,9 @@ setup(
         NAME: [
             "py.typed",
             "log/definitions.json",
-            "web/page.js",
-            "web/page.html",
+            "web/*.js",
+            "web/*.html",
+            "web/*.yaml",
             "report/reference.json",
         ],
         f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],

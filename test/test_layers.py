@@ -22,7 +22,7 @@ ARROWS = {
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
     # what pages show, live and saved; viser
-    "web": ({"drawing", "log", "physics", "session", "simulation"}, {"numpy", "viser"}),
+    "web": ({"drawing", "log", "physics", "session", "simulation"}, {"numpy", "viser", "yaml"}),
     "playback": ({"drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
     "session": ({"__init__", "log", "physics", "simulation", "wire"}, set()),
     "node": (

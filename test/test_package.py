@@ -50,7 +50,8 @@ def assert_tree(prefix, programs):
     installed = (prefix / "share/symtop_ros/config").iterdir()
     assert sorted(path.name for path in installed) == CONFIG
     (package,) = prefix.glob("lib/python*/site-packages/symtop_ros")
-    for name in ("py.typed", "log/definitions.json", "web/page.js", "report/reference.json"):
+    web = ("web/page.html", "web/page.js", "web/lesson.js", "web/lesson.yaml")
+    for name in ("py.typed", "log/definitions.json", *web, "report/reference.json"):
         assert (package / name).is_file()
     for name in (
         "top_node",

@@ -121,6 +121,10 @@ class Actions:
 
     def choose_scene(self, name: str) -> None:
         """Set the parameters of a scene and start it."""
+        self._set_scene(name)
+        self.start({})
+
+    def _set_scene(self, name: str) -> None:
         scene = load_scene(name)
         self.set_parameters(
             {
@@ -129,7 +133,6 @@ class Actions:
                 if key.startswith(SCENE_PARAMETERS)
             }
         )
-        self.start({})
 
     def restart_from(self, event: Event) -> None:
         """Restart from the state right after an event, with the top that it had."""
@@ -144,11 +147,10 @@ class Actions:
         """Start the experiment of a link: a scene, parameters of the top, initial conditions."""
         top, initial = read_link(texts)
         if "scene" in texts:
-            self.choose_scene(texts["scene"])
+            self._set_scene(texts["scene"])
         if top:
             self.set_parameters(top)
-        if initial or top or not texts:
-            self.start(initial)
+        self.start(initial)
 
 
 def impulse_of_pull(top: Top, axis: Real, end: Real) -> Real:

@@ -8,6 +8,7 @@ import asyncio
 import json
 import threading
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection
@@ -17,6 +18,7 @@ from symtop_ros.panel.actions import Actions
 from symtop_ros.simulation.presets import describe_scenes
 from symtop_ros.simulation.validation import RefusedError, number, one_line, reject
 from symtop_ros.web.facts import describe_constants, identify, list_history, round_row, thin
+from symtop_ros.web.lesson import read_lesson
 from symtop_ros.web.run import Run
 from symtop_ros.web.scene import LAYERS
 
@@ -72,7 +74,9 @@ class Pages:
     async def _send(self, connection: ServerConnection) -> None:
         """Send what is new, each time that there is something."""
         scenes = [scene._asdict() for scene in describe_scenes()]
-        await connection.send(json.dumps({"hello": {"scenes": scenes, "layers": LAYERS}}))
+        steps = [asdict(step) for step in read_lesson()]
+        hello = {"scenes": scenes, "layers": LAYERS, "lesson": steps}
+        await connection.send(json.dumps({"hello": hello}))
         facts: dict[str, Any] = {}
         number, said, event = -1, len(self._notices), self._pages[connection]
         while True:
@@ -117,6 +121,7 @@ class Pages:
         acts: dict[str, Callable[[], Any]] = {
             "kick": lambda: actions.kick(_number(message, "factor")),
             "pause": actions.toggle_pause,
+            "run": lambda: actions.request("pause", False),
             "rest": self._rest,
             "step": actions.step,
             "reset": lambda: actions.request("reset"),

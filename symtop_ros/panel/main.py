@@ -57,6 +57,9 @@ def _parser() -> argparse.ArgumentParser:
         "--scene", default=SCENE, choices=scene_names(), metavar="SCENE", help="scene to start with"
     )
     parser.add_argument(
+        "--lesson", action="store_true", help="open the lesson: ten steps for a class"
+    )
+    parser.add_argument(
         "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"
     )
     parser.add_argument(
@@ -92,9 +95,10 @@ def _show(options: argparse.Namespace, source: Source, ending: threading.Event) 
     try:
         if options.host not in LOCAL_NAMES:
             print(f"top_panel: {WARNING.format(host=options.host)}", file=sys.stderr)
-        print(f"{source.name}: open {page.server.url} in a browser; Ctrl-C ends it", flush=True)
+        url = page.server.url + ("/#lesson" if options.lesson else "")
+        print(f"{source.name}: open {url} in a browser; Ctrl-C ends it", flush=True)
         if not options.no_browser and _has_screen():
-            webbrowser.open(page.server.url)
+            webbrowser.open(url)
         # With a time-out, because on Windows a wait without one does not see Ctrl-C.
         while not ending.wait(PERIOD):
             pass

@@ -15,6 +15,7 @@
   let facts = null; // what holds for a whole motion
   let rows = []; // time, theta, phi', psi', theta of the ghost
   let socket = null;
+  let lesson = null; // once the server has sent its steps
 
   // Words and numbers
 
@@ -394,7 +395,7 @@
     if (message.said) refuse(message.said);
     if (message.file) make("a", { href: message.file, download: "" }).click();
   };
-  const greet = ({ scenes, layers }) => {
+  const greet = ({ scenes, layers, lesson: steps }) => {
     if (find("scenes").options.length) return;
     find("scenes").append(
       make("option", { value: "", textContent: "choose ..." }),
@@ -412,6 +413,7 @@
         return make("div", {}, make("label", {}, box, " " + layer));
       }),
     );
+    lesson = makeLesson({ find, make, send }, steps);
     if (calm.matches) send({ act: "rest" });
     followLink(location.search + "&" + location.hash.slice(1), document.documentElement.dataset.trusted === "yes");
   };
@@ -428,7 +430,8 @@
   // A link such as /?theta=0.5&psi_dot=200 holds a start. The page of another site may have led here:
   // only a link that the user has typed or chosen in the browser starts without a question.
   const followLink = (text, isTrusted) => {
-    const link = Object.fromEntries(new URLSearchParams(text));
+    const { lesson: step, ...link } = Object.fromEntries(new URLSearchParams(text));
+    if (step !== undefined) { find("tab-lesson").click(); lesson.show(Number(step)); }
     if (!Object.keys(link).length) return;
     history.replaceState(null, "", "/");
     const start = () => send({ act: "link", link });
@@ -475,6 +478,7 @@
         tab.setAttribute("aria-selected", String(each === panel));
         tab.tabIndex = each === panel ? 0 : -1;
       }
+      document.body.classList.toggle("in-lesson", panel.id === "lesson");
     };
     for (const panel of panels) {
       panel.setAttribute("role", "tabpanel");
@@ -483,6 +487,7 @@
       tab.setAttribute("role", "tab");
       tab.setAttribute("aria-controls", panel.id);
       tab.onclick = () => choose(panel);
+      if (panel.id === "lesson") tab.addEventListener("click", () => { if (lesson) lesson.open(); });
       tab.onkeydown = (event) => {
         const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
         if (!step) return;

@@ -13,7 +13,8 @@ HIDING = (
 
 def write_page(data: str = "") -> str:
     """Return the page as one document, with the data of a saved run if there are any."""
-    markup, script = (
-        (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.js")
+    markup, *scripts = (
+        (FOLDER / name).read_text(encoding="utf-8")
+        for name in ("page.html", "lesson.js", "page.js")
     )
-    return markup.replace("/*SCRIPT*/", f"{data}{script}", 1)
+    return markup.replace("/*SCRIPT*/", f"{data}{''.join(scripts)}", 1)

@@ -12,7 +12,7 @@ from symtop_ros.panel.source import LocalTop
 from symtop_ros.web.scene import COLORS
 
 TIMEOUT = 20.0  # s
-TABS = ("Top", "Push", "History", "View", "Save")
+TABS = ("Top", "Push", "History", "View", "Save", "Lesson")
 # Windows of a laptop, a tablet held upright, a phone, and the laptop with a zoom of 200 %
 SIZES = ((1280, 720), (820, 1180), (390, 844), (640, 360))
 

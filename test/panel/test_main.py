@@ -100,6 +100,11 @@ def test_a_browser_is_opened_where_there_is_a_screen(monkeypatch, capsys):
     assert line == f"local top: open {opened[0]} in a browser; Ctrl-C ends it"
 
 
+def test_the_lesson_is_an_address_of_the_page():
+    with running_panel("--lesson") as (_, url):
+        assert urlsplit(url).fragment == "lesson"
+
+
 @pytest.mark.parametrize(
     ("platform", "display", "expected"),
     [("linux", "", False), ("linux", ":0", True), ("darwin", "", True), ("win32", "", True)],
