@@ -53,7 +53,7 @@ ARROWS = {
         },
     ),
     "article": (
-        {"drawing", "log", "physics", "playback", "simulation"},
+        {"drawing", "log", "physics", "playback", "simulation", "web"},
         {*NUMERICAL, "PIL", "matplotlib", "pyarrow", "rerun"},
     ),
     "models": ({"physics", "simulation"}, set()),

@@ -1,5 +1,6 @@
 """The lesson does what it says: every command runs, and the pictures are those of the commands."""
 
+import html
 import json
 import re
 import shlex
@@ -12,16 +13,21 @@ import rclpy
 from domains import claim_domain
 from PIL import Image
 from programs import running_node
+from write_lesson import PAGE, write_page
 
-from symtop_ros.article.lesson import STEPS, save_step
+from symtop_ros.article.lesson import picture_of, run_step, write_lesson
 from symtop_ros.client import main as client
 from symtop_ros.client.arguments import parse_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.live import main as live
+from symtop_ros.panel import main as panel
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.report import main as report
+from symtop_ros.web.lesson import read_lesson
 
 ROOT = Path(__file__).parents[1]
-LESSON = (ROOT / "docs/lesson.md").read_text(encoding="utf-8")
+LESSON = PAGE.read_text(encoding="utf-8")
+STEPS = read_lesson()
 DOMAIN = claim_domain()
 NAMES = ("/top", "/disc")
 BEFORE, *PARTS = re.split(r"^## \d+\. ", LESSON, flags=re.MULTILINE)
@@ -30,7 +36,7 @@ LIVE = [word.rstrip("`") for word in re.findall(r"top_live --[^`\n]+", LESSON)]
 
 def typed(text):
     """The commands of a part of the lesson."""
-    return re.search(r"```sh\n(.+?)```", text, flags=re.DOTALL)[1].strip().splitlines()
+    return "".join(re.findall(r"```sh\n(.+?)```", text, flags=re.DOTALL)).strip().splitlines()
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +44,7 @@ def tops():
     """Connections to both nodes, which are started as in the lesson, by their names."""
     starts = [shlex.split(line) for line in typed(BEFORE) if "top_node" in line]
     parameters = [[value for word, value in pairwise(words) if word == "-p"] for words in starts]
-    assert [words[-1] for words in starts] == ["real_time_factor:=0.2", "__node:=disc"]
+    assert [words[-1] for words in starts] == ["real_time_factor:=0.1", "__node:=disc"]
     with (
         running_node(DOMAIN, *parameters[0]),
         running_node(DOMAIN, *parameters[1], name="disc"),
@@ -61,10 +67,27 @@ def do(tops, line):
     return text
 
 
-def test_the_steps_of_the_lesson_are_those_of_its_pictures():
-    for number, (part, step) in enumerate(zip(PARTS, STEPS, strict=True), start=1):
-        assert tuple(typed(part)) == step.commands
-        assert f"(lesson/step_{number:02}.png)" in part
+def test_the_page_has_the_steps_of_the_data():
+    """Otherwise: PYTHONPATH=test python test/write_lesson.py."""
+    assert write_page() == LESSON
+    assert [tuple(typed(part)) for part in PARTS] == [tuple(step.commands) for step in STEPS]
+
+
+def test_the_angle_that_is_computed_by_hand_is_that_of_the_motion():
+    Ix, Iz, Mgl, spin = 0.000228, 0.0000572, 0.068, 200.0
+    p_psi, u_0 = Iz * spin, np.cos(0.5)
+    factor = p_psi**2 / (2 * Ix * Mgl)
+    u = min(np.roots([1.0, -factor, factor * u_0 - 1.0]))
+    (_, lowest) = Motion(Top(Ix, Iz, Mgl), State.from_euler(theta=0.5, psi_dot=spin)).turning_angles
+    assert np.arccos(u) == pytest.approx(lowest, abs=1e-14)  # rounding of a root and arccos
+    for shown in (f"{p_psi:.5f}", f"{factor:.2f}", f"{u:.3f}", f"{lowest:.3f}"):
+        assert f"= {shown}" in STEPS[2].seen
+
+
+def test_the_commands_that_need_no_ros_are_options_of_their_programs():
+    assert panel._parser().parse_args(["--lesson"]).lesson
+    assert report._parser().parse_args(["lesson", "--sheets"]).sheets
+    assert typed(BEFORE)[:2] == ["top_panel --lesson", "top_report lesson --sheets"]
 
 
 @pytest.mark.parametrize("step", STEPS, ids=range(1, 11))
@@ -73,7 +96,7 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
         do(tops, line)
     node = "--node /disc " if "/disc" in step.commands[-1] else ""
     state = json.loads(do(tops, f"top_ctl {node}state --json"))
-    drawn = [run.pieces[-1][1] for run in step.runs().values()]
+    drawn = [run.pieces[-1][1] for run in run_step(step).values()]
     motion = drawn[0] if "hurry" in step.commands[-1] else drawn[-1]
     assert state["kind"] == motion.kind
     # a kick at a different time is rounded differently
@@ -92,7 +115,7 @@ def test_every_view_is_one_that_there_is(line):
 )
 def test_a_picture_is_what_the_command_draws(number, tmp_path):
     name = f"step_{number:02}.png"
-    save_step(STEPS[number - 1], tmp_path / name)
+    (tmp_path / name).write_bytes(picture_of(STEPS[number - 1]))
     pictures = []
     for folder in (ROOT / "docs/lesson", tmp_path):
         with Image.open(folder / name) as picture:
@@ -100,6 +123,22 @@ def test_a_picture_is_what_the_command_draws(number, tmp_path):
     assert pictures[0].shape == pictures[1].shape
     # versions of Matplotlib smooth the edges of letters differently
     assert np.abs(pictures[0] - pictures[1]).mean() < 2.0
+
+
+def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
+    monkeypatch.setattr("symtop_ros.article.lesson.picture_of", lambda step: b"picture")
+    assert write_lesson(tmp_path, sheets=True) == 0
+    worksheet, teacher = (
+        html.unescape((tmp_path / f"{name}.html").read_text()) for name in ("worksheet", "teacher")
+    )
+    for step in STEPS:
+        for text in (step.title, step.predict, step.compute, step.question):
+            assert text in worksheet
+            assert text in teacher
+        for text in (step.seen, step.answer, *step.commands):
+            assert text not in worksheet
+            assert text in teacher
+    assert teacher.count("<img ") == len(STEPS)
 
 
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):

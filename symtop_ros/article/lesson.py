@@ -1,13 +1,12 @@
-"""The pictures of docs/lesson.md: what each step shows, computed from the commands of the step.
+"""The pictures of the lesson: what each step shows, computed from the acts of the step.
 
-The commands are those of `top_ctl` that a class types. A start begins a run; a hurry kicks the last
-run. Regular precession is the only motion that is hurried, so that the time of the kick is free.
+A start begins a run; a hurry kicks the last run. Regular precession is the only motion that is
+hurried, so that the time of the kick is free.
 """
 
 import io
-import shlex
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -17,15 +16,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from symtop_ros.article.figures import DEPTH
-from symtop_ros.article.motions import (
-    HANGING_DISC,
-    PSI_DOT,
-    THETA,
-    TOP,
-    KickedMotion,
-    precession_period,
-)
-from symtop_ros.article.rates import FACTOR
+from symtop_ros.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
 from symtop_ros.drawing.style import BLUE, GREY, INK, RED, SETTINGS, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
@@ -35,70 +26,75 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 from symtop_ros.simulation.initial import initial_state
-from symtop_ros.simulation.settings import InitialConditions
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.web.lesson import LessonStep, read_lesson
+from symtop_ros.web.sheets import write_teacher_sheet, write_worksheet
 
 KICK = 0.4  # s
 TRACE, TURNS = 1.0, 2.0  # s, and turns of the precession: whichever is shorter is drawn
+SHORT = 0.08  # s in which the fast precession makes most of a turn
 SPAN = 0.8  # s of the plots
 RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
-LOOKS = ((BLUE, "-"), (RED, "--"))
-SCENES = {  # tops and initial conditions of the nodes
-    "/top": (TOP, InitialConditions(theta=0.5, psi_dot=200.0)),
-    "/disc": (
-        HANGING_DISC,
-        InitialConditions(theta=0.5, psi_dot=-25.0, precession="slow"),
-    ),
-}
-Draw = Callable[[Axes, dict[str, KickedMotion]], None]
+LOOKS = ((BLUE, "-"), (RED, "--"), (INK, ":"))
+Runs = dict[str, KickedMotion]
 
 
-@dataclass(frozen=True, slots=True)
-class LessonStep:
-    """One step of the lesson."""
-
-    title: str  # as in the headline of the step
-    commands: tuple[str, ...]  # as one types them
-    draw: Draw  # draws the right half of the picture
-
-    def runs(self) -> dict[str, KickedMotion]:
-        """Return the runs of the step by their labels."""
-        runs: dict[str, KickedMotion] = {}
-        for command in self.commands:
-            _follow(shlex.split(command), runs)
-        return runs
-
-
-def _follow(words: list[str], runs: dict[str, KickedMotion]) -> None:
-    """Apply a command: begin a run, or hurry the last one."""
-    name = words[words.index("--node") + 1] if "--node" in words else "/top"
-    top, defaults = SCENES[name]
-    if "hurry" in words:
-        label, run = runs.popitem()
-        runs["hurried"] = run.kick(KICK, lambda state: hurry(state, FACTOR))
-        runs["not kicked"] = run
-    elif "start" in words or "reset" in words:
-        fields = dict(word.split("=") for word in words if "=" in word)
-        request = {
-            key: text if key == "precession" else float(text) for key, text in fields.items()
-        }
-        motion = Motion(top, initial_state(top, defaults, request))
-        rates = motion.start.euler_rates
-        label = f"$\\dot\\phi$ = {rates.phi:.3g}, $\\dot\\psi$ = {rates.psi:.4g} rad/s"
-        runs[label] = KickedMotion.of(motion)
+def run_step(step: LessonStep) -> Runs:
+    """Return the runs of a step by their labels."""
+    settings, runs = Settings.from_scene(step.scene), Runs()
+    for act in step.acts:
+        if act.hurry is not None:
+            _, run = runs.popitem()
+            runs["hurried"] = run.kick(KICK, partial(hurry, factor=act.hurry))
+            runs["not kicked"] = run
+        else:
+            start = initial_state(settings.top, settings.initial, act.start or {})
+            rates = start.euler_rates
+            label = f"$\\dot\\phi$ = {rates.phi:.3g}, $\\dot\\psi$ = {rates.psi:.4g} rad/s"
+            runs[label] = KickedMotion.of(Motion(settings.top, start))
+    return runs
 
 
 def draw_step(step: LessonStep) -> Figure:
     """Draw a step: the end of the axis from above, and the quantity that the step explains."""
     figure = new_figure(2.9)
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
-    runs = step.runs()
-    _draw_from_above(left, runs)
-    step.draw(right, runs)
+    runs = run_step(step)
+    draw = DRAWS.get(step.title, draw_tilt)
+    if draw is draw_turning:
+        _draw_turned(left, runs)
+    else:
+        _draw_from_above(left, runs)
+    draw(right, runs)
     right.margins(x=0)
     return figure
 
 
-def _draw_from_above(axes: Axes, runs: dict[str, KickedMotion]) -> None:
+def _draw_turned(axes: Axes, runs: Runs) -> None:
+    """Draw how far the axis turns in a short time, with L and the torque that turns it."""
+    (run,) = runs.values()
+    motion = run.pieces[0][1]
+    ends = motion.at(np.linspace(0.0, SHORT, 401)).to_world([0.0, 0.0, 1.0])
+    around = np.linspace(0.0, 2 * np.pi, 181)
+    axes.plot(*(np.sin(THETA) * np.array([np.cos(around), np.sin(around)])), color=GREY, lw=0.7)
+    axes.plot(ends[:, 0], ends[:, 1], color=BLUE, lw=2.4)
+    axes.plot(*ends[0, :2], "o", color=BLUE)
+    L = motion.top.angular_momentum(motion.start)
+    axes.plot(0, 0, "+", color=INK)
+    # both start at the centre; each has its own scale, the same in both pictures
+    for vector, size, color, name in (
+        (L, 80.0, INK, "L"),
+        (motion.top.gravity_torque(motion.start), 8.0, RED, "torque"),
+    ):
+        x, y = size * vector[:2]
+        arrow = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+        axes.annotate("", (x, y), (0, 0), arrowprops=arrow)
+        axes.annotate(name, (x, y), (4, 4), textcoords="offset points", color=color)
+    axes.set(aspect="equal", title=f"from above, {SHORT} s")
+    axes.set_axis_off()
+
+
+def _draw_from_above(axes: Axes, runs: Runs) -> None:
     around = np.linspace(0.0, 2 * np.pi, 181)
     for (color, dash), run in zip(LOOKS, runs.values(), strict=False):
         begin, motion = run.pieces[-1]
@@ -113,7 +109,7 @@ def _draw_from_above(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     axes.set_axis_off()
 
 
-def draw_tilt(axes: Axes, runs: dict[str, KickedMotion]) -> None:
+def draw_tilt(axes: Axes, runs: Runs) -> None:
     """Draw theta against time."""
     times = np.linspace(0.0, SPAN, 1601)
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
@@ -128,7 +124,7 @@ def draw_tilt(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     axes.legend(loc="upper left")
 
 
-def draw_momentum(axes: Axes, runs: dict[str, KickedMotion]) -> None:
+def draw_momentum(axes: Axes, runs: Runs) -> None:
     """Draw the components of L in the world frame, and the one along the axis."""
     times = np.linspace(0.0, SPAN, 1601)
     (run,) = runs.values()
@@ -146,7 +142,7 @@ def draw_momentum(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     axes.legend(loc="upper center", ncols=4, columnspacing=1.0, handlelength=1.6)
 
 
-def draw_potential(axes: Axes, runs: dict[str, KickedMotion]) -> None:
+def draw_potential(axes: Axes, runs: Runs) -> None:
     """Draw the effective potentials, from which the turning angles can be read."""
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
         motion = run.pieces[0][1]
@@ -160,7 +156,7 @@ def draw_potential(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
 
 
-def draw_parabola(axes: Axes, runs: dict[str, KickedMotion]) -> None:
+def draw_parabola(axes: Axes, runs: Runs) -> None:
     """Draw theta'' against phi', with the roots of regular precession and the run's place."""
     rates = np.linspace(-10.0, 88.0, 400)
     axes.axhline(0.0, color=INK, lw=0.9)
@@ -178,78 +174,63 @@ def draw_parabola(axes: Axes, runs: dict[str, KickedMotion]) -> None:
     axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ (rad/s$^2$)")
 
 
-STEPS = (
-    LessonStep("Let go at rest", ("top_ctl start theta=0.5 psi_dot=200",), draw_tilt),
-    LessonStep(
-        "Three numbers that stay",
-        ("top_ctl start theta=0.5 psi_dot=200", "top_ctl state"),
-        draw_momentum,
-    ),
-    LessonStep(
-        "How deep does it fall?",
-        (
-            "top_ctl start theta=0.5 psi_dot=150",
-            "top_ctl start theta=0.5 psi_dot=300",
-        ),
-        draw_potential,
-    ),
-    LessonStep(
-        "A push that stops the nodding",
-        ("top_ctl start theta=0.5 psi_dot=200 precession=slow",),
-        draw_parabola,
-    ),
-    LessonStep(
-        "One torque, two precessions",
-        ("top_ctl start theta=0.5 psi_dot=200 precession=fast",),
-        draw_parabola,
-    ),
-    LessonStep(
-        "Two starts that begin alike",
-        (
-            "top_ctl start theta=0.5 psi_dot=200 phi_dot=0",
-            "top_ctl start theta=0.5 psi_dot=200 phi_dot=76.322",
-        ),
-        draw_tilt,
-    ),
-    LessonStep(
-        "Below the root and above it",
-        (
-            "top_ctl start theta=0.5 psi_dot=200 phi_dot=3",
-            "top_ctl start theta=0.5 psi_dot=200 phi_dot=9",
-        ),
-        draw_tilt,
-    ),
-    LessonStep(
-        "Hurry on the precession, and the body rises",
-        ("top_ctl start theta=0.5 psi_dot=200 precession=slow", "top_ctl hurry"),
-        draw_tilt,
-    ),
-    LessonStep(
-        "The same hurry on the fast root",
-        ("top_ctl start theta=0.5 psi_dot=200 precession=fast", "top_ctl hurry"),
-        draw_tilt,
-    ),
-    LessonStep(
-        "The axis falls, and the body rises",
-        ("top_ctl --node /disc reset", "top_ctl --node /disc hurry"),
-        draw_tilt,
-    ),
-)
+def draw_turning(axes: Axes, runs: Runs) -> None:
+    """Draw L and the axis in their vertical plane, which the torque turns; theta'' in an inset."""
+    (run,) = runs.values()
+    motion = run.pieces[0][1]
+    L = 1e3 * motion.top.angular_momentum(motion.start)
+    flat, rate = float(np.hypot(L[0], L[1])), float(motion.start.euler_rates.phi)
+    torque = 1e3 * float(np.linalg.norm(motion.top.gravity_torque(motion.start)))
+    reach = 20.0 * np.array([np.sin(THETA), np.cos(THETA)])
+    axes.plot(*zip((0, 0), reach, strict=True), color=BLUE, ls="--", label="axis")
+    arrow = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "lw": 2.2}
+    axes.annotate("", (flat, L[2]), (0, 0), arrowprops=arrow)
+    axes.plot([flat, flat], [0, L[2]], color=GREY, lw=0.9, ls=":")
+    axes.plot([0, flat], [0.15, 0.15], color=RED, lw=3, label="horizontal part of $L$")
+    text = f"torque / horizontal part of $L$\n= {torque:.3g} / {flat:.3g} = {rate:.3g} rad/s"
+    axes.set_title(text, fontsize=9)
+    axes.text(flat + 0.3, L[2], "$L$")
+    axes.set(xlim=(-0.5, 20), ylim=(0, 20), xlabel="horizontal ($10^{-3}$ N m s)")
+    axes.set_ylabel("vertical")
+    axes.legend(loc="lower right", fontsize=8)
+    inset = axes.inset_axes((0.58, 0.45, 0.42, 0.47))
+    draw_parabola(inset, runs)
+    inset.tick_params(labelsize=7)
+    inset.set(xlabel="", ylabel="")
+    inset.set_title(r"$\ddot\theta$ over $\dot\phi$", fontsize=8)
+    for text_in_inset in inset.texts:
+        text_in_inset.set_visible(False)
 
 
-def write_lesson(folder: Path) -> int:
-    """Write the pictures step_01.png to step_10.png; return the exit status."""
+DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # all other steps: `draw_tilt`
+    "Three numbers that stay": draw_momentum,
+    "How deep does it fall?": draw_potential,
+    "A push that stops the nodding": draw_turning,
+    "One torque, two precessions": draw_turning,
+}
+
+
+def write_lesson(folder: Path, sheets: bool = False) -> int:
+    """Write the pictures step_01.png to step_10.png, or the sheets; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
-    for number, step in enumerate(STEPS, start=1):
-        save_step(step, folder / f"step_{number:02}.png")
-    print(f"wrote {len(STEPS)} pictures to {folder}")
+    steps = read_lesson()
+    if sheets:
+        pictures = [picture_of(step) for step in steps]
+        (folder / "worksheet.html").write_text(write_worksheet(steps), encoding="utf-8")
+        (folder / "teacher.html").write_text(write_teacher_sheet(steps, pictures), encoding="utf-8")
+        print(f"wrote worksheet.html and teacher.html to {folder}; print them from a browser")
+        return 0
+    for number, step in enumerate(steps, start=1):
+        (folder / f"step_{number:02}.png").write_bytes(picture_of(step))
+    print(f"wrote {len(steps)} pictures to {folder}")
     return 0
 
 
-def save_step(step: LessonStep, file: Path) -> None:
-    """Draw a step into a PNG with a palette, which has a third of the size."""
-    memory = io.BytesIO()
+def picture_of(step: LessonStep) -> bytes:
+    """Return the picture of a step as a PNG with a palette, which has a third of the size."""
+    drawn, packed = io.BytesIO(), io.BytesIO()
     with rc_context(SETTINGS):
-        draw_step(step).savefig(memory, dpi=RESOLUTION)
-    with Image.open(memory) as picture:
-        picture.convert("RGB").quantize(COLORS).save(file, optimize=True)
+        draw_step(step).savefig(drawn, dpi=RESOLUTION)
+    with Image.open(drawn) as picture:
+        picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
+    return packed.getvalue()

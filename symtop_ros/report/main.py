@@ -17,7 +17,7 @@ COMMANDS = {
     "testset": "scores of programs in the test set (20 minutes)",
     "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
     "article": "the article's figures, its motions in 3D, and its claims",
-    "lesson": "the pictures of docs/lesson.md",
+    "lesson": "the pictures of docs/lesson.md, or sheets to print",
     "maps": "where hurrying the precession raises the top",
 }
 
@@ -51,6 +51,8 @@ def _parser() -> argparse.ArgumentParser:
     for name, default in (("speed", "4 s (--full: 60)"), ("testset", "0.2 s")):
         text = f"largest time of one run, {default}"
         of[name].add_argument("--limit", type=_seconds, metavar="S", help=text)
+    text = "the worksheet and the teacher's sheet (HTML, to print) instead of the pictures"
+    of["lesson"].add_argument("--sheets", action="store_true", help=text)
     of["maps"].add_argument("--points", type=_points, default=1000, help="along each side")
     return parser
 
@@ -95,7 +97,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.command == "lesson":
         from symtop_ros.article.lesson import write_lesson
 
-        return write_lesson(options.folder)
+        return write_lesson(options.folder, options.sheets)
     if options.command == "testset":
         from symtop_ros.report.testset import LIMIT, score_testset
 

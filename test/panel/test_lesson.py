@@ -48,7 +48,11 @@ def opened(browser, page, query="/#lesson", size=(1280, 720)):
     tab = browser.new_page(viewport={"width": width, "height": height})
     tab.set_default_timeout(TIMEOUT * 1000)
     sent = []
-    tab.on("websocket", lambda socket: socket.on("framesent", lambda text: sent.append(text)))
+
+    def note(text):
+        sent.append(text)
+
+    tab.on("websocket", lambda socket: socket.on("framesent", note))
     tab.on("request", lambda request: sent.append(f"{request.url} {request.post_data}"))
     tab.route("**/scene?*", lambda route: route.fulfill(body="<!doctype html><title>scene</title>"))
     tab.goto(page.server.url + query)

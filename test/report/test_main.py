@@ -22,7 +22,8 @@ PARTS = {
     "testset here --limit 9 --docs docs": (testset, "score_testset", "here", DOCS, 9.0),
     "filters --docs docs": (filters, "judge_filters", "report", DOCS),
     "article": (retell, "retell", "report"),
-    "lesson there": (lesson, "write_lesson", "there"),
+    "lesson there": (lesson, "write_lesson", "there", False),
+    "lesson --sheets": (lesson, "write_lesson", "report", True),
     "maps": (maps, "write_maps", "report", 1000),
     "maps here --points 9": (maps, "write_maps", "here", 9),
 }

@@ -1,0 +1,55 @@
+"""Write the steps into docs/lesson.md: PYTHONPATH=test python test/write_lesson.py."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from pathlib import Path
+
+from symtop_ros.web.lesson import LessonStep, read_lesson
+
+PAGE = Path(__file__).parents[1] / "docs/lesson.md"
+FIRST = "## 1. "  # what is above the first step is written by hand
+WIDTH = 100
+
+
+def main() -> None:
+    """Write the page."""
+    PAGE.write_text(write_page(), encoding="utf-8")
+
+
+def write_page() -> str:
+    """Return the page with its steps from the data."""
+    head = PAGE.read_text(encoding="utf-8").partition(FIRST)[0]
+    steps = list(enumerate(read_lesson(), start=1))
+    answers = [_wrap(f"{k}. {step.answer}", "   ") for k, step in steps]
+    parts = [*(_write_step(k, step) for k, step in steps), "## Answers for the teacher\n"]
+    return head + "\n".join([*parts, *answers]) + "\n"
+
+
+def _write_step(number: int, step: LessonStep) -> str:
+    commands = "\n".join(step.commands)
+    return "\n\n".join(
+        [
+            f"## {number}. {step.title}",
+            _wrap(f"Predict: {step.predict}"),
+            *map(_wrap, filter(None, step.compute.split("\n"))),
+            f"```sh\n{commands}\n```",
+            _wrap(f"Look: {step.look}"),
+            f"![{step.picture}](lesson/step_{number:02}.png)",
+            *map(_wrap, filter(None, step.seen.split("\n"))),
+            _wrap(f"Question: {step.question} (The article's {step.source}.)") + "\n",
+        ]
+    )
+
+
+def _wrap(text: str, indent: str = "") -> str:
+    # A line that begins with a sign would be a list.
+    text = re.sub(" ([+-]) ", "\u00a0\\1 ", text.replace("<", "&lt;"))
+    return textwrap.fill(
+        text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+
+
+if __name__ == "__main__":
+    main()
