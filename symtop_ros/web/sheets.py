@@ -15,6 +15,7 @@ section { break-inside: avoid; } .line { border-bottom: 1px solid #888; height: 
 b { font-weight: 600; } code { font-size: 9.5pt; }
 @page { size: A4; margin: 14mm; } @media print { body { margin: 0; padding: 0; } }
 """
+LINES = '<div class="line"></div>' * 2
 TITLE = "Why constants of motion?"
 INTRODUCTION = (
     "theta is the tilt of the axis from the vertical, phi the precession, psi the spin; a dash is "
@@ -24,20 +25,19 @@ INTRODUCTION = (
 
 def write_worksheet(steps: Sequence[LessonStep]) -> str:
     """Return the sheet for the class, with room for predictions and answers."""
-    return _document("worksheet", [_head(k, step) + _room(step) for k, step in _count(steps)])
+    parts = [
+        f"{_ask(k, step)}{LINES}{_act(step)}{_room(step)}" for k, step in enumerate(steps, start=1)
+    ]
+    return _document("worksheet", parts)
 
 
 def write_teacher_sheet(steps: Sequence[LessonStep], pictures: Sequence[bytes]) -> str:
     """Return the sheet with what happens, the answers, and a picture (PNG) of each step."""
     parts = [
-        _head(k, step) + _picture(step, picture) + _answers(step)
-        for (k, step), picture in zip(_count(steps), pictures, strict=True)
+        f"{_ask(k, step)}{_act(step)}{_picture(step, picture)}{_answers(step)}"
+        for k, (step, picture) in enumerate(zip(steps, pictures, strict=True), start=1)
     ]
     return _document("teacher's sheet", parts)
-
-
-def _count(steps: Sequence[LessonStep]) -> list[tuple[int, LessonStep]]:
-    return list(enumerate(steps, start=1))
 
 
 def _document(name: str, parts: Sequence[str]) -> str:
@@ -55,22 +55,19 @@ def _say(name: str, text: str) -> str:
     return f"<p>{label}{escape(text)}</p>\n"
 
 
-def _head(number: int, step: LessonStep) -> str:
+def _ask(number: int, step: LessonStep) -> str:
+    return f"<h2>{number}. {escape(step.title)}</h2>\n{_say('Predict', step.predict)}"
+
+
+def _act(step: LessonStep) -> str:
+    compute = _say("Compute", step.compute) if step.compute else ""
     buttons = ", then ".join(act.button for act in step.acts)
-    compute = _say("", step.compute) if step.compute else ""
-    return (
-        f"<h2>{number}. {escape(step.title)}</h2>\n{_say('Predict', step.predict)}{compute}"
-        f"{_say('Press', buttons)}{_say('Look', step.look)}"
-    )
+    return f"{compute}{_say('Press', buttons)}{_say('Look', step.look)}"
 
 
 def _room(step: LessonStep) -> str:
-    number = _say("Computed", "p_psi = , lambda = , u = , theta =") if step.compute else ""
-    lines = '<div class="line"></div>' * 2
-    return (
-        f"{_say('Your prediction', '')}{lines}{number}{_say('What you saw', '')}{lines}"
-        f"{_say('Question', step.question)}{lines}"
-    )
+    lines = LINES * (2 if step.compute else 1)  # more to write where something is computed
+    return f"{_say('What you saw', '')}{lines}{_say('Question', step.question)}{LINES}"
 
 
 def _picture(step: LessonStep, picture: bytes) -> str:
