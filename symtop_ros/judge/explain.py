@@ -5,7 +5,7 @@ delay, but for rotations of the world and of the body. The rank of the problem s
 """
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -15,7 +15,7 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.compare import IDENTITY, NONE, Offset, subtract, to_rotation
+from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
@@ -23,10 +23,13 @@ from symtop_ros.wire.layout import NANOSECONDS
 
 SAMPLES = 500  # estimates that a fit takes, spread over the run
 MAX_DELAY = 0.1  # s
-# Delays are tried in steps in which the fastest turn is so many rad; the best ones are refined.
+# Delays are tried in steps in which the fastest turn is so many rad, drifts in steps in which the
+# heading turns as much within the run; the best ones are refined.
 GRID_STEP = 0.5  # rad
-MOST_DELAYS = 2001
+MOST_DELAYS = 1000
+MOST_TURNS = 2  # of the heading, by a drift
 CANDIDATES = 3
+FINE = 1e-9  # s, or rad/s
 ITERATIONS = 30  # of Gauss and Newton; they converge quadratically
 STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried
 WORTHWHILE = 1.01  # a delay or drift counts if it makes the mean square smaller by this factor
@@ -59,9 +62,10 @@ def explain(
 ) -> Explanation:
     """Return the explanation by constant rotations, a delay up to 0.1 s, and a drift.
 
-    The rotations follow by least squares for each delay (Kabsch 1976, in four dimensions); all
-    delays are tried, since a spinning top repeats itself with each turn. What is found is refined
-    by the method of Gauss and Newton. The simplest explanation that leaves no more is taken.
+    The rotations follow by least squares for each delay and drift (Kabsch 1976, in four
+    dimensions). Drifts are tried first, and with the best of them all delays, since a spinning top
+    repeats itself with each turn. What is found is refined by the method of Gauss and Newton. The
+    simplest explanation that leaves no more is taken: the one with the smallest delay.
     """
     every = max(1, len(estimates) // SAMPLES)
     fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
@@ -69,17 +73,19 @@ def explain(
         return Explanation()
     fit.hidden.extend(fit.find_hidden())
     found = [fit.start(0.0)]
-    if delay and "delay" not in fit.hidden:
-        found += [fit.refine(each, (DELAY,)) for each in fit.search()]
     if drift and "drift" not in fit.hidden:
-        found += [fit.refine(fit.guess_drift(each), _free(each)) for each in found]
+        found.append(fit.refine(fit.find_drift(), (DRIFT,)))
+    if delay and "delay" not in fit.hidden:
+        for each in list(found):
+            free = (DELAY, DRIFT) if each.drift else (DELAY,)
+            found += [fit.refine(late, free) for late in fit.search_delays(each.drift)]
     costs = [fit.cost(each) for each in found]
-    best = next(k for k, cost in enumerate(costs) if cost <= WORTHWHILE * min(costs) + ROUNDING)
+    limit = WORTHWHILE * min(costs) + fit.rounding
+    best = min(
+        (k for k, cost in enumerate(costs) if cost <= limit),
+        key=lambda k: (bool(found[k].drift), abs(found[k].delay)),
+    )
     return Explanation(found[best], tuple(fit.hidden), float(np.sqrt(4 * costs[best])))
-
-
-def _free(offset: Offset) -> tuple[int, ...]:
-    return (DELAY, DRIFT) if offset.delay else (DRIFT,)
 
 
 @dataclass(eq=False)
@@ -115,52 +121,59 @@ class Fit:
             return np.inf
         return float((subtract(q[known], model[known]) ** 2).sum(axis=1).mean())
 
-    def start(self, delay: float) -> Offset:
-        """Return the best rotations for a delay."""
-        begin = int(self.some.stamps[0])
+    @cached_property
+    def fastest(self) -> float:
+        """Largest angular velocity of the motion in rad/s."""
+        return float(np.linalg.norm(self.exact(0.0)[1], axis=1).max(initial=0.0))
+
+    @property
+    def rounding(self) -> float:
+        """Mean square of errors that are rounding: of numbers, and of stamps to whole ns."""
+        return ROUNDING + (self.fastest / NANOSECONDS) ** 2
+
+    def start(self, delay: float, drift: float = 0.0) -> Offset:
+        """Return the best rotations for a delay and a drift."""
+        still = replace(NONE, delay=delay, drift=drift, begin=int(self.some.stamps[0]))
         exact, _, known = self.exact(delay)
         if not self.rotations or known.sum() < 2:
-            return replace(NONE, delay=delay, begin=begin)
-        q, exact = self.some.orientations[known], exact[known]
+            return still
+        turned = still.turn_world(self.some.stamps[known])
+        q, exact = compose(invert(turned), self.some.orientations[known]), exact[known]
         if "rotations" in self.hidden:  # the world's alone: the body's are as well the identity
             left = compose(q, invert(exact))
-            found = Offset(np.linalg.eigh(left.T @ left)[1][:, -1], IDENTITY, delay, 0.0, begin)
-            return self.refine(found, ())
-        return replace(fit_rotations(q, exact), delay=delay, begin=begin)
+            world = np.linalg.eigh(left.T @ left)[1][:, -1]
+            return self.refine(replace(still, world=world), ())
+        found = fit_rotations(q, exact)
+        return replace(still, world=found.world, body=found.body)
 
-    def search(self) -> Iterator[Offset]:
-        """Yield the best delays, each the best of a valley of a grid, with their rotations."""
-        fastest = float(np.linalg.norm(self.exact(0.0)[1], axis=1).max(initial=0.0))
-        count = min(max(2 * MAX_DELAY * fastest / GRID_STEP, 21), MOST_DELAYS)
-        tried = np.linspace(-MAX_DELAY, MAX_DELAY, int(count))
-        costs = np.array([self.cost(self.start(each)) for each in tried.tolist()])
+    def find_drift(self) -> Offset:
+        """Return the best drift with its rotations, without a delay."""
+        step = GRID_STEP / self.seconds[-1]
+        count = int(2 * np.pi * MOST_TURNS / GRID_STEP)
+        return next(self._search(lambda drift: self.start(0.0, drift), step * count, count))
+
+    def search_delays(self, drift: float) -> Iterator[Offset]:
+        """Yield the best delays with their rotations, for a drift."""
+        count = min(max(MAX_DELAY * self.fastest / GRID_STEP, 10), MOST_DELAYS)
+        yield from self._search(lambda delay: self.start(delay, drift), MAX_DELAY, int(count))
+
+    def _search(
+        self, start: Callable[[float], Offset], most: float, count: int
+    ) -> Iterator[Offset]:
+        """Yield the best of some valleys of a grid from -most to most; the best valley first."""
+
+        def cost(x: float) -> float:
+            return self.cost(start(float(x)))
+
+        tried = np.linspace(-most, most, 2 * count + 1)
+        costs = np.array([cost(each) for each in tried])
         padded = np.concatenate(([np.inf], costs, [np.inf]))
         valleys = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:]))
         for k in valleys[np.argsort(costs[valleys])][:CANDIDATES].tolist():
-            bounds = tried[max(k - 1, 0)], tried[min(k + 1, len(tried) - 1)]
-            yield self.start(self._refine_delay(*bounds))
-
-    def _refine_delay(self, low: float, high: float) -> float:
-        """Return the best delay between two. The rotations follow from each, which is robust."""
-        found = minimize_scalar(
-            lambda delay: self.cost(self.start(float(delay))),
-            bounds=(low, high),
-            method="bounded",
-            options={"xatol": 1e-9},
-        )
-        return float(found.x)
-
-    def guess_drift(self, offset: Offset) -> Offset:
-        """Return the offset with the drift that most steps of the heading have."""
-        q, model, known = self.residuals(offset)
-        turn = compose(q[known], invert(model[known]))
-        steps = compose(turn[1:], invert(turn[:-1]))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            angles = 2 * np.arctan(steps[:, 3] / steps[:, 0])
-            rates = angles / np.diff(self.seconds[known])
-        rates = rates[np.isfinite(rates)]
-        drift = float(np.median(rates)) if len(rates) else 0.0
-        return replace(offset, drift=drift)
+            bounds = float(tried[max(k - 1, 0)]), float(tried[min(k + 1, 2 * count)])
+            # The rotations follow from each number that is tried, which is robust.
+            found = minimize_scalar(cost, bounds=bounds, method="bounded", options={"xatol": FINE})
+            yield start(float(found.x))
 
     def refine(self, offset: Offset, more: tuple[int, ...]) -> Offset:
         """Return the least squares near an offset, in its rotations and `more` columns."""
@@ -192,7 +205,8 @@ class Fit:
         world = offset.turn_world(self.some.stamps)[known]
         turned = compose(world, exact[known])
         columns = np.zeros((int(known.sum()), 3, 8))
-        columns[:, :, :3] = np.eye(3)
+        drifted = compose(world, invert(offset.world))
+        columns[:, :, :3] = to_rotation(drifted).as_matrix()
         columns[:, :, 3:6] = to_rotation(compose(turned, offset.body)).as_matrix()
         columns[:, :, DELAY] = -to_rotation(turned).apply(rates[known])
         columns[:, 2, DRIFT] = self.seconds[known]

@@ -53,6 +53,18 @@ def test_offset_delay_and_drift_of_a_nutating_top_are_found_together(scene, rate
     assert compare(estimates, truth, found.offset).total.max() < 3e-5
 
 
+@pytest.mark.parametrize(
+    ("scene", "rate", "delay"), [("hanging", -0.2, -0.05), ("spherical_pendulum", 1.0, 0.0123)]
+)
+def test_a_drift_that_turns_a_slow_top_far_within_the_run_is_found(scene, rate, delay):
+    # The hanging top looks the same after a turn of 0.105 s: the smaller delay counts.
+    truth = scene_truth(scene)
+    found = explain(drift(make_estimates(truth, STAMPS, delay=delay), rate), truth)
+    # Measured 4e-10 s and 1e-13 rad/s; stamps are whole nanoseconds.
+    assert found.offset.delay == pytest.approx(delay, abs=1e-9)
+    assert found.offset.drift == pytest.approx(rate, abs=1e-11)
+
+
 def test_delays_stay_within_their_bound():
     truth, stamps = truth_and_stamps(1000)
     late = make_estimates(truth, stamps, delay=0.15)
