@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
@@ -18,6 +18,7 @@ from symtop_ros.physics.values import refuse, validate_number, validate_vector
 from symtop_ros.quaternions import split, stack
 
 STANDARD_GRAVITY = 9.81  # m/s^2
+SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,8 +83,13 @@ class Body:
         ValueError
             If a moment is out of the range of a `Top`.
         """
-        Mgl = self.mass * self.gravity * self.arm
-        return Top(self.Ix + self.mass * self.arm**2, self.Iz, Mgl)
+        return Top(*self._moments)
+
+    @property
+    def _moments(self) -> Vector:
+        """Ix and Iz about the pivot, and Mgl. The square of a long arm could overflow."""
+        lever = self.mass * self.arm
+        return self.Ix + lever * self.arm, self.Iz, lever * self.gravity
 
     @classmethod
     def about_pivot(
@@ -179,6 +185,11 @@ class Body:
         ndarray (..., 3)
             In N.
 
+        Raises
+        ------
+        ValueError
+            If the top of the motion is that of another body.
+
         Examples
         --------
         A top that sleeps upright is carried, and no more.
@@ -191,6 +202,10 @@ class Body:
         >>> force.tolist() == [0, 0, body.mass * body.gravity]
         True
         """
+        validate_one(motion, "motion")
+        pairs = zip(self._moments, motion.top.moments, strict=True)
+        if not all(math.isclose(mine, its, rel_tol=SAME) for mine, its in pairs):
+            raise refuse("motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)
 
