@@ -63,22 +63,19 @@ def explain(
     """Return the explanation by constant rotations, a delay up to 0.1 s, and a drift.
 
     The rotations follow by least squares for each delay and drift (Kabsch 1976, in four
-    dimensions). Drifts are tried first, and with the best of them all delays, since a spinning top
-    repeats itself with each turn. What is found is refined by the method of Gauss and Newton. The
-    simplest explanation that leaves no more is taken: the one with the smallest delay.
+    dimensions). All delays are tried, since a spinning top repeats itself with each turn; if they
+    and a slow drift leave errors, once more with the best of all drifts. What is found is refined
+    by the method of Gauss and Newton. The simplest explanation that leaves no more is taken: the
+    one with the smallest delay.
     """
     every = max(1, len(estimates) // SAMPLES)
     fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
     if len(fit.some) < 2:
         return Explanation()
     fit.hidden.extend(fit.find_hidden())
-    found = [fit.start(0.0)]
-    if drift and "drift" not in fit.hidden:
-        found.append(fit.refine(fit.find_drift(), (DRIFT,)))
-    if delay and "delay" not in fit.hidden:
-        for each in list(found):
-            free = (DELAY, DRIFT) if each.drift else (DELAY,)
-            found += [fit.refine(late, free) for late in fit.search_delays(each.drift)]
+    found = fit.find_candidates(
+        delay and "delay" not in fit.hidden, drift and "drift" not in fit.hidden
+    )
     costs = [fit.cost(each) for each in found]
     limit = WORTHWHILE * min(costs) + fit.rounding
     best = min(
@@ -130,6 +127,21 @@ class Fit:
     def rounding(self) -> float:
         """Mean square of errors that are rounding: of numbers, and of stamps to whole ns."""
         return ROUNDING + (self.fastest / NANOSECONDS) ** 2
+
+    def find_candidates(self, delay: bool, drift: bool) -> list[Offset]:
+        """Return explanations without and, if they may be looked for, with a delay and a drift."""
+        found = [self.start(0.0)]
+        if delay:
+            found += [self.refine(each, (DELAY,)) for each in self.search_delays(0.0)]
+        if not drift:
+            return found
+        found += [self.refine(each, (DELAY, DRIFT) if each.delay else (DRIFT,)) for each in found]
+        if min(map(self.cost, found)) > self.rounding:  # a drift may have turned the heading far
+            found.append(self.refine(self.find_drift(), (DRIFT,)))
+            if delay:
+                late = self.search_delays(found[-1].drift)
+                found += [self.refine(each, (DELAY, DRIFT)) for each in late]
+        return found
 
     def start(self, delay: float, drift: float = 0.0) -> Offset:
         """Return the best rotations for a delay and a drift."""
