@@ -4,7 +4,6 @@ A steady motion cannot show all of them: the top in regular precession looks the
 delay, but for rotations of the world and of the body. The rank of the problem says what it hides.
 """
 
-import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,11 +11,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
-from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
 from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.rotations import fit_rotations, from_vector
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
@@ -39,6 +38,7 @@ ROTATIONS, DELAY, DRIFT = range(6), 6, 7
 # Singular values below this are zero. Those of steady motions are rounding, those of visible
 # nutation are larger than its amplitude.
 RANK = 1e-7
+SIGMAS = 2.0
 VISIBLE = 1e-3  # part of a parameter in what the motion hides
 
 
@@ -73,16 +73,12 @@ def explain(
     if len(fit.some) < 2:
         return Explanation()
     fit.hidden.extend(fit.find_hidden())
-    found = fit.find_candidates(
-        delay and "delay" not in fit.hidden, drift and "drift" not in fit.hidden
-    )
-    costs = [fit.cost(each) for each in found]
-    limit = WORTHWHILE * min(costs) + fit.rounding
-    best = min(
-        (k for k, cost in enumerate(costs) if cost <= limit),
-        key=lambda k: (bool(found[k].drift), abs(found[k].delay)),
-    )
-    return Explanation(found[best], tuple(fit.hidden), float(np.sqrt(4 * costs[best])))
+    sees_drift = drift and "drift" not in fit.hidden
+    best = fit.find_best(delay and "delay" not in fit.hidden, sees_drift)
+    if delay and "delay" not in fit.hidden and fit.loses_delay(best):
+        fit.hidden.append("delay")
+        best = fit.find_best(False, sees_drift)
+    return Explanation(best, tuple(fit.hidden), float(np.sqrt(4 * fit.cost(best))))
 
 
 @dataclass(eq=False)
@@ -127,6 +123,14 @@ class Fit:
     def rounding(self) -> float:
         """Mean square of errors that are rounding: of numbers, and of stamps to whole ns."""
         return ROUNDING + (self.fastest / NANOSECONDS) ** 2
+
+    def find_best(self, delay: bool, drift: bool) -> Offset:
+        """Return the simplest explanation of those that leave least."""
+        found = self.find_candidates(delay, drift)
+        costs = [self.cost(each) for each in found]
+        limit = WORTHWHILE * min(costs) + self.rounding
+        good = (each for each, cost in zip(found, costs, strict=True) if cost <= limit)
+        return min(good, key=lambda each: (bool(each.drift), abs(each.delay)))
 
     def find_candidates(self, delay: bool, drift: bool) -> list[Offset]:
         """Return explanations without and, if they may be looked for, with a delay and a drift."""
@@ -236,6 +240,19 @@ class Fit:
                 hidden.append(name)
         return hidden
 
+    def loses_delay(self, best: Offset) -> bool:
+        """Return True if what is left, as noise, would change the delay by more than its bound.
+
+        The delay moves the estimates by its column of derivatives; what the other columns can do as
+        well does not show it.
+        """
+        others = [*(ROTATIONS if self.rotations else ()), *((DRIFT,) if best.drift else ())]
+        columns = self.derive(best)
+        own, known = columns[:, DELAY], columns[:, others]
+        shown = own - known @ np.linalg.lstsq(known, own, rcond=RANK)[0] if others else own
+        noise = np.sqrt(4 * self.cost(best) / 3)  # in each of three components
+        return bool(SIGMAS * noise > MAX_DELAY * np.linalg.norm(shown))
+
     @staticmethod
     def _null_space(columns: Real) -> Real:
         """Return the directions that change nothing, (k, m), of columns scaled to norm 1."""
@@ -248,53 +265,7 @@ class Fit:
 
 def _move(offset: Offset, step: Real) -> Offset:
     """Return the offset changed by a step in the eight columns; a delay stays within its bound."""
-    world = compose(_from_vector(step[:3]), offset.world)
+    world = compose(from_vector(step[:3]), offset.world)
     delay = float(np.clip(offset.delay + step[DELAY], -MAX_DELAY, MAX_DELAY))
-    body = compose(offset.body, _from_vector(step[3:6]))
+    body = compose(offset.body, from_vector(step[3:6]))
     return replace(offset, world=world, body=body, delay=delay, drift=offset.drift + step[DRIFT])
-
-
-def fit_rotations(q: Real, exact: Real) -> Offset:
-    """Return the rotations W and M for which W exact M is nearest to q.
-
-    Both together are one rotation of the four components of a quaternion, found by Kabsch's method
-    (a singular value decomposition). The signs of the quaternions follow from a first guess.
-    """
-    guess = _guess_rotations(q, exact)
-    images = compose(compose(guess.world, exact), guess.body)
-    signs = np.where((images * q).sum(axis=1) < 0, -1.0, 1.0)
-    u, _, vt = np.linalg.svd((q * signs[:, np.newaxis]).T @ exact)
-    u[:, -1] *= np.sign(np.linalg.det(u @ vt))  # a rotation, not a reflection
-    # The images of 1, i, j, k: (W i M) (W 1 M)^-1 = W i W^-1 is a column of W's matrix.
-    images = (u @ vt).T
-    columns = compose(images[1:], invert(images[0]))[:, 1:]
-    world = _to_quaternion(Rotation.from_matrix(columns.T))
-    body = compose(invert(world), images[0])
-    return Offset(world, body * np.copysign(1.0, body[0]))
-
-
-def _guess_rotations(q: Real, exact: Real) -> Offset:
-    """Return W and M by a way that does not ask for the signs of the quaternions.
-
-    The turns from one estimate to the next have the same angles as the exact ones, about axes that
-    M has turned (the hand-eye problem, Park and Martin 1994). W is then a mean of rotations, the
-    eigenvector of the largest eigenvalue (Markley et al. 2007).
-    """
-    ours = to_rotation(compose(invert(q[:-1]), q[1:])).as_rotvec()
-    theirs = to_rotation(compose(invert(exact[:-1]), exact[1:])).as_rotvec()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a top at rest leaves M open
-        body = _to_quaternion(Rotation.align_vectors(theirs, ours)[0])
-    left = compose(q, invert(compose(exact, body)))
-    return Offset(np.linalg.eigh(left.T @ left)[1][:, -1], body)
-
-
-def _from_vector(vector: Real) -> Real:
-    return _to_quaternion(Rotation.from_rotvec(vector))
-
-
-def _to_quaternion(rotation: Rotation) -> Real:
-    """Return w, x, y, z with w >= 0."""
-    x, y, z, w = rotation.as_quat()
-    q: Real = np.array((w, x, y, z)) * np.copysign(1.0, w)
-    return q

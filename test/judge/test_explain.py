@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 from judge.cases import SECOND, make_estimates, truth_and_stamps
+from physics.tops import ARTICLE
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.compare import compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import MAX_DELAY, explain
-from symtop_ros.judge.truth import scene_truth
+from symtop_ros.judge.truth import Truth, scene_truth
+from symtop_ros.physics import Motion, State, regular_precession_rates
+from symtop_ros.simulation.events import start_event
 
 STAMPS = np.arange(SECOND // 2, 9 * SECOND, SECOND // 200)
 
@@ -71,13 +74,27 @@ def test_delays_stay_within_their_bound():
     assert abs(explain(late, truth).offset.delay) <= MAX_DELAY
 
 
+def make_noisy(truth, delay, scale):
+    random = np.random.default_rng(5)
+    exact = make_estimates(truth, STAMPS, delay=delay)
+    noise = Rotation.from_rotvec(random.normal(scale=scale, size=(len(STAMPS), 3)))
+    q = (Rotation.from_quat(exact.orientations[:, [1, 2, 3, 0]]) * noise).as_quat()
+    return Estimates.of(STAMPS, q[:, [3, 0, 1, 2]])
+
+
+@pytest.mark.parametrize(("noise", "hidden"), [(1e-9, ()), (1e-2, ("delay",))])
+def test_noise_hides_the_delay_of_a_motion_that_is_almost_steady(noise, hidden):
+    # 1e-3 rad/s beside regular precession: a nutation of 1e-5 rad
+    rate = regular_precession_rates(ARTICLE, 0.5, 200.0)[0] + 1e-3
+    start = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
+    truth = Truth([start_event(Motion(ARTICLE, start))])
+    found = explain(make_noisy(truth, 0.004, noise), truth)
+    assert found.hidden == hidden
+
+
 def test_noise_leaves_a_residual():
     truth = scene_truth("cusps")
-    random = np.random.default_rng(5)
-    exact = make_estimates(truth, STAMPS, delay=0.004)
-    noise = Rotation.from_rotvec(random.normal(scale=1e-3, size=(len(STAMPS), 3)))
-    q = (Rotation.from_quat(exact.orientations[:, [1, 2, 3, 0]]) * noise).as_quat()
-    found = explain(Estimates.of(STAMPS, q[:, [3, 0, 1, 2]]), truth)
+    found = explain(make_noisy(truth, 0.004, 1e-3), truth)
     # 500 samples of three numbers of 1e-3 rad: 2 %, three sigma 6 %
     assert found.residual == pytest.approx(1e-3 * np.sqrt(3), rel=0.06)
     assert found.offset.delay == pytest.approx(0.004, abs=1e-4)
