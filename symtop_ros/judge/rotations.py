@@ -1,4 +1,4 @@
-"""The constant rotations of world and body between exact attitudes and estimates, in closed form."""
+"""Constant rotations of world and body between exact attitudes and estimates, in closed form."""
 
 import warnings
 
