@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from symtop_ros.log.writer import Channel, LogFile
+from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Friction, Motion, State, Top, hurry
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples
-from symtop_ros.simulation.urdf import robot_description
 from symtop_ros.wire.cdr import encode_string
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

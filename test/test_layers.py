@@ -24,9 +24,9 @@ ARROWS = {
     # what pages show, live and saved; viser
     "web": ({"drawing", "log", "physics", "session", "simulation"}, {"numpy", "viser", "yaml"}),
     "playback": ({"drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
-    "session": ({"__init__", "log", "physics", "simulation", "wire"}, set()),
+    "session": ({"__init__", "log", "models", "physics", "simulation", "wire"}, set()),
     "node": (
-        {"distribution", "physics", "session", "shutdown", "simulation", "wire"},
+        {"distribution", "models", "physics", "session", "shutdown", "simulation", "wire"},
         {
             *("rclpy", "rcl_interfaces", "std_srvs"),
             *("builtin_interfaces", "geometry_msgs", "visualization_msgs"),

@@ -10,7 +10,7 @@ import yaml
 
 from symtop_ros.imu.files import write_folder, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
-from symtop_ros.simulation.scene import start_motion
+from symtop_ros.simulation.initial import start_motion
 from symtop_ros.simulation.sensor import CONSUMER, NOISE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, one_line

@@ -4,29 +4,31 @@ A steady motion cannot show all of them: the top in regular precession looks the
 delay, but for rotations of the world and of the body. The rank of the problem says what it hides.
 """
 
-import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
-from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.compare import IDENTITY, NONE, Offset, subtract, to_rotation
+from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.rotations import fit_rotations, from_vector
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
 
 SAMPLES = 500  # estimates that a fit takes, spread over the run
 MAX_DELAY = 0.1  # s
-# Delays are tried in steps in which the fastest turn is so many rad; the best ones are refined.
+# Delays are tried in steps in which the fastest turn is so many rad, drifts in steps in which the
+# heading turns as much within the run; the best ones are refined.
 GRID_STEP = 0.5  # rad
-MOST_DELAYS = 2001
+MOST_DELAYS = 1000
+MOST_TURNS = 2  # of the heading, by a drift
 CANDIDATES = 3
+FINE = 1e-9  # s, or rad/s
 ITERATIONS = 30  # of Gauss and Newton; they converge quadratically
 STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried
 WORTHWHILE = 1.01  # a delay or drift counts if it makes the mean square smaller by this factor
@@ -36,6 +38,7 @@ ROTATIONS, DELAY, DRIFT = range(6), 6, 7
 # Singular values below this are zero. Those of steady motions are rounding, those of visible
 # nutation are larger than its amplitude.
 RANK = 1e-7
+SIGMAS = 2.0
 VISIBLE = 1e-3  # part of a parameter in what the motion hides
 
 
@@ -59,27 +62,23 @@ def explain(
 ) -> Explanation:
     """Return the explanation by constant rotations, a delay up to 0.1 s, and a drift.
 
-    The rotations follow by least squares for each delay (Kabsch 1976, in four dimensions); all
-    delays are tried, since a spinning top repeats itself with each turn. What is found is refined
-    by the method of Gauss and Newton. The simplest explanation that leaves no more is taken.
+    The rotations follow by least squares for each delay and drift (Kabsch 1976, in four
+    dimensions). All delays are tried, since a spinning top repeats itself with each turn; if they
+    and a slow drift leave errors, once more with the best of all drifts. What is found is refined
+    by the method of Gauss and Newton. The simplest explanation that leaves no more is taken: the
+    one with the smallest delay.
     """
     every = max(1, len(estimates) // SAMPLES)
     fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
     if len(fit.some) < 2:
         return Explanation()
     fit.hidden.extend(fit.find_hidden())
-    found = [fit.start(0.0)]
-    if delay and "delay" not in fit.hidden:
-        found += [fit.refine(each, (DELAY,)) for each in fit.search()]
-    if drift and "drift" not in fit.hidden:
-        found += [fit.refine(fit.guess_drift(each), _free(each)) for each in found]
-    costs = [fit.cost(each) for each in found]
-    best = next(k for k, cost in enumerate(costs) if cost <= WORTHWHILE * min(costs) + ROUNDING)
-    return Explanation(found[best], tuple(fit.hidden), float(np.sqrt(4 * costs[best])))
-
-
-def _free(offset: Offset) -> tuple[int, ...]:
-    return (DELAY, DRIFT) if offset.delay else (DRIFT,)
+    sees_drift = drift and "drift" not in fit.hidden
+    best = fit.find_best(delay and "delay" not in fit.hidden, sees_drift)
+    if delay and "delay" not in fit.hidden and fit.loses_delay(best):
+        fit.hidden.append("delay")
+        best = fit.find_best(False, sees_drift)
+    return Explanation(best, tuple(fit.hidden), float(np.sqrt(4 * fit.cost(best))))
 
 
 @dataclass(eq=False)
@@ -115,52 +114,82 @@ class Fit:
             return np.inf
         return float((subtract(q[known], model[known]) ** 2).sum(axis=1).mean())
 
-    def start(self, delay: float) -> Offset:
-        """Return the best rotations for a delay."""
-        begin = int(self.some.stamps[0])
+    @cached_property
+    def fastest(self) -> float:
+        """Largest angular velocity of the motion in rad/s."""
+        return float(np.linalg.norm(self.exact(0.0)[1], axis=1).max(initial=0.0))
+
+    @property
+    def rounding(self) -> float:
+        """Mean square of errors that are rounding: of numbers, and of stamps to whole ns."""
+        return ROUNDING + (self.fastest / NANOSECONDS) ** 2
+
+    def find_best(self, delay: bool, drift: bool) -> Offset:
+        """Return the simplest explanation of those that leave least."""
+        found = self.find_candidates(delay, drift)
+        costs = [self.cost(each) for each in found]
+        limit = WORTHWHILE * min(costs) + self.rounding
+        good = (each for each, cost in zip(found, costs, strict=True) if cost <= limit)
+        return min(good, key=lambda each: (bool(each.drift), abs(each.delay)))
+
+    def find_candidates(self, delay: bool, drift: bool) -> list[Offset]:
+        """Return explanations without and, if they may be looked for, with a delay and a drift."""
+        found = [self.start(0.0)]
+        if delay:
+            found += [self.refine(each, (DELAY,)) for each in self.search_delays(0.0)]
+        if not drift:
+            return found
+        found += [self.refine(each, (DELAY, DRIFT) if each.delay else (DRIFT,)) for each in found]
+        if min(map(self.cost, found)) > self.rounding:  # a drift may have turned the heading far
+            found.append(self.refine(self.find_drift(), (DRIFT,)))
+            if delay:
+                late = self.search_delays(found[-1].drift)
+                found += [self.refine(each, (DELAY, DRIFT)) for each in late]
+        return found
+
+    def start(self, delay: float, drift: float = 0.0) -> Offset:
+        """Return the best rotations for a delay and a drift."""
+        still = replace(NONE, delay=delay, drift=drift, begin=int(self.some.stamps[0]))
         exact, _, known = self.exact(delay)
         if not self.rotations or known.sum() < 2:
-            return replace(NONE, delay=delay, begin=begin)
-        q, exact = self.some.orientations[known], exact[known]
+            return still
+        turned = still.turn_world(self.some.stamps[known])
+        q, exact = compose(invert(turned), self.some.orientations[known]), exact[known]
         if "rotations" in self.hidden:  # the world's alone: the body's are as well the identity
             left = compose(q, invert(exact))
-            found = Offset(np.linalg.eigh(left.T @ left)[1][:, -1], IDENTITY, delay, 0.0, begin)
-            return self.refine(found, ())
-        return replace(fit_rotations(q, exact), delay=delay, begin=begin)
+            world = np.linalg.eigh(left.T @ left)[1][:, -1]
+            return self.refine(replace(still, world=world), ())
+        found = fit_rotations(q, exact)
+        return replace(still, world=found.world, body=found.body)
 
-    def search(self) -> Iterator[Offset]:
-        """Yield the best delays, each the best of a valley of a grid, with their rotations."""
-        fastest = float(np.linalg.norm(self.exact(0.0)[1], axis=1).max(initial=0.0))
-        count = min(max(2 * MAX_DELAY * fastest / GRID_STEP, 21), MOST_DELAYS)
-        tried = np.linspace(-MAX_DELAY, MAX_DELAY, int(count))
-        costs = np.array([self.cost(self.start(each)) for each in tried.tolist()])
+    def find_drift(self) -> Offset:
+        """Return the best drift with its rotations, without a delay."""
+        step = GRID_STEP / self.seconds[-1]
+        count = int(2 * np.pi * MOST_TURNS / GRID_STEP)
+        return next(self._search(lambda drift: self.start(0.0, drift), step * count, count))
+
+    def search_delays(self, drift: float) -> Iterator[Offset]:
+        """Yield the best delays with their rotations, for a drift."""
+        count = min(max(MAX_DELAY * self.fastest / GRID_STEP, 10), MOST_DELAYS)
+        yield from self._search(lambda delay: self.start(delay, drift), MAX_DELAY, int(count))
+
+    def _search(
+        self, start: Callable[[float], Offset], most: float, count: int
+    ) -> Iterator[Offset]:
+        """Yield the best of some valleys of a grid from -most to most; the best valley first."""
+
+        def cost(x: float) -> float:
+            return self.cost(start(float(x)))
+
+        tried = np.linspace(-most, most, 2 * count + 1)
+        costs = np.array([cost(each) for each in tried])
         padded = np.concatenate(([np.inf], costs, [np.inf]))
         valleys = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:]))
         for k in valleys[np.argsort(costs[valleys])][:CANDIDATES].tolist():
-            bounds = tried[max(k - 1, 0)], tried[min(k + 1, len(tried) - 1)]
-            yield self.start(self._refine_delay(*bounds))
-
-    def _refine_delay(self, low: float, high: float) -> float:
-        """Return the best delay between two. The rotations follow from each, which is robust."""
-        found = minimize_scalar(
-            lambda delay: self.cost(self.start(float(delay))),
-            bounds=(low, high),
-            method="bounded",
-            options={"xatol": 1e-9},
-        )
-        return float(found.x)
-
-    def guess_drift(self, offset: Offset) -> Offset:
-        """Return the offset with the drift that most steps of the heading have."""
-        q, model, known = self.residuals(offset)
-        turn = compose(q[known], invert(model[known]))
-        steps = compose(turn[1:], invert(turn[:-1]))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            angles = 2 * np.arctan(steps[:, 3] / steps[:, 0])
-            rates = angles / np.diff(self.seconds[known])
-        rates = rates[np.isfinite(rates)]
-        drift = float(np.median(rates)) if len(rates) else 0.0
-        return replace(offset, drift=drift)
+            bounds = float(tried[max(k - 1, 0)]), float(tried[min(k + 1, 2 * count)])
+            # The rotations follow from each number that is tried, which is robust.
+            found = minimize_scalar(cost, bounds=bounds, method="bounded", options={"xatol": FINE})
+            yield start(float(found.x))
 
     def refine(self, offset: Offset, more: tuple[int, ...]) -> Offset:
         """Return the least squares near an offset, in its rotations and `more` columns."""
@@ -192,7 +221,8 @@ class Fit:
         world = offset.turn_world(self.some.stamps)[known]
         turned = compose(world, exact[known])
         columns = np.zeros((int(known.sum()), 3, 8))
-        columns[:, :, :3] = np.eye(3)
+        drifted = compose(world, invert(offset.world))
+        columns[:, :, :3] = to_rotation(drifted).as_matrix()
         columns[:, :, 3:6] = to_rotation(compose(turned, offset.body)).as_matrix()
         columns[:, :, DELAY] = -to_rotation(turned).apply(rates[known])
         columns[:, 2, DRIFT] = self.seconds[known]
@@ -210,6 +240,19 @@ class Fit:
                 hidden.append(name)
         return hidden
 
+    def loses_delay(self, best: Offset) -> bool:
+        """Return True if what is left, as noise, would change the delay by more than its bound.
+
+        The delay moves the estimates by its column of derivatives; what the other columns can do as
+        well does not show it.
+        """
+        others = [*(ROTATIONS if self.rotations else ()), *((DRIFT,) if best.drift else ())]
+        columns = self.derive(best)
+        own, known = columns[:, DELAY], columns[:, others]
+        shown = own - known @ np.linalg.lstsq(known, own, rcond=RANK)[0] if others else own
+        noise = np.sqrt(4 * self.cost(best) / 3)  # in each of three components
+        return bool(SIGMAS * noise > MAX_DELAY * np.linalg.norm(shown))
+
     @staticmethod
     def _null_space(columns: Real) -> Real:
         """Return the directions that change nothing, (k, m), of columns scaled to norm 1."""
@@ -222,53 +265,7 @@ class Fit:
 
 def _move(offset: Offset, step: Real) -> Offset:
     """Return the offset changed by a step in the eight columns; a delay stays within its bound."""
-    world = compose(_from_vector(step[:3]), offset.world)
+    world = compose(from_vector(step[:3]), offset.world)
     delay = float(np.clip(offset.delay + step[DELAY], -MAX_DELAY, MAX_DELAY))
-    body = compose(offset.body, _from_vector(step[3:6]))
+    body = compose(offset.body, from_vector(step[3:6]))
     return replace(offset, world=world, body=body, delay=delay, drift=offset.drift + step[DRIFT])
-
-
-def fit_rotations(q: Real, exact: Real) -> Offset:
-    """Return the rotations W and M for which W exact M is nearest to q.
-
-    Both together are one rotation of the four components of a quaternion, found by Kabsch's method
-    (a singular value decomposition). The signs of the quaternions follow from a first guess.
-    """
-    guess = _guess_rotations(q, exact)
-    images = compose(compose(guess.world, exact), guess.body)
-    signs = np.where((images * q).sum(axis=1) < 0, -1.0, 1.0)
-    u, _, vt = np.linalg.svd((q * signs[:, np.newaxis]).T @ exact)
-    u[:, -1] *= np.sign(np.linalg.det(u @ vt))  # a rotation, not a reflection
-    # The images of 1, i, j, k: (W i M) (W 1 M)^-1 = W i W^-1 is a column of W's matrix.
-    images = (u @ vt).T
-    columns = compose(images[1:], invert(images[0]))[:, 1:]
-    world = _to_quaternion(Rotation.from_matrix(columns.T))
-    body = compose(invert(world), images[0])
-    return Offset(world, body * np.copysign(1.0, body[0]))
-
-
-def _guess_rotations(q: Real, exact: Real) -> Offset:
-    """Return W and M by a way that does not ask for the signs of the quaternions.
-
-    The turns from one estimate to the next have the same angles as the exact ones, about axes that
-    M has turned (the hand-eye problem, Park and Martin 1994). W is then a mean of rotations, the
-    eigenvector of the largest eigenvalue (Markley et al. 2007).
-    """
-    ours = to_rotation(compose(invert(q[:-1]), q[1:])).as_rotvec()
-    theirs = to_rotation(compose(invert(exact[:-1]), exact[1:])).as_rotvec()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a top at rest leaves M open
-        body = _to_quaternion(Rotation.align_vectors(theirs, ours)[0])
-    left = compose(q, invert(compose(exact, body)))
-    return Offset(np.linalg.eigh(left.T @ left)[1][:, -1], body)
-
-
-def _from_vector(vector: Real) -> Real:
-    return _to_quaternion(Rotation.from_rotvec(vector))
-
-
-def _to_quaternion(rotation: Rotation) -> Real:
-    """Return w, x, y, z with w >= 0."""
-    x, y, z, w = rotation.as_quat()
-    q: Real = np.array((w, x, y, z)) * np.copysign(1.0, w)
-    return q

@@ -100,7 +100,8 @@ def _parser() -> argparse.ArgumentParser:
         nargs="?",
         const="",
         metavar="PROBLEM",
-        help="list the problems; with a name: score LOG, a CSV file, or copy it (all: each) to -o",
+        help="list the problems; with a name: score LOG, a CSV file (all: each PROBLEM/NAME.csv in "
+        "the folder LOG), or copy it (all: each) to -o",
     )
     return parser
 

@@ -7,8 +7,8 @@ applied torques are left out: no format has friction that differs along and acro
 import math
 from collections.abc import Callable, Sequence
 
+from symtop_ros.models.urdf import describe_body, robot_description
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
-from symtop_ros.simulation.urdf import describe_body, robot_description
 
 STEP = 1e-4  # s; at 200 rad/s a step of 0.02 rad
 

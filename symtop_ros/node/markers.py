@@ -12,8 +12,8 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point
 from rclpy.node import Node
 
+from symtop_ros.models.urdf import LENGTH
 from symtop_ros.simulation.block import Block
-from symtop_ros.simulation.urdf import LENGTH
 from symtop_ros.wire.layout import NANOSECONDS
 
 try:

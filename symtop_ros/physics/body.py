@@ -8,16 +8,17 @@ chosen here that exists for every top for which any exists.
 import math
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import refuse, validate_number, validate_vector
+from symtop_ros.quaternions import split, stack
 
 STANDARD_GRAVITY = 9.81  # m/s^2
+SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,8 +83,13 @@ class Body:
         ValueError
             If a moment is out of the range of a `Top`.
         """
-        Mgl = self.mass * self.gravity * self.arm
-        return Top(self.Ix + self.mass * self.arm**2, self.Iz, Mgl)
+        return Top(*self._moments)
+
+    @property
+    def _moments(self) -> Vector:
+        """Ix and Iz about the pivot, and Mgl. The square of a long arm could overflow."""
+        lever = self.mass * self.arm
+        return self.Ix + lever * self.arm, self.Iz, lever * self.gravity
 
     @classmethod
     def about_pivot(
@@ -179,6 +185,11 @@ class Body:
         ndarray (..., 3)
             In N.
 
+        Raises
+        ------
+        ValueError
+            If the top of the motion is that of another body.
+
         Examples
         --------
         A top that sleeps upright is carried, and no more.
@@ -191,6 +202,10 @@ class Body:
         >>> force.tolist() == [0, 0, body.mass * body.gravity]
         True
         """
+        validate_one(motion, "motion")
+        pairs = zip(self._moments, motion.top.moments, strict=True)
+        if not all(math.isclose(mine, its, rel_tol=SAME) for mine, its in pairs):
+            raise refuse("motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)
 
@@ -231,20 +246,17 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
     """
     a, b, c = validate_vector("position", position, "m, body frame")
     Ix, Iz, _ = motion.top.moments
-    omega, torque = state.angular_velocity, _body_torque(motion, state)
-    x, y, z = omega[..., 0], omega[..., 1], omega[..., 2]
+    x, y, z = split(state.angular_velocity)
+    torque_x, torque_y, torque_z = split(_body_torque(motion, state))
     # The sums of alpha and of products of omega are put together before they are rounded: in
     # alpha_y + x z, for one, a term (1 - 1) x z is left out.
-    across_x, across_y = torque[..., 0] / Ix, torque[..., 1] / Ix
-    axial = torque[..., 2] / Iz
+    across_x, across_y, axial = torque_x / Ix, torque_y / Ix, torque_z / Iz
     slow, fast = Iz / Ix, (2 * Ix - Iz) / Ix
-    acceleration = np.empty(np.broadcast_shapes(omega.shape, torque.shape))
-    acceleration[..., 0] = c * (slow * x * z + across_y) + b * (x * y - axial) - a * (y * y + z * z)
-    acceleration[..., 1] = c * (slow * y * z - across_x) + a * (x * y + axial) - b * (x * x + z * z)
-    acceleration[..., 2] = (
-        a * (fast * x * z - across_y) + b * (fast * y * z + across_x) - c * (x * x + y * y)
+    return stack(
+        c * (slow * x * z + across_y) + b * (x * y - axial) - a * (y * y + z * z),
+        c * (slow * y * z - across_x) + a * (x * y + axial) - b * (x * x + z * z),
+        a * (fast * x * z - across_y) + b * (fast * y * z + across_x) - c * (x * x + y * y),
     )
-    return acceleration
 
 
 def specific_force(
@@ -281,9 +293,9 @@ def specific_force(
 
 def _body_torque(motion: Motion, state: State) -> Real:
     """Return the total torque about the pivot in the body frame."""
-    vertical, Mgl = state.vertical, motion.top.Mgl
-    torque = np.zeros(vertical.shape)
-    torque[..., 0], torque[..., 1] = Mgl * vertical[..., 1], -Mgl * vertical[..., 0]
+    x, y, z = split(state.vertical)
+    Mgl = motion.top.Mgl
+    torque = stack(Mgl * y, -Mgl * x, 0.0 * abs(z))
     if motion.is_driven:
         torque += motion.friction.torque(state) + state.to_body(motion.applied_torque)
     return torque

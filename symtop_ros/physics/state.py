@@ -17,7 +17,7 @@ from symtop_ros.physics.values import (
     validate_array,
     validate_number,
 )
-from symtop_ros.quaternions import rotate, stack
+from symtop_ros.quaternions import rotate, split, stack
 
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding
@@ -190,10 +190,10 @@ class State:
         """True where the axis is exactly vertical and phi' is undefined, (...)."""
         return (self.vertical[..., 0] == 0) & (self.vertical[..., 1] == 0)
 
-    @property
-    def _components(self) -> tuple[Real, Real, Real, Real]:
-        q = self.orientation
-        return q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    @cached_property
+    def _components(self) -> tuple[Any, Any, Any, Any]:
+        w, x, y, z = split(self.orientation)
+        return w, x, y, z
 
     @property
     def euler_angles(self) -> Angles:
@@ -201,7 +201,7 @@ class State:
         # Copies, because the components are strided views: NumPy 1.26 takes another vectorised
         # arctan2 for two strided elements than for one or for many, which differs in the last bit.
         # The angles of a state would then depend on the states that are computed with it.
-        w, x, y, z = (component.copy() for component in self._components)
+        w, x, y, z = (np.array(component) for component in self._components)
         # acos(cos theta) would lose half the digits of a small tilt; this quotient keeps them all.
         theta = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
         upper, lower = np.arctan2(z, w), np.arctan2(y, x)  # (phi + psi)/2 and (phi - psi)/2
@@ -213,9 +213,8 @@ class State:
     @cached_property
     def euler_rates(self) -> Angles:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
-        vertical, omega = self.vertical, self.angular_velocity
-        gx, gy, gz = vertical[..., 0], vertical[..., 1], vertical[..., 2]
-        wx, wy, wz = omega[..., 0], omega[..., 1], omega[..., 2]
+        gx, gy, gz = split(self.vertical)
+        wx, wy, wz = split(self.angular_velocity)
         sine = np.hypot(gx, gy)
         with np.errstate(invalid="ignore", divide="ignore"):
             # Divided twice: the square of a sine below 1e-154 would underflow.

@@ -114,7 +114,8 @@ class ExactTimes:
     @property
     def rough_seconds(self) -> Any:
         """Seconds, a float or (n,), up to a few roundings; much faster than `seconds`."""
-        return float(self.elapsed / SECOND) + self.factor * (self.nanoseconds * 1e-9)
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        return elapsed / (pieces * SECOND) + self.factor * (self.nanoseconds * 1e-9)
 
     def select(self, part: slice | NDArray[np.bool_]) -> "ExactTimes":
         """Return a part of an array of times.
@@ -143,8 +144,9 @@ def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
 def _validate_elapsed(value: Any) -> Fraction:
     is_exact = isinstance(value, Fraction | int) and not isinstance(value, bool)
     if is_exact and value.denominator & (value.denominator - 1) == 0:
-        if abs(value) <= LARGEST_ELAPSED:
-            return Fraction(value)
+        # without a division: this is asked for every sample
+        if abs(value.numerator) <= LARGEST_ELAPSED * value.denominator:
+            return value if isinstance(value, Fraction) else Fraction(value)
         raise refuse("elapsed", "at most 1e300 ns in size", f"{value.numerator:.3e}")
     condition = "a Fraction with a power of two as denominator (ns)"
     raise refuse("elapsed", condition, repr(value))

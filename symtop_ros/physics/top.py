@@ -17,6 +17,7 @@ from symtop_ros.physics.values import (
     to_float,
     validate_together,
 )
+from symtop_ros.quaternions import split, stack
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)
@@ -120,7 +121,8 @@ class Top:
     def body_angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the body frame, (..., 3), in N m s."""
         Ix, Iz = match(self.Ix, state), match(self.Iz, state)
-        return np.asarray(state.angular_velocity * np.stack([Ix, Ix, Iz], axis=-1))
+        x, y, z = split(state.angular_velocity)
+        return stack(x * Ix, y * Ix, z * Iz)
 
     def angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the world frame, (..., 3), in N m s."""
@@ -131,12 +133,10 @@ class Top:
 
         It is Mgl sin(theta) (cos phi, sin phi, 0), along the line of nodes.
         """
-        torque = np.zeros_like(state.angular_velocity)
-        weight = np.zeros((*np.shape(match(self.Mgl, state)), 3))
-        weight[..., 2] = match(self.Mgl, state)
-        axis = state.to_world(weight)
-        torque[..., 0], torque[..., 1] = -axis[..., 1], axis[..., 0]
-        return torque
+        Mgl = match(self.Mgl, state)
+        none = 0.0 * abs(Mgl)
+        x, y, z = split(state.to_world(stack(none, none, Mgl)))
+        return stack(-y, x, 0.0 * abs(z))
 
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
@@ -173,6 +173,8 @@ def validate_one(given: Any, name: str = "top") -> None:
 
 def match(value: Any, state: State) -> Any:
     """Return a number of each top, (...), with axes added for the times of its states."""
+    if isinstance(value, float):
+        return value
     shape = np.shape(value)
     times = state.angular_velocity.ndim - 1 - len(shape)
     return np.reshape(value, shape + (1,) * max(times, 0)) if shape else value
@@ -242,5 +244,6 @@ class Friction:
 
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""
-        across, along = match(self.transverse, state), match(self.axial, state)
-        return np.asarray(state.angular_velocity * -np.stack([across, across, along], axis=-1))
+        across, along = -match(self.transverse, state), -match(self.axial, state)
+        x, y, z = split(state.angular_velocity)
+        return stack(x * across, y * across, z * along)

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager
 from typing import Protocol
 
 from symtop_ros.log.recorder import Recorder
+from symtop_ros.models.urdf import robot_description
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.sensor import ALONG, find_body
@@ -24,7 +25,6 @@ from symtop_ros.simulation.topics import (
     choose_description,
     imu_frame,
 )
-from symtop_ros.simulation.urdf import robot_description
 from symtop_ros.wire import messages
 from symtop_ros.wire.cdr import encode_string
 from symtop_ros.wire.diagnostics import Status, encode_statuses

@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import OK, Status, decode_statuses, encode_statuses
@@ -143,6 +143,12 @@ class Event:
             running=values["motion.running"] == "true",
             rig=Rig.from_values(values),
         )
+
+
+def start_event(motion: Motion, rig: Rig = NO_RIG) -> Event:
+    """Return the event with which a run of a motion starts at the stamp 0."""
+    segment = Segment.begin(motion, 0, 1.0, rig)
+    return Event.of(0, "start", "", {}, motion.start, segment)
 
 
 def decode_events(data: bytes) -> list[Event]:

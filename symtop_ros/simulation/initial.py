@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from symtop_ros.physics import State, Top, regular_precession_rates
-from symtop_ros.simulation.settings import MAX_ANGLE, PRECESSIONS, InitialConditions
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates
+from symtop_ros.simulation.settings import MAX_ANGLE, PRECESSIONS, InitialConditions, Settings
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,
@@ -20,6 +20,12 @@ RATES = ("theta_dot", "phi_dot", "psi_dot")
 DIRECT = ("orientation", "angular_velocity")
 AT_REST = (0.0, 0.0, 0.0)
 FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
+
+
+def start_motion(settings: Settings) -> Motion:
+    """Return the motion of a scene from its initial conditions."""
+    start = initial_state(settings.top, settings.initial, {})
+    return Motion(settings.top, start, settings.friction, settings.steady_torque)
 
 
 def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, Any]) -> State:

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from symtop_ros.arrays import Vector
-from symtop_ros.physics import Motion, State, kick_verdict, perrys_rule
+from symtop_ros.physics import State, kick_verdict, perrys_rule
 from symtop_ros.simulation.budget import Shortfall
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.initial import initial_state, start_motion
 from symtop_ros.simulation.kick import plan_kick
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
@@ -37,13 +37,12 @@ class Timeline:
     @classmethod
     def begin(cls, settings: Settings, stamp: int) -> "Timeline":
         """Return the timeline that starts at a stamp (ns) from the initial conditions."""
-        start = initial_state(settings.top, settings.initial, {})
-        motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
+        motion = start_motion(settings)
         rig = settings.rig(stamp)
         # With publish_clock the clock has this factor.
         factor = 1.0 if settings.publish_clock else settings.real_time_factor
         segment = Segment.begin(motion, stamp, factor, rig)
-        return cls(settings, segment, start, _describe_origin("start", stamp), stamp)
+        return cls(settings, segment, motion.start, _describe_origin("start", stamp), stamp)
 
     @property
     def verdict(self) -> str:

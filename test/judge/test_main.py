@@ -115,8 +115,11 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {
         *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
-        *("score.py", "README.md", "LICENSE"),
+        *("score.py", "states.csv", "README.md", "LICENSE"),
     }
+    exact = (tmp_path / "states.csv").read_text().splitlines()
+    assert len(exact) == 21
+    assert all(row.startswith("cusps,") for row in exact[1:])
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
     path = tmp_path / "mine.csv"
@@ -137,6 +140,9 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
         check=True,
     )
     assert alone.stdout.startswith("cusps: attitude ")
+    capsys.readouterr()
+    assert main(["--testset", "cusps", str(path), "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
     assert main(["--testset", "none", str(path)]) == 1
     assert "top_judge: problem must be one of plane_pendulum, " in capsys.readouterr().err
 

@@ -5,8 +5,8 @@ import pytest
 from geometry_msgs.msg import Vector3Stamped
 from node.running_top import stamp_of
 
+from symtop_ros.models.urdf import LENGTH
 from symtop_ros.node import markers
-from symtop_ros.simulation.urdf import LENGTH
 
 messages = pytest.importorskip("visualization_msgs.msg")
 

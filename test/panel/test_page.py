@@ -21,6 +21,7 @@ from PIL import Image
 from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
+from symtop_ros.physics import regular_precession_rates
 from symtop_ros.web.scene import ORANGE
 
 TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
@@ -204,9 +205,19 @@ def test_the_fragment_of_an_open_page_starts_its_experiment_too(watched):
     watched.until(lambda: watched.tab.url == f"{watched.page.server.url}/")
 
 
+@pytest.mark.parametrize("length", [2000, 200_000])
+def test_a_link_with_too_much_text_is_refused_in_a_line(watched, length):
+    starts = len(watched.events("start"))
+    watched.tab.evaluate(f"location.hash = 'theta=0.7' + 'x'.repeat({length})")
+    watched.until(lambda: watched.refusal)
+    assert "theta must be a" in watched.refusal
+    assert len(watched.refusal) < 300
+    assert len(watched.events("start")) == starts
+
+
 def test_a_link_of_another_site_is_offered_and_starts_nothing(watched, browser, tmp_path):
     with other_site(watched, tmp_path) as url:
-        tab = browser.new_page(viewport=SIZE)
+        tab = browser.new_page(viewport={"width": 600, "height": 300})  # two are rendered
         tab.goto(url)
         starts = len(watched.events("start"))
         tab.get_by_role("link", name="see this top").click()
@@ -385,6 +396,41 @@ def points_of(watched, name):
     """The points (n, 2) of a curve of the page, in the units of its picture."""
     path = watched.tab.locator(f"#{name}").get_attribute("d")
     return np.array([part.split() for part in re.split("[ML]", path) if part], dtype=float)
+
+
+def test_the_chart_of_the_rule_shows_both_roots_and_the_hurried_top_above_the_line(watched):
+    theta, phi_dot, psi_dot = (
+        watched.run.motion.start.euler_angles.theta,
+        watched.run.motion.start.euler_rates.phi,
+        watched.run.motion.start.euler_rates.psi,
+    )
+    shown = watched.tab.evaluate(
+        """() => {
+          const all = (selector) => [...document.querySelectorAll("#rule " + selector)];
+          const circle = (id) => { const [c] = all("#" + id);
+            return [c.getAttribute("cx"), c.getAttribute("cy")].map(Number); };
+          return {
+            ticks: all(".tick").filter((each) => !isNaN(each.textContent))
+              .map((each) => [+each.getAttribute("y"), +each.getAttribute("x"), +each.textContent]),
+            roots: all(".root").map((each) => each.getAttribute("d").match(/[0-9.]+/g).map(Number)),
+            now: circle("now"), hurried: circle("hurried"),
+          };
+        }"""
+    )
+    below = sorted(tick[1:] for tick in shown["ticks"] if tick[0] == max(shown["ticks"])[0])
+    (x0, low), (x1, high) = below[0], below[-1]
+    pixel = (high - low) / (x1 - x0)  # rad/s
+
+    def rate_at(x):
+        return low + (x - x0) * pixel
+
+    rates = sorted(regular_precession_rates(watched.run.motion.top, theta, psi_dot))
+    assert sorted(rate_at(x) for x, *_ in shown["roots"]) == pytest.approx(rates, abs=pixel)
+    assert rate_at(shown["now"][0]) == pytest.approx(phi_dot, abs=pixel)
+    line = shown["roots"][0][1] + 6  # marks begin 6 pixels above it
+    assert shown["now"][1] == pytest.approx(line, abs=1.0)  # regular precession
+    assert shown["hurried"][0] > shown["now"][0]
+    assert shown["hurried"][1] < line - 5  # the tilt accelerates upwards
 
 
 def test_the_potential_is_below_the_energy_where_the_motion_is_allowed(watched):
@@ -594,6 +640,16 @@ def save(watched, act, folder):
     path = folder / download.value.suggested_filename
     download.value.save_as(path)
     return path
+
+
+def test_the_run_is_saved_as_a_page(watched, tmp_path):
+    watched.act(watched.page.actions.step, "step")
+    watched.choose_tab("Save")
+    link = watched.tab.get_by_role("link", name="This run as a page")
+    page = save(watched, link.click, tmp_path)
+    watched.choose_tab("Top")
+    assert page.suffix == ".html"
+    assert "SAVED_RUN = {" in page.read_text()  # what it shows is tested in test/web/test_saved.py
 
 
 def test_series_and_log_are_saved(watched, tmp_path):

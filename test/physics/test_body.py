@@ -113,6 +113,22 @@ def test_the_force_of_the_pivot_is_newtons_second_law():
         assert np.abs(force - expected).max() < 2 * EPS * np.linalg.norm(expected)
 
 
+def test_the_force_on_another_body_is_refused():
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0))
+    with pytest.raises(
+        ValueError, match=r"^motion.top must be Top\(.*\), that of the body, got Top"
+    ):
+        Body(0.5, 0.02, 2e-4, 5.72e-5, 9.81).pivot_force(motion, motion.start)
+
+
+@pytest.mark.parametrize("Mgl", [1e-100, -1e100, 0.0])
+def test_the_body_of_a_top_is_its_body_at_all_sizes(Mgl):
+    top = Top(1.0, 0.25, Mgl)
+    assert Body.of(top).top.Ix == pytest.approx(1.0, rel=4 * EPS)  # half of it from a product
+    motion = Motion(top, State.from_euler(theta=0.5, psi_dot=1.0))
+    assert np.isfinite(Body.of(top).pivot_force(motion, motion.start)).all()
+
+
 def test_the_torque_of_the_pivots_force_about_the_centre_turns_the_body():
     # Euler's equations about the centre of mass, which know nothing of the pivot's formulas.
     motion = Motion(ARTICLE, State.from_euler(theta=0.5, phi_dot=9.0, psi_dot=200.0))

@@ -95,7 +95,7 @@ def test_the_file_plays_with_the_network_off(page, played, tmp_path):
     path = tmp_path / "run.html"
     path.write_text(page)
     with running_browser() as browser:
-        context = browser.new_context(viewport={"width": 700, "height": 500}, offline=True)
+        context = browser.new_context(viewport={"width": 400, "height": 300}, offline=True)
         tab, asked = context.new_page(), []
         tab.on("request", lambda request: asked.append(request.url))
         tab.goto(path.as_uri())

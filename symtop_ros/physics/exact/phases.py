@@ -7,6 +7,7 @@ the product rate * t in doubles would have an error of EPS times the whole phase
 
 import math
 from decimal import Decimal, localcontext
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -70,6 +71,7 @@ class Phases:
 
     def _set(self, exponent: int, steps: list[int]) -> None:
         self._exponent, self._steps = exponent, steps
+        self._scaled: tuple[tuple[float, Fraction] | None, list[tuple[Limbs, int]]] = None, []
         self._ticks = 2.0**self._exponent  # per s
         self._limbs = [_split_step(step) for step in self._steps]
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]
@@ -97,14 +99,28 @@ class Phases:
         ]
 
     def _at_exact(self, times: ExactTimes) -> list["Phase"]:
-        ticks, seconds = times.factor.as_integer_ratio()
-        elapsed, parts = times.elapsed.as_integer_ratio()
-        counts, phases = _Counts(times.nanoseconds), []
-        for step in self._steps:
-            limbs = _split_step(self._scale(step * ticks, seconds * SECOND))
-            start = _wrap_turns(self._scale(step * elapsed, parts * SECOND))
-            phases.append(Phase(_wrap(counts.multiply(limbs) + start)))
-        return phases
+        counts = _Counts(times.nanoseconds)
+        return [
+            Phase(_wrap(counts.multiply(limbs) + start))
+            for limbs, start in self._scale_steps(times.factor, times.elapsed)
+        ]
+
+    def _scale_steps(self, factor: float, elapsed: Fraction) -> list[tuple[Limbs, int]]:
+        """Return the steps in a nanosecond of the clock, and the phases at its zero."""
+        known, scaled = self._scaled
+        if known == (factor, elapsed):  # as for all samples between two changes of a run
+            return scaled
+        ticks, seconds = factor.as_integer_ratio()
+        start, parts = elapsed.as_integer_ratio()
+        scaled = [
+            (
+                _split_step(self._scale(step * ticks, seconds * SECOND)),
+                _wrap_turns(self._scale(step * start, parts * SECOND)),
+            )
+            for step in self._steps
+        ]
+        self._scaled = (factor, elapsed), scaled
+        return scaled
 
     def _scale(self, turns_by_tick: int, seconds: int) -> int:
         """Return turns_by_tick/seconds with seconds counted in ticks."""

@@ -344,20 +344,23 @@ def assert_swing(seed):
 
 
 @pytest.mark.parametrize(
-    ("top", "torque", "t", "bound"),
+    ("top", "torque", "t", "bounds"),
     [
-        # docs/accuracy.md names these: eps of the attitude that Python alone reaches, measured
-        (ARTICLE, 0.07, 10.0, 160),
-        (Top(1.0, 0.001, 1.0), 1.0294117647058825, 10.0, 450),
-        (Top(1.0, 2.0, 1.0), 1.0294117647058825, 777.7, 15000),
+        # docs/accuracy.md names these: eps of the attitude that Python alone reaches, measured, and
+        # what the kernel reaches, of which two thirds are measured
+        (ARTICLE, 0.07, 10.0, {"Python": 160, "kernel": 2}),
+        (Top(1.0, 0.001, 1.0), 1.0294117647058825, 10.0, {"Python": 450, "kernel": 2}),
+        (Top(1.0, 2.0, 1.0), 1.0294117647058825, 777.7, {"kernel": 2}),
+        pytest.param(
+            *(Top(1.0, 2.0, 1.0), 1.0294117647058825, 777.7, {"Python": 15000}),
+            marks=pytest.mark.long,
+        ),
     ],
 )
-@pytest.mark.parametrize("engine", ENGINES)
-def test_a_spin_up_from_rest_is_as_good_as_is_said(top, torque, t, bound, engine):
-    if engine == "kernel":
-        bound = 2  # two thirds of it measured
-    with ENGINES[engine]():
-        spin_up(top, torque, t, bound)
+def test_a_spin_up_from_rest_is_as_good_as_is_said(top, torque, t, bounds):
+    for engine in ENGINES.keys() & bounds.keys():
+        with ENGINES[engine]():
+            spin_up(top, torque, t, bounds[engine])
 
 
 def spin_up(top, torque, t, bound):

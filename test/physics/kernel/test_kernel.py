@@ -4,8 +4,10 @@ import hashlib
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from pathlib import Path
@@ -122,6 +124,30 @@ def test_without_a_compiler_the_build_succeeds_and_has_no_kernel(tmp_path):
     )
     assert result.returncode == 0
     assert not list(tmp_path.rglob("*.so"))
+
+
+@compiled
+@pytest.mark.long
+def test_no_extreme_number_overflows_in_the_kernel_or_leaves_its_arrays(tmp_path):
+    kernel = Path("symtop_ros/physics/kernel")
+    shutil.copytree(
+        ROOT / "symtop_ros", tmp_path / "symtop_ros", ignore=shutil.ignore_patterns("*.so")
+    )
+    traps = ["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]  # end the process
+    options = ["-std=c++17", "-O1", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", *traps]
+    headers = f"-I{sysconfig.get_paths()['include']}"
+    library = tmp_path / kernel / "_kernel.abi3.so"
+    source = ROOT / kernel / "module.cpp"
+    subprocess.run(
+        ["g++", *options, "-shared", "-fPIC", headers, str(source), "-o", str(library)], check=True
+    )
+    tests = [str(FOLDER / "test_extremes.py"), str(FOLDER / "driven"), "-p", "no:cacheprovider"]
+    subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-m", "not long", *tests],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        check=True,
+    )
 
 
 def test_constants_of_the_kernel_are_those_of_python():

@@ -1,0 +1,143 @@
+"""Scores of many trajectories of the test set: a table, orders of convergence, and a ranking."""
+
+import json
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.testset.score import Problem, Score, read_trajectory
+
+OWN = "states"  # the stem of the file with the exact states, which is no entry
+STEP = re.compile(r"(.+)-(\d+(?:\.\d*)?(?:e-?\d+)?)")  # rk4-0.001: the step of this entry
+ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """A trajectory and its score."""
+
+    name: str  # stem of its file
+    score: Score
+
+    @property
+    def problem(self) -> dict[str, Any]:
+        """The problem in problems.json."""
+        return self.score.problem.facts
+
+    @property
+    def limits(self) -> float:
+        """Largest error of the attitude in limits of double precision."""
+        return float(self.score.in_limits.max())
+
+    @property
+    def error(self) -> float:
+        """Largest error of the attitude in rad."""
+        return float(self.score.angles.max())
+
+    @property
+    def step(self) -> tuple[str, float] | None:
+        """Name of the method and its step, if the entry is called METHOD-STEP."""
+        found = STEP.fullmatch(self.name)
+        return (found[1], float(found[2])) if found and float(found[2]) else None
+
+    def facts(self) -> dict[str, Any]:
+        """Return the score as numbers for JSON; errors are those at the times of the problem."""
+        rates = self.score.rates
+        return {
+            "problem": self.problem["name"],
+            "level": self.problem["level"],
+            "entry": self.name,
+            "max_error": self.error,
+            "limits": self.limits,
+            "times": self.problem["times"],
+            "errors": self.score.angles.tolist(),
+            "rate_errors": None if rates is None else rates.tolist(),
+        }
+
+
+def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
+    """Return the scores of all PROBLEM/NAME.csv in a folder."""
+    entries = [
+        Entry(path.stem, problem.score(*read_trajectory(path, problem)))
+        for name, problem in problems.items()
+        for path in sorted((folder / name).glob("*.csv"))
+        if path.stem != OWN
+    ]
+    if not entries:
+        raise ValueError(f"{folder} must have trajectories PROBLEM/NAME.csv, got none")
+    return entries
+
+
+def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
+    """Return the order of each method in each problem: the slope of its errors by their steps."""
+
+    def method(entry: Entry) -> tuple[str, str]:
+        return entry.problem["name"], entry.step[0] if entry.step else ""
+
+    several = sorted((each for each in entries if each.step), key=method)
+    orders = {}
+    for key, group in groupby(several, method):
+        points = [
+            (each.step[1], each.error)
+            for each in group
+            if each.step and each.limits > ROUNDING and each.error < 1
+        ]
+        if len({step for step, _ in points}) > 1:
+            steps, errors = np.log(np.array(points)).T
+            orders[key] = float(np.polyfit(steps, errors, 1)[0])
+    return orders
+
+
+def rank(entries: Sequence[Entry]) -> Iterator[tuple[int, list[tuple[str, int, float]]]]:
+    """Yield each level with its entries: name, problems, median of their limits; best first."""
+    levels = sorted({each.problem["level"] for each in entries})
+    for level in levels:
+        ours = [each for each in entries if each.problem["level"] == level]
+        rows = []
+        for name in {each.name for each in ours}:
+            limits = [each.limits for each in ours if each.name == name]
+            rows.append((name, len(limits), median(limits)))
+        yield level, sorted(rows, key=lambda row: (-row[1], row[2], row[0]))
+
+
+def format_table(entries: Sequence[Entry]) -> str:
+    """Return the table of all entries, the orders, and the ranking of each level."""
+    lines = [f"{'problem':19}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"]
+    lines += [
+        f"{each.problem['name']:19}{each.problem['level']:>5}  {each.name:24}"
+        f"{each.error:>11.1e}{each.limits:>10.2g}"
+        for each in entries
+    ]
+    for (problem, method), order in find_orders(entries).items():
+        lines.append(f"order of {method} in {problem}: {order:.2f}")
+    for level, rows in rank(entries):
+        tried = len({each.problem["name"] for each in entries if each.problem["level"] == level})
+        lines.append(f"level {level}, by problems tried and the median of their limits:")
+        lines += [
+            f"  {place}. {name} ({count} of {tried}, {limits:.2g} limits)"
+            for place, (name, count, limits) in enumerate(rows, start=1)
+        ]
+    return "\n".join(lines)
+
+
+def format_json(entries: Sequence[Entry]) -> str:
+    """Return the same as JSON, with the errors at each time."""
+    orders = [
+        {"problem": problem, "method": method, "order": order}
+        for (problem, method), order in find_orders(entries).items()
+    ]
+    ranking = {
+        str(level): [
+            {"entry": name, "problems": count, "median_limits": limits}
+            for name, count, limits in rows
+        ]
+        for level, rows in rank(entries)
+    }
+    scores = [each.facts() for each in entries]
+    return json.dumps({"scores": scores, "orders": orders, "ranking": ranking}, indent=1)

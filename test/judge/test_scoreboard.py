@@ -1,0 +1,73 @@
+"""All trajectories of the test set scored together."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.judge.main import main
+from symtop_ros.testset.score import read_problems
+
+PROBLEMS = ("cusps", "plane_pendulum")
+HEADER = "t,w,x,y,z"
+
+
+def write_entry(folder, problem, name, error):
+    """Write the exact states, turned about the x axis of the body by an angle in rad."""
+    facts = read_problems()[problem].facts
+    q = np.array(facts["orientations"], dtype=float)[:, [1, 2, 3, 0]]
+    turned = (Rotation.from_quat(q) * Rotation.from_rotvec([error, 0, 0])).as_quat()
+    rows = [
+        ",".join(map(repr, (t, w, x, y, z)))
+        for t, (x, y, z, w) in zip(facts["times"], turned.tolist(), strict=True)
+    ]
+    (folder / problem).mkdir(exist_ok=True)
+    (folder / problem / f"{name}.csv").write_text("\n".join([HEADER, *rows]) + "\n")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for problem in PROBLEMS:
+        for step in ("0.1", "0.01", "1e-3"):
+            write_entry(tmp_path, problem, f"rk4-{step}", 0.5 * float(step) ** 4)
+    write_entry(tmp_path, "cusps", "euler-0.01", 3.0)
+    (tmp_path / "cusps" / "states.csv").write_text("no entry")
+    return tmp_path
+
+
+def test_errors_orders_and_a_ranking_of_each_level_are_printed(folder, capsys):
+    assert main(["--testset", "all", str(folder)]) == 0
+    text = capsys.readouterr().out
+    assert "order of rk4 in cusps: 4.00" in text
+    assert "order of euler" not in text  # one step shows none
+    level = text.index("level 2")
+    places = [text.index(f"{name} (1 of 1", level) for name in ("rk4-1e-3", "euler-0.01")]
+    assert places == sorted(places)
+
+
+def test_the_same_is_given_as_json(folder, capsys):
+    assert main(["--testset", "all", str(folder), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert len(facts["scores"]) == 7
+    (score,) = (
+        each
+        for each in facts["scores"]
+        if (each["problem"], each["entry"]) == ("plane_pendulum", "rk4-0.01")
+    )
+    # 2e-15: the quaternions of the file are doubles
+    assert np.array(score["errors"]) == pytest.approx(5e-9, abs=2e-15)
+    assert [each["order"] for each in facts["orders"]] == pytest.approx([4.0, 4.0], abs=1e-3)
+    assert facts["ranking"]["1"][0]["entry"] == "rk4-1e-3"
+
+
+def test_an_error_above_the_limit_is_status_1(folder):
+    assert main(["--testset", "all", str(folder), "--max-error", "2.9"]) == 1
+    assert main(["--testset", "all", str(folder), "--max-error", "3.1"]) == 0
+
+
+def test_a_folder_without_trajectories_is_refused_in_one_line(tmp_path, capsys):
+    assert main(["--testset", "all", str(tmp_path)]) == 1
+    assert capsys.readouterr().err == (
+        f"top_judge: {tmp_path} must have trajectories PROBLEM/NAME.csv, got none\n"
+    )
