@@ -71,6 +71,11 @@ def angles(page):
     return page.run.motion.turning_angles
 
 
+def is_new(moment, seen, name):
+    """Return True for a moment after the one that was seen, with an event of this name."""
+    return moment is not seen and moment.event.name == name
+
+
 def test_a_class_presses_through_all_steps(browser, page):
     tab, sent = opened(browser, page)
     for number, (step, expected) in enumerate(zip(STEPS, ANGLES, strict=True), start=1):
@@ -84,8 +89,7 @@ def test_a_class_presses_through_all_steps(browser, page):
             seen = page.run.announced
             tab.get_by_role("button", name=act.button, exact=True).click()
             name = "start" if act.start else "kick"
-            until(tab, lambda seen=seen: page.run.announced is not seen)
-            assert page.run.announced.event.name == name
+            until(tab, lambda seen=seen, name=name: is_new(page.run.announced, seen, name))
             until(tab, lambda: page.run.segment.running)
             # half of the last of three digits
             assert angles(page) == pytest.approx(turning, abs=5e-4)
