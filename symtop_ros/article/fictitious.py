@@ -179,7 +179,8 @@ def draw_four_masses() -> Figure:
         if abs(y) > abs(x):  # it moves along the line of nodes
             mark = r"$\otimes$ to the pivot" if y > 0 else r"$\odot$ away from the pivot"
             axes.text(x + 0.12, y + 0.1 * np.sign(y), mark, color=RED, va="center")
-    axes.text(-1.95, 1.25, "blue: velocity\nred: Coriolis force\ntogether: the axis rises", va="top")
+    words = "blue: velocity\nred: Coriolis force\ntogether: the axis rises"
+    axes.text(-1.95, 1.25, words, va="top")
     axes.set(xlim=(-2, 2), ylim=(-1.3, 1.3), aspect="equal")
     axes.axis("off")
     return figure
