@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
+from symtop_ros.article.fictitious import draw_fictitious_torques, draw_four_masses
 from symtop_ros.article.kinds import DISC
 from symtop_ros.article.motions import (
     FAST,
@@ -238,4 +239,6 @@ FIGURES: dict[str, Callable[[], Figure]] = {
     "same_accelerations": draw_same_accelerations,
     "parabola_downward": draw_parabola_downward,
     "pivot_force": draw_pivot_force,
+    "fictitious_torques": draw_fictitious_torques,
+    "four_masses": draw_four_masses,
 }

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from symtop_ros.article.claims import Claim, markdown, table
+from symtop_ros.article.fictitious import claims_on_fictitious_forces
 from symtop_ros.article.figures import FIGURES
 from symtop_ros.article.kinds import claims_on_kinds
 from symtop_ros.article.momentum import claims_on_momentum
@@ -36,4 +37,5 @@ def check_claims(top: Top = TOP) -> list[Claim]:
         *claims_on_nutation(top),
         *claims_on_kinds(top),
         *claims_on_pivot(top),
+        *claims_on_fictitious_forces(top),
     ]

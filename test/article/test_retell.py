@@ -39,7 +39,7 @@ def without_files(monkeypatch):
 
 def test_every_claim_holds(claims):
     assert [claim for claim in claims if not claim.holds] == []
-    assert len(claims) == 47
+    assert len(claims) == 50
 
 
 def test_every_claim_is_a_sentence_with_a_number_an_equation_and_a_tolerance(claims):
