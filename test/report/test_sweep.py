@@ -5,7 +5,7 @@ import pytest
 
 from symtop_ros.report.peers.peer import Peer, Solution
 from symtop_ros.report.reference import Reference
-from symtop_ros.report.sweep import Curve, Measurement, sweep_motion
+from symtop_ros.report.sweep import Curve, Measurement, sweep, sweep_motion
 
 PROBLEM = Reference.read().article[0]
 
@@ -26,10 +26,6 @@ def make_peer(errors, seconds):
     return Peer("a peer", tuple(settings), prepare)
 
 
-def sweep(errors, seconds, limit=1.0):
-    return sweep_motion(make_peer(errors, seconds), PROBLEM, 1.0, limit)
-
-
 def test_the_cheapest_point_is_the_fastest_that_is_good_enough():
     points = tuple(
         Measurement(setting, error, error, 9, seconds, 0.0)
@@ -42,9 +38,18 @@ def test_the_cheapest_point_is_the_fastest_that_is_good_enough():
 
 
 def test_a_sweep_ends_before_a_run_that_is_expected_to_exceed_the_limit():
-    # 10 and 30 ms: 90 ms are expected next
-    curve = sweep([1e-2, 1e-4, 1e-6], [0.01, 0.03, 9.0], limit=0.06)
-    assert (len(curve.points), curve.end) == (2, "time limit")
+    seconds = {1.0: 0.01, 0.1: 0.03, 0.01: 9.0}  # 0.09 s are expected for the third
+
+    def measure(setting):
+        return Measurement(setting, setting**2, setting**2, 9, seconds[setting], 0.0)
+
+    points, end = sweep(tuple(seconds), measure, limit=0.06)
+    assert ([point.setting for point in points], end) == ([1.0, 0.1], "time limit")
+
+
+def test_a_point_has_the_time_and_the_error_of_its_run():
+    curve = sweep_motion(make_peer([1e-2, 1e-4], [0.01, 0.03]), PROBLEM, 1.0, limit=60.0)
+    assert curve.points[0].seconds >= 0.01
     assert curve.points[1].seconds >= 0.03
     # a product of doubles, and the error of the turn itself: angle^2/4
     assert [point.error for point in curve.points] == pytest.approx([1e-2, 1e-4], rel=1e-4)
