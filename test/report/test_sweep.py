@@ -64,5 +64,5 @@ def test_a_sweep_ends_when_two_settings_in_a_row_are_no_better():
 
 
 def test_a_sweep_through_all_settings_ends_at_the_finest():
-    curve = sweep([1e-2, 1e-6, 2e-6], [0.0] * 3)
+    curve = sweep_motion(make_peer([1e-2, 1e-6, 2e-6], [0.0] * 3), PROBLEM, 1.0, limit=1.0)
     assert (len(curve.points), curve.end) == (3, "finest")
