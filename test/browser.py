@@ -8,12 +8,12 @@ import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Page
 
 UNPACKED = Path(sys.prefix, "chromium")
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -22,6 +22,11 @@ OPTIONS = (
     *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
     *("--ignore-gpu-blocklist", "--disable-dev-shm-usage"),
 )
+# Software takes all the time of a processor for sixty frames a second; a test needs few.
+FEW_FRAMES = """
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100);
+window.cancelAnimationFrame = clearTimeout;
+"""
 
 
 @contextlib.contextmanager
@@ -35,6 +40,14 @@ def running_browser() -> Iterator[Browser]:
         browser = playwright.chromium.launch(
             executable_path=program, args=list(OPTIONS), env=environment
         )
+        new_page = browser.new_page
+
+        def open_page(**options: Any) -> Page:
+            tab = new_page(**options)
+            tab.add_init_script(FEW_FRAMES)
+            return tab
+
+        browser.new_page = open_page  # type: ignore[method-assign]
         try:
             yield browser
         finally:

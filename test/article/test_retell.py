@@ -111,8 +111,8 @@ def _curve(exhibit):
 @pytest.mark.usefixtures("without_files")
 def test_the_claims_are_written_and_printed(tmp_path, capsys):
     assert retell(tmp_path) == 0
-    assert capsys.readouterr().out.endswith("47 of 47 claims hold.\n")
-    assert (tmp_path / "claims.md").read_text().endswith("47 of 47 claims hold.\n")
+    assert capsys.readouterr().out.endswith("50 of 50 claims hold.\n")
+    assert (tmp_path / "claims.md").read_text().endswith("50 of 50 claims hold.\n")
 
 
 @pytest.mark.usefixtures("without_files")

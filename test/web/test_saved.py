@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from browser import running_browser
+from browser import FEW_FRAMES, running_browser
 
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.web.run import Run
@@ -96,6 +96,7 @@ def test_the_file_plays_with_the_network_off(page, played, tmp_path):
     path.write_text(page)
     with running_browser() as browser:
         context = browser.new_context(viewport={"width": 400, "height": 300}, offline=True)
+        context.add_init_script(FEW_FRAMES)
         tab, asked = context.new_page(), []
         tab.on("request", lambda request: asked.append(request.url))
         tab.goto(path.as_uri())
