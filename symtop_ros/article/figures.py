@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
-from symtop_ros.article.fictitious import draw_fictitious_torques, draw_four_masses
+from symtop_ros.article.answers.drawings import draw_cusp_story, draw_release
+from symtop_ros.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
 from symtop_ros.article.kinds import DISC
 from symtop_ros.article.motions import (
     FAST,
@@ -127,8 +128,9 @@ def draw_horizontal_momentum() -> Figure:
         axes.plot(*L[-1], "s", color=RED, mfc="white")
         gap = np.linalg.norm(L[-1] - L[0]) / np.linalg.norm(L[0])
         words = f"gap at $\\phi = 2\\pi$: {gap:.1%}" if gap > ROUNDING else "closed"
+        # inside of the circle, next to the gap
         axes.annotate(
-            words, L[-1] / 2, ha="center", va="center", xytext=(0, 22), textcoords="offset points"
+            words, (L[0] + L[-1]) / 2, ha="center", xytext=(0, 24), textcoords="offset points"
         )
         axes.plot(0, 0, "+", color=INK)
         ticks = range(-6, 7, 2)
@@ -239,6 +241,8 @@ FIGURES: dict[str, Callable[[], Figure]] = {
     "same_accelerations": draw_same_accelerations,
     "parabola_downward": draw_parabola_downward,
     "pivot_force": draw_pivot_force,
+    "cusp_story": draw_cusp_story,
+    "release": draw_release,
     "fictitious_torques": draw_fictitious_torques,
     "four_masses": draw_four_masses,
 }

@@ -114,21 +114,33 @@ def times_of_smallest_tilt(motion: Motion) -> Real:
 def fall_is_fastest_at_zero_acceleration(motion: Motion) -> Claim:
     """Check that theta'' vanishes when theta' is largest, off the quarter period."""
     period = motion.nutation_period
-    # The first quarter contains the sign change: theta'' > 0 at the start, < 0 at half a period.
-    zero = brentq(lambda t: _theta_acceleration(motion, t), 0.01 * period, 0.49 * period)
+    zero, second = times_of_extreme_rate(motion)
     around = zero + LOCATED ** (1 / 2) * period * np.linspace(-1, 1, 5)
     rates = np.asarray(motion.at(around).euler_rates.theta)
     fastest = float(motion.at(zero).euler_rates.theta)
+    mirror = abs((zero + second) / period - 1)
     return Claim(
         "From a cusp the axis falls fastest when theta'' = 0, at t1, which is not a quarter of the "
-        "nutation period T.",
+        "nutation period T. At t2 = T - t1, not 3T/4, it rises fastest.",
         f"t1 = {zero:.5f} s = {4 * zero / period:.4f} T/4, theta' = {fastest:.4f} rad/s there; "
+        f"t2 = {4 * second / (3 * period):.4f} 3T/4, T - t1 within {mirror:.0e} T; "
         f"theta'' {_theta_acceleration(motion, 0.0):.0f} rad/s^2 at the cusp, "
         f"{_theta_acceleration(motion, period / 2):.0f} at T/2",
-        bool(rates.argmax() == 2 and abs(4 * zero / period - 1) > 0.01),
+        bool(rates.argmax() == 2 and abs(4 * zero / period - 1) > 0.01 and mirror < LOCATED),
         "theta'' = sin(theta)/Ix ((Ix - Iz) phi'^2 cos(theta) - Iz phi' psi' + Mgl) = 0",
         f"{LOCATED**0.5:.0e} T: before and after theta' is smaller; t1 must miss T/4 by 1 %",
     )
+
+
+def times_of_extreme_rate(motion: Motion) -> tuple[float, float]:
+    """Return t1 and t2 in s, where theta'' of cusps vanishes before and after half a nutation."""
+    period = motion.nutation_period
+    # theta'' > 0 at both cusps, < 0 at half a period
+    first, second = (
+        float(brentq(lambda t: _theta_acceleration(motion, t), low * period, high * period))
+        for low, high in ((0.01, 0.49), (0.51, 0.99))
+    )
+    return first, second
 
 
 def _theta_acceleration(motion: Motion, time: float) -> float:

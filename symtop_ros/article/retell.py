@@ -2,8 +2,10 @@
 
 from pathlib import Path
 
+from symtop_ros.article.answers.corrections import claims_on_corrections
+from symtop_ros.article.answers.fictitious import claims_on_fictitious_forces
+from symtop_ros.article.answers.release import claims_on_release
 from symtop_ros.article.claims import Claim, markdown, table
-from symtop_ros.article.fictitious import claims_on_fictitious_forces
 from symtop_ros.article.figures import FIGURES
 from symtop_ros.article.kinds import claims_on_kinds
 from symtop_ros.article.momentum import claims_on_momentum
@@ -38,4 +40,6 @@ def check_claims(top: Top = TOP) -> list[Claim]:
         *claims_on_kinds(top),
         *claims_on_pivot(top),
         *claims_on_fictitious_forces(top),
+        *claims_on_release(top),
+        *claims_on_corrections(top),
     ]

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from symtop_ros.article import fictitious
-from symtop_ros.article.fictitious import (
+from symtop_ros.article.answers import fictitious
+from symtop_ros.article.answers.fictitious import (
     claims_on_fictitious_forces,
     find_torques,
     point_masses,

@@ -1,0 +1,1 @@
+"""Answers to what the article asks or leaves open."""

@@ -1,0 +1,29 @@
+"""Where the article disagrees with itself."""
+
+import numpy as np
+
+from symtop_ros.article.answers import corrections
+from symtop_ros.article.motions import TOP, accelerations, cusps, regular
+from symtop_ros.physics import Top
+
+
+def test_all_claims_hold():
+    assert all(claim.holds for claim in corrections.claims_on_corrections(TOP))
+
+
+def test_the_figure_is_not_that_of_its_caption():
+    assert not corrections.momentum_is_that_of_cusps(regular(), cusps()).holds
+
+
+def test_the_equations_fail_with_other_accelerations(monkeypatch):
+    monkeypatch.setattr(
+        corrections, "accelerations", lambda top, states: 1.0001 * accelerations(top, states)
+    )
+    assert not corrections.printed_equations_hold(TOP).holds
+
+
+def test_about_an_axis_that_is_not_principal_the_momentum_leans(monkeypatch):
+    right = Top.body_angular_momentum
+    bent = np.array([0.0, 1e-9, 0.0])
+    monkeypatch.setattr(Top, "body_angular_momentum", lambda *given: right(*given) + bent)
+    assert not corrections.line_of_nodes_is_principal(TOP).holds
