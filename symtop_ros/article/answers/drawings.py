@@ -68,12 +68,12 @@ def _draw_chain(axes: Axes, motion: Motion) -> None:
     first = 1e3 * motion.top.angular_momentum(motion.start)[:2]
     tails = first + np.vstack([np.zeros(2), np.cumsum(change, axis=0)[:-1]])
     look: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "zorder": 3}
-    axes.quiver(*tails.T, *change.T, color=GOLD, label=r"$\tau\,dt$, one after the other", **look)
     last = tails[-1] + change[-1]
     axes.quiver(0, 0, *last, color=BLUE, label="$L$ after them", **look)
     if np.any(first):
         axes.quiver(0, 0, *first, color=INK, label="$L$ at the start", **look)
+    axes.quiver(*tails.T, *change.T, color=GOLD, label=r"$\tau\,dt$, one after the other", **look)
     axes.plot(0, 0, "+", color=INK)
-    axes.set(aspect="equal", xlim=(-1, 9), ylim=(-6.2, 1.6), xlabel="$L_{x'}$ ($10^{-3}$ N m s)")
+    axes.set(aspect="equal", xlim=(-1, 9), ylim=(-6.2, 4.6), xlabel="$L_{x'}$ ($10^{-3}$ N m s)")
     axes.set_ylabel("$L_{y'}$ ($10^{-3}$ N m s)")
     axes.legend(loc="upper right")
