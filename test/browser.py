@@ -22,9 +22,9 @@ OPTIONS = (
     *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
     *("--ignore-gpu-blocklist", "--disable-dev-shm-usage"),
 )
-# Software takes all the time of a processor for sixty frames a second; a test needs few.
+# Software takes all the time of a processor for sixty frames a second; a test needs few: four.
 FEW_FRAMES = """
-window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100);
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 250);
 window.cancelAnimationFrame = clearTimeout;
 """
 
