@@ -10,6 +10,7 @@ no other server, nor stand in a frame of another page.
 import asyncio
 import base64
 import contextlib
+import dataclasses
 import functools
 import gzip
 import hashlib
@@ -27,7 +28,9 @@ from typing import Any, NamedTuple
 from urllib.parse import parse_qs, urlsplit
 
 import viser
+import viser.infra._infra as viser_infra
 import websockets.asyncio.server
+from viser.infra._async_message_buffer import AsyncMessageBuffer
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
@@ -56,6 +59,30 @@ class File(NamedTuple):
 
 
 Files = Mapping[str, Callable[[str], File | None]]  # by path; they take the name of the page
+
+
+class LoopEvent(asyncio.Event):
+    """An event that other threads do not set.
+
+    Viser sets the event of a new message in the thread that draws, and then once more in the loop.
+    The first may fail, or leave a page without its messages for ever, if the loop begins to wait
+    at the same moment: events of asyncio belong to one thread.
+    """
+
+    def set(self) -> None:
+        """Set the event in a thread with a loop, and do nothing in others."""
+        if asyncio._get_running_loop() is not None:
+            super().set()
+
+
+@dataclasses.dataclass
+class Buffer(AsyncMessageBuffer):
+    """Viser's messages to its pages, which may be written in any thread."""
+
+    message_event: asyncio.Event = dataclasses.field(default_factory=LoopEvent)
+
+
+vars(viser_infra)["AsyncMessageBuffer"] = Buffer  # a name by which viser makes its buffers
 
 
 class PageServer(viser.ViserServer):

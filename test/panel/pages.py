@@ -112,20 +112,20 @@ def sent_at(message: bytes) -> float:
 @contextlib.contextmanager
 def running_panel(*words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """top_panel on any free port, and the address that it prints; it has ended afterwards."""
-    process = subprocess.Popen(
+    with subprocess.Popen(
         command("top_panel", "--port", "0", "--no-browser", *words),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-    )
-    try:
-        line = process.stdout.readline() if process.stdout else ""
-        found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
-        assert found, line
-        yield process, found[1]
-    finally:
-        process.terminate()
-        process.wait(timeout=TIMEOUT)
+    ) as process:
+        try:
+            line = process.stdout.readline() if process.stdout else ""
+            found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
+            assert found, line
+            yield process, found[1]
+        finally:
+            process.terminate()
+            process.wait(timeout=TIMEOUT)
 
 
 @contextlib.contextmanager

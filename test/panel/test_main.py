@@ -69,13 +69,13 @@ def test_it_runs_where_there_is_no_ros(tmp_path):
     root = RESOURCE.parent
     words = [sys.executable, "-c", code, "--port", "0", "--no-browser"]
     environment = {**os.environ, "PYTHONPATH": str(root)}
-    process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment)
-    try:
-        with open_pages(process.stdout.readline().split()[3], least=1):
-            pass
-    finally:
-        process.terminate()
-        assert process.wait(timeout=TIMEOUT) == 0
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        try:
+            with open_pages(process.stdout.readline().split()[3], least=1):
+                pass
+        finally:
+            process.terminate()
+            assert process.wait(timeout=TIMEOUT) == 0
 
 
 def test_a_node_without_ros_is_one_message(monkeypatch, capsys):

@@ -1,5 +1,6 @@
 """Connections that the server accepts, and those that it refuses."""
 
+import asyncio
 import contextlib
 import gzip
 import http.client
@@ -12,6 +13,7 @@ import viser
 import websockets
 from listening import tcp_addresses
 from panel.pages import TIMEOUT, open_pages
+from viser._messages import SetPositionMessage
 from websockets.sync.client import connect
 
 from symtop_ros.panel.server import LOCAL_HOST, File, PageServer
@@ -191,3 +193,38 @@ def test_an_open_page_is_counted_while_it_is_open(started):
         while len(server.get_clients()) != 2:  # a client is counted after its first message
             assert time.monotonic() < deadline
             time.sleep(0.02)
+
+
+def test_only_the_loop_wakes_what_waits_for_a_message(started):
+    """A set from another thread may fail, or be lost, while the loop begins to wait."""
+    server, _ = started
+    loop = server.get_event_loop()
+    for buffer in (server._websock_server._broadcast_buffer, made_in(loop)):
+        loop.call_soon_threadsafe(buffer.message_event.clear)
+        waiting = asyncio.run_coroutine_threadsafe(begin(buffer.message_event), loop).result(
+            TIMEOUT
+        )
+        with atomic(buffer):
+            buffer.push(SetPositionMessage("/a", (0.0, 0.0, 0.0)))
+            assert not buffer.message_event.is_set()
+        asyncio.run_coroutine_threadsafe(asyncio.wait_for(waiting, TIMEOUT), loop).result()
+
+
+async def begin(event):
+    return asyncio.ensure_future(event.wait())
+
+
+def made_in(loop):
+    """The messages to one page, as viser makes them."""
+
+    async def make():
+        return viser.infra._infra.AsyncMessageBuffer(loop, persistent_messages=False)
+
+    return asyncio.run_coroutine_threadsafe(make(), loop).result(TIMEOUT)
+
+
+@contextlib.contextmanager
+def atomic(buffer):
+    buffer.atomic_start()
+    yield
+    buffer.atomic_end()
