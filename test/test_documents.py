@@ -5,6 +5,7 @@ import importlib
 import io
 import re
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,8 @@ from node.running_top import RunningTop
 from programs import PATIENT, run, running_node
 from rcl_interfaces.msg import Parameter as ParameterMessage
 
-from symtop_ros.testset.score import read_problems
+from symtop_ros.judge.main import main as judge_main
+from symtop_ros.testset.score import read_problems, read_trajectory
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
@@ -64,6 +66,33 @@ def test_the_python_of_a_page_prints_what_the_page_shows(page):
         with contextlib.redirect_stdout(io.StringIO()) as printed:
             exec(code, variables)
         assert same(printed.getvalue(), output), printed.getvalue()
+
+
+def compile_block(language, compiler, options, folder):
+    """Compile the program of docs/truth.md in a language, and return what it prints."""
+    if not shutil.which(compiler):
+        pytest.skip(f"no {compiler} here")
+    ((code, output),) = blocks(ROOT / "docs/truth.md", language)
+    source = folder / f"top.{language}"
+    source.write_text(code)
+    for command in ([compiler, *options, str(source), "-o", "top"], ["./top"]):
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, ""), done.stderr
+    assert same(done.stdout, output)
+
+
+def test_the_program_in_cpp_scores_as_an_rk4_does(tmp_path):
+    assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
+    compile_block("cpp", "g++", ["-O2", "-std=c++17", "-Wall", "-Wextra"], tmp_path)
+    problem = read_problems()["cusps"]
+    score = problem.score(*read_trajectory(tmp_path / "trajectory.csv", problem))
+    # the page shows 3.6e-8 rad, for each compiler
+    assert score.angles.max() < 1e-7
+
+
+def test_the_program_in_rust_reads_the_states(tmp_path):
+    assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
+    compile_block("rust", "rustc", ["--edition=2021"], tmp_path)
 
 
 @pytest.fixture(scope="module")

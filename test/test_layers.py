@@ -60,7 +60,7 @@ ARROWS = {
     "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),
     "testset": (set(), {"numpy"}),
     "judge": (
-        {"drawing", "log", "shutdown", "simulation", "testset", "wire"},
+        {*("drawing", "log", "models", "physics"), *("shutdown", "simulation", "testset", "wire")},
         {*NUMERICAL, "matplotlib", "rclpy"},
     ),
     "report": (

@@ -5,12 +5,25 @@ import json
 import shutil
 from pathlib import Path
 
-from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
+from symtop_ros.judge.scoreboard import TABLES, Entry, format_json, format_table, read_entries
+from symtop_ros.models.snippets import format_snippets
+from symtop_ros.physics import STANDARD_GRAVITY, Body, State
 from symtop_ros.testset import score
 
 ALL = "all"  # in place of a name: copies every problem into a folder of its own, or scores them
-STATES = "states.csv"  # exact states of all problems; in a copy, those of its own
-SHARED = ("score.py", "README.md", "LICENSE")
+README = "README.md"
+SHARED = ("score.py", "LICENSE")
+INTRODUCTION = """\
+# {name}: {what}
+
+A problem of the test set that is described [below](#a-test-set-of-heavy-tops), in a folder that
+stands alone: `{name}.json` has all of it, `problems.csv`, `states.csv` and `forces.csv` have it as
+tables, `{name}.mjcf`, `.sdf` and `.urdf` are models. `python score.py {name} trajectory.csv` scores
+a trajectory.
+
+{snippets}
+{rest}"""
+OF_THE_SET = ("Files", "An example: MuJoCo")  # sections that name files that a copy has not
 
 
 def run_testset(options: argparse.Namespace) -> int:
@@ -49,11 +62,28 @@ def _copy(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
     target = folder / f"{name}.json"
     target.write_text(problem.format_json(), encoding="utf-8")
     source = score.FILE.parent
-    states = folder / STATES
-    with (source / STATES).open(encoding="utf-8") as file:
-        rows = [next(file), *(row for row in file if row.startswith(f"{name},"))]
-    states.write_text("".join(rows), encoding="utf-8")
+    for table in TABLES:
+        with (source / table).open(encoding="utf-8") as file:
+            rows = [next(file), *(row for row in file if row.startswith(f"{name},"))]
+        (folder / table).write_text("".join(rows), encoding="utf-8")
+    (folder / README).write_text(_describe(problem, source), encoding="utf-8")
     copied = [*sorted((source / "models").glob(f"{name}.*")), *(source / each for each in SHARED)]
     for each in copied:
         shutil.copy(each, folder / each.name)
-    print(f"wrote {', '.join([target.name, STATES, *(each.name for each in copied)])} to {folder}")
+    names = [target.name, *TABLES, README, *(each.name for each in copied)]
+    print(f"wrote {', '.join(names)} to {folder}")
+
+
+def _describe(problem: score.Problem, source: Path) -> str:
+    """Return the README of a copied problem: how it starts in engines, then that of the set."""
+    facts = problem.facts
+    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
+    start = State(facts["orientation"], facts["angular_velocity"])
+    readme = (source / README).read_text(encoding="utf-8").replace("(../../README.md)", "")
+    sections = readme.split("\n## ")
+    return INTRODUCTION.format(
+        name=facts["name"],
+        what=facts["what"],
+        snippets=format_snippets(facts["name"], start, body, facts["times"][-1]),
+        rest="\n## ".join(each for each in sections if not each.startswith(OF_THE_SET)),
+    )

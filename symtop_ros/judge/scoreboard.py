@@ -13,7 +13,8 @@ import numpy as np
 
 from symtop_ros.testset.score import Problem, Score, read_trajectory
 
-OWN = "states"  # the stem of the file with the exact states, which is no entry
+# Of a copied problem: the problem and its exact motion, which are no entries.
+TABLES = ("problems.csv", "states.csv", "forces.csv")
 STEP = re.compile(r"(.+)-(\d+(?:\.\d*)?(?:e-?\d+)?)")  # rk4-0.001: the step of this entry
 ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
 
@@ -36,6 +37,11 @@ class Entry:
         return float(self.score.in_limits.max())
 
     @property
+    def float32_limits(self) -> float:
+        """The same in limits of single precision."""
+        return float(self.score.in_float32_limits.max())
+
+    @property
     def error(self) -> float:
         """Largest error of the attitude in rad."""
         return float(self.score.angles.max())
@@ -55,6 +61,7 @@ class Entry:
             "entry": self.name,
             "max_error": self.error,
             "limits": self.limits,
+            "float32_limits": self.float32_limits,
             "times": self.problem["times"],
             "errors": self.score.angles.tolist(),
             "rate_errors": None if rates is None else rates.tolist(),
@@ -67,7 +74,7 @@ def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
         Entry(path.stem, problem.score(*read_trajectory(path, problem)))
         for name, problem in problems.items()
         for path in sorted((folder / name).glob("*.csv"))
-        if path.stem != OWN
+        if path.name not in TABLES
     ]
     if not entries:
         raise ValueError(f"{folder} must have trajectories PROBLEM/NAME.csv, got none")

@@ -1,6 +1,6 @@
 """A top and its start as URDF, SDF and MJCF, the files that other engines read.
 
-All of them hold the body that `physics.Body` chooses, with its doubles in full. Friction and
+All of them hold a body that moves as the top does, with its doubles in full. Friction and
 applied torques are left out: no format has friction that differs along and across the axis.
 """
 
@@ -8,16 +8,15 @@ import math
 from collections.abc import Callable, Sequence
 
 from symtop_ros.models.urdf import describe_body, robot_description
-from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
+from symtop_ros.physics import Body, State, Top
 
 STEP = 1e-4  # s; at 200 rad/s a step of 0.02 rad
 
 
-def format_urdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
+def format_urdf(top: Top, start: State, body: Body) -> str:
     """Return the top as URDF: three revolute joints, since the format has no ball joint."""
-    Body.of(top, gravity)  # refused here: the drawing alone would do for rviz, but not for engines
     angles, rates = start.euler_angles, start.euler_rates
-    text = robot_description(top, "world", "top", tf_moves_it=False, gravity=gravity)
+    text = robot_description(top, "world", "top", tf_moves_it=False, body=body)
     first, _, rest = text.partition("\n")
     return f"""{first}
 <!--
@@ -30,23 +29,26 @@ velocity {rates.phi!r} {rates.theta!r} {rates.psi!r} rad/s. The chain has its po
 {rest}"""
 
 
-def format_sdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
+def format_sdf(top: Top, start: State, body: Body) -> str:
     """Return the top as an SDF world with a ball joint.
 
     SDF places the body; no element of it gives a body its first angular velocity, which therefore
     stands in a comment.
     """
-    body = Body.of(top, gravity)
     w, x, y, z = start.orientation.tolist()
-    world = _join(start.to_world(start.angular_velocity).tolist())
+    local, world = (
+        _join(each.tolist())
+        for each in (start.angular_velocity, start.to_world(start.angular_velocity))
+    )
     size = _size(body)
     moments = f"<ixx>{body.Ix!r}</ixx><iyy>{body.Ix!r}</iyy><izz>{body.Iz!r}</izz>"
     return f"""<?xml version="1.0"?>
 <!-- {describe_body(top, body)}
-     Start of the motion: angular velocity {world} rad/s (world frame). -->
+     Start of the motion: angular velocity {local} rad/s (frame of the body, and of Drake's ball
+     joint, which is the pose below), {world} rad/s (world frame). -->
 <sdf version="1.9">
   <world name="symtop">
-    <gravity>0 0 {-gravity!r}</gravity>
+    <gravity>0 0 {-body.gravity!r}</gravity>
     <physics name="fine" type="ignored">
       <max_step_size>{STEP!r}</max_step_size>
     </physics>
@@ -79,16 +81,15 @@ def format_sdf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str
 """
 
 
-def format_mjcf(top: Top, start: State, gravity: float = STANDARD_GRAVITY) -> str:
+def format_mjcf(top: Top, start: State, body: Body) -> str:
     """Return the top as MJCF with a ball joint; its start is the keyframe "start"."""
-    body = Body.of(top, gravity)
     size = _size(body)
     end = math.copysign(size, body.arm)
     disc = f"{0.4 * size!r} {0.05 * size!r}"
     return f"""<!-- {describe_body(top, body)} -->
 <mujoco model="symtop">
   <compiler angle="radian"/>
-  <option integrator="RK4" timestep="{STEP!r}" gravity="0 0 {-gravity!r}">
+  <option integrator="RK4" timestep="{STEP!r}" gravity="0 0 {-body.gravity!r}">
     <flag contact="disable" constraint="disable"/>
   </option>
   <worldbody>
@@ -109,7 +110,7 @@ qvel="{_join(start.angular_velocity.tolist())}"/>
 """
 
 
-FORMATS: dict[str, Callable[[Top, State, float], str]] = {
+FORMATS: dict[str, Callable[[Top, State, Body], str]] = {
     "urdf": format_urdf,
     "sdf": format_sdf,
     "mjcf": format_mjcf,

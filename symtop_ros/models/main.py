@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from symtop_ros.models.formats import FORMATS
-from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.physics import STANDARD_GRAVITY, Body
 from symtop_ros.simulation.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, number, one_line
@@ -20,7 +20,7 @@ def main(args: list[str] | None = None) -> int:
         settings = Settings.from_scene(options.scene)
         gravity = number("gravity", options.gravity, "m/s^2", 1e-3, LARGEST_GRAVITY)
         start = initial_state(settings.top, settings.initial, {})
-        text = FORMATS[options.format](settings.top, start, gravity)
+        text = FORMATS[options.format](settings.top, start, Body.of(settings.top, gravity))
         if options.output:
             options.output.write_text(text, encoding="utf-8")
         else:

@@ -9,8 +9,14 @@ joints ends in an empty link. If the node does not publish /tf, the chain ends i
 import math
 from xml.sax.saxutils import escape
 
-from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
+from symtop_ros.physics import Body, Top
 
+# What an empty link needs in MuJoCo, in kg and in kg m^2: mjMINVAL. No other engine reads it.
+MUJOCO_BOUND = 1e-15
+# pybullet gives 1 kg to a link without inertia; it accepts a zero.
+MASSLESS = """<inertial>
+      <mass value="0"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/>
+    </inertial>"""
 LENGTH = 0.1  # m, from the pivot to the upper end of the drawing
 QUOTES = {'"': "&quot;"}
 
@@ -21,9 +27,9 @@ def robot_description(
     top_frame: str,
     *,
     tf_moves_it: bool = True,
-    gravity: float = STANDARD_GRAVITY,
+    body: Body | None = None,
 ) -> str:
-    """Return the URDF of a top."""
+    """Return the URDF of a top, with a body that moves as it does; by default one is chosen."""
     world_frame, top_frame = (escape(name, QUOTES) for name in (world_frame, top_frame))
     end = f"{top_frame}_spin" if tf_moves_it else top_frame
     floating = f"""
@@ -39,9 +45,14 @@ def robot_description(
   <material name="steel"><color rgba="0.55 0.6 0.66 1"/></material>
   <material name="brass"><color rgba="0.85 0.65 0.25 1"/></material>
   <material name="mark"><color rgba="0.75 0.15 0.1 1"/></material>
+  <mujoco><compiler boundmass="{MUJOCO_BOUND}" boundinertia="{MUJOCO_BOUND}"/></mujoco>
   <link name="{world_frame}"/>
-  <link name="{top_frame}_precession"/>
-  <link name="{top_frame}_tilt"/>
+  <link name="{top_frame}_precession">
+    {MASSLESS}
+  </link>
+  <link name="{top_frame}_tilt">
+    {MASSLESS}
+  </link>
   <joint name="precession" type="continuous">
     <parent link="{world_frame}"/><child link="{top_frame}_precession"/><axis xyz="0 0 1"/>
   </joint>
@@ -52,7 +63,7 @@ def robot_description(
     <parent link="{top_frame}_tilt"/><child link="{end}"/><axis xyz="0 0 1"/>
   </joint>{floating if tf_moves_it else ""}
   <link name="{top_frame}">
-    {_inertial(top, gravity)}
+    {_inertial(top, body)}
     {_cylinder("steel", 0.04 * LENGTH, LENGTH, LENGTH / 2)}
     {_cylinder("brass", radius, 0.12 * LENGTH, distance)}
     {_box("mark", radius, 0.122 * LENGTH, distance)}
@@ -61,10 +72,10 @@ def robot_description(
 """
 
 
-def _inertial(top: Top, gravity: float) -> str:
-    """Return the inertia of the body, and the sentence that says what was chosen."""
+def _inertial(top: Top, body: Body | None) -> str:
+    """Return the inertia of the body, and the sentence that describes it."""
     try:
-        body = Body.of(top, gravity)
+        body = body or Body.of(top)
     except ValueError as error:
         return f"<!-- No body moves like this top: {escape(str(error))}. -->"
     return f"""<!-- {describe_body(top, body)} -->
@@ -76,14 +87,11 @@ def _inertial(top: Top, gravity: float) -> str:
 
 
 def describe_body(top: Top, body: Body) -> str:
-    """Return the sentence that says which body was chosen for a top."""
-    choice = "half of the longest arm that a rigid body can have"
-    if not top.Mgl:
-        choice = "any mass would do, as the centre of mass is the pivot"
+    """Return the sentence that says which body stands for a top."""
     return (
         f"Ix = {top.Ix!r} kg m^2 and Iz = {top.Iz!r} kg m^2 about the pivot, Mgl = {top.Mgl!r} J "
-        f"with g = {body.gravity!r} m/s^2. These fix the product of mass and arm only. Chosen: "
-        f"{body.mass:.6g} kg, {body.arm:.6g} m along z ({choice})."
+        f"with g = {body.gravity!r} m/s^2. These fix the product of mass and arm only. Here: "
+        f"{body.mass:.6g} kg, {body.arm:.6g} m along z."
     )
 
 

@@ -18,6 +18,7 @@ from symtop_ros.physics.values import refuse, validate_number, validate_vector
 from symtop_ros.quaternions import split, stack
 
 STANDARD_GRAVITY = 9.81  # m/s^2
+LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
 
 
@@ -29,7 +30,7 @@ class Body:
     centre the moments Ix - M r^2 and Iz. Of the two transverse axes and the axial one none may have
     more than the other two together, so that M r^2 <= Ix - Iz/2: no arm is longer than
     (Ix - Iz/2) g / |Mgl|. The body chosen has half of that arm, in the middle between a point mass
-    that is much too heavy and a flat disc.
+    that is much too heavy and a flat disc, but at most 10 m.
 
     Attributes
     ----------
@@ -152,7 +153,8 @@ class Body:
         if top.Mgl == 0:
             return cls(1.0, 0.0, top.Ix, top.Iz, gravity)
         largest = top.Ix - top.Iz / 2  # of M r^2
-        arm = math.copysign(largest / 2 * (gravity / abs(top.Mgl)), top.Mgl)
+        half = largest / 2 * (gravity / abs(top.Mgl))
+        arm = math.copysign(min(half, LONGEST_ARM), top.Mgl)
         if arm == 0:
             condition = (
                 f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist"
@@ -161,8 +163,9 @@ class Body:
         mass = top.Mgl / arm / gravity
         if not (math.isfinite(arm) and 0 < mass < math.inf):
             raise refuse("Mgl", "of a size for which the mass of a body is a double", top.Mgl)
-        # Ix - largest / 2, without the subtraction
-        return cls(mass, arm, top.Ix / 2 + top.Iz / 4, top.Iz, gravity)
+        # Ix - M r^2, for half of the longest arm without the subtraction
+        Ix = top.Ix / 2 + top.Iz / 4 if half <= LONGEST_ARM else top.Ix - mass * arm**2
+        return cls(mass, arm, Ix, top.Iz, gravity)
 
     def centre_of_mass(self, state: State) -> Real:
         """Return the position of the centre of mass in the world frame, (..., 3), in m."""

@@ -22,6 +22,10 @@ from symtop_ros.quaternions import rotate, split, stack
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding
 SMALLEST = 1e-100  # the square of anything smaller would underflow
+COLUMNS = (
+    *("t", "w", "x", "y", "z", "wx", "wy", "wz"),
+    *("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"),
+)
 
 
 class Angles(NamedTuple):
@@ -320,6 +324,44 @@ class State:
         best = np.diagonal(rows, axis1=-2, axis2=-1).argmax(axis=-1)
         q = np.take_along_axis(rows, best[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
         return cls(q / np.linalg.norm(q, axis=-1, keepdims=True), angular_velocity)
+
+    def table(self, times: ArrayLike) -> dict[str, Real]:
+        """Return the states as named columns, for pandas, xarray, Polars or `numpy.savetxt`.
+
+        Parameters
+        ----------
+        times : array_like (n,)
+            Times of the states in s.
+
+        Returns
+        -------
+        dict of str to ndarray (n,)
+            t; w, x, y, z (body to world); wx, wy, wz (body frame, rad/s), as the test set has
+            them; phi, theta, psi (rad); phi_dot, theta_dot, psi_dot (rad/s).
+
+        Raises
+        ------
+        ValueError
+            If these are not n states.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> times = [0.0, 0.5, 1.0]
+        >>> motion = Motion(Top(1.0, 1.0, 1.0), State.from_euler(theta=1.0, psi_dot=3.0))
+        >>> table = motion.at(times).table(times)
+        >>> list(table)[:6], table["psi_dot"].shape
+        (['t', 'w', 'x', 'y', 'z', 'wx'], (3,))
+
+        ``pandas.DataFrame(table)`` is a data frame of it.
+        """
+        t = np.array(times, dtype=float)
+        if t.ndim != 1 or self.orientation.shape[:-1] != t.shape:
+            condition = f"of shape {self.orientation.shape[:-1]}, one for each of a row of states"
+            raise refuse("times", condition, f"shape {t.shape}")
+        columns = [*split(self.orientation), *split(self.angular_velocity)]
+        columns += [*self.euler_angles, *self.euler_rates]
+        return dict(zip(COLUMNS, (t, *map(np.array, columns)), strict=True))
 
     def __getitem__(self, place: Any) -> "State":
         """Return some of many states, as NumPy's indexing of the leading axes does.

@@ -147,7 +147,7 @@ class Outputs:
             settings.world_frame,
             settings.top_frame,
             tf_moves_it=self._samples["tf"][0].is_published,
-            gravity=settings.gravity,
+            body=find_body(settings.top, settings.gravity),
         )
         self._description.send(stamp, encode_string(urdf))
         if self._fixed_frames:

@@ -126,8 +126,15 @@ class Score:
     @property
     def in_limits(self) -> Real:
         """Errors of the attitude in units of what half an ulp of the inputs does to it, (20,)."""
-        limits = np.array(self.problem.facts["orientation_limits"], dtype=np.float64)
-        return np.asarray(self.angles / limits, dtype=np.float64)
+        return self._divide("orientation_limits")
+
+    @property
+    def in_float32_limits(self) -> Real:
+        """The same for inputs in single precision, (20,): for engines that compute in it."""
+        return self._divide("orientation_limits_float32")
+
+    def _divide(self, limits: str) -> Real:
+        return np.asarray(self.angles / np.array(self.problem.facts[limits]), dtype=np.float64)
 
     def format(self) -> str:
         """Return the score in a line.
@@ -140,7 +147,8 @@ class Score:
         """
         text = (
             f"{self.problem.facts['name']}: attitude {self.angles.max():.1e} rad at most "
-            f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits"
+            f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits "
+            f"({self.in_float32_limits.max():.2g} of float32)"
         )
         if self.rates is not None:
             text += f"; angular velocity {self.rates.max():.1e} rad/s at most"

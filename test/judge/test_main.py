@@ -115,11 +115,12 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {
         *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
-        *("score.py", "states.csv", "README.md", "LICENSE"),
+        *("score.py", "problems.csv", "states.csv", "forces.csv", "README.md", "LICENSE"),
     }
-    exact = (tmp_path / "states.csv").read_text().splitlines()
-    assert len(exact) == 21
-    assert all(row.startswith("cusps,") for row in exact[1:])
+    for name, count in (("problems", 1), ("states", 20), ("forces", 21)):
+        exact = (tmp_path / f"{name}.csv").read_text().splitlines()
+        assert len(exact) == 1 + count
+        assert all(row.startswith("cusps,") for row in exact[1:])
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
     path = tmp_path / "mine.csv"

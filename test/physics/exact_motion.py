@@ -210,10 +210,10 @@ def distance(a, b):
     return min(mp.norm(minus), mp.norm(plus))
 
 
-def perturb(inputs: Inputs):
-    """Each input in turn, larger by half an ulp."""
+def perturb(inputs: Inputs, eps=2.0**-52):
+    """Each input in turn, larger by half an ulp, which is eps/2: of doubles if it is not given."""
     flat = [inputs.Ix, inputs.Iz, inputs.Mgl, *inputs.orientation, *inputs.angular_velocity]
     for i, value in enumerate(flat):
         if value:
-            moved = [*flat[:i], value * (1 + mpf(2) ** -53), *flat[i + 1 :]]
+            moved = [*flat[:i], value * (1 + mpf(eps) / 2), *flat[i + 1 :]]
             yield Inputs(*moved[:3], moved[3:7], moved[7:])

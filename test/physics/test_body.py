@@ -161,6 +161,13 @@ def test_the_articles_top_has_half_of_the_longest_arm():
     assert 2 * Body.of(ARTICLE).arm == pytest.approx(0.0288, abs=5e-5)  # three digits are given
 
 
+def test_a_weight_of_next_to_nothing_has_no_arm_of_kilometres():
+    top = Top(Ix=1.0, Iz=0.5, Mgl=-1e-9)
+    body = Body.of(top)
+    assert body.arm == -10.0
+    assert body.top.moments == pytest.approx(top.moments, rel=4 * EPS)
+
+
 def test_a_top_without_weight_has_its_centre_in_the_pivot():
     body = Body.of(Top(Ix=1.0, Iz=2.0, Mgl=0.0))
     assert (body.mass, body.arm, body.Ix, body.Iz) == (1.0, 0.0, 1.0, 2.0)
@@ -176,7 +183,7 @@ def test_a_top_without_weight_has_its_centre_in_the_pivot():
         ),
         (ARTICLE, 0.0, "gravity must be > 0 m/s\\^2, got 0"),
         (ARTICLE, math.nan, "gravity must be a finite number"),
-        (Top(1.0, 1.0, 1e-310), 9.81, "Mgl must be of a size for which the mass"),
+        (Top(1.0, 1.0, 5e-324), 9.81, "Mgl must be of a size for which the mass"),
     ],
 )
 def test_a_body_that_cannot_exist_is_refused(top, gravity, reason):

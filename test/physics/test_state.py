@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.refusals import FINITE_ARRAY, FINITE_NUMBER, refused
-from physics.tops import CUSPS, EPS, distance, random_states
+from physics.tops import ARTICLE, CUSPS, EPS, distance, random_states
 
 from symtop_ros.physics import Motion, State, Top
 
@@ -153,3 +153,21 @@ def test_many_states_have_places_and_a_length():
         _ = states[1, 2][0]
     with pytest.raises(TypeError, match="one state has no length"):
         len(states[1, 2])
+
+
+def test_a_table_has_a_column_for_each_quantity_of_many_states():
+    times = np.linspace(0.0, 1.0, 7)
+    states = Motion(ARTICLE, CUSPS).at(times)
+    table = states.table(times)
+    assert {column.shape for column in table.values()} == {(7,)}
+    assert np.array_equal(table["t"], times)
+    assert np.array_equal(np.stack([table[c] for c in "wxyz"], axis=1), states.orientation)
+    assert np.array_equal(table["wz"], states.angular_velocity[:, 2])
+    assert np.array_equal(table["theta"], states.euler_angles.theta)
+    assert np.array_equal(table["psi_dot"], states.euler_rates.psi)
+    table["w"][0] = 2.0  # the table is the caller's
+    assert states.orientation[0, 0] != 2.0
+    with refused("times", "of shape (7,), one for each of a row of states", "shape (6,)"):
+        states.table(times[1:])
+    with refused("times", "of shape (), one for each of a row of states", "shape ()"):
+        states[0].table(0.0)

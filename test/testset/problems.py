@@ -1,4 +1,8 @@
-"""The sixty problems of the test set: tops, starts and times, from easy to hard."""
+"""The sixty problems of the test set: tops, starts and times, from easy to hard.
+
+Starts have six digits, so that they can be copied by hand, or a few more where a distance of 1e-9
+counts. Regular precession, merging roots and the critical spin need all digits of a double.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +10,17 @@ import math
 from dataclasses import dataclass
 
 from symtop_ros.article.motions import FAST, SLOW, TOP
-from symtop_ros.physics import State, Top
+from symtop_ros.physics import Body, State, Top
 
 UNIT = Top(1.0, 0.5, 1.0)
 DISC = Top(0.0002, 0.00035, 0.05)
-CARDONA = Top(15.234375, 0.46875, 147.15)  # Brüls and Cardona 2010, about the pivot
+# The body of Brüls, Cardona and Arnold 2012; its axis is y there.
+CARDONA = Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81)
 SMALL = Top(2.0e-12, 1.5e-12, 3.0e-9)
 LARGE = Top(3.0e6, 1.0e6, 4.0e7)
 UP, DOWN = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
 HALF = (0.5, 0.5, 0.5, 0.5)  # theta = pi/2, a unit quaternion without rounding
+ALONG_Y = (0.5, -0.5, -0.5, -0.5)  # x, y, z of the body along z, x, y of the world
 COUNT = 20  # times of each problem
 
 
@@ -35,25 +41,38 @@ class Setting:
     has_period: bool = True
 
     @property
+    def body(self) -> Body:
+        """The body of the literature, or the one that the package chooses."""
+        return CARDONA if self.top == CARDONA.top else Body.of(self.top)
+
+    @property
     def times(self) -> list[float]:
         return [self.duration * k / COUNT for k in range(1, COUNT + 1)]
 
 
 def euler(theta, **others):
-    return State.from_euler(theta=theta, **others)
+    """A start with these Euler angles and rates, in decimals of six digits."""
+    start = State.from_euler(theta=theta, **others)
+    return State(*([float(f"{x:.6g}") for x in part] for part in start))
 
 
 def article(phi_dot):
     return euler(0.5, phi_dot=phi_dot, psi_dot=200.0)
 
 
-def spinning(theta, factor):
+def regular(phi_dot, psi_dot=200.0):
+    """A start of the article's top whose every bit counts."""
+    return State.from_euler(theta=0.5, phi_dot=phi_dot, psi_dot=psi_dot)
+
+
+def spinning(theta, factor, digits=10):
     """A start at rest that spins at a multiple of the critical spin."""
-    return euler(theta, psi_dot=TOP.critical_spin * factor)
+    spin = float(f"{TOP.critical_spin * factor:.{digits}g}")
+    return State(euler(theta).given_orientation, (0.0, 0.0, spin))
 
 
 def pendulum(theta_dot):
-    return State(HALF, (-theta_dot, 0.0, 0.0))
+    return State(HALF, (-float(f"{theta_dot:.12g}"), 0.0, 0.0))
 
 
 ROOT = math.sqrt(2.0)  # theta' of UNIT at theta = pi/2 from which the axis comes to rest on top
@@ -74,8 +93,8 @@ SETTINGS = [
         1, "below", "the same above and below", Top(1.0, 0.5, -1.0), euler(0.7, psi_dot=4.0), 20
     ),
     Setting(2, "cusps", "the article's top, let go", TOP, article(0.0), 10),
-    Setting(2, "slow_precession", "regular, slow root", TOP, article(SLOW), 10, False),
-    Setting(2, "fast_precession", "regular, fast root", TOP, article(FAST), 10, False),
+    Setting(2, "slow_precession", "regular, slow root", TOP, regular(SLOW), 10, False),
+    Setting(2, "fast_precession", "regular, fast root", TOP, regular(FAST), 10, False),
     Setting(2, "rising", "between both roots", TOP, article(20.0), 10),
     Setting(2, "looping", "pushed backwards", TOP, article(-15.0), 10),
     Setting(2, "hurried", "1.4 times the slow root", TOP, article(9.1), 10),
@@ -85,9 +104,9 @@ SETTINGS = [
     Setting(
         2,
         "heavy_top",
-        "Brüls and Cardona",
-        CARDONA,
-        euler(math.pi / 2, phi_dot=-4.61538, psi_dot=150.0),
+        "15 kg at 1 m, of Brüls, Cardona and Arnold",
+        CARDONA.top,
+        State(ALONG_Y, (-4.61538, 0.0, 150.0)),
         10,
     ),
     Setting(3, "disc", "Iz > Ix", DISC, euler(0.6, phi_dot=2.0, psi_dot=120.0), 10),
@@ -145,7 +164,7 @@ SETTINGS = [
     Setting(5, "waking_1e-3", "too slow to sleep, 1e-3", TOP, euler(1e-3, psi_dot=100.0), 5),
     Setting(5, "waking_1e-6", "too slow to sleep, 1e-6", TOP, euler(1e-6, psi_dot=100.0), 5),
     Setting(5, "waking_1e-12", "too slow to sleep, 1e-12", TOP, euler(1e-12, psi_dot=100.0), 5),
-    Setting(5, "critical", "critical spin", TOP, spinning(1e-3, 1.0), 10),
+    Setting(5, "critical", "critical spin", TOP, spinning(1e-3, 1.0, 17), 10),
     Setting(5, "above_critical", "1e-6 above", TOP, spinning(1e-3, 1 + 1e-6), 10),
     Setting(5, "below_critical", "1e-6 below", TOP, spinning(1e-3, 1 - 1e-6), 10),
     Setting(
@@ -175,17 +194,13 @@ SETTINGS = [
         "merging_roots",
         "slow and fast root nearly equal",
         TOP,
-        euler(
-            0.5,
-            phi_dot=27.5,
-            psi_dot=2.0
-            * math.sqrt((TOP.Ix - TOP.Iz) * TOP.Mgl * math.cos(0.5))
-            / TOP.Iz
-            * (1 + 1e-9),
+        regular(
+            27.5,
+            2.0 * math.sqrt((TOP.Ix - TOP.Iz) * TOP.Mgl * math.cos(0.5)) / TOP.Iz * (1 + 1e-9),
         ),
         10,
     ),
-    Setting(5, "nearly_regular", "1e-9 beside the slow root", TOP, article(SLOW * (1 + 1e-9)), 10),
+    Setting(5, "nearly_regular", "1e-9 beside the slow root", TOP, regular(SLOW * (1 + 1e-9)), 10),
     Setting(5, "cusps_100", "the article's top, 100 s", TOP, article(0.0), 100),
     Setting(5, "cusps_1000", "the article's top, 1000 s", TOP, article(0.0), 1000),
     Setting(5, "cusps_100000", "the article's top, a day and more", TOP, article(0.0), 100000),
@@ -194,9 +209,9 @@ SETTINGS = [
     Setting(
         5,
         "heavy_top_1000",
-        "Brüls and Cardona, 1000 s",
-        CARDONA,
-        euler(math.pi / 2, phi_dot=-4.61538, psi_dot=150.0),
+        "the same for 1000 s",
+        CARDONA.top,
+        State(ALONG_Y, (-4.61538, 0.0, 150.0)),
         1000,
     ),
 ]

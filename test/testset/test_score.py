@@ -23,6 +23,9 @@ def test_an_error_is_an_angle_whatever_the_sign_and_the_norm():
     assert score.in_limits.max() == pytest.approx(
         angle / min(CUSPS.facts["orientation_limits"]), rel=1e-6
     )
+    assert score.in_float32_limits.max() == pytest.approx(
+        angle / min(CUSPS.facts["orientation_limits_float32"]), rel=1e-6
+    )
     assert score.rates is None
 
 

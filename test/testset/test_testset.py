@@ -13,11 +13,21 @@ import pytest
 from mpmath import mp, mpf
 from physics.exact_motion import DIGITS, Inputs, distance, exact_motion
 from physics.taylor_motion import TaylorMotion
+from testset.links import find_link_effect
 from testset.problems import COUNT, SETTINGS
-from testset.write_testset import FOLDER, describe, digits, tabulate
+from testset.write_testset import (
+    EPS_32,
+    FOLDER,
+    FORCES,
+    describe,
+    describe_forces,
+    digits,
+    limits,
+    tabulate,
+)
 
 from symtop_ros.models.formats import FORMATS
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Motion, State, Top, point_acceleration
 from symtop_ros.testset.score import main, read_problems
 
 FACTS = json.loads((FOLDER / "problems.json").read_text())
@@ -41,6 +51,55 @@ def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
     q, omega = exact_motion(inputs, facts["times"][k])
     assert digits(q) == facts["orientations"][k]
     assert digits(omega) == facts["angular_velocities"][k]
+    # the first of the lists is the start
+    for name, (first, then) in describe_forces(setting, [(q, omega)]).items():
+        assert (first, then) == (facts[name][0], facts[name][k + 1])
+
+
+@pytest.mark.parametrize("setting", SETTINGS[1::12], ids=lambda each: each.name)
+def test_limits_in_single_precision_are_those_of_larger_roundings(setting):
+    facts = PROBLEMS[setting.name]
+    k = COUNT - 1
+    q, omega = facts["orientation"], facts["angular_velocity"]
+    exact = exact_motion(Inputs.of(*setting.top.moments, q, omega), facts["times"][k])
+    found = limits(setting, facts["times"][k], exact, EPS_32)
+    # three digits are stored
+    stored = [facts[f"{n}_limits_float32"][k] for n in ("orientation", "angular_velocity")]
+    assert found == pytest.approx(stored, rel=0.006)
+
+
+@pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
+def test_the_package_has_the_same_accelerations_forces_and_energies(setting):
+    facts = PROBLEMS[setting.name]
+    exact = {name: np.array(facts[name], dtype=float) for name in FORCES}
+    motion = Motion(setting.top, setting.start)
+    states = motion.at([0.0, *facts["times"]])
+    fastest = np.abs(states.angular_velocity).max() + 1
+    # the centre of mass, and Euler's equations: rates and torques of a few ulp
+    force = setting.body.pivot_force(motion, states)
+    weight = np.array([0.0, 0.0, setting.body.gravity])
+    size = setting.body.mass * (setting.body.gravity + abs(setting.body.arm) * fastest**2)
+    assert force == pytest.approx(exact["pivot_forces"], abs=8 * 2.0**-52 * size)
+    acceleration = force / setting.body.mass - weight
+    found = exact["accelerations"]
+    assert acceleration == pytest.approx(found, abs=8 * 2.0**-52 * size / setting.body.mass)
+    energy = setting.top.energy(states)
+    largest = setting.top.Ix * fastest**2 + abs(setting.top.Mgl)
+    assert energy == pytest.approx(exact["energies"], abs=4 * 2.0**-52 * largest)
+    # alpha x p is the acceleration of a point without the part of omega x (omega x p)
+    alpha = exact["angular_accelerations"]
+    p = np.array([0.0, 0.0, 1.0])
+    local = np.cross(alpha, p) + np.cross(
+        states.angular_velocity, np.cross(states.angular_velocity, p)
+    )
+    ours = point_acceleration(motion, states, p)
+    assert ours == pytest.approx(local, abs=8 * 2.0**-52 * fastest**2)
+
+
+@pytest.mark.parametrize("name", ["cusps", "spherical_pendulum", "small", "upper_pole"])
+def test_the_effect_of_links_in_mujoco_is_made_again(name):
+    (setting,) = (each for each in SETTINGS if each.name == name)
+    assert find_link_effect(setting) == PROBLEMS[name]["mujoco_urdf_effect"]
 
 
 @pytest.mark.parametrize("name", BY_SERIES)
@@ -76,6 +135,24 @@ def test_the_closed_form_of_the_package_solves_it(name):
     assert score.rates.max() <= 5 * 2.0**-52 * max(largest, 1e-300)
 
 
+def test_mujoco_shows_the_effect_that_is_stated_for_the_smallest_top():
+    mujoco = pytest.importorskip("mujoco")
+    problem = read_problems()["small"]
+    start = State(problem.facts["orientation"], problem.facts["angular_velocity"])
+    model = mujoco.MjModel.from_xml_path(str(FOLDER / "models/small.urdf"))
+    model.opt.integrator, model.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, 2.0**-13
+    data = mujoco.MjData(model)
+    data.qpos, data.qvel = start.euler_angles, start.euler_rates
+    found = []
+    for _ in problem.times:
+        mujoco.mj_step(model, data, nstep=2**12)  # half a second
+        mujoco.mj_kinematics(model, data)
+        found.append(data.body("top").xquat.copy())
+    effect = problem.facts["mujoco_urdf_effect"]
+    # two digits are stated, and the largest of 201 times is not one of these 20
+    assert problem.score(found).angles.max() == pytest.approx(effect, rel=0.03)
+
+
 def test_quaternions_have_thirty_digits_of_a_unit():
     with mp.workdps(DIGITS):
         for each in PROBLEMS.values():
@@ -86,8 +163,9 @@ def test_quaternions_have_thirty_digits_of_a_unit():
 def test_the_tables_say_the_same():
     for name, text in tabulate(FACTS["problems"]).items():
         assert (FOLDER / name).read_text() == text
-    with (FOLDER / "states.csv").open() as file:
-        assert len(list(csv.reader(file))) == 1 + 60 * COUNT
+    for name, count in (("states.csv", COUNT), ("forces.csv", COUNT + 1)):
+        with (FOLDER / name).open() as file:
+            assert len(list(csv.reader(file))) == 1 + 60 * count
 
 
 def test_checksums_are_those_of_all_files():
@@ -103,11 +181,22 @@ def test_checksums_are_those_of_all_files():
     assert {name.rpartition("/")[2] for name in sums} == data
 
 
-def test_every_problem_with_a_body_has_its_models():
+def test_the_heavy_top_is_that_of_the_literature():
+    # the numbers that docs/benchmarks.md quotes: 15 kg at 1 m, at rest along y, and EXUDYN's at 2 s
+    facts = PROBLEMS["heavy_top"]
+    body = [facts[name] for name in ("mass", "arm", "Ix_centre", "Iz")]
+    assert body == [15.0, 1.0, 0.234375, 0.46875]
+    assert State(facts["orientation"], (0, 0, 0)).to_world([0, 0, 1]).tolist() == [0, 1, 0]
+    q = np.array(facts["orientations"][facts["times"].index(2.0)], dtype=float)
+    place = State(q, (0, 0, 0)).to_world([0, 0, 1]) - [0, 1, 0]
+    assert place == pytest.approx((-0.150416822746, -1.724165591637, -0.673022269560), abs=1e-12)
+
+
+def test_every_problem_has_its_models():
     for setting in SETTINGS:
         for form, write in FORMATS.items():
             path = FOLDER / "models" / f"{setting.name}.{form}"
-            assert path.read_text() == write(setting.top, setting.start, FACTS["gravity"])
+            assert path.read_text() == write(setting.top, setting.start, setting.body)
 
 
 def test_the_scorer_needs_numpy_only(tmp_path):

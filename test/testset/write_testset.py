@@ -1,8 +1,8 @@
 """Write symtop_ros/testset: sixty motions to 30 digits, their models, tables and checksums.
 
 Each state is computed by the closed form in 150 digits, and again by a Taylor series in 80 digits
-that shares no formula with it; a difference in the 33rd digit ends the program. It takes a quarter
-of an hour:
+that shares no formula with it; a difference in the 33rd digit ends the program. It takes ten
+minutes with two processors:
 
     PYTHONPATH=.:test python test/testset/write_testset.py
 """
@@ -13,25 +13,41 @@ import csv
 import hashlib
 import io
 import json
+import math
 import sys
+from multiprocessing import Pool
 from pathlib import Path
 from typing import Any
 
 from mpmath import mp, mpf
 from physics.exact_motion import DIGITS, Inputs, distance, exact_motion, perturb
 from physics.taylor_motion import TaylorMotion
+from testset.forces import find_forces
+from testset.links import find_link_effect
 from testset.problems import SETTINGS, Setting
 
 from symtop_ros.models.formats import FORMATS
-from symtop_ros.physics import STANDARD_GRAVITY, Body
+from symtop_ros.physics import STANDARD_GRAVITY
 
 FOLDER = Path(__file__).parents[2] / "symtop_ros" / "testset"
-VERSION = "1.0"
+VERSION = "2.0"
 SHOWN = 30  # digits
 AGREEMENT = mpf(10) ** -33  # of both methods, relative to the largest component
-EPS = 2.0**-52
+EPS, EPS_32 = 2.0**-52, 2.0**-23  # of float64 and float32
 CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+LIMITS = tuple(
+    f"{name}_limits{form}"
+    for form in ("", "_float32")
+    for name in ("orientation", "angular_velocity")
+)
+# Columns of forces.csv by their lists in problems.json; energies are one column.
+FORCES = {
+    "angular_accelerations": ("alpha_x", "alpha_y", "alpha_z"),
+    "accelerations": ("ax", "ay", "az"),
+    "pivot_forces": ("fx", "fy", "fz"),
+    "energies": ("energy",),
+}
 State = tuple[Any, Any]  # orientation and body angular velocity in numbers of mpmath
 
 
@@ -61,42 +77,59 @@ def check(setting: Setting, t: float, exact: State, series: TaylorMotion) -> Non
             sys.exit(f"{setting.name} at {t} s: {mp.nstr(apart, 3)}, {mp.nstr(faster / size, 3)}")
 
 
-def limits(setting: Setting, t: float, exact: State) -> tuple[float, float]:
+def limits(setting: Setting, t: float, exact: State, eps: float = EPS) -> tuple[float, float]:
     """Angle (rad) and rate (rad/s) by which half an ulp of every input changes a state."""
     q, omega = setting.start.given_orientation.tolist(), setting.start.angular_velocity.tolist()
     inputs = Inputs.of(*setting.top.moments, q, omega)
     with mp.workdps(DIGITS):
-        moved = [exact_motion(each, t) for each in perturb(inputs)]
-        angle = mp.norm([2 * distance(exact[0], each[0]) for each in moved])
+        moved = [exact_motion(each, t) for each in perturb(inputs, eps)]
+        angle = mp.norm([4 * mp.asin(distance(exact[0], each[0]) / 2) for each in moved])
         rate = mp.norm([a - b for each in moved for a, b in zip(exact[1], each[1], strict=True)])
         # no state is held more exactly than its own rounding allows
-        return max(float(angle), EPS), max(float(rate), EPS / 2 * float(mp.norm(exact[1])))
+        floor = eps / 2 * float(mp.norm(exact[1]))
+        return min(max(float(angle), eps), math.pi), max(float(rate), floor)
 
 
 def describe(setting: Setting) -> dict[str, Any]:
     """The entry of a problem."""
     states = solve(setting)
-    pairs = [limits(setting, t, each) for t, each in zip(setting.times, states, strict=True)]
-    try:
-        body = Body.of(setting.top)
-    except ValueError:
-        body = None
+    pairs = [
+        (*limits(setting, t, each), *limits(setting, t, each, EPS_32))
+        for t, each in zip(setting.times, states, strict=True)
+    ]
+    shown = ([float(f"{x:.3g}") for x in column] for column in zip(*pairs, strict=True))
+    body = setting.body
     return {
         "name": setting.name,
         "level": setting.level,
         "what": setting.what,
         **dict(zip(("Ix", "Iz", "Mgl"), setting.top.moments, strict=True)),
-        "mass": body and body.mass,
-        "arm": body and body.arm,
-        "Ix_centre": body and body.Ix,
+        "mass": body.mass,
+        "arm": body.arm,
+        "Ix_centre": body.Ix,
         "orientation": setting.start.given_orientation.tolist(),
         "angular_velocity": setting.start.angular_velocity.tolist(),
         "times": setting.times,
         "orientations": [digits(each[0]) for each in states],
         "angular_velocities": [digits(each[1]) for each in states],
-        "orientation_limits": [float(f"{angle:.3g}") for angle, _ in pairs],
-        "angular_velocity_limits": [float(f"{rate:.3g}") for _, rate in pairs],
+        **describe_forces(setting, states),
+        **dict(zip(LIMITS, shown, strict=True)),
+        "mujoco_urdf_effect": find_link_effect(setting),
     }
+
+
+def describe_forces(setting: Setting, states: list[State]) -> dict[str, Any]:
+    """Accelerations, pivot forces and energies, at the start and at the times."""
+    with mp.workdps(DIGITS):
+        q = [mpf(x) for x in setting.start.given_orientation.tolist()]
+        start = [x / mp.norm(q) for x in q], [mpf(x) for x in setting.start.angular_velocity]
+        found = [find_forces(setting, *each) for each in (start, *states)]
+        energies = [each.energy for each in found]
+        if max(energies) - min(energies) > AGREEMENT * max(map(abs, energies)):
+            sys.exit(f"{setting.name}: the energy changes")
+    *vectors, energies = zip(*found, strict=True)
+    lists = [*([digits(each) for each in column] for column in vectors), digits(energies)]
+    return dict(zip(FORCES, lists, strict=True))
 
 
 def digits(numbers: Any) -> list[str]:
@@ -105,33 +138,41 @@ def digits(numbers: Any) -> list[str]:
 
 
 def tabulate(problems: list[dict[str, Any]]) -> dict[str, str]:
-    """Texts of problems.csv and states.csv."""
-    starts, states = io.StringIO(), io.StringIO()
-    table = csv.writer(starts, lineterminator="\n")
+    """Texts of problems.csv, states.csv and forces.csv."""
     start = [f"{name}0" for name in (*QUATERNION, *RATES)]
-    table.writerow(("name", "level", *CONSTANTS, *start, "duration", "what"))
-    rows = csv.writer(states, lineterminator="\n")
-    both = ("orientation_limit", "angular_velocity_limit")
-    rows.writerow(("name", "t", *QUATERNION, *RATES, *both))
+    problem = ("name", "level", *CONSTANTS, *start, "duration", "mujoco_urdf_effect", "what")
+    starts: list[tuple[Any, ...]] = [problem]
+    limits = [name.replace("limits", "limit") for name in LIMITS]
+    states: list[tuple[Any, ...]] = [("name", "t", *QUATERNION, *RATES, *limits)]
+    forces: list[tuple[Any, ...]] = [("name", "t", *(c for each in FORCES.values() for c in each))]
     for each in problems:
-        constants = ["" if each[name] is None else repr(each[name]) for name in CONSTANTS]
-        values = map(repr, (*each["orientation"], *each["angular_velocity"], each["times"][-1]))
-        table.writerow((each["name"], each["level"], *constants, *values, each["what"]))
-        columns = ("times", "orientations", "angular_velocities")
-        ends = ("orientation_limits", "angular_velocity_limits")
-        for t, q, omega, *two in zip(*(each[name] for name in (*columns, *ends)), strict=True):
-            rows.writerow((each["name"], repr(t), *q, *omega, *map(repr, two)))
-    return {"problems.csv": starts.getvalue(), "states.csv": states.getvalue()}
+        name, effect = each["name"], each["mujoco_urdf_effect"]
+        values = [each[key] for key in CONSTANTS]
+        values += [*each["orientation"], *each["angular_velocity"], each["times"][-1]]
+        end = "" if effect is None else repr(effect), each["what"]
+        starts.append((name, each["level"], *map(repr, values), *end))
+        columns = (each[key] for key in ("times", "orientations", "angular_velocities", *LIMITS))
+        for t, q, omega, *four in zip(*columns, strict=True):
+            states.append((name, repr(t), *q, *omega, *map(repr, four)))
+        columns = (each[key] for key in FORCES)
+        times = [0.0, *each["times"]]
+        for t, alpha, a, force, energy in zip(times, *columns, strict=True):
+            forces.append((name, repr(t), *alpha, *a, *force, energy))
+    tables = {"problems.csv": starts, "states.csv": states, "forces.csv": forces}
+    return {name: write_csv(rows) for name, rows in tables.items()}
+
+
+def write_csv(rows: list[tuple[Any, ...]]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def write_models(setting: Setting) -> None:
-    """Write the models of a problem; a top without a body has none."""
-    try:
-        texts = {form: write(setting.top, setting.start) for form, write in FORMATS.items()}
-    except ValueError:
-        return
+    """Write the models of a problem."""
     (FOLDER / "models").mkdir(exist_ok=True)
-    for form, text in texts.items():
+    for form, write in FORMATS.items():
+        text = write(setting.top, setting.start, setting.body)
         (FOLDER / "models" / f"{setting.name}.{form}").write_text(text, encoding="utf-8")
 
 
@@ -151,10 +192,11 @@ def write_checksums() -> None:
 
 def main() -> None:
     problems = []
-    for setting in SETTINGS:
-        problems.append(describe(setting))
-        write_models(setting)
-        print(setting.name, flush=True)
+    with Pool() as pool:
+        for setting, problem in zip(SETTINGS, pool.imap(describe, SETTINGS), strict=True):
+            problems.append(problem)
+            write_models(setting)
+            print(setting.name, flush=True)
     facts = {
         "name": "symtop_ros test set",
         "version": VERSION,

@@ -22,7 +22,7 @@ from pydrake.systems.primitives import ConstantValueSource
 
 from symtop_ros.arrays import Real
 from symtop_ros.models.formats import format_sdf
-from symtop_ros.physics import State
+from symtop_ros.physics import Body, State
 from symtop_ros.report.peers.peer import Peer, Solution, Task, choose_steps, normalize, time_strides
 
 SCHEMES = {"RK3": "runge_kutta3", "RK5": "runge_kutta5"}
@@ -136,7 +136,7 @@ def _build_ball_joint(task: Task) -> tuple[Any, Any]:
     """Return the body of the SDF of `top_model`, turned back to where the angles are zero."""
     upright = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     plant = MultibodyPlant(time_step=0.0)
-    Parser(plant).AddModelsFromString(format_sdf(task.top, upright), "sdf")
+    Parser(plant).AddModelsFromString(format_sdf(task.top, upright, Body.of(task.top)), "sdf")
     plant.Finalize()
     return plant, plant.GetJointByName("pivot")
 

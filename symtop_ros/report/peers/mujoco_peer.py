@@ -7,6 +7,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.models.formats import format_mjcf
+from symtop_ros.physics import Body
 from symtop_ros.report.peers.peer import (
     Peer,
     Solution,
@@ -25,7 +26,7 @@ mujoco.set_mju_user_warning(lambda _: None)
 
 def prepare(method: str, task: Task, step: float) -> Solution:
     """Compile the model; each solution starts anew."""
-    model = mujoco.MjModel.from_xml_string(format_mjcf(task.top, task.start))
+    model = mujoco.MjModel.from_xml_string(format_mjcf(task.top, task.start, Body.of(task.top)))
     model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{method.upper()}")
     model.opt.timestep = step
     data = mujoco.MjData(model)

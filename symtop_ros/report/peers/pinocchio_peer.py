@@ -5,6 +5,7 @@ import pinocchio
 
 from symtop_ros.arrays import Real
 from symtop_ros.models.formats import format_urdf
+from symtop_ros.physics import Body
 from symtop_ros.report.peers.peer import (
     Peer,
     Solution,
@@ -60,7 +61,7 @@ def prepare(task: Task, step: float) -> Solution:
 
 def _build_model(task: Task) -> pinocchio.Model:
     """Return the body of the URDF of `top_model`, on a spherical joint for its three joints."""
-    chain = pinocchio.buildModelFromXML(format_urdf(task.top, task.start))
+    chain = pinocchio.buildModelFromXML(format_urdf(task.top, task.start, Body.of(task.top)))
     model = pinocchio.Model()
     model.gravity.linear = chain.gravity.linear
     fixed = pinocchio.SE3.Identity()

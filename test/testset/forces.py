@@ -1,0 +1,56 @@
+"""Accelerations, force of the pivot and energy of exact states, with the digits of these.
+
+Newton's and Euler's equations in mpmath, written apart from those of `symtop_ros.physics.body`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from mpmath import mp, mpf
+from physics.exact_motion import DIGITS, Attitude, Vector
+from testset.problems import Setting
+
+
+class Forces(NamedTuple):
+    """Forces of a state; `angular_acceleration` is in the body frame, the others in the world."""
+
+    angular_acceleration: Vector  # rad/s^2
+    acceleration: Vector  # of the centre of mass, m/s^2
+    pivot_force: Vector  # on the top, N
+    energy: mpf  # J; Mgl cos(theta) is the potential energy
+
+
+def find_forces(setting: Setting, q: Attitude, omega: Vector) -> Forces:
+    """Return the forces of a state; the constants of the top and of its body are exact doubles."""
+    Ix, Iz, Mgl = map(mpf, setting.top.moments)
+    mass, arm, gravity = map(mpf, (setting.body.mass, setting.body.arm, setting.body.gravity))
+    with mp.workdps(DIGITS):
+        R = rotation(q)
+        wx, wy, wz = omega
+        gx, gy, gz = R[2]  # the vertical, seen from the body
+        alpha = (
+            ((Ix - Iz) * wy * wz + Mgl * gy) / Ix,
+            ((Iz - Ix) * wz * wx - Mgl * gx) / Ix,
+            mpf(0),
+        )
+        # alpha x p + omega x (omega x p), for p on the axis
+        local = (
+            arm * (alpha[1] + wx * wz),
+            arm * (wy * wz - alpha[0]),
+            -arm * (wx**2 + wy**2),
+        )
+        acceleration = tuple(mp.fdot(row, local) for row in R)
+        x, y, z = acceleration
+        energy = (Ix * (wx**2 + wy**2) + Iz * wz**2) / 2 + Mgl * gz
+        return Forces(alpha, acceleration, (mass * x, mass * y, mass * (z + gravity)), energy)
+
+
+def rotation(q: Attitude) -> tuple[Vector, Vector, Vector]:
+    """Return the rows of the matrix from body to world."""
+    w, x, y, z = q
+    return (
+        (w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z),
+    )
