@@ -15,7 +15,9 @@ from symtop_ros.testset.score import Problem, Score, read_trajectory
 
 # Of a copied problem: the problem and its exact motion, which are no entries.
 TABLES = ("problems.csv", "states.csv", "forces.csv")
-STEP = re.compile(r"(.+)-(\d+(?:\.\d*)?(?:e-?\d+)?)")  # rk4-0.001: the step of this entry
+# rk4-0.001 and rk4-1e-3: the step of this entry. The first part is as short as it can be, so that
+# the sign of an exponent belongs to the step.
+STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
 ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
 
 

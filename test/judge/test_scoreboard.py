@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.main import main
+from symtop_ros.judge.scoreboard import Entry
 from symtop_ros.testset.score import read_problems
 
 PROBLEMS = ("cusps", "plane_pendulum")
@@ -44,6 +45,22 @@ def test_errors_orders_and_a_ranking_of_each_level_are_printed(folder, capsys):
     level = text.index("level 2")
     places = [text.index(f"{name} (1 of 1", level) for name in ("rk4-1e-3", "euler-0.01")]
     assert places == sorted(places)
+
+
+@pytest.mark.parametrize(
+    ("name", "step"),
+    [
+        ("rk4-0.001", ("rk4", 0.001)),
+        ("rk4-1e-03", ("rk4", 0.001)),
+        ("euler-2-1e-3", ("euler-2", 0.001)),
+        ("rk4", None),
+        ("rk4-0", None),
+    ],
+)
+def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
+    problem = read_problems()["cusps"]
+    score = problem.score(np.array(problem.facts["orientations"], dtype=float))
+    assert Entry(name, score).step == step
 
 
 def test_the_same_is_given_as_json(folder, capsys):
