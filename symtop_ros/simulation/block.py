@@ -42,9 +42,11 @@ class Block:
         """Compute a topic of the next block, which has these stamps; first of all its states."""
         if self.next is None:
             self.next = self.continue_with(self.segment, stamps())
-            if self.next.length:
-                _ = self.next._samples
-        elif self.next._due and self.next.length:
+        elif not (self.next._due and self.next.length):
+            return
+        elif "_samples" not in vars(self.next):
+            _ = self.next._samples
+        else:
             self.next._compute(self.next._due.pop())
 
     def covers(self, segment: Segment, stamp: int) -> bool:
