@@ -32,8 +32,6 @@ PAUSE = 0.0137  # s between kicks; no multiple of a period
 TOP, RECORDING, BARE, PREPARED = "top_node", "top_node, recording", "bare rclpy", "prepared bytes"
 TOP_FIFO, BARE_FIFO = "top_node, SCHED_FIFO", "bare rclpy, SCHED_FIFO"
 PRIORITY = 50
-# Nothing else runs where a thread with SCHED_FIFO is busy, and the listener must.
-ONE_PROCESSOR = ["taskset", "--cpu-list", "0"]
 CPU, LATE_SAMPLES, JITTER = "CPU, % (one core)", "late samples, %", "jitter p99, ms"
 KICK, SLOW_KICK = "kick to first sample, ms", "kick to first sample p99, ms"
 HIGHEST = f"highest rate with < {LATE:.1%} late, Hz"
@@ -60,14 +58,14 @@ def list_commands(folder: str) -> dict[str, Command]:
     }
     if _may_use_real_time():
         chrt = ["chrt", "--fifo", str(PRIORITY)]
-        commands[TOP_FIFO] = lambda rate: [*ONE_PROCESSOR, *top(rate, priority=PRIORITY)]
-        commands[BARE_FIFO] = lambda rate: [*ONE_PROCESSOR, *chrt, *script("bare.py", rate)]
+        commands[TOP_FIFO] = lambda rate: top(rate, priority=PRIORITY)
+        commands[BARE_FIFO] = lambda rate: [*chrt, *script("bare.py", rate)]
     return commands
 
 
 def _may_use_real_time() -> bool:
     """Return True if this machine grants real-time scheduling."""
-    command = [*ONE_PROCESSOR, "chrt", "--fifo", str(PRIORITY), "true"]
+    command = ["chrt", "--fifo", str(PRIORITY), "true"]
     try:
         return subprocess.run(command, capture_output=True, check=False).returncode == 0
     except FileNotFoundError:
@@ -136,8 +134,7 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     source = f"`make node-cost` on {facts['machine']}"
     spread = f"medians of {facts['count']} runs (lowest to highest), {len(TOPICS)} topics"
     table = _format_table(runs, tuple(dict.fromkeys(node for row in runs.values() for node in row)))
-    spread += " with one subscriber each; nodes with SCHED_FIFO have one processor"
-    return {"node cost": f"{source}: {spread}.\n\n{table}"}
+    return {"node cost": f"{source}: {spread} with one subscriber each.\n\n{table}"}
 
 
 def _format_table(runs: Runs, nodes: tuple[str, ...]) -> str:
