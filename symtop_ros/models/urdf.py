@@ -47,12 +47,6 @@ def robot_description(
   <material name="mark"><color rgba="0.75 0.15 0.1 1"/></material>
   <mujoco><compiler boundmass="{MUJOCO_BOUND}" boundinertia="{MUJOCO_BOUND}"/></mujoco>
   <link name="{world_frame}"/>
-  <link name="{top_frame}_precession">
-    {MASSLESS}
-  </link>
-  <link name="{top_frame}_tilt">
-    {MASSLESS}
-  </link>
   <joint name="precession" type="continuous">
     <parent link="{world_frame}"/><child link="{top_frame}_precession"/><axis xyz="0 0 1"/>
   </joint>
@@ -67,6 +61,12 @@ def robot_description(
     {_cylinder("steel", 0.04 * LENGTH, LENGTH, LENGTH / 2)}
     {_cylinder("brass", radius, 0.12 * LENGTH, distance)}
     {_box("mark", radius, 0.122 * LENGTH, distance)}
+  </link>
+  <link name="{top_frame}_precession">
+    {MASSLESS}
+  </link>
+  <link name="{top_frame}_tilt">
+    {MASSLESS}
   </link>
 </robot>
 """
