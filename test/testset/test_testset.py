@@ -68,6 +68,23 @@ def test_limits_in_single_precision_are_those_of_larger_roundings(setting):
     assert found == pytest.approx(stored, rel=0.006)
 
 
+def test_inputs_rounded_to_single_precision_err_by_no_more_than_their_limits_allow():
+    found = {}
+    for name, problem in read_problems().items():
+        facts = problem.facts
+        rounded = np.float32([*(facts[key] for key in ("Ix", "Iz", "Mgl")), *facts["orientation"]])
+        Ix, Iz, Mgl, *q = rounded.astype(float)
+        q = np.array(q) / np.linalg.norm(q)
+        omega = np.float32(facts["angular_velocity"]).astype(float)
+        states = Motion(Top(Ix, Iz, Mgl), State(q, omega)).at(facts["times"])
+        found[name] = problem.score(*states).in_float32_limits.max()
+    # A limit is the root of the sum of squares of ten roundings of half an ulp. Their sum is at
+    # most sqrt(10) times that, as long as the effect is in proportion.
+    assert max(found.values()) < 10**0.5
+    # And the limits are no larger than they must be: the median is 0.1, the largest 0.95.
+    assert np.median(list(found.values())) > 0.05
+
+
 @pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
 def test_the_package_has_the_same_accelerations_forces_and_energies(setting):
     facts = PROBLEMS[setting.name]
