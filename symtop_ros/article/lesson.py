@@ -266,10 +266,15 @@ def write_lesson(folder: Path, sheets: bool = False) -> int:
 
 
 def picture_of(step: LessonStep) -> bytes:
-    """Return the picture of a step as a PNG with a palette, which has a third of the size."""
+    """Return the picture of a step as a PNG."""
+    return pack_figure(lambda: draw_step(step))
+
+
+def pack_figure(draw: Callable[[], Figure]) -> bytes:
+    """Return the picture of a figure as a PNG with a palette, which has a third of the size."""
     drawn, packed = io.BytesIO(), io.BytesIO()
     with rc_context(SETTINGS):
-        draw_step(step).savefig(drawn, dpi=RESOLUTION)
+        draw().savefig(drawn, dpi=RESOLUTION)
     with Image.open(drawn) as picture:
         picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
     return packed.getvalue()

@@ -2,7 +2,7 @@
 
 Each of the three begins below the tip of the one before. So the third ends below the pivot if the
 precession is steady, and the fourth, their sum, has no length. They lie at different depths below
-the pivot, so that none hides another.
+the pivot, and their sum above it, so that none hides another.
 """
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.physics import FrameTorques, State, Top, precessing_frame_torques
 
-DEPTHS = {"gravity": 0.13, "Coriolis": 0.20, "centrifugal": 0.27, "sum": 0.06}  # below the pivot
-LENGTH, LONGEST = 0.6, 2.0  # in scene units: of the largest at the start, and of any
+DEPTHS = {"gravity": 0.08, "Coriolis": 0.15, "centrifugal": 0.22, "sum": -0.08}  # below the pivot
+LENGTH, LONGEST = 1.0, 2.5  # in scene units: of the largest at the start, and of any
 
 
 def torques_of(top: Top, state: State) -> FrameTorques:

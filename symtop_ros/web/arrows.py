@@ -9,10 +9,10 @@ from viser import SceneApi
 from symtop_ros.arrays import Real
 
 Color = tuple[int, int, int]
-Side = Literal["bottom-left", "center-right", "center-left", "top-center"]
+Side = Literal["bottom-left", "center-right", "center-center", "top-center"]
 ZERO = np.zeros(3)
 SHORTEST = 0.02  # scene units; shorter arrows have no direction that can be seen
-LABEL_GAP = 0.06
+LABEL_GAP, MIDDLE_GAP = 0.06, 0.2  # from an arrow to the edge of its label, and to its middle
 
 
 class Arrow:
@@ -32,6 +32,7 @@ class Arrow:
         )
         # In the world and not in the frame of the arrow: viser places a label by the pose that its
         # parent had in the frame before.
+        self._gap = MIDDLE_GAP if side == "center-center" else LABEL_GAP
         self.label = scene.add_label(f"{node}/name", name, anchor=side) if name else None
 
     def draw(self, vector: Real, origin: Real = ZERO) -> None:
@@ -44,7 +45,7 @@ class Arrow:
             self._point(vector, length)
             self.handle.position = origin
             if self.label:
-                self.label.position = origin + vector * (1 + LABEL_GAP / length)
+                self.label.position = origin + vector * (1 + self._gap / length)
 
     def _point(self, vector: Real, length: float) -> None:
         """Turn the arrow, which is along z, into a vector (3,).

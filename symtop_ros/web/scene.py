@@ -46,7 +46,6 @@ SIDES: dict[str, Side] = {
 }
 FICTITIOUS = "fictitious torques"
 FICTITIOUS_COLORS = {"gravity": RED, "Coriolis": SKY, "centrifugal": INDIGO, "sum": MAGENTA}
-FICTITIOUS_SIDES: dict[str, Side] = {"Coriolis": "center-right"}  # it points to the other side
 LAYERS = (
     *LENGTHS,
     *("trace", "turning circles", "line of nodes", "ghost", "sphere", "handle", FICTITIOUS),
@@ -88,11 +87,7 @@ class Scene:
         }
         self._torques = {
             name: Arrow(
-                self._scene,
-                f"{layer_node(FICTITIOUS)}/{name}",
-                color,
-                name,
-                FICTITIOUS_SIDES.get(name, "center-left"),
+                self._scene, f"{layer_node(FICTITIOUS)}/{name}", color, name, "center-center"
             )
             for name, color in FICTITIOUS_COLORS.items()
         }
