@@ -302,7 +302,7 @@
     for (const [id, [column, color, least]] of Object.entries(SERIES)) {
       const isTilt = id === "theta";
       const all = isTilt ? [...shown.map((row) => row[1]), ...shown.map((row) => row[4] ?? NaN)] : shown.map((row) => row[column]);
-      const [low, high] = spread(all, least * Math.max(1, isTilt ? 1 : Math.abs(shown[0][column]) * 0.1));
+      const [low, high] = spread(all, Math.max(least, isTilt ? 0 : 0.02 * Math.abs(shown[0][column])));
       const frame = box(96, range, isTilt ? [high, low] : [low, high], 3, isTilt ? angle : (value) => value);
       const line = (k, style) => path(shown.map((row) => [frame.x(row[0]), row[k] === null ? NaN : frame.y(row[k])]), style);
       const marks = facts.marks.filter((time) => time >= begin && time <= now)
