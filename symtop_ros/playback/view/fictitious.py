@@ -11,6 +11,7 @@ from symtop_ros.playback.view.quantities import find_step
 from symtop_ros.playback.view.stream import Stream
 
 RATE = 60.0  # arrows per s of the clock
+GAP, RAISED = 0.3, 0.05  # of labels: beyond the tip, and up; the viewer draws them below a point
 COLORS = {"gravity": RED, "Coriolis": SKY, "centrifugal": GOLD, "sum": WHITE}
 EQUATION = "Ix \u03b8'' = gravity + Coriolis + centrifugal"
 
@@ -39,7 +40,9 @@ class FictitiousView:
         phi, theta, _, phi_dot, _, psi_dot = euler.numbers[::step].T
         torques = precessing_frame_torques(self._top, theta, phi_dot, psi_dot)
         for name, (origins, vectors) in place_arrows(torques, phi, self._scale).items():
-            entity, places = f"{entities.FICTITIOUS}/{name}", origins + 1.1 * vectors
-            # A label without its arrow would be read as one more force.
-            places[~vectors.any(axis=-1)] = np.nan
-            self._stream.send_arrows(entity, stamps, vectors, places, origins)
+            # The label of an arrow without length has no place: it would be read as a torque.
+            along = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+            places = origins + vectors + GAP * along + [0.0, 0.0, RAISED]
+            self._stream.send_arrows(
+                f"{entities.FICTITIOUS}/{name}", stamps, vectors, places, origins
+            )
