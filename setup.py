@@ -95,7 +95,10 @@ KERNEL = Extension(
     sources=[f"{NAME}/physics/kernel/module.cpp"],
     depends=glob(f"{NAME}/physics/kernel/*.hpp"),
     language="c++",
-    extra_compile_args=["-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"],
+    extra_compile_args=[
+        *("-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),
+        "-Wno-psabi",  # vectors are passed between inlined functions only
+    ],
     py_limited_api=True,
     optional=True,
 )

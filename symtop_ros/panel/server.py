@@ -10,45 +10,32 @@ no other server, nor stand in a frame of another page.
 import asyncio
 import base64
 import contextlib
-import dataclasses
 import functools
 import gzip
 import hashlib
 import http
 import io
 import ipaddress
-import logging
 import re
 import socket
-import warnings
-from collections import deque
-from collections.abc import Awaitable, Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from urllib.parse import parse_qs, urlsplit
 
 import viser
-import viser.infra._infra as viser_infra
-import websockets.asyncio.server
-from viser.infra._async_message_buffer import AsyncMessageBuffer
-from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from symtop_ros.panel.serving import SCENE, Serve, serving
 from symtop_ros.web.page import HIDING, write_page
 
 LOCAL_HOST = "127.0.0.1"  # viser's default is to listen on all networks
 LOCAL_NAMES = ("localhost", "127.0.0.1", "::1")
 ALL_NETWORKS = ("0.0.0.0", "::")  # no addresses that a browser can open
-CONTROLS, SCENE = "/controls/", "/scene/"  # of the WebSockets, before the name of a page
-# Messages to one page that it has not acknowledged. More of them would be old when they arrive.
-MOST_SENT = 6
 # Requests by which a user came to a page from nowhere else; pages of other sites cannot claim it.
 TRUSTED = ("none", "same-origin")
 SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
-# A page may be closed while a message for it is made: viser warns of it, and nothing is lost.
-warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
-Serve = Callable[[ServerConnection, str], Awaitable[None]]
 
 
 class File(NamedTuple):
@@ -61,30 +48,6 @@ class File(NamedTuple):
 Files = Mapping[str, Callable[[str], File | None]]  # by path; they take the name of the page
 
 
-class LoopEvent(asyncio.Event):
-    """An event that other threads do not set.
-
-    Viser sets the event of a new message in the thread that draws, and then once more in the loop.
-    The first may fail, or leave a page without its messages for ever, if the loop begins to wait
-    at the same moment: events of asyncio belong to one thread.
-    """
-
-    def set(self) -> None:
-        """Set the event in a thread with a loop, and do nothing in others."""
-        if asyncio._get_running_loop() is not None:
-            super().set()
-
-
-@dataclasses.dataclass
-class Buffer(AsyncMessageBuffer):
-    """Viser's messages to its pages, which may be written in any thread."""
-
-    message_event: asyncio.Event = dataclasses.field(default_factory=LoopEvent)
-
-
-vars(viser_infra)["AsyncMessageBuffer"] = Buffer  # a name by which viser makes its buffers
-
-
 class PageServer(viser.ViserServer):
     """Viser's server, on one address and port, for its own pages only."""
 
@@ -94,7 +57,7 @@ class PageServer(viser.ViserServer):
         guard = Guard({host, *LOCAL_NAMES, socket.gethostname()}, files)
         # Viser takes the next free port if one is taken, and has no argument for the checks: both
         # are arguments of the call by which it starts its WebSocket server.
-        with _serving(listener, guard, serve), contextlib.redirect_stdout(io.StringIO()):
+        with serving(listener, guard.answer, serve), contextlib.redirect_stdout(io.StringIO()):
             super().__init__(host, port, label="Heavy symmetric top", verbose=False)
 
     def page_of(self, client: int) -> str:
@@ -183,63 +146,6 @@ def _is_address(name: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-@contextlib.contextmanager
-def _serving(listener: socket.socket, guard: Guard, controls: Serve) -> Iterator[None]:
-    """In this context, let viser serve on an open socket and ask the guard first."""
-    original: Any = websockets.asyncio.server.serve
-
-    def serve(scene: Any, _host: str, _port: int, **options: Any) -> Any:
-        async def process(_: ServerConnection, request: Request) -> Response | None:
-            return await guard.answer(request)
-
-        async def handle(connection: ServerConnection) -> None:
-            path = connection.request.path if connection.request else ""
-            _pace(connection)
-            if path.startswith(CONTROLS):
-                await controls(connection, path.removeprefix(CONTROLS))
-            else:
-                await scene(connection)
-
-        def select(connection: ServerConnection, protocols: Any) -> Any:
-            return choose(connection, protocols) if protocols else None
-
-        choose = options.pop("select_subprotocol")
-        options |= {"process_request": process, "select_subprotocol": select}
-        return original(handle, sock=listener, logger=_quiet(), **options)
-
-    websockets.asyncio.server.serve = serve  # type: ignore[misc, assignment]
-    try:
-        yield
-    finally:
-        websockets.asyncio.server.serve = original  # type: ignore[misc]
-
-
-def _pace(connection: ServerConnection) -> None:
-    """Let each message wait until the page has received all but the last few before it.
-
-    Sockets and networks keep megabytes: a page behind a slow line would see what was seconds ago.
-    The browser answers a ping when it has received what was sent before it. While a message waits,
-    newer ones of viser replace the older ones of their kind.
-    """
-    send, sent = connection.send, deque[Awaitable[float]]()
-
-    async def paced(message: Any, **options: Any) -> None:
-        while len(sent) >= MOST_SENT:
-            await asyncio.wait_for(asyncio.shield(sent.popleft()), None)
-        await send(message, **options)
-        sent.append(await connection.ping())
-
-    connection.send = paced  # type: ignore[method-assign, assignment]
-
-
-def _quiet() -> logging.Logger:
-    """Return a logger that writes nothing: a peer that hangs up would be reported at length."""
-    logger = logging.getLogger(__name__)
-    logger.addHandler(logging.NullHandler())
-    logger.propagate = False
-    return logger
 
 
 def _send_page(page: str, address: str, packed: bool, framed: bool) -> Response:

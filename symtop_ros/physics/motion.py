@@ -247,19 +247,22 @@ class Motion:
         count = math.prod(times.shape)
         flat = times if isinstance(times, ExactTimes) else times.reshape(-1)
         orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
-        angular_velocity[:, 2] = self._spin
-        for first in range(0, count, BLOCK):
+        if not self._fill_compiled(flat, orientation, angular_velocity):
+            self._fill_in_blocks(flat, orientation, angular_velocity)
+        return _wrap(orientation, angular_velocity, times.shape)
+
+    def _fill_in_blocks(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> None:
+        """Write the states at times (n,) by NumPy, in blocks that fit into a processor's cache."""
+        omega[:, 2] = self._spin
+        for first in range(0, len(orientation), BLOCK):
             block = slice(first, first + BLOCK)
-            part = flat.select(block) if isinstance(flat, ExactTimes) else flat[block]
-            if self._fill_compiled(part, orientation[block], angular_velocity[block]):
-                continue
+            part = times.select(block) if isinstance(times, ExactTimes) else times[block]
             # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
             with np.errstate(under="ignore"):
                 columns = self._evaluate(part)
             for k, column in enumerate(columns[:4]):
                 orientation[block, k] = column
-            angular_velocity[block, 0], angular_velocity[block, 1] = columns[4:]
-        return _wrap(orientation, angular_velocity, times.shape)
+            omega[block, 0], omega[block, 1] = columns[4:]
 
     def _compute_members(self, times: float | Real | ExactTimes) -> State:
         """Return the states of many motions: from the kernel, or one motion after the other."""
@@ -506,7 +509,9 @@ def _validate_torque(torque: Any) -> Any:
 
 
 def _validate_times(t: Any) -> float | Real:
-    if type(t) is float and math.isfinite(t):  # the common case
+    if type(t) is float and math.isfinite(t):  # the common cases: no copy
+        return t
+    if type(t) is np.ndarray and t.dtype == np.float64 and t.ndim and np.isfinite(t).all():
         return t
     array = validate_array("t", t, unit="s")
     return array if array.ndim else float(array)

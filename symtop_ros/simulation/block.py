@@ -1,6 +1,6 @@
 """Samples of consecutive stamps, computed together: in arrays each costs a fraction."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -12,8 +12,8 @@ from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 class Block:
     """The samples of a segment at some stamps.
 
-    A topic is computed when it is first asked for. In the blocks made by `continue_with` it is then
-    computed at once, so that its numbers are ready when their tick is due.
+    A topic is computed when it is first asked for, if it is not computed before. `work_ahead`
+    computes the next block piece by piece, so that no tick has to compute it as a whole.
     """
 
     def __init__(self, segment: Segment, stamps: Sequence[int]) -> None:
@@ -22,14 +22,32 @@ class Block:
         self.last, self.length = stamps[-1] if stamps else 0, len(stamps)
         self._row = {stamp: row for row, stamp in enumerate(stamps)}
         self._numbers: dict[str, list[list[float]]] = {}
-        self._requested: set[str] = set()
+        self._requested: dict[str, None] = {}  # topics in their order
+        self._due: list[str] = []  # topics that will be asked for
+        self.next: Block | None = None
 
     def continue_with(self, segment: Segment, stamps: Sequence[int]) -> "Block":
-        """Return the next block, with the topics computed that were requested from this one."""
+        """Return the next block; the topics that were requested from this one are due in it."""
         block = Block(segment, stamps)
-        for name in self._requested:
-            block._compute(name)
+        block._due = list(self._requested)
         return block
+
+    def compute(self) -> "Block":
+        """Compute all topics that are due; return the block."""
+        while self._due:
+            self._compute(self._due.pop())
+        return self
+
+    def work_ahead(self, stamps: Callable[[], Sequence[int]]) -> None:
+        """Compute a topic of the next block, which has these stamps; first of all its states."""
+        if self.next is None:
+            self.next = self.continue_with(self.segment, stamps())
+        elif not (self.next._due and self.next.length):
+            return
+        elif "_samples" not in vars(self.next):
+            _ = self.next._samples
+        else:
+            self.next._compute(self.next._due.pop())
 
     def covers(self, segment: Segment, stamp: int) -> bool:
         """Return True if the block has the sample of a segment at a stamp."""
@@ -37,7 +55,7 @@ class Block:
 
     def numbers(self, topic: str, stamp: int) -> list[float]:
         """Return the doubles of a topic (named as in `SAMPLE_TOPICS`) at a stamp."""
-        self._requested.add(topic)
+        self._requested[topic] = None
         if topic not in self._numbers:
             self._compute(topic)
         return self._numbers[topic][self._row[stamp]]

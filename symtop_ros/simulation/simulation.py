@@ -184,9 +184,11 @@ class Simulation:
         with self._lock:
             self._follow_jump()
             self._release_torque()
-            # The next block is computed now, so that it is ready when its stamps are due.
+            # What is left of the next block is computed now, so that it is ready when it is due.
             if not (self._publish() and self._work_on_block()):
                 return AT_ONCE
+            if not self.segment.motion.is_driven:  # else a block takes some steps of integration
+                self._block.work_ahead(self._list_later_stamps)
             return self._find_wait()
 
     def _find_wait(self) -> float | None:
@@ -215,21 +217,28 @@ class Simulation:
 
     def _work_on_block(self) -> bool:
         """Work towards the samples of the next stamps; return True when they are ready."""
-        if self._block.covers(self.segment, self.stamp):
-            return True
-        stamps = self._list_next_stamps()
+        for block in (self._block, self._block.next):
+            if block and block.covers(self.segment, self.stamp):
+                self._block = block.compute()
+                return True
+        stamps = self._list_stamps(self.stamp)
         if not stamps:  # the torque ends with the next turn
             return False
         ready = self._prepare(stamps[-1])
         if ready:
-            self._block = self._block.continue_with(self.segment, stamps)
+            self._block = self._block.continue_with(self.segment, stamps).compute()
         else:
             self._check_pace(stamps[0])
         return ready
 
-    def _list_next_stamps(self) -> list[int]:
-        """Return the stamps of the next block; none if the held torque ends before the first."""
-        stamps = self.ticker.grid(self.stamp, self._next_block_length())
+    def _list_later_stamps(self) -> list[int]:
+        """Return the stamps of the block after the present one."""
+        _, first = self.ticker.grid(self._block.last, 2)
+        return self._list_stamps(first)
+
+    def _list_stamps(self, first: int) -> list[int]:
+        """Return the stamps of a block; none if the held torque ends before the first."""
+        stamps = self.ticker.grid(first, self._next_block_length())
         if any(self.timeline.held_torque):
             stamps = [each for each in stamps if each < self.timeline.torque_end]
         return stamps

@@ -42,11 +42,11 @@ def address(server):
     return server.url.removeprefix("http://")
 
 
-def ask(server, path="/", **headers):
+def ask(server, path="/", method="GET", **headers):
     """Status, headers and content of the answer to a request."""
     connection = http.client.HTTPConnection(address(server), timeout=10)
     named = {name.replace("_", "-"): value for name, value in headers.items()}
-    connection.request("GET", path, headers={"Host": address(server), **named})
+    connection.request(method, path, headers={"Host": address(server), **named})
     with contextlib.closing(connection):
         answer = connection.getresponse()
         return answer.status, dict(answer.getheaders()), answer.read()
@@ -155,6 +155,14 @@ def test_compressed_and_plain_pages_are_the_same(started):
     _, headers, content = ask(server, "/index.html", Accept_Encoding="gzip")
     assert headers["Content-Encoding"] == "gzip"
     assert gzip.decompress(content) == ask(server, Accept_Encoding="identity")[2]
+
+
+@pytest.mark.parametrize(("path", "status"), [("/", 200), ("/scene", 200), ("/nowhere", 404)])
+def test_head_is_the_same_answer_without_its_content(started, path, status):
+    server, _ = started
+    found, headers, content = ask(server, path)
+    assert (found, len(content)) == (status, int(headers["Content-Length"]))
+    assert ask(server, path, "HEAD") == (status, headers, b"")
 
 
 def test_a_file_is_for_this_page(started):

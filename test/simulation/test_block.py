@@ -47,9 +47,28 @@ def test_a_topic_that_is_not_requested_is_not_computed(monkeypatch):
     for stamp in STAMPS:
         assert np.isfinite(block.numbers("torque", stamp)).all()
     assert computed == ["torque"]
-    after = block.continue_with(SEGMENTS["taylor"], STAMPS)
+    after = block.continue_with(SEGMENTS["taylor"], STAMPS).compute()
     assert computed == ["torque", "torque"]
     after.numbers("torque", STAMPS[0])
     assert computed == ["torque", "torque"]
-    after.continue_with(SEGMENTS["taylor"], STAMPS)
+    after.continue_with(SEGMENTS["taylor"], STAMPS).compute()
     assert len(computed) == 3
+
+
+def test_the_next_block_is_computed_a_topic_at_a_time(monkeypatch):
+    computed = []
+    for name, topic in STATE_TOPICS.items():
+        compute = topic.compute
+        spy = replace(topic, compute=lambda *a, n=name, f=compute: computed.append(n) or f(*a))
+        monkeypatch.setitem(SAMPLE_TOPICS, name, spy)
+    segment, later = SEGMENTS["closed form"], [stamp + 10**8 for stamp in STAMPS]
+    block = Block(segment, STAMPS)
+    for name in STATE_TOPICS:
+        block.numbers(name, STAMPS[0])
+    del computed[:]
+    for count in range(-2, len(STATE_TOPICS) + 1):
+        assert len(computed) == max(0, count)
+        block.work_ahead(lambda: later)
+    assert sorted(computed) == sorted(STATE_TOPICS)
+    for name in STATE_TOPICS:
+        assert block.next.numbers(name, later[3]) == Block(segment, later).numbers(name, later[3])

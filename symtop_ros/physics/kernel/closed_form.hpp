@@ -339,13 +339,15 @@ inline Steps find_steps(const Precise* rates, int count) {
   return steps;
 }
 
-struct Phase {
-  int64_t turns;  // in units of 2^-64 turns
-  double rest;    // to be added, in rad
+template <class R>
+struct PhaseOf {
+  Integer<R> turns;  // in units of 2^-64 turns, with sign
+  R rest;            // to be added, in rad
 };
+typedef PhaseOf<double> Phase;
 
 // _Counts.multiply
-inline int64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
+inline uint64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
   const uint64_t size = count < 0 ? -static_cast<uint64_t>(count) : count;
   const uint64_t whole = limbs[3], upper = limbs[2] >> 32, lower = limbs[2] & 0xffffffff;
   const uint64_t above = size >> 32, below = size & 0xffffffff;
@@ -353,7 +355,7 @@ inline int64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
   turns += above * upper;
   turns += (above * lower) >> 32;
   turns += (below * upper) >> 32;
-  return static_cast<int64_t>(count < 0 ? -turns : turns);
+  return count < 0 ? -turns : turns;
 }
 
 // Phases.at
@@ -365,14 +367,16 @@ inline void find_phases(const Steps& steps, int number, double t, Phase* phases)
 }
 
 // Phase.radians
-inline Pair find_radians(const Phase& phase) {
+template <class R>
+SYMTOP_INLINE PairOf<R> find_radians(const PhaseOf<R>& phase) {
   const double TWO_PI_HIGH = 4 * QUARTER_HIGH, TWO_PI_LOW = 4 * QUARTER_LOW;
-  double small = static_cast<double>(phase.turns & ((int64_t(1) << 37) - 1)) * (2 * PI * 0x1p-64);
-  const double units = static_cast<double>(phase.turns >> 37) * 0x1p-27;
-  const double coarse = units * TWO_PI_HIGH;
+  const uint64_t LOWER = (uint64_t(1) << 37) - 1;
+  R small = to_double(phase.turns & LOWER) * (2 * PI * 0x1p-64);
+  const R units = to_double(phase.turns & ~LOWER) * 0x1p-64;
+  const R coarse = units * TWO_PI_HIGH;
   small += units * TWO_PI_LOW;
   small += phase.rest;
-  const double high = coarse + small;
+  const R high = coarse + small;
   return {high, (coarse - high) + small};
 }
 
@@ -380,24 +384,28 @@ const int ENTRIES = 512;
 static double ROWS[ENTRIES][4];  // cosines, sines and their rests: set by the module from phases.py
 
 // Phase.unit
-inline Pair find_unit(const Phase& phase) {
-  const uint64_t shifted = static_cast<uint64_t>(phase.turns) + (uint64_t(1) << 54);
-  const double* row = ROWS[(shifted >> 55) & (ENTRIES - 1)];
-  const int64_t part = static_cast<int64_t>(shifted & ((uint64_t(1) << 55) - 1));
-  double angle = static_cast<double>(part - (int64_t(1) << 54)) * (2 * PI * 0x1p-64);
+template <class R>
+SYMTOP_INLINE PairOf<R> find_unit(const PhaseOf<R>& phase) {
+  const Integer<R> shifted = phase.turns + (uint64_t(1) << 54);
+  R row[4];
+  read_row(ROWS, (shifted >> 55) & (ENTRIES - 1), row);
+  const Integer<R> part = shifted & ((uint64_t(1) << 55) - 1);
+  R angle = to_double(part - (uint64_t(1) << 54)) * (2 * PI * 0x1p-64);
   angle += phase.rest;
-  const double square = angle * angle;
-  const double s = angle + angle * (square * (square * (1.0 / 120) - 1.0 / 6));
-  const double versine = square * (0.5 - square * (1.0 / 24 - square * (1.0 / 720)));
+  const R square = angle * angle;
+  const R s = angle + angle * (square * (square * (1.0 / 120) - 1.0 / 6));
+  const R versine = square * (0.5 - square * (1.0 / 24 - square * (1.0 / 720)));
   return {row[0] + (row[2] - (row[0] * versine + row[1] * s)),
           row[1] + (row[3] + (row[0] * s - row[1] * versine))};
 }
 
 // ---- nutation_phase.py --------------------------------------------------------------------------
 
-struct Location {
-  double x, below, above, low;
+template <class R>
+struct LocationOf {
+  R x, below, above, low;
 };
+typedef LocationOf<double> Location;
 
 struct NutationPhase {
   double Omega, K, Kc;
@@ -412,38 +420,40 @@ struct NutationPhase {
     return {0.0, 0.0, PI * (1.0 > K / Kc ? 1.0 : K / Kc), 0.0};
   }
 
-  Location locate(double t, double high, double low) const {
+  template <class R>
+  SYMTOP_INLINE LocationOf<R> locate(R t, R high, R low) const {
     if (is_separatrix) {
-      const double longest = 1e6 / Omega;
-      double seconds = t < longest ? t : longest;
-      seconds = seconds < -longest ? -longest : seconds;
-      const double y = origin.x + 2 * Omega * seconds;
-      return {0.0 * y, y, INFINITY, 0.0};
+      const R longest = repeat<R>(1e6 / Omega);
+      R seconds = choose(t < longest, t, longest);
+      seconds = choose(seconds < -longest, -longest, seconds);
+      const R y = origin.x + 2 * Omega * seconds;
+      return {0.0 * y, y, repeat<R>(INFINITY), R{}};
     }
-    double total = high + origin.x;
-    const double part = total - high;
-    double error = (high - (total - part)) + (origin.x - part) + (low + origin.y);
-    const double turns = round_to_integer(total / (2 * PI));
+    R total = high + origin.x;
+    const R part = total - high;
+    R error = (high - (total - part)) + (origin.x - part) + (low + origin.y);
+    const R turns = round_to_integer(total / (2 * PI));
     total = total - turns * (2 * PI_HIGH);
     error = error - turns * (2 * PI_LOW);
-    const double sign = find_sign(total), distance = std::fabs(total);
-    const Pair near = {distance, sign * error}, far = {PI_HIGH - distance, PI_LOW - near.y};
-    const Pair below = from_top ? far : near, above = from_top ? near : far;
-    const double x = (below.x + below.y) * (from_top ? -sign : sign);
-    if (is_direct()) return {x, x, above.x + above.y, 0.0};
+    const R sign = find_sign(total), distance = find_size(total);
+    const PairOf<R> near = {distance, sign * error}, far = {PI_HIGH - distance, PI_LOW - near.y};
+    const PairOf<R> below = from_top ? far : near, above = from_top ? near : far;
+    const R x = (below.x + below.y) * (from_top ? -sign : sign);
+    if (is_direct()) return {x, x, above.x + above.y, R{}};
     return stretch(x, below, above);
   }
 
-  Location stretch(double x, Pair below, Pair above) const {
-    const double y = x * ratio, rise = (above.x + above.y) * ratio;
-    if (!is_stretched) return {x, y, rise, 0.0};
-    const bool is_upper = rise < std::fabs(y);
-    const double high = is_upper ? above.x : -below.x, low = is_upper ? above.y : -below.y;
+  template <class R>
+  SYMTOP_INLINE LocationOf<R> stretch(R x, PairOf<R> below, PairOf<R> above) const {
+    const R y = x * ratio, rise = (above.x + above.y) * ratio;
+    if (!is_stretched) return {x, y, rise, R{}};
+    const auto is_upper = rise < find_size(y);
+    const R high = choose(is_upper, above.x, -below.x), low = choose(is_upper, above.y, -below.y);
     // find_rest
-    const double product = (high + low) * ratio, shifted = 134217729.0 * high;
-    const double upper = shifted - (shifted - high), lower = high - upper;
-    const double rest = ((upper * ratio_high - product) + lower * ratio_high) +
-                        (high * ratio_low + low * ratio_high);
+    const R product = (high + low) * ratio, shifted = 134217729.0 * high;
+    const R upper = shifted - (shifted - high), lower = high - upper;
+    const R rest = ((upper * ratio_high - product) + lower * ratio_high) +
+                   (high * ratio_low + low * ratio_high);
     return {x, y, rise, rest};
   }
 };
@@ -571,40 +581,45 @@ struct DirectSeries {
     collect(DIVISOR, sum);
   }
 
-  static double add(const double* coefficients, const double* basis, int count) {
-    double total = coefficients[0] * basis[0];
+  template <class R>
+  static SYMTOP_INLINE R add(const double* coefficients, const R* basis, int count) {
+    R total = coefficients[0] * basis[0];
     for (int n = 1; n < count; n++) total = total + coefficients[n] * basis[n];
     return total;
   }
 
-  void compute_values(const Location& at, Pair values[FUNCTIONS]) const {
+  template <class R>
+  SYMTOP_INLINE void compute_values(const LocationOf<R>& at, PairOf<R> values[FUNCTIONS]) const {
     // _find_half_angle
-    const double distance = std::fabs(at.x);
-    const bool is_lower = distance < at.above;
-    const Pair near = cosine_and_sine_near_0(0.5 * (is_lower ? distance : at.above), 0.0);
-    const double s = find_sign(at.x) * (is_lower ? near.y : near.x), c = is_lower ? near.x : near.y;
-    const double sine_x = 2 * s * c, cosine_x = (c - s) * (c + s);
+    const R distance = find_size(at.x);
+    const auto is_lower = distance < at.above;
+    const PairOf<R> near =
+        cosine_and_sine_near_0<R>(0.5 * choose(is_lower, distance, at.above), R{});
+    const R s = find_sign(at.x) * choose(is_lower, near.y, near.x);
+    const R c = choose(is_lower, near.x, near.y);
+    const R sine_x = 2 * s * c, cosine_x = (c - s) * (c + s);
     // _list_versines and _list_sines
-    double below[5] = {1.0, s * s}, above[5] = {1.0, c * c}, sines[4] = {sine_x};
+    const R one = repeat<R>(1.0);
+    R below[5] = {one, s * s}, above[5] = {one, c * c}, sines[4] = {sine_x};
     if (order > 1) {
       below[2] = above[2] = below[1] * above[1];
       sines[1] = 2 * sine_x * cosine_x;
     }
     if (order > 2) {
-      double triple = 3 - 4 * below[1];
+      R triple = 3 - 4 * below[1];
       below[3] = below[1] * (triple * triple);
       triple = 3 - 4 * above[1];
       above[3] = above[1] * (triple * triple);
-      const double square = 4 * cosine_x * cosine_x;
+      const R square = 4 * cosine_x * cosine_x;
       sines[2] = sine_x * (square - 1);
       sines[3] = sines[1] * (square - 2);
     }
     if (order > 3) below[4] = above[4] = below[2] * (cosine_x * cosine_x);
-    const double per_divisor = 1 / add(versines[DIVISOR], below, order + 1);
+    const R per_divisor = 1 / add(versines[DIVISOR], below, order + 1);
     for (int k = 0; k < FUNCTIONS; k++)
       values[k] = {add(versines[k], is_below(k) ? below : above, order + 1) * per_divisor,
                    add(odd[k], sines, order) * per_divisor};
-    const Pair turn = {cosine_x, winding < 0 ? sine_x : -sine_x};
+    const PairOf<R> turn = {cosine_x, winding < 0 ? sine_x : -sine_x};
     for (int n = 0; n < (winding < 0 ? -winding : winding); n++)
       values[OF_OMEGA_XY] = multiply(values[OF_OMEGA_XY], turn);
   }
@@ -634,7 +649,8 @@ struct DirectSeries {
 struct Exponentials {
   double rising[5], falling[4];
 
-  double sum(double h, double E) const {
+  template <class R>
+  SYMTOP_INLINE R sum(R h, R E) const {
     const double *c = rising, *d = falling;
     return c[0] + (h * (c[1] + h * (c[2] + h * (c[3] + h * c[4]))) +
                    E * (d[0] + E * (d[1] + E * (d[2] + E * d[3]))));
@@ -647,8 +663,9 @@ struct Exponentials {
   }
 };
 
-struct Basis {
-  double sign, decay, h, E, rising_gap, falling_gap, divisor;
+template <class R>
+struct BasisOf {
+  R sign, decay, h, E, rising_gap, falling_gap, divisor;
 };
 
 struct ComplementarySeries {
@@ -695,38 +712,43 @@ struct ComplementarySeries {
   }
 
   // _find_basis and _find_decay
-  Basis find_basis(const Location& at) const {
-    const double distance = std::fabs(at.below);
-    const bool is_upper = at.above < distance;
-    double decay = (is_upper ? root : 1.0) * exponential((is_upper ? at.above : -distance) / 2);
+  template <class R>
+  SYMTOP_INLINE BasisOf<R> find_basis(const LocationOf<R>& at) const {
+    const R distance = find_size(at.below);
+    const auto is_upper = at.above < distance;
+    R decay = choose(is_upper, repeat<R>(root), repeat<R>(1.0)) *
+              exponential<R>(choose(is_upper, at.above, -distance) / 2);
     decay = decay + decay * (0.5 * at.low);
-    const Pair rise = expand_exponential(-at.above);
-    const double h = rise.x + rise.x * rise.y, E = decay * decay;
+    const PairOf<R> rise = expand_exponential<R>(-at.above);
+    const R h = rise.x + rise.x * rise.y, E = decay * decay;
     return {find_sign(at.below), decay, h, E, (1.0 - rise.x) - rise.x * rise.y,
-            -exponential_minus_1(-distance), theta_4.sum(h, E)};
+            -exponential_minus_1<R>(-distance), theta_4.sum(h, E)};
   }
 
   // _sum_cofactor
-  Pair sum_cofactor(int k, const Basis& basis) const {
+  template <class R>
+  SYMTOP_INLINE PairOf<R> sum_cofactor(int k, const BasisOf<R>& basis) const {
     return {real[k].sum(basis.h, basis.E), basis.sign * imaginary[k].sum(basis.h, basis.E)};
   }
 
   // _compute_one_minus_w
-  Pair compute_one_minus_w(int k, const Basis& basis) const {
+  template <class R>
+  SYMTOP_INLINE PairOf<R> compute_one_minus_w(int k, const BasisOf<R>& basis) const {
     if (is_below(k))
       return {versine[k] * basis.E + basis.falling_gap, -sine[k] * (basis.sign * basis.E)};
     return {versine[k] * basis.h + basis.rising_gap, sine[k] * (basis.sign * basis.h)};
   }
 
-  void compute_values(const Location& at, Pair values[FUNCTIONS]) const {
-    const Basis basis = find_basis(at);
+  template <class R>
+  SYMTOP_INLINE void compute_values(const LocationOf<R>& at, PairOf<R> values[FUNCTIONS]) const {
+    const BasisOf<R> basis = find_basis(at);
     for (int k = 0; k < FUNCTIONS; k++) {
-      const double size = (is_below(k) ? 1 : basis.decay) / basis.divisor;
-      double phase = (angle[k] / (2 * PI) + winding_of(k)) * at.x;
+      const R size = (is_below(k) ? repeat<R>(1.0) : basis.decay) / basis.divisor;
+      R phase = (angle[k] / (2 * PI) + winding_of(k)) * at.x;
       if (is_below(k)) phase = phase - basis.sign * (0.5 * angle[k]);
-      const Pair numerator = multiply(sum_cofactor(k, basis), compute_one_minus_w(k, basis));
-      const Pair unit = cosine_and_sine(phase);
-      values[k] = multiply(numerator, {size * unit.x, -size * unit.y});
+      const PairOf<R> numerator = multiply(sum_cofactor(k, basis), compute_one_minus_w(k, basis));
+      const PairOf<R> unit = cosine_and_sine(phase);
+      values[k] = multiply(numerator, PairOf<R>{size * unit.x, -size * unit.y});
     }
   }
 
@@ -735,7 +757,7 @@ struct ComplementarySeries {
     compute_values(at, values);
     at.low = 0.0;
     const Pair value = values[k];
-    const Basis basis = find_basis(at);
+    const BasisOf<double> basis = find_basis(at);
     const double sign = basis.sign, h = basis.h, E = basis.E;
     const Pair factor = compute_one_minus_w(k, basis), cofactor = sum_cofactor(k, basis);
     const Pair cofactor_slope = {real[k].slope(h, E), sign * imaginary[k].slope(h, E)};
@@ -747,7 +769,7 @@ struct ComplementarySeries {
     const Pair unit = cosine_and_sine(phase);
     const double size = (is_below(k) ? 1.0 : basis.decay) / basis.divisor;
     const Pair sum = {first.x + second.x, first.y + second.y};
-    const Pair rate = multiply(sum, {size * unit.x, -size * unit.y});
+    const Pair rate = multiply(sum, Pair{size * unit.x, -size * unit.y});
     const double falling = theta_4.slope(h, E) / basis.divisor + (is_below(k) ? 0.0 : 0.5);
     const double in_y = sign * PI / Kc, in_x = PI / K * turn;
     return {in_y * (rate.x - value.x * falling) + in_x * value.y,
@@ -840,9 +862,11 @@ struct FirstInstants {
 
 // ---- closed_form.py -----------------------------------------------------------------------------
 
-struct Attitude {  // a state without omega_z, which is constant
-  double w, x, y, z, omega_x, omega_y;
+template <class R>
+struct AttitudeOf {  // a state without omega_z, which is constant
+  R w, x, y, z, omega_x, omega_y;
 };
+typedef AttitudeOf<double> Attitude;
 
 struct ClosedForm {
   Start start;
@@ -892,7 +916,8 @@ struct ClosedForm {
     find_factors(n, zeros, means);
   }
 
-  void compute_series(const Location& at, Pair values[FUNCTIONS]) const {
+  template <class R>
+  SYMTOP_INLINE void compute_series(const LocationOf<R>& at, PairOf<R> values[FUNCTIONS]) const {
     if (nutation_phase.is_direct())
       direct.compute_values(at, values);
     else
@@ -955,12 +980,14 @@ struct ClosedForm {
   }
 
   // _evaluate
-  void evaluate(double t, const Phase phases[FUNCTIONS], Pair values[FUNCTIONS]) const {
-    const Pair radians = find_radians(phases[0]);
-    const Location at = nutation_phase.locate(t, radians.x, radians.y);
-    const Pair turn_A = find_unit(phases[1]), turn_B = find_unit(phases[2]);
-    const Pair turn_omega = multiply_by_conjugate(turn_B, turn_A);
-    Pair series[FUNCTIONS];
+  template <class R>
+  SYMTOP_INLINE void evaluate(R t, const PhaseOf<R> phases[FUNCTIONS],
+                              PairOf<R> values[FUNCTIONS]) const {
+    const PairOf<R> radians = find_radians(phases[0]);
+    const LocationOf<R> at = nutation_phase.locate(t, radians.x, radians.y);
+    const PairOf<R> turn_A = find_unit(phases[1]), turn_B = find_unit(phases[2]);
+    const PairOf<R> turn_omega = multiply_by_conjugate(turn_B, turn_A);
+    PairOf<R> series[FUNCTIONS];
     compute_series(at, series);
     values[OF_A] = multiply(multiply(factors[OF_A], series[OF_A]), turn_A);
     values[OF_B] = multiply(multiply(factors[OF_B], series[OF_B]), turn_B);
@@ -969,15 +996,16 @@ struct ClosedForm {
   }
 
   // Motion._evaluate
-  Attitude complete(const Pair values[FUNCTIONS]) const {
-    double w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
+  template <class R>
+  SYMTOP_INLINE AttitudeOf<R> complete(const PairOf<R> values[FUNCTIONS]) const {
+    R w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
     if (is_turned_over) {
-      const double w_before = w, y_before = y;
+      const R w_before = w, y_before = y;
       w = x, x = -w_before, y = z, z = -y_before;
     }
-    const double upper = w * w + z * z, lower = x * x + y * y;
-    const double step = 0.5 - 0.5 * (upper + lower), share = step * (upper - lower);
-    const double of_B = step - upper * share, of_A = of_B + share;
+    const R upper = w * w + z * z, lower = x * x + y * y;
+    const R step = 0.5 - 0.5 * (upper + lower), share = step * (upper - lower);
+    const R of_B = step - upper * share, of_A = of_B + share;
     return {w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, values[OF_OMEGA_XY].x,
             values[OF_OMEGA_XY].y};
   }

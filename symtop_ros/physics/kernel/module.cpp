@@ -6,7 +6,7 @@
 
 #include <new>
 
-#include "closed_form.hpp"
+#include "blocks.hpp"
 #include "driven.hpp"
 
 using namespace symtop;
@@ -70,12 +70,6 @@ PyObject* allocate(PyTypeObject* type) {
   return PyErr_NoMemory();
 }
 
-void write(const Attitude& state, double omega_z, double* orientation, double* omega) {
-  orientation[0] = state.w, orientation[1] = state.x, orientation[2] = state.y;
-  orientation[3] = state.z;
-  omega[0] = state.omega_x, omega[1] = state.omega_y, omega[2] = omega_z;
-}
-
 Start read_start(const double* s) {
   return {s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9]};
 }
@@ -103,15 +97,6 @@ PyObject* closed_form_at(PyObject* self, PyObject* time) {
   return Py_BuildValue("(dddddd)", s.w, s.x, s.y, s.z, s.omega_x, s.omega_y);
 }
 
-bool fill(ClosedForm& motion, const double* times, Py_ssize_t count, double* orientation,
-          double* omega) {
-  for (Py_ssize_t i = 0; i < count; i++) {
-    if (motion.is_far(times[i])) return false;
-    write(motion.at(times[i]), motion.start.wz, orientation + 4 * i, omega + 3 * i);
-  }
-  return true;
-}
-
 // fill(times, orientation, omega): False if a time is too far
 PyObject* closed_form_fill(PyObject* self, PyObject* arguments) {
   PyObject *times, *orientation, *omega;
@@ -125,15 +110,13 @@ PyObject* closed_form_fill(PyObject* self, PyObject* arguments) {
   motion.prepare_first_instants();  // now, because threads may share the motion
   bool is_near = false;
   Py_BEGIN_ALLOW_THREADS
-  is_near = fill(motion, from, count, to, to_rates);
+  is_near = fill(motion, from, count, {to, to_rates});
   Py_END_ALLOW_THREADS
   return PyBool_FromLong(is_near);
 }
 
-enum { LATER, IN_FIRST_INSTANTS, AT_START };  // values of `places` below
-
 // fill_phases(seconds, places, turns, orientation, omega): states at phases that Python has
-// computed from exact times; turns are (4, n): three phases and that of the first instants.
+// computed from exact times; turns are (4, n): see blocks.hpp.
 PyObject* closed_form_fill_phases(PyObject* self, PyObject* arguments) {
   PyObject *seconds, *places, *turns, *orientation, *omega;
   if (!PyArg_ParseTuple(arguments, "OOOOO", &seconds, &places, &turns, &orientation, &omega))
@@ -143,21 +126,12 @@ PyObject* closed_form_fill_phases(PyObject* self, PyObject* arguments) {
   const Py_ssize_t count = p.bytes();
   const double* from = t.get<double>(count);
   const uint8_t* place = p.get<uint8_t>(count);
-  const int64_t* phase = n.get<int64_t>(4 * count);
+  const uint64_t* phase = n.get<uint64_t>(4 * count);
   double *to = q.get<double>(4 * count), *to_rates = rates.get<double>(3 * count);
   if (PyErr_Occurred()) return nullptr;
   ClosedForm& motion = held<ClosedForm>(self);
   motion.prepare_first_instants();
-  for (Py_ssize_t i = 0; i < count; i++) {
-    Pair values[FUNCTIONS];
-    const Phase phases[] = {{phase[i], 0.0}, {phase[count + i], 0.0}, {phase[2 * count + i], 0.0}};
-    if (place[i] == LATER)
-      motion.evaluate(from[i], phases, values);
-    else
-      motion.first_instants.compute(from[i], {phase[3 * count + i], 0.0}, values);
-    const Attitude state = motion.complete(place[i] == AT_START ? motion.start_values : values);
-    write(state, motion.start.wz, to + 4 * i, to_rates + 3 * i);
-  }
+  fill_phases(motion, from, place, phase, count, {to, to_rates});
   Py_RETURN_NONE;
 }
 
@@ -281,7 +255,7 @@ PyObject* fill_many(PyObject*, PyObject* arguments) {
   for (Py_ssize_t i = 0; i < count; i++) {
     motion.has_first_instants = false;
     motion.prepare(read_start(start + 10 * i), over[i]);
-    is_far[i] = !fill(motion, from, each, to + 4 * i * each, to_rates + 3 * i * each);
+    is_far[i] = !fill(motion, from, each, {to + 4 * i * each, to_rates + 3 * i * each});
   }
   Py_END_ALLOW_THREADS
   Py_RETURN_NONE;

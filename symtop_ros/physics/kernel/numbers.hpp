@@ -5,27 +5,11 @@
 // order as in Python: symtop_ros/physics/exact/elementary.py and precise.py.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-
-// Two variants of the inner loops are compiled where the processor may have wider registers. They
-// differ in speed only: nothing is fused, and sums keep their order.
-#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12
-#define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define SYMTOP_CLONES
-#endif
+#include "lanes.hpp"
 
 namespace symtop {
 
 typedef unsigned __int128 Wide;
-
-// The nearest integer; the even one of two. Without a call of the library, which takes longer.
-inline double round_to_integer(double x) {
-  const double size = std::fabs(x);
-  return size < 0x1p51 ? std::copysign((size + 0x1p52) - 0x1p52, x) : std::rint(x);
-}
 
 // ---- Floats of N limbs of 64 bits ---------------------------------------------------------------
 //
@@ -427,13 +411,19 @@ inline Precise integrate_rf(Precise x, Precise y) {
 const double PI = 3.141592653589793;
 const double PI_HIGH = 0x1.921fb54442d18p+1, PI_LOW = 0x1.1a62633145c07p-53;
 
-struct Pair {  // real and imaginary part, or a sum of two doubles
-  double x, y;
+template <class R>
+struct PairOf {  // real and imaginary part, or a sum of two doubles
+  R x, y;
 };
+typedef PairOf<double> Pair;
 
-inline Pair multiply(Pair a, Pair b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+template <class R, class Q>
+SYMTOP_INLINE auto multiply(PairOf<R> a, PairOf<Q> b) -> PairOf<decltype(a.x * b.x)> {
+  return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
 
-inline Pair multiply_by_conjugate(Pair a, Pair b) {
+template <class R, class Q>
+SYMTOP_INLINE auto multiply_by_conjugate(PairOf<R> a, PairOf<Q> b) -> PairOf<decltype(a.x * b.x)> {
   return {a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y};
 }
 
@@ -456,15 +446,14 @@ inline double find_modulus(Pair a) {
   return large * std::sqrt(1.0 + ratio * ratio);
 }
 
-inline double find_sign(double x) { return std::copysign(1.0, x); }
-
-inline Pair cosine_and_sine_near_0(double x, double rest) {
+template <class R>
+SYMTOP_INLINE PairOf<R> cosine_and_sine_near_0(R x, R rest) {
   static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,
                                 -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6};
   static const double VERSINE[] = {-1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600,
                                    1.0 / 3628800, -1.0 / 40320, 1.0 / 720, -1.0 / 24, 1.0 / 2};
-  const double square = x * x;
-  double versine = VERSINE[0] * square, series = SINE[0] * square;
+  const R square = x * x;
+  R versine = VERSINE[0] * square, series = SINE[0] * square;
   for (int n = 1; n < 8; n++) {
     versine = (versine + VERSINE[n]) * square;
     series = (series + SINE[n]) * square;
@@ -472,41 +461,44 @@ inline Pair cosine_and_sine_near_0(double x, double rest) {
   return {1.0 - (versine + x * rest), x + (x * series + rest)};
 }
 
-inline Pair cosine_and_sine(double x) {
-  const double quarters = round_to_integer(x * QUARTERS);
-  const double part = x - quarters * QUARTER_HIGH, low = quarters * QUARTER_LOW;
-  const double near = part - low;
-  const Pair unit = cosine_and_sine_near_0(near, (part - near) - low);
-  const int64_t turns = static_cast<int64_t>(quarters);
-  const double c = turns & 1 ? unit.y : unit.x, s = turns & 1 ? unit.x : unit.y;
-  return {(turns + 1) & 2 ? -c : c, turns & 2 ? -s : s};
+template <class R>
+SYMTOP_INLINE PairOf<R> cosine_and_sine(R x) {
+  const R quarters = round_to_integer(x * QUARTERS);
+  const R part = x - quarters * QUARTER_HIGH, low = quarters * QUARTER_LOW;
+  const R near = part - low;
+  const PairOf<R> unit = cosine_and_sine_near_0<R>(near, (part - near) - low);
+  const Integer<R> turns = count_of(quarters);
+  const auto is_odd = (turns & 1) != 0;
+  const R c = choose(is_odd, unit.y, unit.x), s = choose(is_odd, unit.x, unit.y);
+  return {choose(((turns + 1) & 2) != 0, -c, c), choose((turns & 2) != 0, -s, s)};
 }
 
 const double LEAST_EXPONENT = -708.0;
 
 // expand_exponential: a power of two, and p with exp(x) = power (1 + p)
-inline Pair expand_exponential(double x) {
+template <class R>
+SYMTOP_INLINE PairOf<R> expand_exponential(R x) {
   static const double SERIES[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
                                   1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
                                   1.0 / 24, 1.0 / 6, 1.0 / 2};
-  const double bounded = x > LEAST_EXPONENT ? x : LEAST_EXPONENT;
-  const double doublings = round_to_integer(bounded * DOUBLINGS);
-  const double y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
-  double series = SERIES[0] * y;
+  const R bounded = choose(x > LEAST_EXPONENT, x, repeat<R>(LEAST_EXPONENT));
+  const R doublings = round_to_integer(bounded * DOUBLINGS);
+  const R y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
+  R series = SERIES[0] * y;
   for (int n = 1; n < 12; n++) series = (series + SERIES[n]) * y;
-  const uint64_t bits = static_cast<uint64_t>(static_cast<int64_t>(doublings) + 1023) << 52;
-  double power;
-  std::memcpy(&power, &bits, sizeof power);
-  return {x < LEAST_EXPONENT ? 0.0 : power, y + y * series};
+  const R power = read_bits_as<R>((count_of(doublings) + 1023) << 52);
+  return {choose(x < LEAST_EXPONENT, R{}, power), y + y * series};
 }
 
-inline double exponential(double x) {
-  const Pair e = expand_exponential(x);
+template <class R>
+SYMTOP_INLINE R exponential(R x) {
+  const PairOf<R> e = expand_exponential(x);
   return e.x + e.x * e.y;
 }
 
-inline double exponential_minus_1(double x) {
-  const Pair e = expand_exponential(x);
+template <class R>
+SYMTOP_INLINE R exponential_minus_1(R x) {
+  const PairOf<R> e = expand_exponential(x);
   return (e.x - 1.0) + e.x * e.y;
 }
 

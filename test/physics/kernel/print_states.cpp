@@ -1,9 +1,11 @@
 // The kernel without Python: reads motions from stdin and writes their states to stdout, as doubles.
 // Compiled for another processor it shows that the bits are the same there.
 #include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
+#include <vector>
 
-#include "../../../symtop_ros/physics/kernel/closed_form.hpp"
+#include "../../../symtop_ros/physics/kernel/blocks.hpp"
 #include "../../../symtop_ros/physics/kernel/driven.hpp"
 
 using namespace symtop;
@@ -14,7 +16,7 @@ static double read_number() {
   return x;
 }
 
-static void write_state(const double q[4], const double omega[3]) {
+static void write_state(const double* q, const double* omega) {
   std::fwrite(q, sizeof(double), 4, stdout);
   std::fwrite(omega, sizeof(double), 3, stdout);
 }
@@ -27,11 +29,11 @@ static void print_closed_form() {
   const bool is_turned_over = read_number() != 0;
   motion.has_first_instants = false;
   motion.prepare({s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9]}, is_turned_over);
-  for (int count = static_cast<int>(read_number()); count > 0; count--) {
-    const Attitude a = motion.at(read_number());
-    const double q[4] = {a.w, a.x, a.y, a.z}, omega[3] = {a.omega_x, a.omega_y, s[9]};
-    write_state(q, omega);
-  }
+  std::vector<double> times(static_cast<size_t>(read_number()));
+  for (double& each : times) each = read_number();
+  std::vector<double> q(4 * times.size()), omega(3 * times.size());
+  if (!fill(motion, times.data(), times.size(), {q.data(), omega.data()})) std::exit(1);
+  for (size_t i = 0; i < times.size(); i++) write_state(&q[4 * i], &omega[3 * i]);
 }
 
 // 15 numbers of a driven motion, and a time

@@ -80,10 +80,20 @@ def test_the_bits_are_those_of_every_other_machine():
 @pytest.mark.parametrize("data", STORED[::8], ids=[data["family"] for data in STORED[::8]])
 def test_exact_times_have_the_same_bits(data):
     top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
-    ticks = np.array([0, 1, 1000, -(10**9), 10**12 + 7, 10**17 + 1])
+    ticks = np.array([0, 1, 1000, -(10**9), 10**12 + 7, 10**17 + 1, 10**10, 1, -(10**16)])
     for stamps, elapsed in ((ticks, Fraction(1, 4)), (10**9 + 1, Fraction(1)), (0, Fraction(0))):
         times = ExactTimes(stamps, factor=1 / 3, elapsed=elapsed)
         assert_same_bits(*compute_both(top, start, times))
+
+
+@compiled
+@pytest.mark.parametrize("data", STORED[::8], ids=[data["family"] for data in STORED[::8]])
+def test_an_instant_has_the_same_bits_alone_and_among_others(data):
+    motion = Motion(Top(*data["moments"]), State(data["q0"], data["omega0"]))
+    times = np.concatenate([data["t"][0] * np.linspace(-1, 3, 23), list_times(data["t"][0])])
+    together = motion.at(times)
+    for n, t in enumerate(times):
+        assert_same_bits(together[n], motion.at(float(t)))
 
 
 @compiled

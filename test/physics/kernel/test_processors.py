@@ -17,7 +17,9 @@ OPTIONS = ["-O2", "-std=c++17", "-ffp-contract=off"]
 AARCH64 = Path(__file__).parents[3] / ".venv/aarch64/usr"
 FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
-TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1])
+TIMES = np.array(
+    [0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 1e-9, 0.04, 0.05, -0.06, 0.07, 0.08]
+)
 
 
 def list_motions():

@@ -1,0 +1,100 @@
+// Several doubles at a time, with the operators of one: a template that is written for a number R
+// computes one state for R = double, and LANES states for R = Lanes. Each lane has the bits that a
+// double alone has, because every operation rounds the lanes separately.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// Two variants are compiled where the processor may have wider registers. They differ in speed only:
+// nothing is fused, and sums keep their order. A template is inlined into both.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && __GNUC__ >= 12
+#define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define SYMTOP_CLONES
+#endif
+#define SYMTOP_INLINE inline __attribute__((always_inline))
+
+namespace symtop {
+
+const int LANES = 4;
+typedef double Lanes __attribute__((vector_size(8 * LANES)));
+typedef uint64_t IntegerLanes __attribute__((vector_size(8 * LANES)));
+typedef decltype(Lanes{} < Lanes{}) Truths;
+
+template <class R>
+struct IntegerOf {
+  typedef uint64_t Type;
+};
+template <>
+struct IntegerOf<Lanes> {
+  typedef IntegerLanes Type;
+};
+template <class R>
+using Integer = typename IntegerOf<R>::Type;  // as many integers as numbers, modulo 2^64
+
+template <class To, class From>
+SYMTOP_INLINE To read_bits_as(const From& from) {
+  static_assert(sizeof(To) == sizeof(From), "the same bits");
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+// A constant in every lane. Subtracting 0 keeps the sign of a zero.
+template <class R>
+SYMTOP_INLINE R repeat(double x) { return x - R{}; }
+
+SYMTOP_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
+SYMTOP_INLINE Lanes choose(Truths condition, Lanes a, Lanes b) { return condition ? a : b; }
+
+const uint64_t SIGN = uint64_t(1) << 63;
+
+SYMTOP_INLINE double find_size(double x) { return std::fabs(x); }
+SYMTOP_INLINE Lanes find_size(Lanes x) {
+  return read_bits_as<Lanes>(read_bits_as<IntegerLanes>(x) & ~SIGN);
+}
+
+SYMTOP_INLINE double copy_sign(double size, double x) { return std::copysign(size, x); }
+SYMTOP_INLINE Lanes copy_sign(Lanes size, Lanes x) {
+  const IntegerLanes sign = read_bits_as<IntegerLanes>(x) & SIGN;
+  return read_bits_as<Lanes>(read_bits_as<IntegerLanes>(find_size(size)) | sign);
+}
+
+template <class R>
+SYMTOP_INLINE R find_sign(R x) { return copy_sign(repeat<R>(1.0), x); }
+
+// The nearest integer; the even one of two. Without a call of the library, which takes longer.
+template <class R>
+SYMTOP_INLINE R round_to_integer(R x) {
+  const R size = find_size(x);
+  return choose(size < 0x1p52, copy_sign((size + 0x1p52) - 0x1p52, x), x);
+}
+
+// The integer of a whole number below 2^51 in size: its digits after a larger number is added.
+template <class R>
+SYMTOP_INLINE Integer<R> count_of(R whole) {
+  const double LARGE = 0x1.8p52;
+  return read_bits_as<Integer<R>>(whole + LARGE) - read_bits_as<uint64_t>(LARGE);
+}
+
+// The nearest double of an integer with sign. The lanes add two parts whose digits are placed behind
+// a 1, which is taken off again: few processors convert lanes of 64 bits.
+SYMTOP_INLINE double to_double(uint64_t n) { return static_cast<double>(static_cast<int64_t>(n)); }
+SYMTOP_INLINE Lanes to_double(IntegerLanes n) {
+  const Lanes lower = read_bits_as<Lanes>((n & 0xffffffff) | read_bits_as<uint64_t>(0x1p52));
+  const Lanes upper = read_bits_as<Lanes>((n >> 32) ^ read_bits_as<uint64_t>(0x1p84 + 0x1p63));
+  return (upper - (0x1p84 + 0x1p63 + 0x1p52)) + lower;
+}
+
+// Entry k of rows of four numbers, for every lane.
+SYMTOP_INLINE void read_row(const double (*rows)[4], uint64_t k, double entries[4]) {
+  for (int i = 0; i < 4; i++) entries[i] = rows[k][i];
+}
+SYMTOP_INLINE void read_row(const double (*rows)[4], IntegerLanes k, Lanes entries[4]) {
+  for (int i = 0; i < 4; i++)
+    for (int lane = 0; lane < LANES; lane++) entries[i][lane] = rows[k[lane]][i];
+}
+
+}  // namespace symtop
