@@ -101,7 +101,7 @@ def _draw_arcs(axes: Axes, nodes: State) -> None:
 
 
 def _circle(radius: float, first: Real, second: Real, angle: float = 2 * np.pi) -> Real:
-    """Return points (n, 3) from one unit vector towards another one across it."""
+    """Return points (n, 3) of an arc from one unit vector towards a perpendicular one."""
     turns = np.linspace(0.0, angle, 61)[:, None]
     return np.asarray(radius * (np.cos(turns) * first + np.sin(turns) * second))
 
