@@ -11,6 +11,8 @@ from symtop_ros.web.lesson import LessonStep, read_lesson
 PAGE = Path(__file__).parents[1] / "docs/lesson.md"
 FIRST = "## 1. "  # what is above the first step is written by hand
 WIDTH = 100
+# Options of the viewer for what the page shows in a step
+OPTIONS = {"fictitious torques": "--fictitious"}
 
 
 def main() -> None:
@@ -35,11 +37,19 @@ def _write_step(number: int, step: LessonStep) -> str:
             _wrap(f"Predict: {step.predict}"),
             *map(_wrap, filter(None, step.compute.split("\n"))),
             f"```sh\n{commands}\n```",
-            _wrap(f"Look: {step.look}"),
+            _wrap(f"Look: {step.look}{_name_view(step)}"),
             f"![{step.picture}](lesson/step_{number:02}.png)",
             *map(_wrap, filter(None, step.seen.split("\n"))),
             _wrap(f"Question: {step.question} (The article's {step.source}.)") + "\n",
         ]
+    )
+
+
+def _name_view(step: LessonStep) -> str:
+    """Return how the viewer shows what the page shows in a step only."""
+    options = " ".join(OPTIONS[layer] for layer in step.layers)
+    return (
+        f" (With ROS: `top_live {options}`, or `top_replay {options}` of a log.)" if options else ""
     )
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
+from symtop_ros.article.angles import draw_euler_angles
 from symtop_ros.article.answers.drawings import draw_cusp_story, draw_release
 from symtop_ros.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
 from symtop_ros.article.kinds import DISC
@@ -229,6 +230,7 @@ def draw_pivot_force() -> Figure:
 
 
 FIGURES: dict[str, Callable[[], Figure]] = {
+    "euler_angles": draw_euler_angles,
     "regular_precession": lambda: draw_sphere(regular()),
     "cusps": lambda: draw_sphere(cusps()),
     "cusps_against_time": draw_cusps_against_time,

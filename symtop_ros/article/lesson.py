@@ -7,6 +7,7 @@ hurried, so that the time of the kick is free.
 import io
 from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +16,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
+from symtop_ros.article.answers.fictitious import plot_torques
 from symtop_ros.article.figures import DEPTH
 from symtop_ros.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
+from symtop_ros.drawing.fictitious import torques_of
 from symtop_ros.drawing.style import BLUE, GREY, INK, RED, SETTINGS, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
@@ -36,6 +39,7 @@ SHORT = 0.08  # s in which the fast precession makes most of a turn
 SPAN = 0.8  # s of the plots
 RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
 LOOKS = ((BLUE, "-"), (RED, "--"), (INK, ":"))
+CHAIN, SHORTEST = (GREY, BLUE, RED, INK), 0.01  # colours as over phi'; of the largest torque
 Runs = dict[str, KickedMotion]
 
 
@@ -61,10 +65,7 @@ def draw_step(step: LessonStep) -> Figure:
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
     runs = run_step(step)
     draw = DRAWS.get(step.title, draw_tilt)
-    if draw is draw_turning:
-        _draw_turned(left, runs)
-    else:
-        _draw_from_above(left, runs)
+    LEFT.get(draw, _draw_from_above)(left, runs)
     draw(right, runs)
     right.margins(x=0)
     return figure
@@ -92,6 +93,38 @@ def _draw_turned(axes: Axes, runs: Runs) -> None:
         axes.annotate(name, (x, y), (4, 4), textcoords="offset points", color=color)
     axes.set(aspect="equal", title=f"from above, {SHORT} s")
     axes.set_axis_off()
+
+
+def _draw_chains(axes: Axes, runs: Runs) -> None:
+    """Draw the torques of an observer who precesses, head to tail, and their sum below."""
+    for row, run in enumerate(runs.values()):
+        motion = run.pieces[0][1]
+        torques = torques_of(motion.top, motion.start)
+        largest = max(abs(float(torque)) for torque in torques)
+        ends = np.cumsum([0.0, *torques]) / largest
+        arrows = [*pairwise(ends), (0.0, ends[-1])]
+        for k, ((tail, tip), color) in enumerate(zip(arrows, CHAIN, strict=True)):
+            y = -row - 0.14 * k
+            if abs(tip - tail) > SHORTEST:
+                arrow = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+                axes.annotate("", (tip, y), (tail, y), arrowprops=arrow)
+        rate = float(motion.start.euler_rates.phi)
+        axes.text(-1.05, -row - 0.2, f"{rate:.3g} rad/s", ha="right", va="center", fontsize=8)
+    axes.axvline(0.0, color=GREY, lw=0.7, ls=":")
+    axes.set(xlim=(-1.9, 1.15), ylim=(-len(runs) + 0.3, 0.25))
+    axes.set_title("at the start, rows not to one scale", fontsize=8)
+    axes.set_axis_off()
+
+
+def draw_fictitious(axes: Axes, runs: Runs) -> None:
+    """Draw the torques over phi', with the rates of the runs."""
+    plot_torques(axes)
+    for run in runs.values():
+        motion = run.pieces[0][1]
+        total = float(torques_of(motion.top, motion.start).total)
+        axes.plot(float(motion.start.euler_rates.phi), total, "o", color=INK, ms=5, zorder=3)
+    axes.set_ylabel("torque (N m)")
+    axes.legend(loc="upper left", fontsize=8)
 
 
 def _draw_from_above(axes: Axes, runs: Runs) -> None:
@@ -207,11 +240,17 @@ DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # all other steps: `draw_til
     "How deep does it fall?": draw_potential,
     "A push that stops the nodding": draw_turning,
     "One torque, two precessions": draw_turning,
+    "Seen by an observer who precesses": draw_fictitious,
+}
+# What is drawn left of these; all others: the end of the axis from above.
+LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {
+    draw_turning: _draw_turned,
+    draw_fictitious: _draw_chains,
 }
 
 
 def write_lesson(folder: Path, sheets: bool = False) -> int:
-    """Write the pictures step_01.png to step_10.png, or the sheets; return the exit status."""
+    """Write the pictures step_01.png, step_02.png ..., or the sheets; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     steps = read_lesson()
     if sheets:
@@ -227,10 +266,15 @@ def write_lesson(folder: Path, sheets: bool = False) -> int:
 
 
 def picture_of(step: LessonStep) -> bytes:
-    """Return the picture of a step as a PNG with a palette, which has a third of the size."""
+    """Return the picture of a step as a PNG."""
+    return pack_figure(lambda: draw_step(step))
+
+
+def pack_figure(draw: Callable[[], Figure]) -> bytes:
+    """Return the picture of a figure as a PNG with a palette, which has a third of the size."""
     drawn, packed = io.BytesIO(), io.BytesIO()
     with rc_context(SETTINGS):
-        draw_step(step).savefig(drawn, dpi=RESOLUTION)
+        draw().savefig(drawn, dpi=RESOLUTION)
     with Image.open(drawn) as picture:
         picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
     return packed.getvalue()

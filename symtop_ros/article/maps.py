@@ -29,16 +29,10 @@ PHI_DOTS = (-60.0, 120.0)  # rad/s
 PSI_DOTS = (-400.0, 400.0)  # rad/s
 THETAS = (0.02, np.pi - 0.02)  # rad; on the vertical itself phi' is undefined
 RELIEF_POINTS = 250  # along a side of a relief, at most
-# What becomes of the height: both turning points are as high or higher, or lower, or they part or
-# approach each other.
-OUTCOMES = {
-    "higher": "#4f8fca",
-    "lower": "#d9634c",
-    "swings wider": "#e8c468",
-    "swings less": "#8cc28a",
-    "as before": "#ffffff",
-}
-HIGHER, LOWER, WIDER, NARROWER, SAME = range(len(OUTCOMES))
+# What becomes of the height. The tilt of the kick is a turning point before and after it, as
+# theta' = 0: so the motion cannot become higher at one end and lower at the other.
+OUTCOMES = {"higher": "#4f8fca", "lower": "#d9634c", "as before": "#ffffff"}
+HIGHER, LOWER, SAME = range(len(OUTCOMES))
 SAME_ANGLE = 1e-7  # rad: turning angles that differ by less are equal (physics/verdict.py)
 COLOR_LIMIT = 0.3  # rad at which the colours end
 
@@ -159,12 +153,9 @@ def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
 
 def find_outcome(effect: HurryEffect) -> Any:
     """Return the place of each point among the `OUTCOMES`."""
-    highest, lowest = (
-        np.where(np.abs(lift) > SAME_ANGLE, lift, 0.0) for lift in (effect.rise, -effect.fall)
-    )
-    up, down = np.maximum(highest, lowest) > 0, np.minimum(highest, lowest) < 0
-    mixed = np.where(highest > 0, WIDER, NARROWER)
-    return np.where(up & down, mixed, np.where(up, HIGHER, np.where(down, LOWER, SAME)))
+    lifts = np.stack([effect.rise, -effect.fall])
+    up, down = (lifts > SAME_ANGLE).any(axis=0), (lifts < -SAME_ANGLE).any(axis=0)
+    return np.where(up, HIGHER, np.where(down, LOWER, SAME))
 
 
 def write_table(perry_map: PerryMap, file: Path) -> None:

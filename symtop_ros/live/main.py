@@ -17,7 +17,7 @@ from rclpy.utilities import remove_ros_args
 from symtop_ros.live.feed import Feed
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
-from symtop_ros.playback.main import add_view_options
+from symtop_ros.playback.main import add_view_options, view_options
 from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.playback.web import HOST
@@ -139,7 +139,7 @@ def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View
     if view is None:
         print(f"showing the top in the viewer on port {port}", flush=True)
         feed.repeat_event()
-        drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
+        drawn = ViewOptions(**view_options(options))
         view = View(_recording(port), live=True, options=drawn)
     return view
 

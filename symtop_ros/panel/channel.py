@@ -20,7 +20,7 @@ from symtop_ros.simulation.validation import RefusedError, number, one_line, rej
 from symtop_ros.web.facts import describe_constants, identify, list_history, round_row, thin
 from symtop_ros.web.lesson import read_lesson
 from symtop_ros.web.run import Run
-from symtop_ros.web.scene import LAYERS
+from symtop_ros.web.scene import HIDDEN_LAYERS, LAYERS
 
 LOG = "/log.mcap"  # where a page finds the log that was finished last
 Message = Mapping[str, Any]
@@ -75,7 +75,8 @@ class Pages:
         """Send what is new, each time that there is something."""
         scenes = [scene._asdict() for scene in describe_scenes()]
         steps = [asdict(step) for step in read_lesson()]
-        hello = {"scenes": scenes, "layers": LAYERS, "lesson": steps}
+        layers = {layer: layer not in HIDDEN_LAYERS for layer in LAYERS}
+        hello = {"scenes": scenes, "layers": layers, "lesson": steps}
         await connection.send(json.dumps({"hello": hello}))
         facts: dict[str, Any] = {}
         number, said, event = -1, len(self._notices), self._pages[connection]

@@ -57,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
         "--scene", default=SCENE, choices=scene_names(), metavar="SCENE", help="scene to start with"
     )
     parser.add_argument(
-        "--lesson", action="store_true", help="open the lesson: ten steps for a class"
+        "--lesson", action="store_true", help="open the lesson: eleven steps for a class"
     )
     parser.add_argument(
         "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"

@@ -21,7 +21,7 @@ from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.web.facts import describe
 from symtop_ros.web.run import Run
 from symtop_ros.web.saved import save_run
-from symtop_ros.web.scene import EYES, TARGETS, Scene, layer_node
+from symtop_ros.web.scene import EYES, FICTITIOUS, TARGETS, Scene, layer_node
 
 RATE, CROWDED_RATE = 60.0, 40.0  # frames per second
 CROWD = 4  # pages above which fewer frames are drawn: each page is sent its own copy
@@ -29,6 +29,7 @@ CHART_EVERY, TEXT_EVERY = 6, 15  # frames
 FITTING = 0.85  # width over height at which the whole sphere is visible
 RESIZED = 0.1  # relative change of the width after which the camera is placed anew
 UNWATCHED = 0.5  # s between two looks at the events of a top without pages
+REMEMBERED = 100  # pages whose choice of layers is known; a page may load its scene again
 RENDERING = 20.0  # s for a picture, which a browser without a graphics card takes long to draw
 
 
@@ -48,6 +49,7 @@ class Page:
         self._pull: tuple[int, Real] | None = None  # who pulls the axle, and where to
         self._scene.handle.on_drag(self._drag)
         self._sizes: dict[int, tuple[int, int]] = {}  # of the scene on each page, in pixels
+        self._shown: dict[str, dict[str, bool]] = {}  # what each page has chosen, by layers
         self._outdated = True  # True if the pages have not got the facts
         self.server.on_client_connect(self._greet)
         self.server.on_client_disconnect(self._forget)
@@ -67,6 +69,8 @@ class Page:
     def _greet(self, client: ClientHandle) -> None:
         """Begin to draw, and fit the camera to the page, also when its size changes."""
         self._connected.set()
+        for layer, shown in dict(self._layers_of(client.client_id)).items():
+            _set_visible(client, layer, shown)
         client.camera.on_update(self._fit)
         self._fit(client.camera)
 
@@ -117,6 +121,9 @@ class Page:
         with self.server.atomic(), self._lock:
             self._follow()
             pull = self._pull
+            self._scene.shows_torques = any(
+                self._layers_of(client).get(FICTITIOUS) for client in self.server.get_clients()
+            )
             self._scene.draw(self.run, pull[1] if pull else None)
             driven = self.run.motion is not None and self.run.motion.is_driven
             if self._outdated or (driven and self.frames % TEXT_EVERY == 0):
@@ -169,11 +176,17 @@ class Page:
             client for client in clients if page and self.server.page_of(client.client_id) == page
         ]
 
+    def _layers_of(self, client: int) -> dict[str, bool]:
+        """Return what the page of a client of viser has chosen to show or to hide."""
+        return self._shown.get(self.server.page_of(client), {})
+
     def _show_layer(self, page: str, layer: str, shown: bool) -> None:
         """Show or hide a layer on one page. Viser's handles change all pages."""
+        self._shown.setdefault(page, {})[layer] = shown
+        if len(self._shown) > REMEMBERED:
+            del self._shown[next(iter(self._shown))]
         for client in self._clients(page):
-            message = messages.SetSceneNodeVisibilityMessage(layer_node(layer), shown)
-            client._websock_connection.queue_message(message)
+            _set_visible(client, layer, shown)
 
     def _files(self) -> dict[str, Callable[[str], File | None]]:
         return {
@@ -208,3 +221,8 @@ class Page:
             image = client.get_render(height, width, transport_format="png", timeout=RENDERING)
             return File(iio.imwrite("<bytes>", image, extension=".png"), "image/png")
         return None
+
+
+def _set_visible(client: ClientHandle, layer: str, shown: bool) -> None:
+    message = messages.SetSceneNodeVisibilityMessage(layer_node(layer), shown)
+    client._websock_connection.queue_message(message)

@@ -31,6 +31,8 @@ from symtop_ros.physics.perry import Direction
 from symtop_ros.physics.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.potential import EffectivePotential
 from symtop_ros.physics.precession import (
+    FrameTorques,
+    precessing_frame_torques,
     regular_precession_rates,
     theta_acceleration,
     theta_torque,
@@ -49,6 +51,7 @@ __all__ = [
     "Direction",
     "EffectivePotential",
     "ExactTimes",
+    "FrameTorques",
     "Friction",
     "Hold",
     "HurryEffect",
@@ -66,6 +69,7 @@ __all__ = [
     "kick_verdict",
     "perrys_rule",
     "point_acceleration",
+    "precessing_frame_torques",
     "precession_rate",
     "python_alone",
     "regular_precession_rates",

@@ -20,7 +20,7 @@ At the same state both give the same theta''.
 import math
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -202,6 +202,64 @@ def theta_acceleration(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: 
     """
     torque = theta_torque(top, theta, phi_dot, psi_dot)
     return np.asarray(np.sin(np.asarray(theta, dtype=float)) / top.Ix * torque)
+
+
+class FrameTorques(NamedTuple):
+    """Torques about the line of nodes in the precessing frame, in N m; positive lowers the axis."""
+
+    gravity: Real
+    coriolis: Real
+    centrifugal: Real
+
+    @property
+    def total(self) -> Real:
+        """Their sum, which is Ix theta'' if nothing else acts."""
+        return self.gravity + self.coriolis + self.centrifugal
+
+
+def precessing_frame_torques(
+    top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike
+) -> FrameTorques:
+    """Return what turns the axis up or down for an observer who precesses with the top.
+
+    The observer turns with phi' about the vertical and sees theta' and psi' only. At any theta'
+
+        Ix theta'' = Mgl sin(theta) - Iz psi' phi' sin(theta)
+                     + (Ix - Iz) phi'^2 sin(theta) cos(theta),
+
+    gravity's torque and those of the Coriolis and of the centrifugal forces. That of a change of
+    phi' is along the other axes: the line of nodes is a principal axis.
+
+    Parameters
+    ----------
+    top : Top
+    theta : array_like (...)
+        Tilt in rad.
+    phi_dot, psi_dot : array_like (...)
+        Rates in rad/s.
+
+    Returns
+    -------
+    FrameTorques
+        `gravity`, `coriolis`, `centrifugal` and their `total`, each an ndarray (...) in N m.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Top, precessing_frame_torques
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> torques = precessing_frame_torques(top, theta=0.5, phi_dot=9.0, psi_dot=200.0)
+    >>> [round(float(torque), 5) for torque in (*torques, torques.total)]
+    [0.0326, -0.04936, 0.00582, -0.01094]
+    """
+    theta, phi_dot, psi_dot = np.broadcast_arrays(
+        *(np.asarray(each, dtype=float) for each in (theta, phi_dot, psi_dot))
+    )
+    sine = np.sin(theta)
+    return FrameTorques(
+        np.asarray(top.Mgl * sine),
+        np.asarray(-top.Iz * psi_dot * phi_dot * sine),
+        np.asarray((top.Ix - top.Iz) * phi_dot**2 * sine * np.cos(theta)),
+    )
 
 
 def solve_quadratic(

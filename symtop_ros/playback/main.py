@@ -36,6 +36,17 @@ def add_view_options(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="draw dL/dt and the inertial torque, in the body frame and in that of the nodes",
     )
+    parser.add_argument(
+        "--fictitious",
+        action="store_true",
+        help="draw the torques in the precessing frame: gravity's, Coriolis' and centrifugal",
+    )
+
+
+def view_options(options: argparse.Namespace) -> dict[str, bool]:
+    """Return the fields of `ViewOptions` that the options ask for."""
+    drawn = {name: getattr(options, name) for name in ("angles", "torques", "fictitious")}
+    return {"ghost": not options.no_ghost, **drawn}
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -128,7 +139,7 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
 
     if options.save and options.save.suffix == ".html":
         return _save_page(log, options.save)
-    drawn = ViewOptions(not options.no_ghost, options.angles, options.torques)
+    drawn = ViewOptions(**view_options(options))
     save: Path | None = options.save
     if save:
         if save.suffix != ".rrd":

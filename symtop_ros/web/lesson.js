@@ -1,6 +1,6 @@
 // The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
 "use strict";
-const makeLesson = ({ find, make, send }, steps) => {
+const makeLesson = ({ find, make, send, chooseLayers }, steps) => {
   const select = find("steps");
   const field = find("prediction");
   const current = () => select.selectedIndex + 1;
@@ -38,6 +38,7 @@ const makeLesson = ({ find, make, send }, steps) => {
       chart.classList.toggle("looked", step.charts.includes(chart.dataset.chart));
     }
     find("charts").scrollTop = 0;
+    chooseLayers(step.layers);
     field.value = written(number);
     find("step-back").disabled = number === 1;
     find("step-next").disabled = number === steps.length;

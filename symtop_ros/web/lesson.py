@@ -43,6 +43,7 @@ class LessonStep:
     source: str
     compute: str = ""
     also: tuple[str, ...] = ()
+    layers: tuple[str, ...] = ()
     scene: str = "cusps"
 
     @property

@@ -15,6 +15,7 @@
   let facts = null; // what holds for a whole motion
   let rows = []; // time, theta, phi', psi', theta of the ghost
   let socket = null;
+  const boxes = {}; // of the layers of the scene, by their names
   let lesson = null; // once the server has sent its steps
 
   // Words and numbers
@@ -301,7 +302,7 @@
     for (const [id, [column, color, least]] of Object.entries(SERIES)) {
       const isTilt = id === "theta";
       const all = isTilt ? [...shown.map((row) => row[1]), ...shown.map((row) => row[4] ?? NaN)] : shown.map((row) => row[column]);
-      const [low, high] = spread(all, least * Math.max(1, isTilt ? 1 : Math.abs(shown[0][column]) * 0.1));
+      const [low, high] = spread(all, Math.max(least, isTilt ? 0 : 0.02 * Math.abs(shown[0][column])));
       const frame = box(96, range, isTilt ? [high, low] : [low, high], 3, isTilt ? angle : (value) => value);
       const line = (k, style) => path(shown.map((row) => [frame.x(row[0]), row[k] === null ? NaN : frame.y(row[k])]), style);
       const marks = facts.marks.filter((time) => time >= begin && time <= now)
@@ -336,15 +337,24 @@
 
   // Look
 
-  const LEGEND = [["#0a46be", "L, angular momentum"], ["#009e73", "omega"], ["#d53c0a", "torque"], ["#e69600", "trace"], ["#c9ced6", "pale: ghost, not kicked"]];
+  const TORQUES = "fictitious torques";
+  const LEGEND = [["#0a46be", "L, angular momentum"], ["#009e73", "omega"], ["#d53c0a", "torque"], ["#e69600", "trace"], ["#c9ced6", "pale: ghost, not kicked"],
+    ["#d53c0a", "gravity", TORQUES], ["#1e96f0", "Coriolis", TORQUES], ["#690fff", "centrifugal", TORQUES], ["#d23ca5", "sum, Ix theta''", TORQUES]];
   const addLegend = () =>
     find("legend").append(
-      ...LEGEND.map(([color, text]) => {
+      ...LEGEND.map(([color, text, layer]) => {
         const mark = make("i");
         mark.style.background = color;
-        return make("li", {}, mark, text);
+        const entry = make("li", { hidden: Boolean(layer) }, mark, text);
+        if (layer) entry.dataset.layer = layer;
+        return entry;
       }),
     );
+  const showLayer = (layer, shown) => {
+    boxes[layer].checked = shown;
+    for (const entry of document.querySelectorAll(`#legend [data-layer="${layer}"]`)) entry.hidden = !shown;
+    send({ act: "show", layer, shown });
+  };
   const setTheme = () => {
     const choice = saved ? "" : find("theme").value;
     const isDark = choice ? choice === "dark" : dark.matches;
@@ -407,13 +417,20 @@
       if (chosen) send({ act: "scene", name: chosen.name });
     });
     find("layers").append(
-      ...layers.map((layer) => {
-        const box = make("input", { type: "checkbox", checked: true });
-        box.addEventListener("change", () => send({ act: "show", layer, shown: box.checked }));
+      ...Object.entries(layers).map(([layer, checked]) => {
+        const box = make("input", { type: "checkbox", checked });
+        boxes[layer] = box;
+        box.addEventListener("change", () => showLayer(layer, box.checked));
         return make("div", {}, make("label", {}, box, " " + layer));
       }),
     );
-    lesson = makeLesson({ find, make, send }, steps);
+    // Of the layers that are hidden at first a step of the lesson shows those that it names.
+    const chooseLayers = (named) => {
+      for (const [layer, shown] of Object.entries(layers)) {
+        if (!shown && boxes[layer].checked !== named.includes(layer)) showLayer(layer, !boxes[layer].checked);
+      }
+    };
+    lesson = makeLesson({ find, make, send, chooseLayers }, steps);
     if (calm.matches) send({ act: "rest" });
     followLink(location.search + "&" + location.hash.slice(1), document.documentElement.dataset.trusted === "yes");
   };

@@ -1,29 +1,23 @@
 """The 3D scene of the page. Handles are made once; a frame only sets their attributes."""
 
 import math
-from collections.abc import Mapping
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from viser import (
-    ArrowsHandle,
-    LabelHandle,
-    LineSegmentsHandle,
-    MeshHandle,
-    ViserServer,
-)
+from viser import LineSegmentsHandle, MeshHandle, ViserServer
 
 from symtop_ros.arrays import Real
+from symtop_ros.drawing.fictitious import find_scale, place_arrows, torques_of
 from symtop_ros.drawing.mesh import create_body, create_lathe
 from symtop_ros.physics import State, Top, specific_force
 from symtop_ros.simulation.segment import Segment
+from symtop_ros.web.arrows import ZERO, Arrow, Color, Side
 from symtop_ros.web.run import TRACE, Run
 
-Color = tuple[int, int, int]
 # Colours that are visible on white and on black, and different for colour-blind people.
 BLUE, GREEN, RED = (10, 70, 190), (0, 158, 115), (213, 60, 10)
 GOLD, ORANGE, GREY, VIOLET = (230, 150, 0), (236, 140, 0), (140, 148, 162), (150, 60, 190)
+SKY, INDIGO, MAGENTA = (30, 150, 240), (105, 15, 255), (210, 60, 165)
 STONE = (112, 118, 130)
 STAND = ((0.0, -0.32), (0.17, -0.32), (0.17, -0.28), (0.05, -0.22), (0.03, -0.03), (0.0, -0.02))
 CHUNK = 16  # lines of the trace in one node: a frame sends the newest node only
@@ -35,8 +29,7 @@ EYES = ((1.9, -2.2, 1.35), (2.75, -3.2, 1.3), (2.75, -3.2, -1.3))
 TARGETS = ((0.0, 0.0, 0.45), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 HORIZON = 1.65  # rad; the axis goes below the pivot: no stand, and the whole sphere
 AROUND = np.linspace(0, 2 * np.pi, 97)
-HIDDEN, ZERO = np.zeros((1, 2, 3)), np.zeros(3)
-SHORTEST = 0.02  # scene units; shorter arrows have no direction that can be seen
+HIDDEN = np.zeros((1, 2, 3))
 GHOST_OPACITY = 0.28
 HANDLE_RADIUS = 0.055
 SENSOR = "specific force"  # drawn if the top carries a sensor
@@ -45,17 +38,19 @@ LENGTHS = {"L": 1.3, "omega": 1.15, "torque": 0.55, SENSOR: 0.8}
 COLORS = {"L": BLUE, "omega": GREEN, "torque": RED, SENSOR: VIOLET}
 # Labels stand at the ends of their arrows; L and omega are often nearly parallel, so that their
 # labels have different sides.
-SIDES: dict[str, Literal["bottom-left", "center-right", "top-center"]] = {
+SIDES: dict[str, Side] = {
     "L": "bottom-left",
     "omega": "center-right",
     "torque": "top-center",
     SENSOR: "top-center",
 }
-LABEL_GAP = 0.06
+FICTITIOUS = "fictitious torques"
+FICTITIOUS_COLORS = {"gravity": RED, "Coriolis": SKY, "centrifugal": INDIGO, "sum": MAGENTA}
 LAYERS = (
     *LENGTHS,
-    *("trace", "turning circles", "line of nodes", "ghost", "sphere", "handle"),
+    *("trace", "turning circles", "line of nodes", "ghost", "sphere", "handle", FICTITIOUS),
 )
+HIDDEN_LAYERS = (FICTITIOUS,)  # until a page asks for them
 
 
 class Scene:
@@ -70,7 +65,8 @@ class Scene:
         self._top: Top | None = None
         self._bodies: list[MeshHandle] = []
         for layer in LAYERS:  # which pages switch on and off, each for itself
-            self._scene.add_frame(layer_node(layer), show_axes=False)
+            shown = layer not in HIDDEN_LAYERS
+            self._scene.add_frame(layer_node(layer), show_axes=False, visible=shown)
         self._body = self._scene.add_frame("/top", show_axes=False)
         self._ghost = self._scene.add_frame(f"{layer_node('ghost')}/top", show_axes=False)
         self._ghost.visible = False
@@ -85,9 +81,19 @@ class Scene:
         ]
         self._head = self._add_lines("trace", HIDDEN, GOLD, 0.011, CHUNKS)
         self._traced = 0  # points of the trace that were drawn
-        self._arrows = {name: self._add_arrow(name) for name in LENGTHS}
-        self._labels = {name: self._add_label(name) for name in LENGTHS}
-        self._pull = self._add_arrow("handle")
+        self._arrows = {
+            name: Arrow(self._scene, layer_node(name), COLORS[name], name, SIDES[name])
+            for name in LENGTHS
+        }
+        self._torques = {
+            name: Arrow(
+                self._scene, f"{layer_node(FICTITIOUS)}/{name}", color, name, "center-center"
+            )
+            for name, color in FICTITIOUS_COLORS.items()
+        }
+        self.shows_torques = False  # True if a page has switched on the fictitious torques
+        self._torque_scale = 1.0  # N m of one scene unit
+        self._pull = Arrow(self._scene, layer_node("handle"), ORANGE)
         # the ball on the axle that users drag
         self.handle = self._scene.add_icosphere(
             f"{layer_node('handle')}/ball", radius=HANDLE_RADIUS, color=ORANGE, cast_shadow=False
@@ -103,6 +109,7 @@ class Scene:
         self._choose_view(segment, state)
         circles = np.concatenate([_parallel(angle) for angle in motion.turning_angles])
         self._circles.points = circles.astype(np.float32)
+        self._torque_scale = find_scale(motion.top, state)
         for name, vector in _vectors(segment, state).items():
             largest = abs(motion.top.Mgl) if name == "torque" else float(np.linalg.norm(vector))
             self._scales[name] = LENGTHS[name] / largest if largest else 0.0
@@ -127,15 +134,21 @@ class Scene:
         axis = state.to_world([0.0, 0.0, 1.0])
         self._body.wxyz = state.orientation
         self._draw_ghost(run)
-        self._draw_arrows(_vectors(segment, state))
+        vectors = _vectors(segment, state)
+        for name, arrow in self._arrows.items():
+            arrow.draw(vectors.get(name, ZERO) * self._scales[name])
+        if self.shows_torques:
+            self._draw_torques(segment.motion.top, state)
         phi = state.euler_angles.phi
         self._nodes.wxyz = np.array([math.cos(phi / 2), 0.0, 0.0, math.sin(phi / 2)])
         self._draw_trace(run)
         self.handle.position = axis
-        self._pull.visible = pull is not None
-        if pull is not None and (length := float(np.linalg.norm(pull - axis))) > SHORTEST:
-            self._pull.position = axis
-            _point(self._pull, pull - axis, length)
+        self._pull.draw(ZERO if pull is None else pull - axis, axis)
+
+    def _draw_torques(self, top: Top, state: State) -> None:
+        torques, phi = torques_of(top, state), np.asarray(state.euler_angles.phi)
+        for name, (origin, vector) in place_arrows(torques, phi, self._torque_scale).items():
+            self._torques[name].draw(vector, origin)
 
     def _draw_trace(self, run: Run) -> None:
         """Send the newest points. Nodes follow each other in a ring, the oldest is overwritten."""
@@ -159,16 +172,6 @@ class Scene:
         self._ghost.visible = ghost is not None
         if ghost is not None:
             self._ghost.wxyz = ghost.state_at(run.stamp).orientation
-
-    def _draw_arrows(self, vectors: Mapping[str, Real]) -> None:
-        for name in LENGTHS:
-            end = vectors.get(name, ZERO) * self._scales[name]
-            length = float(np.linalg.norm(end))
-            visible = length > SHORTEST
-            self._arrows[name].visible = self._labels[name].visible = visible
-            if visible:
-                _point(self._arrows[name], end, length)
-                self._labels[name].position = end * (1 + LABEL_GAP / length)
 
     def _build_body(self, top: Top) -> None:
         for handle in self._bodies:
@@ -210,22 +213,6 @@ class Scene:
         name = f"{layer_node(layer)}/lines{number}"
         return self._scene.add_line_segments(name, points, color, thickness=thickness)
 
-    def _add_arrow(self, layer: str) -> ArrowsHandle:
-        return self._scene.add_arrows(
-            f"{layer_node(layer)}/arrow",
-            np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]]]),
-            COLORS.get(layer, ORANGE),
-            shaft_radius=0.013,
-            head_radius=0.035,
-            head_length=0.1,
-            visible=False,
-        )
-
-    def _add_label(self, name: str) -> LabelHandle:
-        # In the world and not in the frame of the arrow: viser places a label by the pose that its
-        # parent had in the frame before.
-        return self._scene.add_label(f"{layer_node(name)}/name", name, anchor=SIDES[name])
-
 
 def layer_node(layer: str) -> str:
     """Return the name of the node that holds all that a layer draws."""
@@ -237,20 +224,6 @@ def _choose_points(run: Run, number: int) -> Real:
     first = run.traced - TRACE + 1  # number of the oldest point that is left
     wanted = np.arange(number * CHUNK, (number + 1) * CHUNK + 1).clip(max(first, 0), run.traced)
     return np.asarray(run.axes[wanted - first])
-
-
-def _point(arrow: ArrowsHandle, vector: Real, length: float) -> None:
-    """Turn an arrow along z into a vector (3,).
-
-    The pose of a node is drawn in the next frame. A change of its points takes the browser longer,
-    and the arrow would trail behind the top: they have the length only, which hardly changes.
-    """
-    x, y, z = vector / length
-    half = math.acos(min(max(float(z), -1.0), 1.0)) / 2
-    across = math.hypot(x, y) or 1.0
-    size = math.sin(half) / across
-    arrow.wxyz = np.array([math.cos(half), -size * y, size * x, 0.0])
-    arrow.points = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, round(length, 2)]]])
 
 
 def _vectors(segment: Segment, state: State) -> dict[str, Real]:

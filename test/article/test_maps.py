@@ -6,10 +6,24 @@ import io
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.article.maps import FACTOR, PSI_DOT, THETA, TOP, map_spin, map_tilt, write_maps
-from symtop_ros.physics import Motion, State, hurry, regular_precession_rates
+from symtop_ros.article.maps import (
+    FACTOR,
+    OUTCOMES,
+    PSI_DOT,
+    SAME_ANGLE,
+    THETA,
+    TOP,
+    _draw_outcome,
+    find_outcome,
+    map_spin,
+    map_tilt,
+    write_maps,
+)
+from symtop_ros.physics import HurryEffect, Motion, State, hurry, regular_precession_rates
 from symtop_ros.report import main as report
 
 SIDES = ("highest", "lowest")
@@ -52,6 +66,52 @@ def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
         for rate in inside:
             row = np.searchsorted(found.phi_dot, rate) - 1
             assert changes[row]
+
+
+# Highest and lowest tilt without the kick, with it, and what became of the height.
+OUTCOME_OF = {
+    "higher": ((0.5, 0.7), (0.4, 0.7)),
+    "lower": ((0.5, 0.7), (0.5, 0.9)),
+    "as before": ((0.5, 0.7), (0.5, 0.7 + 0.5 * SAME_ANGLE)),
+}
+
+
+def test_the_third_panel_names_what_becomes_of_both_turning_points():
+    before, after = (np.array([pair[k] for pair in OUTCOME_OF.values()]).T for k in (0, 1))
+    everywhere = np.ones(len(OUTCOME_OF), dtype=bool)
+    effect = HurryEffect(before, after, everywhere, everywhere)
+    assert [list(OUTCOMES)[k] for k in find_outcome(effect)] == list(OUTCOME_OF)
+
+
+@pytest.mark.parametrize("name", ["spin", "tilt"])
+def test_the_outcomes_of_a_table_are_those_of_its_turning_points(written, name):
+    table = pq.read_table(written[0] / f"perry_{name}.parquet").to_pylist()
+    # on the row of phi' = 0, if there is one, a hurry changes nothing
+    assert {"higher", "lower"} <= {row["outcome"] for row in table} <= set(OUTCOMES)
+    for row in table[::101]:
+        lifts = [row[f"{which}_before"] - row[f"{which}_after"] for which in SIDES]
+        sign = {"higher": 1, "lower": -1, "as before": 0}[row["outcome"]]
+        if sign:
+            assert min(sign * lift for lift in lifts) >= -SAME_ANGLE
+            assert max(sign * lift for lift in lifts) > SAME_ANGLE
+        else:
+            assert max(map(abs, lifts)) <= SAME_ANGLE
+
+
+def test_the_third_panel_paints_the_outcomes_and_says_where_the_rule_misleads():
+    found = map_spin(40)
+    axes = Figure().subplots()
+    _draw_outcome(axes, found)
+    (image,) = axes.images
+    outcome = find_outcome(found.effect)
+    assert np.array_equal(image.get_array(), outcome)
+    for k, color in enumerate(OUTCOMES.values()):
+        assert to_hex(image.cmap(image.norm(k))) == color
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == list(OUTCOMES)
+    misled = found.effect.rule_holds & (outcome == list(OUTCOMES).index("lower"))
+    assert 0 < misled.mean() < found.effect.rule_holds.mean()
+    assert f"{misled.mean():.1%}" in axes.get_title()
 
 
 def test_all_files_are_written_and_pictures_are_not_blank(written):

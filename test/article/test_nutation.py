@@ -44,8 +44,12 @@ def test_below_the_horizontal_the_spin_grows_as_the_axis_falls():
     assert not nutation.spin_falls_with_the_axis(falling).holds
 
 
-def test_the_projection_of_regular_precession_closes():
-    assert not nutation.momentum_does_not_close(regular(), regular()).holds
+def test_the_projection_closes_in_regular_precession_only_and_has_another_gap_for_another_top():
+    claim = nutation.momentum_does_not_close
+    assert claim(cusps(), regular()).holds
+    assert not claim(regular(), regular()).holds
+    assert not claim(cusps(), cusps()).holds
+    assert not claim(cusps(Top(TOP.Ix, TOP.Iz, 1.01 * TOP.Mgl)), regular()).holds
 
 
 def test_precession_is_fastest_at_the_top_above_the_fast_root():

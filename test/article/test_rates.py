@@ -1,5 +1,6 @@
 import pytest
 
+from symtop_ros.article import rates
 from symtop_ros.article.motions import FAST, RATES, SLOW, TOP, Rate, start
 from symtop_ros.article.rates import Departure, claims_on_rates, rate_decides
 from symtop_ros.physics import Motion, Top
@@ -34,3 +35,18 @@ def test_a_rate_a_little_off_a_root_does_not_stay(root, off):
         departure = Departure.of(Motion(TOP, start(root * (1 + sign * off))))
         # the motion in a short time is left out: it is below rounding for the smallest of them
         assert departure.directions[0] == departure.directions[2] == expected
+
+
+# The leading coefficient of a kick that holds the other quantity, and a delay in place of a hurry.
+WRONG = {
+    "LEADING": {"spin_rate": lambda top: top.Ix, "spin_momentum": lambda top: top.Ix - top.Iz},
+    "SMALL": 1 / rates.SMALL,
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+@pytest.mark.parametrize("root", ["slow", "fast"])
+def test_the_exact_rule_fails_if_one_of_its_constants_is_changed(root, name, monkeypatch):
+    assert rates.sign_decides(root, TOP).holds
+    monkeypatch.setattr(rates, name, WRONG[name])
+    assert not rates.sign_decides(root, TOP).holds

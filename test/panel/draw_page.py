@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -55,21 +56,46 @@ PICTURES = (
     ),
     Picture("panel_phone", 390, 844, "hurry_slow", lambda actions: actions.kick(1.4), (2.0, 2.2)),
 )
+LESSON = Picture("panel_lesson", 1280, 720, "cusps", lambda _: None, (4.0, 0.0))
 
 
 def main() -> None:
     """Draw all pictures."""
     for picture in PICTURES:
-        page = Page(LocalTop(picture.scene, factor=0.1), LOCAL_HOST, 0)
-        try:
-            with running_browser() as browser:
-                tab = browser.new_page(
+        with opened(picture) as (page, tab):
+            draw(picture, page, tab)
+    with opened(LESSON) as (page, tab):
+        draw_lesson(page, tab)
+
+
+@contextlib.contextmanager
+def opened(picture: Picture) -> Iterator[tuple[Page, Any]]:
+    """Open a page in a browser for a picture."""
+    page = Page(LocalTop(picture.scene, factor=0.1), LOCAL_HOST, 0)
+    try:
+        with running_browser() as browser:
+            yield (
+                page,
+                browser.new_page(
                     viewport={"width": picture.width, "height": picture.height},
                     color_scheme=picture.scheme,
-                )
-                draw(picture, page, tab)
-        finally:
-            page.close()
+                ),
+            )
+    finally:
+        page.close()
+
+
+def draw_lesson(page: Page, tab: Any) -> None:
+    """Press a button of a step of the lesson, and save what is seen some time later."""
+    tab.goto(f"{page.server.url}/#lesson=10")
+    tab.frame_locator("iframe").locator("canvas").first.wait_for(timeout=TIMEOUT * 1000)
+    tab.get_by_label("Your prediction").fill("The centrifugal torque lifts it, more and more.")
+    tab.get_by_role("button", name="Faster: 9 rad/s").click()
+    tab.locator("#headline").filter(has_text="0.439").wait_for(timeout=TIMEOUT * 1000)
+    page.actions.request("pause", True)
+    page.actions.request("reset")
+    move(page, LESSON.nutations[0])
+    save(LESSON, tab)
 
 
 def draw(picture: Picture, page: Page, tab: Any) -> None:
@@ -85,6 +111,11 @@ def draw(picture: Picture, page: Page, tab: Any) -> None:
         picture.act(page.actions)
         move(page, after)
     tab.get_by_role("tab", name=picture.tab).click()
+    save(picture, tab)
+
+
+def save(picture: Picture, tab: Any) -> None:
+    """Save what the window shows."""
     tab.mouse.move(picture.width / 2, 5)
     tab.wait_for_timeout(3000)  # the browser may be some frames behind
     path = DOCS / f"{picture.name}.png"

@@ -1,6 +1,8 @@
 """The page for people on phones, with zoom, with a keyboard or a screen reader, in the dark."""
 
 import contextlib
+import re
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -9,7 +11,8 @@ from browser import running_browser
 from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
-from symtop_ros.web.scene import COLORS
+from symtop_ros.web.page import FOLDER
+from symtop_ros.web.scene import COLORS, FICTITIOUS_COLORS
 
 TIMEOUT = 20.0  # s
 TABS = ("Top", "Push", "History", "View", "Save", "Lesson")
@@ -145,7 +148,16 @@ def to_lab(color):
     return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
 
 
-def test_the_arrows_are_of_different_colours_without_seeing_green():
-    arrows = [to_lab(COLORS[name]) for name in ("L", "omega", "torque")]
-    distances = [np.linalg.norm(arrows[i] - arrows[j]) for i, j in ((0, 1), (0, 2), (1, 2))]
+@pytest.mark.parametrize(
+    "colors", [[COLORS[name] for name in ("L", "omega", "torque")], [*FICTITIOUS_COLORS.values()]]
+)
+def test_the_arrows_are_of_different_colours_without_seeing_green(colors):
+    distances = [np.linalg.norm(to_lab(a) - to_lab(b)) for a, b in combinations(colors, 2)]
     assert min(distances) > 35  # 2.3 can just be seen; omega and the torque had 30 before
+
+
+def test_the_legend_has_the_colours_of_the_arrows():
+    legend = (FOLDER / "page.js").read_text().partition("const LEGEND")[2].partition(";\n")[0]
+    shown = [tuple(bytes.fromhex(color)) for color in re.findall(r'"#(\w{6})"', legend)]
+    for color in (COLORS["L"], COLORS["omega"], COLORS["torque"], *FICTITIOUS_COLORS.values()):
+        assert color in shown

@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 from panel.pages import open_pages
 
-from symtop_ros.panel.page import Page
+from symtop_ros.drawing.fictitious import find_scale, place_arrows, torques_of
+from symtop_ros.panel.page import REMEMBERED, Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.sensor import Imu, Rig
 from symtop_ros.web.run import TRACE
-from symtop_ros.web.scene import CHUNK
+from symtop_ros.web.scene import CHUNK, FICTITIOUS
 
 TIMEOUT = 60.0
 
@@ -54,7 +55,7 @@ def test_the_arrows_have_the_directions_of_the_vectors(page):
     page.actions.step()
     wait(page, lambda: page.run.stamp > page.run.event.stamp)
     momentum = page.run.motion.top.angular_momentum(page.run.state)
-    w, x, y, z = page._scene._arrows["L"].wxyz
+    w, x, y, z = page._scene._arrows["L"].handle.wxyz
     drawn = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), w * w + z * z - x * x - y * y])
     assert drawn == pytest.approx(momentum / np.linalg.norm(momentum), abs=1e-14)  # seen: 1e-16
     nodes = page._scene._nodes.wxyz
@@ -90,7 +91,7 @@ def test_a_bug_in_the_drawing_is_a_message_and_the_next_frames_are_drawn(page, m
 
 
 def test_the_specific_force_is_drawn_if_the_top_carries_a_sensor(page):
-    arrow = page._scene._arrows["specific force"]
+    arrow = page._scene._arrows["specific force"].handle
     page.actions.choose_scene("free")  # its centre of mass rests in the pivot
     page.actions.step()
     wait(page, lambda: page.run.stamp > page.run.event.stamp)
@@ -100,3 +101,32 @@ def test_the_specific_force_is_drawn_if_the_top_carries_a_sensor(page):
     wait(page)
     assert arrow.visible
     assert arrow.wxyz == pytest.approx([1.0, 0.0, 0.0, 0.0], abs=1e-15)  # upwards, against gravity
+
+
+def test_the_fictitious_torques_are_drawn_once_a_page_shows_them(page):
+    page.actions.choose_scene("hurry_slow")
+    page.actions.start({"theta": 0.5, "psi_dot": 200.0, "phi_dot": 9.0})
+    page.actions.step()
+    wait(page, lambda: page.run.stamp > page.run.event.stamp)
+    arrows = page._scene._torques
+    assert not any(arrow.handle.visible for arrow in arrows.values())
+    (client,) = page.server.get_clients()
+    name = page.server.page_of(client)
+    page._show_layer(name, FICTITIOUS, True)
+    wait(page, lambda: arrows["gravity"].handle.visible)
+    assert page._layers_of(client) == {FICTITIOUS: True}
+    top, state = page.run.motion.top, page.run.state
+    scale, phi = find_scale(top, page.run.motion.start), state.euler_angles.phi
+    drawn = place_arrows(torques_of(top, state), np.asarray(phi), scale)
+    for each, (origin, vector) in drawn.items():
+        assert arrows[each].handle.position == pytest.approx(origin, abs=1e-15)
+        length = arrows[each].handle.points[0, 1, 2]
+        assert length == pytest.approx(np.linalg.norm(vector), abs=0.005)  # two digits are sent
+    page._show_layer(name, FICTITIOUS, False)
+    wait(page, lambda: not page._scene.shows_torques)
+
+
+def test_choices_of_pages_that_are_long_gone_are_forgotten(page):
+    for number in range(REMEMBERED + 5):
+        page._show_layer(f"gone{number}", "trace", False)
+    assert len(page._shown) == REMEMBERED

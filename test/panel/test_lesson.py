@@ -10,6 +10,7 @@ from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.web.lesson import read_lesson
+from symtop_ros.web.scene import HIDDEN_LAYERS
 
 TIMEOUT = 20.0  # s
 SECRET = "it falls, I think"
@@ -25,6 +26,7 @@ ANGLES = (
     ((0.5, 0.587), (0.439, 0.5)),
     ((0.5, 0.5), (0.437, 0.5)),
     ((0.5, 0.5), (0.5, 0.713)),
+    ((0.5, 0.5), (0.439, 0.5), (0.5, 0.5), (0.5, 0.528)),
     ((0.5, 0.5), (0.5, 0.544)),
 )
 
@@ -67,6 +69,16 @@ def until(tab, condition):
         tab.wait_for_timeout(20)
 
 
+def hidden_layers(tab):
+    """For each layer that is hidden at first: is it, and what the legend says of it?"""
+    boxes = [tab.get_by_label(layer, exact=True) for layer in HIDDEN_LAYERS]
+    hidden = [not box.is_checked() for box in boxes]
+    for layer, is_hidden in zip(HIDDEN_LAYERS, hidden, strict=True):
+        for entry in tab.locator(f"#legend [data-layer='{layer}']").all():
+            assert entry.is_visible() is not is_hidden
+    return hidden
+
+
 def angles(page):
     return page.run.motion.turning_angles
 
@@ -96,6 +108,7 @@ def test_a_class_presses_through_all_steps(browser, page):
             assert not page.run.motion.is_driven  # the friction of the first scene is gone
             if act.hurry:
                 assert tab.get_by_role("button", name=act.button, exact=True).is_disabled()
+        assert hidden_layers(tab) == [layer not in step.layers for layer in HIDDEN_LAYERS]
         looked = tab.locator(".looked")
         assert sorted(looked.evaluate_all("all => all.map(e => e.dataset.chart)")) == sorted(
             step.charts

@@ -480,14 +480,14 @@ def test_labels_stand_at_the_ends_of_their_arrows(watched):
         watched.until(lambda: watched.run.stamp > watched.run.event.stamp)
     scene = watched.page._scene
     for name in ("L", "omega", "torque"):
-        arrow, label = scene._arrows[name], scene._labels[name]
+        arrow, label = scene._arrows[name].handle, scene._arrows[name].label
         w, x, y, z = arrow.wxyz
         direction = np.array(
             [2 * (x * z + w * y), 2 * (y * z - w * x), w * w + z * z - x * x - y * y]
         )
         gap = np.array(label.position) - arrow.points[0, 1, 2] * direction
         assert np.linalg.norm(gap) < 0.08  # scene units, less than two heads of an arrow
-    dark = [watched.place(np.array(scene._labels[name].position)) for name in ("L", "omega")]
+    dark = [watched.place(np.array(scene._arrows[name].label.position)) for name in ("L", "omega")]
     for x, y in dark:  # a label is black on white
         place = slice(round(y) - 12, round(y) + 12), slice(round(x) - 40, round(x) + 40)
         watched.until(lambda place=place: (watched.picture()[place].max(axis=2) < 90).sum() > 5)

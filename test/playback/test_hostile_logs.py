@@ -157,7 +157,7 @@ def test_samples_that_are_no_numbers_are_told_and_drawn_without_warnings(tmp_pat
             run.messages[k] = name, stamp, LAYOUTS[name].encode(stamp, [next(odd)] * width)
     path = run.write(tmp_path)
     assert asked(capsys, path, "--check") == (1, [])
-    for options in ((), ("--angles", "--torques")):
+    for options in ((), ("--angles", "--torques", "--fictitious")):
         way = ("--save", tmp_path / "run.rrd", *options)
         assert asked(capsys, path, *way) == (0, [])
 

@@ -5,45 +5,22 @@ its velocity, and the forces on them know nothing of moments of inertia.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
 from symtop_ros.article.claims import Claim
 from symtop_ros.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 from symtop_ros.drawing.style import BLUE, GREY, INK, RED, new_figure
-from symtop_ros.physics import Motion, Top, theta_acceleration
+from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
 
 PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
 CORNERS = np.arange(4) * math.pi / 2  # rad
 SUMMED = 4e-15  # of the largest torque; sums of 16 products of four factors. Measured: 1e-15
 SHOWN = np.linspace(0.0, 85.0, 200)  # rad/s
 SWEEP = np.linspace(0.0, 2 * math.pi, 200)  # rad
-
-
-class Torques(NamedTuple):
-    """Torques about the line of nodes in the precessing frame, in N m, positive if theta grows."""
-
-    gravity: Real
-    coriolis: Real
-    centrifugal: Real
-
-    @property
-    def total(self) -> Real:
-        """Their sum, which is Ix theta''."""
-        return self.gravity + self.coriolis + self.centrifugal
-
-
-def find_torques(top: Top, theta: float, phi_dot: Real, psi_dot: float) -> Torques:
-    """Return the torques at theta' = 0, in a frame that turns with phi' about the vertical."""
-    sine = math.sin(theta)
-    return Torques(
-        top.Mgl * sine + 0.0 * phi_dot,
-        -top.Iz * psi_dot * phi_dot * sine,
-        (top.Ix - top.Iz) * phi_dot**2 * sine * math.cos(theta),
-    )
 
 
 def claims_on_fictitious_forces(top: Top) -> list[Claim]:
@@ -54,7 +31,7 @@ def claims_on_fictitious_forces(top: Top) -> list[Claim]:
 def three_torques_raise_or_lower(top: Top) -> Claim:
     """Check that the three torques are Ix theta'' of the closed form, with the signs of Perry's."""
     rates = np.array(PHI_DOTS)
-    torques = find_torques(top, THETA, rates, PSI_DOT)
+    torques = precessing_frame_torques(top, THETA, rates, PSI_DOT)
     expected = top.Ix * theta_acceleration(top, THETA, rates, PSI_DOT)
     off = float(np.abs(torques.total - expected).max() / np.abs(torques.coriolis).max())
     balanced = np.abs(torques.total[[0, 2]]).max() / np.abs(torques.coriolis).max()
@@ -86,7 +63,7 @@ def masses_feel_the_same(top: Top) -> Claim:
         moving = np.cross([0.0, 0.0, PSI_DOT], places)  # velocities in that frame
         forces = (-2 * np.cross(frame, moving), -np.cross(frame, np.cross(frame, places)))
         summed = [float(masses @ (np.cross(places, force) @ node)) for force in forces]
-        torques = find_torques(top, THETA, np.asarray(phi_dot), PSI_DOT)
+        torques = precessing_frame_torques(top, THETA, phi_dot, PSI_DOT)
         expected = float(torques.coriolis), float(torques.centrifugal)
         scale = max(map(abs, expected))
         largest = max(largest, *(abs(a - b) / scale for a, b in zip(summed, expected, strict=True)))
@@ -140,7 +117,16 @@ def draw_fictitious_torques() -> Figure:
     """Draw the three torques and their sum against the precession rate."""
     figure = new_figure(3.9)
     axes = figure.subplots()
-    torques = find_torques(TOP, THETA, SHOWN, PSI_DOT)
+    plot_torques(axes)
+    axes.plot([SLOW, FAST], [0.0, 0.0], "o", color=INK, ms=7, zorder=3)
+    axes.set_title(f"dots: the roots, {SLOW:.2f} and {FAST:.1f} rad/s", loc="right")
+    axes.legend(loc="upper left")
+    return figure
+
+
+def plot_torques(axes: Axes) -> None:
+    """Plot the three torques and their sum against the precession rate."""
+    torques = precessing_frame_torques(TOP, THETA, SHOWN, PSI_DOT)
     axes.axhline(0.0, color=INK, lw=0.9)
     axes.plot(SHOWN, torques.gravity, color=GREY, ls=":", label="gravity: lowers")
     coriolis, centrifugal = (
@@ -150,11 +136,7 @@ def draw_fictitious_torques() -> Figure:
     axes.plot(SHOWN, torques.coriolis, color=BLUE, ls="--", label=coriolis)
     axes.plot(SHOWN, torques.centrifugal, color=RED, ls="-.", label=centrifugal)
     axes.plot(SHOWN, torques.total, color=INK, label=r"sum, $I_x \ddot\theta$")
-    axes.plot([SLOW, FAST], [0.0, 0.0], "o", color=INK, ms=7, zorder=3)
     axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel="torque about the line of nodes (N m)", xmargin=0)
-    axes.set_title(f"dots: the roots, {SLOW:.2f} and {FAST:.1f} rad/s", loc="right")
-    axes.legend(loc="upper left")
-    return figure
 
 
 def draw_four_masses() -> Figure:

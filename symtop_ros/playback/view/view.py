@@ -21,6 +21,7 @@ from symtop_ros.playback.view import (
 )
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VIOLET
+from symtop_ros.playback.view.fictitious import FictitiousView
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.panel import describe_motion
 from symtop_ros.playback.view.plots import Plots
@@ -60,6 +61,7 @@ class ViewOptions:
     ghost: bool = True  # the top that was not kicked
     angles: bool = False  # both frames, the line of nodes, and the arcs of phi, theta and psi
     torques: bool = False  # arrows of dL/dt and of the inertial torque in two frames
+    fictitious: bool = False  # arrows of the torques that an observer sees who precesses along
 
 
 DEFAULT_OPTIONS = ViewOptions()
@@ -77,6 +79,7 @@ class View:
         self._stream, self._live, self._options = Stream(recording), live, options
         self._plots = Plots(self._stream)
         self._ghost = GhostView(self._stream) if options.ghost else None
+        self._fictitious = FictitiousView(self._stream) if options.fictitious else None
         self._has_cones = False
         self._segment: Segment | None = None
         self._framing: Framing | None = None
@@ -129,7 +132,9 @@ class View:
             for name, arrow in ARROWS.items()
             if name in self._scales
         }
-        equations = inertial.EQUATIONS if self._options.torques else {}
+        equations = dict(inertial.EQUATIONS) if self._options.torques else {}
+        if self._fictitious:
+            equations |= self._fictitious.follow(motion.top, event.state())
         text = describe_motion(self._segment, event.state(), scales, equations)
         self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
         if event.name in SPOKEN:
@@ -168,6 +173,8 @@ class View:
             self._stream.send_lines(entities.NODES, euler.stamps, nodes)
             if self._options.angles:
                 angles.send_angles(self._stream, euler)
+            if self._fictitious:
+                self._fictitious.send(euler)
         if self._options.torques and (parts := inertial.Torques.of(columns)):
             inertial.send_arrows(self._stream, *parts, self._scales["torque"])
         self._plots.send(columns, self._segment)

@@ -1,16 +1,14 @@
 """Fictitious torques, and the masses that feel them."""
 
-import numpy as np
 import pytest
 
 from symtop_ros.article.answers import fictitious
 from symtop_ros.article.answers.fictitious import (
     claims_on_fictitious_forces,
-    find_torques,
     point_masses,
 )
 from symtop_ros.article.motions import HANGING_DISC, PSI_DOT, THETA, TOP
-from symtop_ros.physics import Top
+from symtop_ros.physics import FrameTorques, Top, precessing_frame_torques
 
 # gravity, Coriolis, centrifugal in N m at the article's rates; computed by hand to five decimals
 TABLE = {
@@ -23,7 +21,7 @@ TABLE = {
 
 @pytest.mark.parametrize("phi_dot", TABLE)
 def test_the_three_torques_are_those_of_the_table(phi_dot):
-    found = find_torques(TOP, THETA, np.asarray(phi_dot), PSI_DOT)
+    found = precessing_frame_torques(TOP, THETA, phi_dot, PSI_DOT)
     assert found == pytest.approx(TABLE[phi_dot], abs=6e-6)  # printed decimals
 
 
@@ -38,14 +36,14 @@ def test_the_masses_have_the_moments_of_the_top(top):
 
 def test_a_wrong_constant_fails_each_claim(monkeypatch):
     assert all(claim.holds for claim in claims_on_fictitious_forces(TOP))
-    twice, once = fictitious.find_torques, fictitious.point_masses
+    twice, once = fictitious.precessing_frame_torques, fictitious.point_masses
 
     def with_half_of_coriolis(*arguments):
         gravity, coriolis, centrifugal = twice(*arguments)
-        return fictitious.Torques(gravity, coriolis / 2, centrifugal)
+        return FrameTorques(gravity, coriolis / 2, centrifugal)
 
-    monkeypatch.setattr(fictitious, "find_torques", with_half_of_coriolis)
+    monkeypatch.setattr(fictitious, "precessing_frame_torques", with_half_of_coriolis)
     assert [claim.holds for claim in claims_on_fictitious_forces(TOP)] == [False, False, True]
-    monkeypatch.setattr(fictitious, "find_torques", twice)
+    monkeypatch.setattr(fictitious, "precessing_frame_torques", twice)
     monkeypatch.setattr(fictitious, "point_masses", lambda top: (once(top)[0] * 1.01, once(top)[1]))
     assert [claim.holds for claim in claims_on_fictitious_forces(TOP)] == [True, False, False]
