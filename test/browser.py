@@ -20,7 +20,7 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 # Software rendering works on machines without a GPU, and gives the same pictures on all others.
 OPTIONS = (
     *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
-    *("--ignore-gpu-blocklist", "--disable-dev-shm-usage"),
+    *("--ignore-gpu-blocklist", "--disable-dev-shm-usage", "--disable-gpu-rasterization"),
 )
 # Software takes all the time of a processor for sixty frames a second; a test needs few: four.
 FEW_FRAMES = """
