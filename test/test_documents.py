@@ -3,8 +3,8 @@
 import contextlib
 import importlib
 import io
-import re
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
