@@ -77,7 +77,7 @@ def compile_block(language, compiler, options, folder):
     source = folder / f"top.{language}"
     source.write_text(code)
     # rustc looks for the jobs of the make that runs the tests, and warns that they are not its own
-    environment = {name: os.environ[name] for name in os.environ.keys() - {"MAKEFLAGS"}}
+    environment = {name: os.environ[name] for name in os.environ.keys() - {"MAKEFLAGS", "MFLAGS"}}
     for command in ([compiler, *options, str(source), "-o", "top"], ["./top"]):
         done = subprocess.run(
             command, cwd=folder, capture_output=True, text=True, check=False, env=environment
