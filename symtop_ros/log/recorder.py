@@ -131,6 +131,8 @@ class Recorder:
         try:
             while not self._fill(latched):
                 self._file.finish(self._counts())
+                if not self._await_message():
+                    return  # a file without any message would be no log of a run
                 self._file = self._open(metadata, latched)
             self._file.finish(self._counts())
         except Exception as error:
@@ -138,6 +140,13 @@ class Recorder:
             self._queue.clear()
             # Set last: who reads it may open the file, which must be complete by then.
             self.failure = f"{self._file.path}: {describe_error(error)}"
+
+    def _await_message(self) -> bool:
+        """Wait for the first message of the next file; return False if the recording ends first."""
+        while not self._queue:
+            if self._ending.wait(WRITE_PERIOD):
+                return bool(self._queue)
+        return True
 
     def _counts(self) -> dict[str, str]:
         return {"dropped": str(self.dropped)}

@@ -12,6 +12,7 @@ from mcap.reader import make_reader
 from symtop_ros.log import recorder as module
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.recorder import Limits, Recorder
+from symtop_ros.log.writer import MAGIC
 from symtop_ros.simulation.topics import Topic
 
 TIMEOUT = 60.0
@@ -81,11 +82,11 @@ def test_a_file_begins_with_the_current_latched_messages(tmp_path):
 
 def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp_path):
     recorder = create(tmp_path, Limits(duration=1.0))
-    recorder.start({"scene": "x"})
+    path = recorder.start({"scene": "x"})
     recorder.add(0, 0, b"latched")
     for stamp in (0, 1_100_000_000):
         recorder.add(1, stamp, b"one")
-    wait_until(lambda: len(list(tmp_path.iterdir())) == 2)
+    wait_until(lambda: is_finished(path))
     recorder.add(1, 1_200_000_000, b"two")
     recorder.stop()
     first, second = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
@@ -94,6 +95,23 @@ def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp
         ("/latched", 1_200_000_000, b"latched"),
         ("/plain", 1_200_000_000, b"two"),
     ]
+
+
+def test_a_recording_that_ends_between_two_files_leaves_none_without_messages(tmp_path):
+    recorder = create(tmp_path, Limits(duration=1.0))
+    path = recorder.start({})
+    for stamp in (0, 2 * 10**9):
+        recorder.add(1, stamp, b"x")
+    wait_until(lambda: is_finished(path))
+    recorder.stop()
+    assert recorder.failure == ""
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def is_finished(path):
+    """Return True if a file has its index."""
+    with path.open("rb") as file:
+        return file.read()[8:].endswith(MAGIC)
 
 
 def test_a_file_that_is_large_enough_is_followed_by_another(tmp_path):
