@@ -10,7 +10,7 @@ import pytest
 
 from symtop_ros import physics
 
-pytestmark = pytest.mark.untraced
+pytestmark = [pytest.mark.untraced, pytest.mark.long]
 ROOT = Path(__file__).parents[1]
 LOADED = re.compile(r'<(?:script|img|link)[^>]*(?:src|href)="([^"]+)"')
 

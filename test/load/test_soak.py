@@ -12,6 +12,7 @@ GROWTH = 4.0  # MB; pools of the allocator take this much after ten seconds, how
 BALANCE = 1e-13  # J, of an energy of some J: 1e-15 of it in a stretch, and a factor for kicks
 
 
+@pytest.mark.long
 def test_at_full_rate_nothing_is_lost_and_every_log_is_what_its_events_say():
     command = script("soak.py", "--seconds", SECONDS)
     result = subprocess.run(

@@ -46,7 +46,7 @@ def opened(browser, page, size=SIZES[0], **options):
     tab.close()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", [pytest.param("light", marks=pytest.mark.long), "dark"])
 def test_there_is_no_serious_finding_of_axe(browser, page, scheme):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
     with opened(browser, page, color_scheme=scheme) as tab:

@@ -18,6 +18,7 @@ from symtop_ros.physics.driven.series import Knot, Stepper
 from symtop_ros.physics.driven.trail import DrivenMotion
 
 pytestmark = pytest.mark.untraced
+LONG = pytest.mark.long
 NONE = (0.0, 0.0, 0.0)
 ENGINES = (
     {"kernel": nullcontext, "Python": python_alone} if accelerated else {"Python": nullcontext}
@@ -277,8 +278,10 @@ def test_a_motion_that_becomes_too_fast_is_refused_in_a_sentence(torque):
 
 
 @pytest.mark.parametrize("upright", [True, False])
-@pytest.mark.parametrize("small", [1e-3, 1e-6, 1e-9, 1e-12])
-@pytest.mark.parametrize("turned", [0.0, 0.7])
+@pytest.mark.parametrize(
+    "small", [1e-3, pytest.param(1e-6, marks=LONG), pytest.param(1e-9, marks=LONG), 1e-12]
+)
+@pytest.mark.parametrize("turned", [pytest.param(0.0, marks=LONG), 0.7])
 def test_a_swing_near_the_vertical_is_right_to_rounding_of_itself(upright, small, turned):
     c, s = math.cos(turned), math.sin(turned)
     q = (c, 0.0, 0.0, s) if upright else (0.0, c, s, 0.0)
