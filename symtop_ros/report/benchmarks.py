@@ -34,7 +34,7 @@ class Scope:
 
     # True if every peer integrates every motion; else each says what it takes part in
     is_full: bool
-    motions: int  # number of the article's seven motions, counted from the first
+    motions: int  # number of the nine motions without friction, counted from the first
     limit: float  # seconds that one run of a peer may take
     growth_limit: float  # the same for the growth of the error with time
     states: tuple[int, ...]  # numbers of states in an array
@@ -48,8 +48,8 @@ class Scope:
 
 
 FIRST = "first motion"
-QUICK = Scope(False, 7, 4.0, 1.0, tuple(10**k for k in range(8)), HARD_PEERS[1:])
-FULL = Scope(True, 7, 60.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
+QUICK = Scope(False, 9, 4.0, 1.0, tuple(10**k for k in range(8)), HARD_PEERS[1:])
+FULL = Scope(True, 9, 60.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
 SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9, 8)  # for tests
 
 

@@ -161,7 +161,7 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
     best = {(c.peer, c.motion): f"{c.best.error:.0e} in {_ms(c.best.seconds)}" for c in others}
     rows = [[peer, *(best[peer, name] for name in names)] for peer in peers]
     return (
-        "## The article's other motions\n\n![speed against error, by motion](motions.svg)\n\n"
+        "## Other motions\n\n![speed against error, by motion](motions.svg)\n\n"
         f"Largest error in {SPAN:g} s at the best setting, and its time in ms.\n\n"
         f"{format_table(['', *names], rows)}"
     )

@@ -78,7 +78,8 @@ class ReferenceMotion:
 class Reference:
     """The reference motions that the package ships."""
 
-    article: list[ReferenceMotion]  # the article's seven motions, and its cusps with friction
+    # the article's seven motions, two next to a pole, and its cusps with friction
+    article: list[ReferenceMotion]
     hard: list[ReferenceMotion]  # the hard cases
     # motions with friction or an applied torque, in 14 families; the name is the family
     driven: list[ReferenceMotion]

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import median
-from timeit import timeit
+from timeit import Timer
 from typing import Literal
 
 from symtop_ros.report.peers.peer import Peer
@@ -96,11 +96,12 @@ def _expect(points: list[Measurement], setting: float) -> float:
 
 def time_call(call: Callable[[], object], enough: float = LONG) -> float:
     """Return the median seconds of several calls, or those of the first if it takes `enough` s."""
-    first = timeit(call, number=1)
+    timer = Timer(call)  # one for all calls: each compiles a loop, after which caches are cold
+    first = timer.timeit(1)
     if first > enough:
         return first
     times: list[float] = []
     end = time.perf_counter() + SHORTEST
     while len(times) < REPEATS or time.perf_counter() < end:
-        times.append(timeit(call, number=1))
+        times.append(timer.timeit(1))
     return median(times)

@@ -44,7 +44,7 @@ def exact(data, k):
     return inputs, exact_motion(inputs, data["t"][k])[0]
 
 
-@pytest.mark.parametrize("data", ENTRIES["article"][:7], ids=lambda data: data["name"])
+@pytest.mark.parametrize("data", ENTRIES["article"][:9], ids=lambda data: data["name"])
 def test_the_articles_motions_are_exact_to_all_digits_written(data):
     for k, decimals in enumerate(data["exact"]):
         assert_same_digits(exact(data, k)[1], decimals)

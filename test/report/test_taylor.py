@@ -32,7 +32,7 @@ def largest_difference(motion, times, exact):
 
 @pytest.mark.parametrize(
     "number",
-    [0, *(pytest.param(n, marks=pytest.mark.long) for n in range(1, 7)), 7],
+    [0, *(pytest.param(n, marks=pytest.mark.long) for n in range(1, 8)), 8, 9],
     ids=[problem.name for problem in ARTICLE],
 )
 def test_the_articles_motions_have_the_digits_that_were_stored(number):

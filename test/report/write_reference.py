@@ -29,10 +29,13 @@ Case = tuple[str, float, Top, State, float]  # family, distance, top, start, and
 
 
 def article() -> Iterator[dict[str, Any]]:
-    """Yield the article's seven motions, and its cusps under friction."""
+    """Yield the article's seven motions, two next to a pole, and its cusps under friction."""
     for rate in (0.0, *(rate.phi_dot for rate in RATES)):
         name = f"phi' = {rate:.3g} rad/s" if rate else "cusps"
         yield entry(name, TOP, start(rate), TIMES)
+    yield entry("unstable sleeper", TOP, State.from_euler(theta=0.001, psi_dot=100.0), TIMES)
+    rising = State((0.5, 0.5, 0.5, 0.5), (-1.0, 0.0, 0.0))
+    yield entry("separatrix", Top(1.0, 0.5, 0.5), rising, TIMES[:3])  # at rest upright in the end
     yield entry("cusps with friction", TOP, start(0.0), DRIVEN_TIMES, FRICTION)
 
 
