@@ -178,7 +178,9 @@ class LocalTop:
                 self._clock.advance()
                 self._tick()
                 self._keep_up()
-            return self._collect()
+            # Between turns: a kick sends its first sample some time before its event.
+            with self._session.simulation.turn("batch"):
+                return self._collect()
 
     def _collect(self) -> Batch:
         samples = [self._samples.popleft() for _ in range(len(self._samples))]

@@ -67,10 +67,12 @@ def test_the_arrows_have_the_directions_of_the_vectors(page):
 def test_the_ends_of_the_trace_meet_its_newest_points(page):
     page.actions.choose_scene("looping")
     for _ in range(40):
-        page.actions.step()
-    wait(page, lambda: page.run.stamp > page.run.event.stamp)
+        page.actions.step()  # one in each frame: of several steps only the last has a sample
+        wait(page, lambda: page.run.stamp > page.run.event.stamp, frames=1)
+    wait(page)
     run, scene = page.run, page._scene
     drawn = np.concatenate([node.points.reshape(-1, 3) for node in scene._trace])
+    assert run.traced > CHUNK
     newest = run.axes[-1 - min(run.traced, TRACE - CHUNK) :][:-1]  # with the place of the head
     distances = np.abs(drawn[:, None] - newest[None]).max(axis=2).min(axis=0)
     assert distances.max() < 1e-7  # single precision

@@ -1,5 +1,6 @@
 """The top of the page itself: requests, a clock that only a watched page moves, and its log."""
 
+import threading
 from itertools import pairwise
 
 import pytest
@@ -8,6 +9,7 @@ from exact_log import assert_exact
 from symtop_ros.log.reader import McapFile
 from symtop_ros.panel import source
 from symtop_ros.panel.source import LONGEST_STEP, LocalTop
+from symtop_ros.simulation.timeline import Change
 
 SECOND = 1_000_000_000
 
@@ -48,6 +50,27 @@ def test_a_request_is_answered_as_by_the_node(top):
     assert granted
     assert answer.startswith("Precession 6.50 -> 9.10 rad/s. The top rises")
     assert names(top.batch()) == ["kick"]
+
+
+def test_a_batch_never_ends_between_the_first_sample_of_a_kick_and_its_event(
+    top, clock, monkeypatch
+):
+    kicked, collected = threading.Event(), threading.Event()
+
+    def describe(_):
+        """Take time, as a verdict does; the sample has been sent, the event has not."""
+        kicked.set()
+        collected.wait(0.2)
+        return "the top rises"
+
+    monkeypatch.setattr(Change, "describe", describe)
+    kick = threading.Thread(target=top.request, args=("kick", {"precession_rate_factor": 1.4}))
+    monkeypatch.setattr(top, "_keep_up", lambda: (kick.start(), kicked.wait(10.0)))
+    clock[0] += 0.02
+    batch = top.batch()
+    collected.set()
+    kick.join()
+    assert names(batch) == ["kick"]
 
 
 def test_a_refused_request_changes_nothing(top):
