@@ -13,17 +13,15 @@ from symtop_ros.arrays import Real
 
 def compose(p: Real, q: Real) -> Real:
     """Return the products p q, (..., 4): the rotation q, followed by p."""
-    w, x, y, z = np.moveaxis(p, -1, 0)
-    a, b, c, d = np.moveaxis(q, -1, 0)
-    return np.stack(
-        (
-            w * a - x * b - y * c - z * d,
-            w * b + x * a + y * d - z * c,
-            w * c - x * d + y * a + z * b,
-            w * d + x * c - y * b + z * a,
-        ),
-        axis=-1,
-    )
+    p, q = np.asarray(p), np.asarray(q)
+    w, x, y, z = (p[..., k] for k in range(4))
+    a, b, c, d = (q[..., k] for k in range(4))
+    product = np.empty(np.broadcast_shapes(p.shape, q.shape))
+    product[..., 0] = w * a - x * b - y * c - z * d
+    product[..., 1] = w * b + x * a + y * d - z * c
+    product[..., 2] = w * c - x * d + y * a + z * b
+    product[..., 3] = w * d + x * c - y * b + z * a
+    return product
 
 
 def invert(q: Real) -> Real:

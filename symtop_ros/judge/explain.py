@@ -40,6 +40,7 @@ ROTATIONS, DELAY, DRIFT = range(6), 6, 7
 RANK = 1e-7
 SIGMAS = 2.0
 VISIBLE = 1e-3  # part of a parameter in what the motion hides
+Exact = tuple[Real, Real, NDArray[np.bool_]]  # quaternions, rates, and the mask of those known
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,16 +90,19 @@ class Fit:
     truth: Truth
     rotations: bool  # False: they stay the identity
     hidden: list[str] = field(default_factory=list)
+    _last: tuple[float, Exact] | None = None  # the delay that was asked for last, and its motion
 
     @cached_property
     def seconds(self) -> Real:
         """Times since the first estimate in s, (n,)."""
         return np.asarray((self.some.stamps - self.some.stamps[0]) / NANOSECONDS)
 
-    def exact(self, delay: float) -> tuple[Real, Real, NDArray[np.bool_]]:
+    def exact(self, delay: float) -> Exact:
         """Return exact quaternions, rates and the mask of those known, for a delay."""
-        stamps = self.some.stamps - round(delay * NANOSECONDS)
-        return self.truth.states_at(stamps, self.some.of_sensor)
+        if self._last is None or self._last[0] != delay:
+            stamps = self.some.stamps - round(delay * NANOSECONDS)
+            self._last = delay, self.truth.states_at(stamps, self.some.of_sensor)
+        return self._last[1]
 
     def residuals(self, offset: Offset) -> tuple[Real, Real, NDArray[np.bool_]]:
         """Return q_est, the model of it, and the mask of those known."""
