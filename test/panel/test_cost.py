@@ -18,34 +18,36 @@ HALF_AN_HOUR = 1800.0  # s
 GROWTH = 6.0  # MB
 
 
+@pytest.fixture(scope="module", name="panel")
+def _panel():
+    with running_panel() as (process, url):
+        yield process.pid, url
+
+
 @pytest.mark.realtime
-def test_a_closed_page_costs_next_to_nothing():
+def test_a_closed_page_costs_next_to_nothing(panel):
     """Rates and CPU times of the page are measured by page_cost.py, not in this test."""
-    with running_panel() as (process, url):
-        cost = measure(process.pid, url, 1, 2.0)
-        assert cost.updates > 0
-        # Closed, the page costs a look at the events twice a second: measured 0.2 %, and the clock
-        # of CPU times has steps of 1 % here.
-        assert measure(process.pid, url, 0, 1.0).cpu < max(2.1, cost.cpu / 4)
+    cost = measure(*panel, 1, 2.0)
+    assert cost.updates > 0
+    # Closed, the page costs a look at the events twice a second: measured 0.2 %, and the clock
+    # of CPU times has steps of 1 % here.
+    assert measure(*panel, 0, 1.0).cpu < max(2.1, cost.cpu / 4)
 
 
 @pytest.mark.realtime
-def test_a_frame_is_not_old_behind_a_slow_line():
-    with running_panel() as (_, url):
-        assert measure_age(url, SLOW, 3.0) < 0.3  # s; measured 0.04
+def test_a_frame_is_not_old_behind_a_slow_line(panel):
+    assert measure_age(panel[1], SLOW, 3.0) < 0.3  # s; measured 0.04
 
 
 @pytest.mark.realtime
-def test_a_page_gets_less_than_100_kilobytes_a_second():
-    with running_panel() as (process, url):
-        assert measure(process.pid, url, 1, 3.0).kilobytes < 100  # measured 50
+def test_a_page_gets_less_than_100_kilobytes_a_second(panel):
+    assert measure(*panel, 1, 3.0).kilobytes < 100  # measured 50
 
 
 @pytest.mark.long
-def test_one_page_is_updated_60_times_a_second():
-    with running_panel() as (process, url):
-        # of 60: a frame may be late on a machine under load
-        assert measure(process.pid, url, 1, 10.0).updates > 57
+def test_one_page_is_updated_60_times_a_second(panel):
+    # of 60: a frame may be late on a machine under load
+    assert measure(*panel, 1, 10.0).updates > 57
 
 
 def test_frames_leave_nothing_behind():
@@ -71,9 +73,8 @@ def test_frames_leave_nothing_behind():
 
 
 @pytest.mark.long
-def test_ten_pages_are_updated_30_times_a_second():
-    with running_panel() as (process, url):
-        assert measure(process.pid, url, 10, 20.0).updates >= 30
+def test_ten_pages_are_updated_30_times_a_second(panel):
+    assert measure(*panel, 10, 20.0).updates >= 30
 
 
 @pytest.mark.long
