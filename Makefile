@@ -2,7 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 # What is compiled at the installation.
-SOURCES := setup.py $(wildcard symtop_ros/physics/kernel/*.?pp)
+SOURCES := setup.py $(wildcard symtop_ros/physics/kernel/*.?pp symtop_ros/physics/kernel/*/*.hpp)
 NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin

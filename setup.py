@@ -93,7 +93,7 @@ LINT = [
 KERNEL = Extension(
     f"{NAME}.physics.kernel._kernel",
     sources=[f"{NAME}/physics/kernel/module.cpp"],
-    depends=glob(f"{NAME}/physics/kernel/*.hpp"),
+    depends=glob(f"{NAME}/physics/kernel/**/*.hpp", recursive=True),
     language="c++",
     extra_compile_args=[
         *("-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),

@@ -1,8 +1,8 @@
 // Many states of one motion: LANES at a time where all of them lie after the first instants, else one
-// by one. Both are the same templates of closed_form.hpp.
+// by one. Both are the same templates of exact/closed_form.hpp.
 #pragma once
 
-#include "closed_form.hpp"
+#include "exact/closed_form.hpp"
 
 namespace symtop {
 

@@ -7,7 +7,7 @@
 #include <new>
 
 #include "blocks.hpp"
-#include "driven.hpp"
+#include "driven/trail.hpp"
 
 using namespace symtop;
 

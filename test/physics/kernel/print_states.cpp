@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../../../symtop_ros/physics/kernel/blocks.hpp"
-#include "../../../symtop_ros/physics/kernel/driven.hpp"
+#include "../../../symtop_ros/physics/kernel/driven/trail.hpp"
 
 using namespace symtop;
 

@@ -161,7 +161,7 @@ def test_no_extreme_number_overflows_in_the_kernel_or_leaves_its_arrays(tmp_path
 
 
 def test_constants_of_the_kernel_are_those_of_python():
-    text = (SOURCES / "numbers.hpp").read_text()
+    text = (SOURCES / "precise.hpp").read_text()
     pattern = r"const Precise (\w+) = precise\((\w+), (\w+), (\w+), (-?\d+)\)"
     with localcontext(PRECISE):
         expected = {"TWO_PI": TWO_PI, "PER_TURN": PER_TURN, "LN2": Decimal(2).ln()}

@@ -1,0 +1,179 @@
+// Twin of physics/driven/equations.py, and sums of two doubles.
+//
+// What has extended precision in Python is a sum of two doubles here (32 digits), so that states
+// have the same bits on every machine. They are not the bits of Python, whose extended precision is
+// that of the processor.
+#pragma once
+
+#include "../elementary.hpp"
+
+namespace symtop {
+
+struct Double2 {
+  double high, low;
+  double to_double() const { return high; }
+};
+
+inline Double2 sum_of(double a, double b) {  // Knuth's two-sum
+  const double s = a + b, part = s - a;
+  return {s, (a - (s - part)) + (b - part)};
+}
+
+inline Double2 fast_sum_of(double a, double b) {  // for |a| >= |b|
+  const double s = a + b;
+  return {s, b - (s - a)};
+}
+
+inline Double2 operator-(Double2 a) { return {-a.high, -a.low}; }
+
+inline Double2 operator+(Double2 a, Double2 b) {
+  Double2 s = sum_of(a.high, b.high);
+  const Double2 t = sum_of(a.low, b.low);
+  s = fast_sum_of(s.high, s.low + t.high);
+  return fast_sum_of(s.high, s.low + t.low);
+}
+
+inline Double2 operator-(Double2 a, Double2 b) { return a + -b; }
+
+inline Double2 operator*(Double2 a, Double2 b) {
+  const double p = a.high * b.high, rest = __builtin_fma(a.high, b.high, -p);
+  return fast_sum_of(p, rest + (a.high * b.low + a.low * b.high));
+}
+
+inline Double2 operator*(Double2 a, double b) {
+  const double p = a.high * b, rest = __builtin_fma(a.high, b, -p);
+  return fast_sum_of(p, rest + a.low * b);
+}
+
+inline Double2 operator/(Double2 a, Double2 b) {
+  const double q = a.high / b.high;
+  Double2 rest = a - b * q;
+  const double r = rest.high / b.high;
+  rest = rest - b * r;
+  return fast_sum_of(q, r) + Double2{rest.high / b.high, 0.0};
+}
+
+inline Double2 scale(Double2 a, double power_of_two) {
+  return {a.high * power_of_two, a.low * power_of_two};
+}
+
+inline Double2 root(Double2 a) {
+  if (a.high <= 0) return {0.0, 0.0};
+  const double x = std::sqrt(a.high);
+  const Double2 rest = a - Double2{x, 0.0} * x;
+  return fast_sum_of(x, rest.high / (2 * x));
+}
+
+enum { W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z, ONE, SPIN, VARIABLES };
+const int FACTORS = 8;
+
+const int MOST_PAIRS = 28;  // 27 are possible; a multiple of 4
+const int MOST_TERMS = 64;
+const int PARTS = 3;  // of the free top, of friction, and of the torques
+
+struct DrivenArguments {
+  double Ix, Iz, Mgl, axial, transverse, torque[3], orientation[4], omega[3];
+};
+
+struct DrivenEquations {
+  int pair_count = 0, term_count = 0;
+  int left[MOST_PAIRS] = {}, right[MOST_PAIRS] = {};  // the two factors of a product
+  int rows[MOST_TERMS], pairs[MOST_TERMS];            // of a term: its variable, and its product
+  Double2 parts[PARTS][MOST_TERMS];
+  int first_terms[FACTORS + 1];
+  double ratio, half_rest, swing, decay;
+
+  int find_pair(int i, int j) {
+    if (i > j) return find_pair(j, i);
+    for (int p = 0; p < pair_count; p++)
+      if (left[p] == i && right[p] == j) return p;
+    left[pair_count] = i, right[pair_count] = j;
+    return pair_count++;
+  }
+
+  void add_term(int part, int row, int i, int j, Double2 size) {
+    const int pair = find_pair(i, j);
+    int place = 0;
+    while (place < term_count && (rows[place] != row || pairs[place] != pair)) place++;
+    if (place == term_count) {
+      rows[place] = row, pairs[place] = pair;
+      for (auto& each : parts) each[place] = {0.0, 0.0};
+      term_count++;
+    }
+    parts[part][place] = parts[part][place] + size;
+  }
+
+  // _add_torque: component `component` of axis `axis`, a quadratic form of the quaternion
+  void add_torque(int row, int axis, int component, Double2 size) {
+    static const int AXES[3][3][4][3] = {
+        {{{W, W, 1}, {X, X, 1}, {Y, Y, -1}, {Z, Z, -1}}, {{X, Y, 2}, {W, Z, -2}},
+         {{X, Z, 2}, {W, Y, 2}}},
+        {{{X, Y, 2}, {W, Z, 2}}, {{W, W, 1}, {Y, Y, 1}, {X, X, -1}, {Z, Z, -1}},
+         {{Y, Z, 2}, {W, X, -2}}},
+        {{{X, Z, 2}, {W, Y, -2}}, {{Y, Z, 2}, {W, X, 2}},
+         {{W, W, 1}, {Z, Z, 1}, {X, X, -1}, {Y, Y, -1}}}};
+    for (const auto& term : AXES[axis][component])
+      if (size.high && term[2]) add_term(2, row, term[0], term[1], size * double(term[2]));
+  }
+
+  void prepare(const DrivenArguments& top) {
+    const Double2 Ix = {top.Ix, 0.0}, Iz = {top.Iz, 0.0}, Mgl = {top.Mgl, 0.0};
+    const Double2 exact_ratio = Iz / Ix;
+    ratio = exact_ratio.high;
+    const double share = round_to_integer(ratio * 0x1p26) / 0x1p26;
+    half_rest = (1 - share) / 2;
+    static const int TURNING[12][4] = {
+        {W, X, OMEGA_X, -1}, {W, Y, OMEGA_Y, -1}, {W, Z, OMEGA_Z, -1}, {X, W, OMEGA_X, 1},
+        {X, Y, OMEGA_Z, 1},  {X, Z, OMEGA_Y, -1}, {Y, W, OMEGA_Y, 1},  {Y, Z, OMEGA_X, 1},
+        {Y, X, OMEGA_Z, -1}, {Z, W, OMEGA_Z, 1},  {Z, X, OMEGA_Y, 1},  {Z, Y, OMEGA_X, -1}};
+    for (const auto& t : TURNING)
+      add_term(0, t[0], t[1], t[2], {t[3] * (t[2] == OMEGA_Z ? share : 1.0) / 2, 0.0});
+    const Double2 remaining = Double2{share, 0.0} - exact_ratio;
+    add_term(0, OMEGA_X, OMEGA_Z, OMEGA_Y, remaining);
+    add_term(0, OMEGA_Y, OMEGA_Z, OMEGA_X, -remaining);
+    const Double2 across = Double2{top.transverse, 0.0} / Ix, along = Double2{top.axial, 0.0} / Iz;
+    add_term(1, OMEGA_X, ONE, OMEGA_X, -across);
+    add_term(1, OMEGA_Y, ONE, OMEGA_Y, -across);
+    add_term(1, OMEGA_Z, ONE, OMEGA_Z, -along);
+    add_torque(OMEGA_X, 2, 1, Mgl / Ix);
+    add_torque(OMEGA_Y, 2, 0, -(Mgl / Ix));
+    for (int axis = 0; axis < 3; axis++) {
+      const Double2 torque = {top.torque[axis], 0.0};
+      add_torque(OMEGA_X, axis, 0, torque / Ix);
+      add_torque(OMEGA_Y, axis, 1, torque / Ix);
+      add_torque(OMEGA_Z, axis, 2, torque / Iz);
+    }
+    const double* f = top.torque;
+    const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    swing = std::sqrt((std::fabs(top.Mgl) + size) / top.Ix);
+    decay = std::fmax(across.high, along.high);
+    sort_terms();
+  }
+
+  void sort_terms() {
+    for (int a = 0; a < term_count; a++)
+      for (int b = a; b > 0 && rows[b - 1] > rows[b]; b--) {
+        swap(rows[b - 1], rows[b]);
+        swap(pairs[b - 1], pairs[b]);
+        for (auto& each : parts) swap(each[b - 1], each[b]);
+      }
+    for (int row = 0, n = 0; row <= FACTORS; row++) {
+      while (n < term_count && rows[n] < row) n++;
+      first_terms[row] = n;
+    }
+  }
+
+  template <class T>
+  static void swap(T& a, T& b) {
+    const T kept = a;
+    a = b, b = kept;
+  }
+
+  double estimate_rate(const Double2 values[]) const {
+    const double x = values[OMEGA_X].high, y = values[OMEGA_Y].high,
+                 z = ratio * values[OMEGA_Z].high;
+    return std::sqrt(x * x + y * y + z * z) + swing + decay;
+  }
+};
+
+}  // namespace symtop

@@ -1,0 +1,145 @@
+// Twin of physics/driven/trail.py: the steps of an integration, and states at any times.
+#pragma once
+
+#include <cstdlib>
+
+#include "series.hpp"
+
+namespace symtop {
+
+const int KEPT = 1024, RECENT = 64;
+
+class Trail {
+ public:
+  // False if there is no memory.
+  bool prepare(const DrivenArguments& top, int direction) {
+    kept_ = static_cast<Knot*>(std::malloc((KEPT + 1) * sizeof(Knot)));
+    recent_ = static_cast<Piece*>(std::malloc(RECENT * sizeof(Piece)));
+    if (!kept_ || !recent_) return false;
+    direction_ = direction;
+    stepper_.equations.prepare(top);
+    kept_[0] = start(top);
+    kept_count_ = spacing_ = 1;
+    return true;
+  }
+  Trail() = default;
+  Trail(const Trail&) = delete;
+  Trail& operator=(const Trail&) = delete;
+  ~Trail() {
+    std::free(kept_);
+    std::free(recent_);
+  }
+
+  // Trail.reach; *is_stuck is set if the motion is too fast to go on.
+  double reach(double t, double steps, bool* is_stuck) {
+    go_back(t);
+    *is_stuck = false;
+    while (steps > 0 && std::fabs(present().end) < std::fabs(t)) {
+      if (present().end == present().start.t) {
+        *is_stuck = true;
+        break;
+      }
+      step();
+      steps -= 1;
+    }
+    return std::fabs(t) <= std::fabs(present().end) ? t : present().end;
+  }
+
+  // Write the state at t + rest; the time has been reached.
+  void read(double t, double rest, double orientation[4], double omega[3]) const {
+    Double2 v[VARIABLES];
+    const Piece& piece = present();
+    piece.evaluate(piece.locate(t, rest), v);
+    Double2 c, s;
+    find_unit(v[SPIN] * stepper_.equations.half_rest, c, s);
+    const Double2 q[4] = {v[W] * c - v[Z] * s, v[X] * c + v[Y] * s, v[Y] * c - v[X] * s,
+                          v[Z] * c + v[W] * s};
+    const Double2 c2 = c * c - s * s, s2 = scale(c * s, 2.0);
+    for (int k = 0; k < 4; k++) orientation[k] = q[k].high;
+    omega[0] = (v[OMEGA_X] * c2 + v[OMEGA_Y] * s2).high;
+    omega[1] = (v[OMEGA_Y] * c2 - v[OMEGA_X] * s2).high;
+    omega[2] = v[OMEGA_Z].high;
+  }
+
+  double decay() const { return stepper_.equations.decay; }
+
+ private:
+  Stepper stepper_;
+  int direction_ = 1;
+  Knot* kept_ = nullptr;  // knots over the whole integration, with `spacing_` pieces between two
+  long kept_count_ = 0, spacing_ = 1;
+  Piece* recent_ = nullptr;  // a ring: the last pieces up to the present one
+  int recent_count_ = 0, last_ = 0;
+  long count_ = 0;  // pieces before the present one
+
+  const Piece& present() const { return recent_[last_]; }
+
+  // DrivenEquations.start
+  static Knot start(const DrivenArguments& top) {
+    Knot knot = {};
+    Double2 norm = {0.0, 0.0};
+    for (double q : top.orientation) norm = norm + Double2{q, 0.0} * q;
+    norm = root(norm);
+    for (int k = 0; k < 4; k++) knot.values[W + k] = Double2{top.orientation[k], 0.0} / norm;
+    for (int k = 0; k < 3; k++) knot.values[OMEGA_X + k] = {top.omega[k], 0.0};
+    knot.values[ONE] = {1.0, 0.0};
+    return knot;
+  }
+
+  // Cosine and sine of an angle, to some digits more than doubles have.
+  static void find_unit(Double2 angle, Double2& c, Double2& s) {
+    const Double2 QUARTER = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+    const double quarters = round_to_integer(angle.high * QUARTERS);
+    const Double2 near = angle - QUARTER * quarters;
+    const double x = near.high, square = x * x;
+    static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,
+                                  -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120};
+    static const double VERSINE[] = {-1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600,
+                                     1.0 / 3628800, -1.0 / 40320, 1.0 / 720, -1.0 / 24};
+    double of_sine = 0.0, of_versine = 0.0;
+    for (double each : SINE) of_sine = (of_sine + each) * square;
+    for (double each : VERSINE) of_versine = (of_versine + each) * square;
+    // The largest terms, x - x^3/6 and 1 - x^2/2, as sums of two doubles.
+    const Double2 near_2 = near * near, sixth = INVERSES[6];
+    const Double2 sine = near - near * near_2 * sixth + Double2{x * (square * of_sine), 0.0};
+    const Double2 cosine = Double2{1.0, 0.0} - scale(near_2, 0.5) -
+                           Double2{square * of_versine, 0.0};
+    const int64_t turns = static_cast<int64_t>(quarters);
+    c = turns & 1 ? sine : cosine, s = turns & 1 ? cosine : sine;
+    if ((turns + 1) & 2) c = -c;
+    if (turns & 2) s = -s;
+  }
+
+  void append(const Knot& knot) {
+    last_ = (last_ + 1) % RECENT;
+    if (recent_count_ < RECENT) recent_count_++;
+    stepper_.step(knot, direction_, recent_[last_]);
+  }
+
+  void step() {
+    const Knot knot = present().find_end();
+    count_++;
+    if (count_ == kept_count_ * spacing_) kept_[kept_count_++] = knot;
+    if (kept_count_ > KEPT) {
+      kept_count_ = (kept_count_ + 1) / 2;
+      for (long n = 0; n < kept_count_; n++) kept_[n] = kept_[2 * n];
+      spacing_ *= 2;
+    }
+    append(knot);
+  }
+
+  void go_back(double t) {
+    while (recent_count_ && std::fabs(present().start.t) >= std::fabs(t) && count_) {
+      last_ = (last_ + RECENT - 1) % RECENT;
+      recent_count_--;
+      count_--;
+    }
+    if (recent_count_) return;
+    long place = 0;
+    while (place + 1 < kept_count_ && std::fabs(kept_[place + 1].t) < std::fabs(t)) place++;
+    count_ = place * spacing_;
+    append(kept_[place]);
+  }
+};
+
+}  // namespace symtop

@@ -1,0 +1,135 @@
+// Twin of physics/exact/elementary.py: elementary functions of doubles, pairs and sums of two.
+//
+// Sums, products, quotients and square roots of doubles round in the same way on every machine if a
+// compiler does not fuse them (-ffp-contract=off). Everything here is made of those, in the same
+// order as in Python.
+#pragma once
+
+#include "precise.hpp"
+
+namespace symtop {
+
+const double PI = 3.141592653589793;
+const double PI_HIGH = 0x1.921fb54442d18p+1, PI_LOW = 0x1.1a62633145c07p-53;
+
+template <class R>
+struct PairOf {  // real and imaginary part, or a sum of two doubles
+  R x, y;
+};
+typedef PairOf<double> Pair;
+
+template <class R, class Q>
+SYMTOP_INLINE auto multiply(PairOf<R> a, PairOf<Q> b) -> PairOf<decltype(a.x * b.x)> {
+  return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+
+template <class R, class Q>
+SYMTOP_INLINE auto multiply_by_conjugate(PairOf<R> a, PairOf<Q> b) -> PairOf<decltype(a.x * b.x)> {
+  return {a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y};
+}
+
+inline Pair conjugate(Pair a) { return {a.x, -a.y}; }
+
+inline Pair divide(Pair a, Pair b) {
+  if (std::fabs(b.x) >= std::fabs(b.y)) {
+    const double ratio = b.y / b.x, size = b.x + b.y * ratio;
+    return {(a.x + a.y * ratio) / size, (a.y - a.x * ratio) / size};
+  }
+  const double ratio = b.x / b.y, size = b.x * ratio + b.y;
+  return {(a.x * ratio + a.y) / size, (a.y * ratio - a.x) / size};
+}
+
+inline double find_modulus(Pair a) {
+  const double x = std::fabs(a.x), y = std::fabs(a.y);
+  const double large = x > y ? x : y, small = x > y ? y : x;
+  if (large == 0) return 0.0;
+  const double ratio = small / large;
+  return large * std::sqrt(1.0 + ratio * ratio);
+}
+
+template <class R>
+SYMTOP_INLINE PairOf<R> cosine_and_sine_near_0(R x, R rest) {
+  static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,
+                                -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6};
+  static const double VERSINE[] = {-1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600,
+                                   1.0 / 3628800, -1.0 / 40320, 1.0 / 720, -1.0 / 24, 1.0 / 2};
+  const R square = x * x;
+  R versine = VERSINE[0] * square, series = SINE[0] * square;
+  for (int n = 1; n < 8; n++) {
+    versine = (versine + VERSINE[n]) * square;
+    series = (series + SINE[n]) * square;
+  }
+  return {1.0 - (versine + x * rest), x + (x * series + rest)};
+}
+
+template <class R>
+SYMTOP_INLINE PairOf<R> cosine_and_sine(R x) {
+  const R quarters = round_to_integer(x * QUARTERS);
+  const R part = x - quarters * QUARTER_HIGH, low = quarters * QUARTER_LOW;
+  const R near = part - low;
+  const PairOf<R> unit = cosine_and_sine_near_0<R>(near, (part - near) - low);
+  const Integer<R> turns = count_of(quarters);
+  const auto is_odd = (turns & 1) != 0;
+  const R c = choose(is_odd, unit.y, unit.x), s = choose(is_odd, unit.x, unit.y);
+  return {choose(((turns + 1) & 2) != 0, -c, c), choose((turns & 2) != 0, -s, s)};
+}
+
+const double LEAST_EXPONENT = -708.0;
+
+// expand_exponential: a power of two, and p with exp(x) = power (1 + p)
+template <class R>
+SYMTOP_INLINE PairOf<R> expand_exponential(R x) {
+  static const double SERIES[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
+                                  1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
+                                  1.0 / 24, 1.0 / 6, 1.0 / 2};
+  const R bounded = choose(x > LEAST_EXPONENT, x, repeat<R>(LEAST_EXPONENT));
+  const R doublings = round_to_integer(bounded * DOUBLINGS);
+  const R y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
+  R series = SERIES[0] * y;
+  for (int n = 1; n < 12; n++) series = (series + SERIES[n]) * y;
+  const R power = read_bits_as<R>((count_of(doublings) + 1023) << 52);
+  return {choose(x < LEAST_EXPONENT, R{}, power), y + y * series};
+}
+
+template <class R>
+SYMTOP_INLINE R exponential(R x) {
+  const PairOf<R> e = expand_exponential(x);
+  return e.x + e.x * e.y;
+}
+
+template <class R>
+SYMTOP_INLINE R exponential_minus_1(R x) {
+  const PairOf<R> e = expand_exponential(x);
+  return (e.x - 1.0) + e.x * e.y;
+}
+
+inline double integrate_rf_in_doubles(double x, double y) {
+  if (x == 0 && y == 0) return INFINITY;
+  double z = 1.0, mean, dx, dy;
+  for (;;) {
+    mean = (x + y + z) / 3;
+    dx = (mean - x) / mean, dy = (mean - y) / mean;
+    if (std::fmax(std::fmax(std::fabs(dx), std::fabs(dy)), std::fabs(dx + dy)) < 0.006) break;
+    const double rx = std::sqrt(x), ry = std::sqrt(y), rz = std::sqrt(z);
+    const double shift = rx * ry + rx * rz + ry * rz;
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+  const double dz = -(dx + dy), e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+  const double square = e2 * e2, cube = e3 * e3;
+  const double high = square / 24 - 3 * e2 * e3 / 44 - 5 * square * e2 / 208 + 3 * cube / 104;
+  return (1 + (-e2 / 10 + e3 / 14 + (high + square * e3 / 16))) / std::sqrt(mean);
+}
+
+// quarter_period of nutation_phase.py
+inline double quarter_period(double modulus) {
+  if (modulus == 0) return INFINITY;
+  double a = 1.0, b = modulus;
+  while (a - b > 1e-8 * a) {
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return PI / (a + b);
+}
+
+}  // namespace symtop

@@ -1,0 +1,192 @@
+// Twin of physics/exact/closed_form.py.
+//
+// Each header of this folder is the twin of the file of its name, function by function and in the
+// same order of operations: what is computed here with Precise is computed there with Decimal. Read
+// the Python first; it says where each formula comes from and why it is written so. The names are
+// the same.
+#pragma once
+
+#include "first_instants.hpp"
+
+namespace symtop {
+
+template <class R>
+struct AttitudeOf {  // a state without omega_z, which is constant
+  R w, x, y, z, omega_x, omega_y;
+};
+typedef AttitudeOf<double> Attitude;
+
+struct ClosedForm {
+  Start start;
+  bool is_turned_over, has_first_instants = false;
+  Pair start_values[FUNCTIONS];
+  Precise half_c;
+  double first_end;
+  Steps steps;
+  NutationPhase nutation_phase;
+  DirectSeries direct;
+  ComplementarySeries complementary;
+  Pair factors[FUNCTIONS];
+  FirstInstants first_instants;
+
+  // ClosedFormMotion.__init__, _series and _factors
+  void prepare(const Start& given, bool turned_over) {
+    start = given, is_turned_over = turned_over;
+    const Nutation n = find_nutation(start);
+    const Roots roots = find_roots(n);
+    Zero zeros[FUNCTIONS];
+    find_zeros(n, roots, zeros);
+    Precise means[FUNCTIONS];
+    const Precise mean = compute_mean_rates(n, zeros, root(roots.s32 / roots.s31()), means);
+    const Precise frequency = root(n.beta * roots.s31()), nutation_rate = frequency * mean;
+    const Precise Ix(start.Ix), Iz(start.Iz), wz(start.wz);
+    half_c = (wz * (Ix - Iz) / Ix).scale(-1);
+    const Precise rates[FUNCTIONS] = {nutation_rate, means[OF_A] + half_c, means[OF_B] - half_c};
+    steps = find_steps(rates, FUNCTIONS);
+    first_end = 0.1 / find_fastest_rate(start);
+    nutation_phase = find_nutation_phase(n, roots, zeros, mean, frequency);
+    Shift shifts[FUNCTIONS];
+    for (int k = 0; k < FUNCTIONS; k++) {
+      const double complement = compute_shift_complement(zeros[k], roots);
+      shifts[k] = {zeros[k].is_negative() ? -1.0 : 1.0,
+                   nutation_phase.Kc < complement ? nutation_phase.Kc : complement};
+    }
+    int winding = 0;
+    if (nutation_rate.sign) {
+      const Precise difference = means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - n.a.scale(-1);
+      winding = static_cast<int>(round_to_integer((difference / nutation_rate).to_double()));
+    }
+    if (nutation_phase.is_direct())
+      direct.prepare(nutation_phase.K, nutation_phase.Kc, shifts, winding);
+    else
+      complementary.prepare(nutation_phase.K, nutation_phase.Kc, shifts, winding,
+                            nutation_phase.root_of_nome);
+    find_factors(n, zeros, means);
+  }
+
+  template <class R>
+  SYMTOP_INLINE void compute_series(const LocationOf<R>& at, PairOf<R> values[FUNCTIONS]) const {
+    if (nutation_phase.is_direct())
+      direct.compute_values(at, values);
+    else
+      complementary.compute_values(at, values);
+  }
+
+  // _initial_values
+  void find_initial_values(Pair changes[FUNCTIONS]) {
+    const Start& s = start;
+    double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
+    if (std::fabs(norm - 1.0) <= 4 * 0x1p-52) norm = 1.0;
+    const double w = s.w / norm, x = s.x / norm, y = s.y / norm, z = s.z / norm;
+    const Pair A = {w, z}, B = {x, y}, omega_xy = {s.wx, s.wy};
+    const double spin = 0.5 * s.wz * (s.Iz / s.Ix), weight = 2 * (s.Mgl / s.Ix);
+    const Pair of_A = multiply_by_conjugate(B, omega_xy), of_B = multiply(omega_xy, A);
+    const Pair of_omega_xy = multiply_by_conjugate(B, A);
+    start_values[OF_A] = A, start_values[OF_B] = B, start_values[OF_OMEGA_XY] = omega_xy;
+    changes[OF_A] = {-spin * z - of_A.x / 2, spin * w - of_A.y / 2};
+    changes[OF_B] = {of_B.x / 2 + spin * y, of_B.y / 2 - spin * x};
+    changes[OF_OMEGA_XY] = {weight * of_omega_xy.x - spin * s.wy,
+                            weight * of_omega_xy.y + spin * s.wx};
+  }
+
+  // _factors, with Quotient.find_factor
+  void find_factors(const Nutation& n, const Zero zeros[], const Precise means[]) {
+    Pair changes[FUNCTIONS], values[FUNCTIONS];
+    find_initial_values(changes);
+    changes[OF_OMEGA_XY] = conjugate(changes[OF_OMEGA_XY]);
+    const Precise from_start[] = {n.one_plus_u, n.one_minus_u, n.omega_xy_squared / n.beta};
+    compute_series(nutation_phase.start, values);
+    for (int k = 0; k < FUNCTIONS; k++) {
+      const Pair at_start =
+          k == OF_OMEGA_XY ? conjugate(start_values[k]) : start_values[k];
+      const bool is_small =
+          from_start[k].scale(2) <
+          (zeros[k].from_u1 > zeros[k].from_u2 ? zeros[k].from_u1 : zeros[k].from_u2);
+      factors[k] = find_factor(k, at_start, changes[k], values[k], means[k].to_double(), is_small);
+    }
+    const double modulus = find_modulus(factors[OF_OMEGA_XY]);
+    if (modulus) {
+      compute_series(nutation_phase.lower_turning_point(), values);
+      const double largest = std::sqrt((n.beta * zeros[OF_OMEGA_XY].from_u1).to_double());
+      const double share = largest / find_modulus(values[OF_OMEGA_XY]) / modulus;
+      factors[OF_OMEGA_XY] = {factors[OF_OMEGA_XY].x * share, factors[OF_OMEGA_XY].y * share};
+    }
+    factors[OF_OMEGA_XY] = conjugate(factors[OF_OMEGA_XY]);
+  }
+
+  Pair find_factor(int k, Pair at_start, Pair change, Pair value, double mean,
+                   bool is_small) const {
+    if (is_small) {
+      const Location& at = nutation_phase.start;
+      Pair slope = nutation_phase.is_direct() ? direct.compute_slope(k, at)
+                                              : complementary.compute_slope(k, at);
+      slope = {slope.x * nutation_phase.Omega, slope.y * nutation_phase.Omega};
+      if (find_modulus(value) < nutation_phase.shortest_change() * find_modulus(slope))
+        return divide({change.x + mean * at_start.y, change.y - mean * at_start.x}, slope);
+    }
+    return divide(at_start, value);
+  }
+
+  // _evaluate
+  template <class R>
+  SYMTOP_INLINE void evaluate(R t, const PhaseOf<R> phases[FUNCTIONS],
+                              PairOf<R> values[FUNCTIONS]) const {
+    const PairOf<R> radians = find_radians(phases[0]);
+    const LocationOf<R> at = nutation_phase.locate(t, radians.x, radians.y);
+    const PairOf<R> turn_A = find_unit(phases[1]), turn_B = find_unit(phases[2]);
+    const PairOf<R> turn_omega = multiply_by_conjugate(turn_B, turn_A);
+    PairOf<R> series[FUNCTIONS];
+    compute_series(at, series);
+    values[OF_A] = multiply(multiply(factors[OF_A], series[OF_A]), turn_A);
+    values[OF_B] = multiply(multiply(factors[OF_B], series[OF_B]), turn_B);
+    values[OF_OMEGA_XY] = multiply(
+        multiply_by_conjugate(factors[OF_OMEGA_XY], series[OF_OMEGA_XY]), turn_omega);
+  }
+
+  // Motion._evaluate
+  template <class R>
+  SYMTOP_INLINE AttitudeOf<R> complete(const PairOf<R> values[FUNCTIONS]) const {
+    R w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
+    if (is_turned_over) {
+      const R w_before = w, y_before = y;
+      w = x, x = -w_before, y = z, z = -y_before;
+    }
+    const R upper = w * w + z * z, lower = x * x + y * y;
+    const R step = 0.5 - 0.5 * (upper + lower), share = step * (upper - lower);
+    const R of_B = step - upper * share, of_A = of_B + share;
+    return {w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, values[OF_OMEGA_XY].x,
+            values[OF_OMEGA_XY].y};
+  }
+
+  // True if a time is too long for a count of ticks: Python serves it.
+  bool is_far(double t) {
+    if (std::fabs(t) > first_end) return std::fabs(t) >= steps.farthest;
+    prepare_first_instants();
+    return std::fabs(t) >= first_instants.half_turn.farthest;
+  }
+
+  // Before a time within the first instants.
+  void prepare_first_instants() {
+    if (has_first_instants) return;
+    first_instants.prepare(start, start_values[OF_A], start_values[OF_B], half_c);
+    has_first_instants = true;
+  }
+
+  // ClosedFormMotion.cayley_klein, for a time that is not far
+  Attitude at(double t) {
+    if (t == 0) return complete(start_values);
+    Pair values[FUNCTIONS];
+    Phase phases[FUNCTIONS];
+    if (std::fabs(t) <= first_end) {
+      prepare_first_instants();
+      find_phases(first_instants.half_turn, 1, t, phases);
+      first_instants.compute(t, phases[0], values);
+    } else {
+      find_phases(steps, FUNCTIONS, t, phases);
+      evaluate(t, phases, values);
+    }
+    return complete(values);
+  }
+};
+
+}  // namespace symtop

@@ -1,0 +1,168 @@
+// Twin of physics/exact/nutation.py: the cubic of the tilt and its roots.
+#pragma once
+
+#include "../elementary.hpp"
+
+namespace symtop {
+
+struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it was given
+  double Ix, Iz, Mgl;
+  double w, x, y, z;
+  double wx, wy, wz;
+};
+
+struct Nutation {
+  Precise a, beta, one_minus_u, one_plus_u, b_minus_au, u_dot, omega_xy_squared, b_minus_a,
+      alpha_minus_beta;
+
+  Precise u() const { return (one_plus_u - one_minus_u).scale(-1); }
+  Precise b_minus_au_at(const Precise& s) const { return b_minus_au - a * s; }
+};
+
+// _compare_with_upright: exact sums of products, rounded at the end
+inline void compare_with_upright(const Start& start, Nutation& nutation) {
+  const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
+      z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
+  const Exact lower = x * x + y * y, norm = w * w + z * z + lower;
+  const Exact gx = x * z - w * y, gy = y * z + w * x;
+  const Exact b_minus_a = Ix * (wx * gx + wy * gy) - wz * Iz * lower;
+  const Exact alpha_minus_beta = (wx * wx + wy * wy) * Ix * norm - Exact(4.0) * Mgl * lower;
+  const Precise divisor = Precise(Ix) * Precise(norm);
+  nutation.b_minus_a = Precise(b_minus_a).scale(1) / divisor;
+  nutation.alpha_minus_beta = Precise(alpha_minus_beta) / divisor;
+}
+
+inline const Precise& cancelled() {
+  static const Precise SHARE = Precise(1.0) / Precise(1e10);
+  return SHARE;
+}
+
+// Nutation.of
+inline Nutation find_nutation(const Start& start) {
+  const Precise Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
+      z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
+  const Precise upper = w * w + z * z, lower = x * x + y * y;
+  const Precise twice = Precise(2.0) / (upper + lower), per_Ix = invert(Ix);
+  const Precise gx = twice * (x * z - w * y), gy = twice * (y * z + w * x);
+  const Precise along_x = wx * gx, along_y = wy * gy;
+  Nutation n;
+  n.a = wz * Iz * per_Ix;
+  n.beta = Mgl.scale(1) * per_Ix;
+  n.one_minus_u = twice * lower;
+  n.one_plus_u = twice * upper;
+  n.b_minus_au = along_x + along_y;
+  n.u_dot = wy * gx - wx * gy;
+  n.omega_xy_squared = wx * wx + wy * wy;
+  n.b_minus_a = n.b_minus_au - n.a * n.one_minus_u;
+  n.alpha_minus_beta = n.omega_xy_squared - n.beta * n.one_minus_u;
+  if (size(n.b_minus_a) <= cancelled() * (size(along_x) + size(along_y)) ||
+      size(n.alpha_minus_beta) <= cancelled() * n.omega_xy_squared)
+    compare_with_upright(start, n);
+  return n;
+}
+
+struct Roots {
+  Precise s1, s2, s3, s21, s32, below_pole, above_pole;
+  Precise s31() const { return s21 + s32; }
+};
+
+struct Cubic {
+  Precise a2, a1, a0;
+  Precise at(const Precise& s) const { return ((s + a2) * s + a1) * s + a0; }
+};
+
+// _estimate_largest_root
+inline Precise estimate_largest_root(const Cubic& cubic, double s) {
+  const double EPS = 0x1p-52;
+  const double a2 = cubic.a2.to_double(), a1 = cubic.a1.to_double(), a0 = cubic.a0.to_double();
+  for (int step = 0; step < 60; step++) {
+    const double value = ((s + a2) * s + a1) * s + a0, slope = (3 * s + 2 * a2) * s + a1;
+    if (!(value > 0 && slope > 0) || value < 4 * EPS * slope * s) break;
+    s -= value / slope;
+  }
+  return std::isfinite(s) ? Precise(s * (1 + 32 * EPS)) : Precise();
+}
+
+// _find_largest_root
+inline Precise find_largest_root(const Cubic& cubic, Precise s) {
+  static const Precise CONVERGED = Precise(1e-26);
+  if (!cubic.a0.sign && cubic.a1.sign > 0 && cubic.a2.sign > 0) return Precise();
+  const Precise three(3.0), estimate = estimate_largest_root(cubic, s.to_double());
+  if (three * estimate > -cubic.a2 && cubic.at(estimate).sign > 0) s = estimate;
+  for (;;) {
+    const Precise value = cubic.at(s), slope = (three * s + cubic.a2.scale(1)) * s + cubic.a1;
+    if (value.sign <= 0 || slope.sign <= 0) return s;
+    const Precise step = value / slope;
+    if (step < CONVERGED * s) return s - step;
+    s = s - step;
+  }
+}
+
+// _distances_from_pole
+inline void find_distances_from_pole(const Nutation& n, const Precise& v1, Roots& roots) {
+  const Precise scale = n.beta * v1, per_scale = invert(scale);
+  const Precise product = n.b_minus_a * n.b_minus_a * per_scale;
+  const Precise excess = n.alpha_minus_beta - n.a * n.b_minus_a;
+  const Precise half_sum = (product / v1).scale(-1) - excess * per_scale;
+  const Precise half_gap = root(half_sum * half_sum + product);
+  if (half_sum.sign > 0) {
+    roots.below_pole = half_sum + half_gap;
+    roots.above_pole = product / roots.below_pole;
+  } else {
+    roots.above_pole = half_gap - half_sum;
+    roots.below_pole = roots.above_pole.sign ? product / roots.above_pole : Precise();
+  }
+}
+
+// _roots_from_lowest
+inline Roots find_roots_from_lowest(const Nutation& n, const Cubic& cubic) {
+  Roots roots;
+  const Cubic reflected = {-cubic.a2, cubic.a1, -cubic.a0};
+  roots.s1 = -find_largest_root(reflected, n.one_plus_u);
+  if (roots.s1.sign > 0) roots.s1 = Precise();
+  const Precise total = -(cubic.a2 + roots.s1);
+  const Precise product =
+      total >= -roots.s1 ? cubic.a1 - roots.s1 * total : -cubic.a0 / roots.s1;
+  find_distances_from_pole(n, n.one_minus_u - roots.s1, roots);
+  roots.s3 = n.one_minus_u + roots.above_pole;
+  roots.s2 = product / roots.s3;
+  roots.s21 = roots.s2 - roots.s1;
+  roots.s32 = roots.below_pole + roots.above_pole;
+  return roots;
+}
+
+// _roots_from_highest
+inline Roots find_roots_from_highest(const Nutation& n, const Cubic& cubic) {
+  Roots roots;
+  const Precise zero;
+  Precise bound = (cubic.a2.sign < 0 ? -cubic.a2 : zero) +
+                  root(cubic.a1.sign < 0 ? -cubic.a1 : zero);
+  if (bound < n.one_minus_u) bound = n.one_minus_u;
+  roots.s3 = find_largest_root(cubic, bound);
+  const Precise per_s3 = invert(roots.s3), product = cubic.a0 * per_s3;
+  const Precise half_sum = ((cubic.a1 + product) * per_s3).scale(-1);
+  const Precise half_gap = root(half_sum * half_sum + product);
+  roots.s2 = half_sum.sign >= 0 ? half_sum + half_gap : product / (half_gap - half_sum);
+  if (half_sum.sign < 0)
+    roots.s1 = half_sum - half_gap;
+  else if (roots.s2.sign)
+    roots.s1 = -product / roots.s2;
+  roots.below_pole = n.one_minus_u - roots.s2;
+  roots.above_pole = roots.s3 - n.one_minus_u;
+  roots.s21 = half_gap.scale(1);
+  roots.s32 = roots.s3 - roots.s2;
+  return roots;
+}
+
+inline Roots find_roots(const Nutation& n) {
+  const Precise u = n.u(), u_dot_dot = n.a * n.b_minus_au - u * n.omega_xy_squared;
+  const Precise per_beta = invert(n.beta);
+  const Cubic cubic = {u.scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
+                       u_dot_dot.scale(1) * per_beta - n.one_plus_u * n.one_minus_u,
+                       n.u_dot * n.u_dot * per_beta};
+  const Precise mean = -cubic.a2 / Precise(3.0);
+  return cubic.at(mean).sign > 0 ? find_roots_from_lowest(n, cubic)
+                                 : find_roots_from_highest(n, cubic);
+}
+
+}  // namespace symtop

@@ -1,0 +1,123 @@
+// Twin of physics/exact/nutation_phase.py: the phase of the nutation, and where it is near a pole.
+#pragma once
+
+#include "phases.hpp"
+
+namespace symtop {
+
+template <class R>
+struct LocationOf {
+  R x, below, above, low;
+};
+typedef LocationOf<double> Location;
+
+struct NutationPhase {
+  double Omega, K, Kc;
+  bool is_stretched, is_separatrix, from_top;
+  Pair origin;
+  double ratio, ratio_high, ratio_low, root_of_nome;
+  Location start;
+
+  bool is_direct() const { return Kc >= K; }
+  double shortest_change() const { return 0.5 / PI * (K < Kc ? K : Kc) / Omega; }
+  Location lower_turning_point() const {
+    return {0.0, 0.0, PI * (1.0 > K / Kc ? 1.0 : K / Kc), 0.0};
+  }
+
+  template <class R>
+  SYMTOP_INLINE LocationOf<R> locate(R t, R high, R low) const {
+    if (is_separatrix) {
+      const R longest = repeat<R>(1e6 / Omega);
+      R seconds = choose(t < longest, t, longest);
+      seconds = choose(seconds < -longest, -longest, seconds);
+      const R y = origin.x + 2 * Omega * seconds;
+      return {0.0 * y, y, repeat<R>(INFINITY), R{}};
+    }
+    R total = high + origin.x;
+    const R part = total - high;
+    R error = (high - (total - part)) + (origin.x - part) + (low + origin.y);
+    const R turns = round_to_integer(total / (2 * PI));
+    total = total - turns * (2 * PI_HIGH);
+    error = error - turns * (2 * PI_LOW);
+    const R sign = find_sign(total), distance = find_size(total);
+    const PairOf<R> near = {distance, sign * error}, far = {PI_HIGH - distance, PI_LOW - near.y};
+    const PairOf<R> below = from_top ? far : near, above = from_top ? near : far;
+    const R x = (below.x + below.y) * (from_top ? -sign : sign);
+    if (is_direct()) return {x, x, above.x + above.y, R{}};
+    return stretch(x, below, above);
+  }
+
+  template <class R>
+  SYMTOP_INLINE LocationOf<R> stretch(R x, PairOf<R> below, PairOf<R> above) const {
+    const R y = x * ratio, rise = (above.x + above.y) * ratio;
+    if (!is_stretched) return {x, y, rise, R{}};
+    const auto is_upper = rise < find_size(y);
+    const R high = choose(is_upper, above.x, -below.x), low = choose(is_upper, above.y, -below.y);
+    // find_rest
+    const R product = (high + low) * ratio, shifted = 134217729.0 * high;
+    const R upper = shifted - (shifted - high), lower = high - upper;
+    const R rest = ((upper * ratio_high - product) + lower * ratio_high) +
+                   (high * ratio_low + low * ratio_high);
+    return {x, y, rise, rest};
+  }
+};
+
+// _starting_phase
+inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool is_precise,
+                                   bool& from_top) {
+  const Precise s1 = -roots.s1, &s2 = roots.s2, &s3 = roots.s3;
+  const Precise &s21 = roots.s21, s31 = roots.s31(), &s32 = roots.s32;
+  const auto integrate = [is_precise](const Precise& x, const Precise& y) {
+    return is_precise ? integrate_rf(x, y)
+                      : Precise(integrate_rf_in_doubles(x.to_double(), y.to_double()));
+  };
+  from_top = false;
+  if (!s21.sign) return Precise();
+  if (s2 * s2 * s31 >= s1 * s1 * s32) {
+    const Precise v = root(s1 / s21) * integrate(s2 / s21, s3 / s31);
+    return n.u_dot.sign < 0 ? -v : v;
+  }
+  from_top = true;
+  const Precise per_product = invert(s21 * s3);
+  const Precise v =
+      root(s2 * s31 * per_product) * integrate(s32 * s1 * per_product, s32 / s3);
+  return n.u_dot.sign < 0 ? v : -v;
+}
+
+inline bool comes_near_a_pole(const Zero zeros[]) {
+  static const Precise NEAR_POLE = Precise(1.0) / Precise(100.0);
+  return zeros[OF_A].from_u1 < NEAR_POLE * zeros[OF_A].from_u2 ||
+         zeros[OF_B].from_u2 < NEAR_POLE * zeros[OF_B].from_u1;
+}
+
+// NutationPhase.__init__ and its cached properties
+inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, const Zero zeros[],
+                                         const Precise& mean, const Precise& frequency) {
+  NutationPhase phase;
+  phase.Omega = frequency.to_double() / 2;
+  phase.is_separatrix = !mean.sign;
+  phase.K = mean.sign ? PI / (2 * mean.to_double()) : INFINITY;
+  const Precise modulus = root(roots.s21 / roots.s31());
+  phase.Kc = quarter_period(modulus.to_double());
+  phase.is_stretched = 1.5 * phase.Kc < phase.K;
+  const Precise v = find_starting_phase(n, roots, phase.is_stretched || comes_near_a_pole(zeros),
+                                        phase.from_top);
+  const Precise origin = ((mean.sign ? mean : Precise(1.0)) * v).scale(1);
+  phase.origin.x = origin.to_double();
+  phase.origin.y = rest_of(origin, phase.origin.x);
+  if (phase.is_stretched && mean.sign) {
+    int count;
+    const Precise ratio = iterate_mean(modulus, nullptr, count) / mean;
+    phase.ratio = ratio.to_double();
+    split_short(ratio, phase.ratio_high, phase.ratio_low);
+    phase.root_of_nome = exponential(-(TWO_PI * ratio).scale(-2));
+  } else {
+    phase.ratio = phase.K / phase.Kc;
+    phase.ratio_high = phase.ratio_low = 0.0;
+    phase.root_of_nome = exponential(-PI / 2 * phase.K / phase.Kc);
+  }
+  phase.start = phase.locate(0.0, 0.0, 0.0);
+  return phase;
+}
+
+}  // namespace symtop
