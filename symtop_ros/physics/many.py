@@ -106,10 +106,12 @@ class Arguments:
         kept = np.flatnonzero(~free)
         starts, is_turned_over = self._turn_over()
         far = np.zeros(len(kept), dtype=np.uint8)
-        q, rates = np.empty((len(kept), flat.size, 4)), np.empty((len(kept), flat.size, 3))
-        kernel.fill_many(starts[kept], is_turned_over[kept], flat, q, rates, far)
-        orientation[kept] = q.reshape(len(kept), *times.shape, 4)
-        omega[kept] = rates.reshape(len(kept), *times.shape, 3)
+        written: tuple[Real, ...] = orientation, omega
+        if len(kept) < count:
+            written = tuple(np.empty((len(kept), *each.shape[1:])) for each in (orientation, omega))
+        kernel.fill_many(starts[kept], is_turned_over[kept], flat, *written, far)
+        if len(kept) < count:
+            orientation[kept], omega[kept] = written
         left = np.ones(count, dtype=bool)
         left[kept[far == 0]] = False
         return np.flatnonzero(left).tolist()

@@ -140,7 +140,9 @@ class Motion:
             return
         # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
         self._is_turned_over = top.Mgl < 0
-        self._spin = float(start.angular_velocity[2])
+        self._arguments = self._collect_arguments()
+        self._spin = self._arguments[2][2]
+        self._is_free = bool(is_free(*self._arguments))
         if self._is_free:
             self.engine = "free"
         if self.is_driven:
@@ -156,17 +158,12 @@ class Motion:
     def _all_arguments(self) -> Arguments:
         return Arguments.of(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
-    @cached_property
-    def _arguments(self) -> tuple[Vector, Quaternion, Vector]:
-        """What an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
+    def _collect_arguments(self) -> tuple[Vector, Quaternion, Vector]:
+        """Return what an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
         w, x, y, z = self.start.given_orientation.tolist()
         wx, wy, wz = self.start.angular_velocity.tolist()
         orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
         return (self.top.Ix, self.top.Iz, abs(self.top.Mgl)), orientation, (wx, wy, wz)
-
-    @cached_property
-    def _is_free(self) -> bool:
-        return bool(is_free(*self._arguments))
 
     @cached_property
     def _engine(self) -> Engine:
