@@ -106,7 +106,7 @@ class Arguments:
         kept = np.flatnonzero(~free)
         starts, is_turned_over = self._turn_over()
         far = np.zeros(len(kept), dtype=np.uint8)
-        written: tuple[Real, ...] = orientation, omega
+        written: tuple[Real, ...] = orientation, omega  # in place, if no motion is left out
         if len(kept) < count:
             written = tuple(np.empty((len(kept), *each.shape[1:])) for each in (orientation, omega))
         kernel.fill_many(starts[kept], is_turned_over[kept], flat, *written, far)
