@@ -35,7 +35,7 @@ def live():
             yield process, client, port
         finally:
             process.terminate()
-            process.wait(timeout=60)
+            process.communicate(timeout=60)
 
 
 def moving(client):
