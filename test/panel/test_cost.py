@@ -45,9 +45,10 @@ def test_a_page_gets_less_than_100_kilobytes_a_second(panel):
 
 
 @pytest.mark.long
-def test_one_page_is_updated_60_times_a_second(panel):
-    # of 60: a frame may be late on a machine under load
-    assert measure(*panel, 1, 10.0).updates > 57
+def test_one_page_is_updated_60_times_a_second_for_a_quarter_of_a_core(panel):
+    cost = measure(*panel, 1, 10.0)
+    assert cost.updates > 57  # of 60: a frame may be late on a machine under load
+    assert cost.cpu < 25
 
 
 def test_frames_leave_nothing_behind():
@@ -74,7 +75,9 @@ def test_frames_leave_nothing_behind():
 
 @pytest.mark.long
 def test_ten_pages_are_updated_30_times_a_second(panel):
-    assert measure(*panel, 10, 20.0).updates >= 30
+    cost = measure(*panel, 10, 20.0)
+    assert cost.updates >= 30
+    assert cost.cpu < 50
 
 
 @pytest.mark.long
