@@ -14,11 +14,14 @@ from collections import deque
 from collections.abc import Awaitable, Callable, Iterator
 from typing import Any
 
+import viser._scene_handles as viser_handles
 import viser.infra._infra as viser_infra
 import websockets.asyncio.server
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
+
+from symtop_ros.arrays import Real
 
 CONTROLS, SCENE = "/controls/", "/scene/"  # of the WebSockets, before the name of a page
 # Messages to one page that it has not acknowledged. More of them would be old when they arrive.
@@ -51,6 +54,22 @@ class Buffer(AsyncMessageBuffer):
 
 
 vars(viser_infra)["AsyncMessageBuffer"] = Buffer  # a name by which viser makes its buffers
+
+
+def set_pose(
+    current: Real, value: Any, _length: int, queue: Callable[[Any], None], make_message: Any
+) -> None:
+    """Set a position or an orientation of the scene, and send it if it has changed.
+
+    Viser asks with a tolerance whether it has, which takes a fifth of the time of a frame.
+    """
+    pose = tuple(map(float, value))
+    if pose != tuple(current.tolist()):
+        current[:] = pose
+        queue(make_message(pose))
+
+
+vars(viser_handles)["_set_pose_vector"] = set_pose  # a name by which viser's handles set poses
 
 
 @contextlib.contextmanager

@@ -120,7 +120,7 @@ class State:
 
     def _set(self, given: Real, orientation: Real, angular_velocity: Real) -> None:
         for array in (given, orientation, angular_velocity):
-            array.setflags(write=False)
+            _make_read_only(array)
         # The class is frozen; its dictionary takes half the time of object.__setattr__.
         vars(self).update(
             given_orientation=given, orientation=orientation, angular_velocity=angular_velocity

@@ -236,3 +236,15 @@ def atomic(buffer):
     buffer.atomic_start()
     yield
     buffer.atomic_end()
+
+
+def test_a_pose_is_sent_if_it_has_changed_however_little(started):
+    server, _ = started
+    frame = server.scene.add_frame("/moved", position=(1.0, 2.0, 3.0))
+    buffer = server._websock_server._broadcast_buffer
+    before = buffer.message_counter
+    frame.position = (1.0, 2.0, 3.0)
+    assert buffer.message_counter == before
+    frame.position = (1.0, 2.0, 3.0 + 1e-12)
+    assert buffer.message_counter == before + 1
+    assert frame.position.tolist() == [1.0, 2.0, 3.0 + 1e-12]
