@@ -27,10 +27,10 @@ from symtop_ros.physics.exact.elementary import (
 )
 from symtop_ros.physics.exact.first_instants import FirstInstants, find_end
 from symtop_ros.physics.exact.kind import Kind, classify
-from symtop_ros.physics.exact.nutation import Nutation, find_roots
+from symtop_ros.physics.exact.nutation import Nutation, find_roots, is_lost
 from symtop_ros.physics.exact.nutation_phase import NutationPhase
 from symtop_ros.physics.exact.phases import Phases
-from symtop_ros.physics.exact.precise import HALF, TWO
+from symtop_ros.physics.exact.precise import HALF, TWO, ZERO
 from symtop_ros.physics.exact.quotients import Quotient, compute_mean_rates, find_zeros
 from symtop_ros.physics.exact.spin import spin_reverses
 from symtop_ros.physics.exact.theta import Series, choose_series
@@ -161,7 +161,8 @@ class ClosedFormMotion:
     @cached_property
     def _phases(self) -> Phases:
         a, b, _ = self._means
-        return Phases(self.nutation_rate, a + self._half_c, b - self._half_c)
+        rates = _add(a, self._half_c), _add(b, -self._half_c)
+        return Phases(self.nutation_rate, *rates)
 
     @cached_property
     def _nutation_phase(self) -> NutationPhase:
@@ -237,6 +238,16 @@ class ClosedFormMotion:
         largest = math.sqrt(self.nutation.beta * self.zeros.omega_xy.from_u1)
         value = self._series.values(self._nutation_phase.lower_turning_point)[2]
         return largest / find_modulus(to_floats(value))
+
+
+def _add(mean: Decimal, half_c: Decimal) -> Decimal:
+    """Return the rate of arg A or arg B: zero if rounding is all that is left of the sum.
+
+    phi' + psi' and phi' - psi' may be exactly zero in a regular precession. A rate of 1e-50 instead
+    would be visible in a component of the quaternion that is zero.
+    """
+    rate = mean + half_c
+    return ZERO if is_lost(rate, half_c) else rate
 
 
 def _select(t: Any, mask: NDArray[np.bool_]) -> Any:

@@ -206,6 +206,8 @@ def _expand_numerator(K: float, Kc: float, shift: Shift) -> tuple[list[float], l
         [0.0] * 5,
         -float(exponential_minus_1(rate * complement)),
     )
+    if Kc == math.inf:  # m = 0, regular precession: the quotient is constant
+        return even, odd, least
     for n in ORDERS:
         parity = (-1) ** n
         large = float(exponential(rate * (Kc * (n * n - n) + complement * n)))

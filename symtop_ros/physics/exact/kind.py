@@ -58,10 +58,9 @@ def _is_regular(nutation: Nutation) -> bool:
     centrifugal = nutation.omega_xy_squared * abs(nutation.u)
     gravity = nutation.beta * nutation.one_plus_u * nutation.one_minus_u / 2
     spin = nutation.a * nutation.b_minus_au
-    u_dot_dot = spin - nutation.u * nutation.omega_xy_squared - gravity
     sine_squared = nutation.one_plus_u * nutation.one_minus_u
     is_still = nutation.u_dot**2 <= ROUNDING**2 * nutation.omega_xy_squared * sine_squared
-    return is_still and abs(u_dot_dot) <= ROUNDING * (abs(spin) + centrifugal + gravity)
+    return is_still and abs(nutation.u_dot_dot) <= ROUNDING * (abs(spin) + centrifugal + gravity)
 
 
 def classify_free(tilt_of_momentum: float, cone: float) -> Kind:

@@ -18,13 +18,18 @@ name                   textbook                     in terms of the start
 `b_minus_au`           b - a u0                     sin^2(theta) phi', in rad/s
 `u_dot`                du/dt                        -sin(theta) theta', in rad/s
 `omega_xy_squared`     alpha - beta u0              theta'^2 + sin^2(theta) phi'^2, in rad^2/s^2
+`u_dot_dot`            d2u/dt2                      half of f'(u) at u0, in rad/s^2
 `b_minus_a`            b - a                        (p_phi - p_psi)/Ix, in rad/s
+`b_plus_a`             b + a                        (p_phi + p_psi)/Ix, in rad/s
+`b_minus_au_highest`   b - a alpha/beta             b - a u where all energy would be potential
 `alpha_minus_beta`     alpha - beta                 kinetic energy left upright, in rad^2/s^2
 =====================  ===========================  ================================================
 
 On the separatrix b = a and alpha = beta: the axis has just the energy to come to rest upright. Near
-it the last two numbers decide on everything, and all digits of their terms may cancel. They are
-then computed in fractions of integers, exactly.
+it these two numbers decide on everything, and all digits of their terms may cancel. A sum that is
+zero decides on the kind of the motion: regular precession, a cusp, a way through a pole. Of a zero
+50 digits leave some 1e-50, another number in each order of operations. In both cases the sums are
+computed again in fractions of integers, exactly.
 """
 
 import math
@@ -38,6 +43,8 @@ from symtop_ros.physics.values import EPS
 
 # A sum below this share of its terms has lost 10 of its 50 digits. It is computed exactly instead.
 CANCELLED = Decimal("1e-10")
+# Decimal digits after which a sum has none of its terms' digits, and may be zero.
+LOST_DIGITS = 40
 CONVERGED = Decimal("1e-26")  # the square of this share of a root is below 50 digits
 MOST_STEPS = 60  # of Newton's method in doubles; from the bound some 5 are usual
 
@@ -53,7 +60,10 @@ class Nutation:
     b_minus_au: Decimal
     u_dot: Decimal
     omega_xy_squared: Decimal
+    u_dot_dot: Decimal
     b_minus_a: Decimal
+    b_plus_a: Decimal
+    b_minus_au_highest: Decimal
     alpha_minus_beta: Decimal
 
     @classmethod
@@ -67,26 +77,40 @@ class Nutation:
         # 1 + u0 have the sum 2 exactly, as the cubic assumes.
         twice = TWO / (upper + lower)
         gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)  # z' seen from the body
-        a, beta, one_minus_u = wz * Iz / Ix, TWO * Mgl / Ix, twice * lower
-        b_minus_au, omega_xy_squared = wx * gx + wy * gy, wx * wx + wy * wy
-        b_minus_a = b_minus_au - a * one_minus_u
+        a, beta = wz * Iz / Ix, TWO * Mgl / Ix
+        one_minus_u, one_plus_u = twice * lower, twice * upper
+        u_dot, b_minus_au = wy * gx - wx * gy, wx * gx + wy * gy
+        omega_xy_squared = wx * wx + wy * wy
+        of_spin, of_rise = a * b_minus_au, (one_plus_u - one_minus_u) * HALF * omega_xy_squared
+        of_weight, of_height = HALF * beta * one_plus_u * one_minus_u, a * omega_xy_squared / beta
+        b_minus_a, b_plus_a = b_minus_au - a * one_minus_u, b_minus_au + a * one_plus_u
         alpha_minus_beta = omega_xy_squared - beta * one_minus_u
+        u_dot_dot, b_minus_au_highest = of_spin - of_rise - of_weight, b_minus_au - of_height
         if (
             abs(b_minus_a) <= CANCELLED * (abs(wx * gx) + abs(wy * gy))
             or abs(alpha_minus_beta) <= CANCELLED * omega_xy_squared
+            or is_lost(u_dot * u_dot, omega_xy_squared, 2)
+            or is_lost(b_minus_au * b_minus_au, omega_xy_squared, 2)
+            or is_lost(b_plus_a, b_minus_au)
+            or is_lost(b_minus_au_highest, b_minus_au)
+            or is_lost(u_dot_dot, of_spin)
+            or is_lost(u_dot_dot, of_rise)
         ):
-            b_minus_a, alpha_minus_beta = _compare_with_upright(
-                moments, orientation, angular_velocity
-            )
+            sums = _sum_exactly(moments, orientation, angular_velocity)
+            b_minus_au, u_dot, u_dot_dot, b_minus_a, b_plus_a, *rest = sums
+            b_minus_au_highest, alpha_minus_beta = rest
         return cls(
             a=a,
             beta=beta,
             one_minus_u=one_minus_u,
-            one_plus_u=twice * upper,
+            one_plus_u=one_plus_u,
             b_minus_au=b_minus_au,
-            u_dot=wy * gx - wx * gy,
+            u_dot=u_dot,
             omega_xy_squared=omega_xy_squared,
+            u_dot_dot=u_dot_dot,
             b_minus_a=b_minus_a,
+            b_plus_a=b_plus_a,
+            b_minus_au_highest=b_minus_au_highest,
             alpha_minus_beta=alpha_minus_beta,
         )
 
@@ -105,19 +129,36 @@ class Nutation:
         return self.b_minus_au - self.a * s
 
 
-def _compare_with_upright(
+def is_lost(value: Decimal, term: Decimal, power: int = 1) -> bool:
+    """Return True if a sum is so small, compared with one of its terms, that it may be zero.
+
+    `power` is that of the sum in `value`: its digits are lost as often.
+    """
+    return bool(value and term) and value.adjusted() < term.adjusted() - power * LOST_DIGITS
+
+
+def _sum_exactly(
     moments: Vector, orientation: Quaternion, angular_velocity: Vector
-) -> tuple[Decimal, Decimal]:
-    """Return b - a and alpha - beta, formed exactly and then rounded to the digits in use."""
+) -> list[Decimal]:
+    """Return the sums of `Nutation`, formed exactly and then rounded to the digits in use."""
     Ix, Iz, Mgl = map(Fraction, moments)
     w, x, y, z = map(Fraction, orientation)
     wx, wy, wz = map(Fraction, angular_velocity)
-    lower = x * x + y * y
-    twice = 2 / (w * w + z * z + lower)
-    gx, gy = x * z - w * y, y * z + w * x
-    b_minus_a = twice * (wx * gx + wy * gy - wz * Iz / Ix * lower)
-    alpha_minus_beta = wx * wx + wy * wy - 2 * Mgl / Ix * twice * lower
-    return _round(b_minus_a), _round(alpha_minus_beta)
+    upper, lower = w * w + z * z, x * x + y * y
+    twice = 2 / (upper + lower)
+    gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)
+    one_minus_u, one_plus_u, a, beta = twice * lower, twice * upper, wz * Iz / Ix, 2 * Mgl / Ix
+    along, squared = wx * gx + wy * gy, wx * wx + wy * wy
+    sums = (
+        along,
+        wy * gx - wx * gy,
+        a * along - ((one_plus_u - one_minus_u) * squared + beta * one_plus_u * one_minus_u) / 2,
+        along - a * one_minus_u,
+        along + a * one_plus_u,
+        along - a * squared / beta,
+        squared - beta * one_minus_u,
+    )
+    return [_round(each) for each in sums]
 
 
 def _round(x: Fraction) -> Decimal:
@@ -157,10 +198,12 @@ def find_roots(nutation: Nutation) -> Roots:
     three to the absolute error of the largest, which leaves no digit of a small s2.
     """
     beta, u = nutation.beta, nutation.u
-    u_dot_dot = nutation.a * nutation.b_minus_au - u * nutation.omega_xy_squared
     a2 = TWO * u - (nutation.omega_xy_squared + nutation.a * nutation.a) / beta
-    a1 = TWO * u_dot_dot / beta - nutation.one_plus_u * nutation.one_minus_u
-    a0 = nutation.u_dot * nutation.u_dot / beta
+    a1, a0 = TWO * nutation.u_dot_dot / beta, nutation.u_dot * nutation.u_dot / beta
+    if not (a1 or a0):  # regular precession: the start is a double root
+        below, share = nutation.one_minus_u, nutation.b_minus_a / nutation.one_minus_u
+        above = share * share / beta  # f(1) = -(b - a)^2 is the product of the distances
+        return Roots(ZERO, ZERO, below + above, ZERO, below + above, below, above)
     mean = -a2 / 3
     if _cubic(mean, a2, a1, a0) > 0:  # s1 < mean < s2
         return _roots_from_lowest(nutation, a2, a1, a0)
@@ -171,8 +214,9 @@ def _roots_from_lowest(nutation: Nutation, a2: Decimal, a1: Decimal, a0: Decimal
     # s1 is the largest root of the reflected cubic; u1 >= -1 bounds it.
     s1 = min(-_find_largest_root(-a2, a1, -a0, nutation.one_plus_u), ZERO)
     total = -(a2 + s1)  # s2 + s3
-    # If s2 and s3 are both small compared with s1, their sum has lost its digits.
-    product = a1 - s1 * total if total >= -s1 else -a0 / s1
+    # If s2 and s3 are both small compared with s1, their sum has lost its digits. From a start at
+    # the upper turning point, a0 = 0, the product is exactly zero, as s2 is.
+    product = a1 - s1 * total if total >= -s1 and (a0 or not s1) else -a0 / s1
     below, above = _distances_from_pole(nutation, nutation.one_minus_u - s1)
     s3 = nutation.one_minus_u + above
     s2 = product / s3  # one_minus_u - below would cancel

@@ -71,7 +71,7 @@ class Zeros(NamedTuple):
 def find_zeros(nutation: Nutation, roots: Roots) -> Zeros:
     """Return the zeros of A, B and omega_xy."""
     above = nutation.omega_xy_squared / nutation.beta
-    d = nutation.b_minus_au_at(above)
+    d = nutation.b_minus_au_highest
     from_u2, from_u3 = above - roots.s2, roots.s3 - above
     if roots.s32 < CANCELLED * nutation.one_minus_u:
         # All three heights are so near the pole that from the start no digit would be left.
@@ -92,7 +92,7 @@ def _zero_below(nutation: Nutation, roots: Roots) -> Zero:
     Near the pole u1 + 1 would be the difference of nearly equal numbers. It comes from the product
     beta (u_P - u1)(u_P - u2)(u_P - u3) = f(u_P) = -d^2, whose other factors are not small.
     """
-    d = nutation.b_minus_au_at(-nutation.one_plus_u)
+    d = nutation.b_plus_a
     from_u2, from_u3 = nutation.one_plus_u + roots.s2, nutation.one_plus_u + roots.s3
     return Zero(True, d, d * d / (nutation.beta * from_u2 * from_u3), from_u2, from_u3)
 

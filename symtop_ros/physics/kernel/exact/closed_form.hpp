@@ -16,6 +16,12 @@ struct AttitudeOf {  // a state without omega_z, which is constant
 };
 typedef AttitudeOf<double> Attitude;
 
+// _add
+inline Precise add_rates(const Precise& mean, const Precise& half_c) {
+  const Precise rate = mean + half_c;
+  return is_lost(rate, half_c) ? Precise() : rate;
+}
+
 struct ClosedForm {
   Start start;
   bool is_turned_over, has_first_instants = false;
@@ -41,7 +47,8 @@ struct ClosedForm {
     const Precise frequency = root(n.beta * roots.s31()), nutation_rate = frequency * mean;
     const Precise Ix(start.Ix), Iz(start.Iz), wz(start.wz);
     half_c = (wz * (Ix - Iz) / Ix).scale(-1);
-    const Precise rates[FUNCTIONS] = {nutation_rate, means[OF_A] + half_c, means[OF_B] - half_c};
+    const Precise rates[FUNCTIONS] = {nutation_rate, add_rates(means[OF_A], half_c),
+                                      add_rates(means[OF_B], -half_c)};
     steps = find_steps(rates, FUNCTIONS);
     first_end = 0.1 / find_fastest_rate(start);
     nutation_phase = find_nutation_phase(n, roots, zeros, mean, frequency);

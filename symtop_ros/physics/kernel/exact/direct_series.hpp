@@ -29,7 +29,7 @@ struct DirectSeries {
     double least = -exponential_minus_1(rate * complement);
     even[k][0] = 1.0;
     for (int n = 1; n < 5; n++) even[k][n] = odd[k][n - 1] = 0.0;
-    for (int n = 1; n < 5; n++) {
+    for (int n = 1; n < 5 && Kc < INFINITY; n++) {  // m = 0: the quotient is constant
       const int parity = n & 1 ? -1 : 1, own = is_below(k) ? parity : 1;
       const double large = exponential(rate * (Kc * (n * n - n) + complement * n));
       if (large < 0x1p-60) break;

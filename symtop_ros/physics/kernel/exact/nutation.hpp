@@ -12,29 +12,43 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
 };
 
 struct Nutation {
-  Precise a, beta, one_minus_u, one_plus_u, b_minus_au, u_dot, omega_xy_squared, b_minus_a,
-      alpha_minus_beta;
+  Precise a, beta, one_minus_u, one_plus_u, b_minus_au, u_dot, omega_xy_squared, u_dot_dot,
+      b_minus_a, b_plus_a, b_minus_au_highest, alpha_minus_beta;
 
   Precise u() const { return (one_plus_u - one_minus_u).scale(-1); }
   Precise b_minus_au_at(const Precise& s) const { return b_minus_au - a * s; }
 };
 
-// _compare_with_upright: exact sums of products, rounded at the end
-inline void compare_with_upright(const Start& start, Nutation& nutation) {
+// _sum_exactly: each sum times its denominators, so that nothing is divided before the end. With
+// N = norm, beta = 2 Mgl/Ix and a = Iz wz/Ix.
+inline void sum_exactly(const Start& start, Nutation& nutation) {
   const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
-  const Exact lower = x * x + y * y, norm = w * w + z * z + lower;
+  const Exact upper = w * w + z * z, lower = x * x + y * y, norm = upper + lower;
   const Exact gx = x * z - w * y, gy = y * z + w * x;
-  const Exact b_minus_a = Ix * (wx * gx + wy * gy) - wz * Iz * lower;
-  const Exact alpha_minus_beta = (wx * wx + wy * wy) * Ix * norm - Exact(4.0) * Mgl * lower;
-  const Precise divisor = Precise(Ix) * Precise(norm);
-  nutation.b_minus_a = Precise(b_minus_a).scale(1) / divisor;
-  nutation.alpha_minus_beta = Precise(alpha_minus_beta) / divisor;
+  const Exact along = wx * gx + wy * gy, spin = Iz * wz, squared = wx * wx + wy * wy;
+  const Exact rise = Ix * ((upper - lower) * norm) * squared, weight = (Mgl * upper * lower).scale(2);
+  const Exact highest = (Mgl * along).scale(2) - spin * squared * norm;
+  const Precise N(norm), IxN = Precise(Ix) * N;
+  nutation.b_minus_au = Precise(along).scale(1) / N;
+  nutation.u_dot = Precise(wy * gx - wx * gy).scale(1) / N;
+  nutation.u_dot_dot = Precise((spin * along * norm).scale(1) - rise - weight) / (IxN * N);
+  nutation.b_minus_a = Precise(Ix * along - spin * lower).scale(1) / IxN;
+  nutation.b_plus_a = Precise(Ix * along + spin * upper).scale(1) / IxN;
+  nutation.b_minus_au_highest = Precise(highest) / (Precise(Mgl).scale(1) * N);
+  nutation.alpha_minus_beta = Precise(squared * Ix * norm - (Mgl * lower).scale(2)) / IxN;
 }
 
 inline const Precise& cancelled() {
   static const Precise SHARE = Precise(1.0) / Precise(1e10);
   return SHARE;
+}
+
+const int LOST_BITS = 133;  // LOST_DIGITS
+
+// is_lost
+inline bool is_lost(const Precise& value, const Precise& term, int power = 1) {
+  return value.sign && term.sign && value.exponent < term.exponent - power * LOST_BITS;
 }
 
 // Nutation.of
@@ -53,11 +67,20 @@ inline Nutation find_nutation(const Start& start) {
   n.b_minus_au = along_x + along_y;
   n.u_dot = wy * gx - wx * gy;
   n.omega_xy_squared = wx * wx + wy * wy;
+  const Precise of_spin = n.a * n.b_minus_au, of_rise = n.u() * n.omega_xy_squared;
+  const Precise of_weight = (n.beta * n.one_plus_u * n.one_minus_u).scale(-1);
+  n.u_dot_dot = of_spin - of_rise - of_weight;
   n.b_minus_a = n.b_minus_au - n.a * n.one_minus_u;
+  n.b_plus_a = n.b_minus_au + n.a * n.one_plus_u;
+  n.b_minus_au_highest = n.b_minus_au - n.a * n.omega_xy_squared / n.beta;
   n.alpha_minus_beta = n.omega_xy_squared - n.beta * n.one_minus_u;
   if (size(n.b_minus_a) <= cancelled() * (size(along_x) + size(along_y)) ||
-      size(n.alpha_minus_beta) <= cancelled() * n.omega_xy_squared)
-    compare_with_upright(start, n);
+      size(n.alpha_minus_beta) <= cancelled() * n.omega_xy_squared ||
+      is_lost(n.u_dot * n.u_dot, n.omega_xy_squared, 2) ||
+      is_lost(n.b_minus_au * n.b_minus_au, n.omega_xy_squared, 2) ||
+      is_lost(n.b_plus_a, n.b_minus_au) || is_lost(n.b_minus_au_highest, n.b_minus_au) ||
+      is_lost(n.u_dot_dot, of_spin) || is_lost(n.u_dot_dot, of_rise))
+    sum_exactly(start, n);
   return n;
 }
 
@@ -121,8 +144,8 @@ inline Roots find_roots_from_lowest(const Nutation& n, const Cubic& cubic) {
   roots.s1 = -find_largest_root(reflected, n.one_plus_u);
   if (roots.s1.sign > 0) roots.s1 = Precise();
   const Precise total = -(cubic.a2 + roots.s1);
-  const Precise product =
-      total >= -roots.s1 ? cubic.a1 - roots.s1 * total : -cubic.a0 / roots.s1;
+  const bool has_digits = total >= -roots.s1 && (cubic.a0.sign || !roots.s1.sign);
+  const Precise product = has_digits ? cubic.a1 - roots.s1 * total : -cubic.a0 / roots.s1;
   find_distances_from_pole(n, n.one_minus_u - roots.s1, roots);
   roots.s3 = n.one_minus_u + roots.above_pole;
   roots.s2 = product / roots.s3;
@@ -155,11 +178,17 @@ inline Roots find_roots_from_highest(const Nutation& n, const Cubic& cubic) {
 }
 
 inline Roots find_roots(const Nutation& n) {
-  const Precise u = n.u(), u_dot_dot = n.a * n.b_minus_au - u * n.omega_xy_squared;
   const Precise per_beta = invert(n.beta);
-  const Cubic cubic = {u.scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
-                       u_dot_dot.scale(1) * per_beta - n.one_plus_u * n.one_minus_u,
-                       n.u_dot * n.u_dot * per_beta};
+  const Cubic cubic = {n.u().scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
+                       n.u_dot_dot.scale(1) * per_beta, n.u_dot * n.u_dot * per_beta};
+  if (!cubic.a1.sign && !cubic.a0.sign) {
+    const Precise share = n.b_minus_a / n.one_minus_u;
+    Roots roots;
+    roots.below_pole = n.one_minus_u;
+    roots.above_pole = share * share * per_beta;
+    roots.s3 = roots.s32 = roots.below_pole + roots.above_pole;
+    return roots;
+  }
   const Precise mean = -cubic.a2 / Precise(3.0);
   return cubic.at(mean).sign > 0 ? find_roots_from_lowest(n, cubic)
                                  : find_roots_from_highest(n, cubic);

@@ -15,7 +15,7 @@ struct Zero {
 
 // _zero_below
 inline Zero find_zero_below(const Nutation& n, const Roots& roots) {
-  const Precise d = n.b_minus_au_at(-n.one_plus_u);
+  const Precise& d = n.b_plus_a;
   const Precise from_u2 = n.one_plus_u + roots.s2, from_u3 = n.one_plus_u + roots.s3;
   return {true, d, d * d / (n.beta * from_u2 * from_u3), from_u2, from_u3};
 }
@@ -35,7 +35,7 @@ inline Zero find_zero_above(const Nutation& n, const Precise& d, const Precise& 
 
 inline void find_zeros(const Nutation& n, const Roots& roots, Zero zeros[FUNCTIONS]) {
   const Precise above = n.omega_xy_squared / n.beta;
-  Precise d = n.b_minus_au_at(above), from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
+  Precise d = n.b_minus_au_highest, from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
   if (roots.s32 < cancelled() * n.one_minus_u) {
     const Precise lift = n.alpha_minus_beta / n.beta;
     d = n.b_minus_a - n.a * lift;
