@@ -144,7 +144,7 @@ def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
     """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude."""
     times = TIMES[::10]
     found = slope(lambda t: motion.at(t).orientation, times)
-    q, omega = motion.at(times)
+    q, omega = motion.at(times).parts
     # The vector part of conj(q) q', for quaternions w, x, y, z
     p, axis = found.values, q[:, 1:]
     vector = q[:, :1] * p[:, 1:] - p[:, :1] * axis - np.cross(axis, p[:, 1:])

@@ -73,7 +73,7 @@ class Truth:
             chosen = inside & (owners == number)
             segment = self._segment(number)
             if self._budget.reach_stamps(segment, stamps[chosen]):
-                q, omega = segment.state_at(stamps[chosen])
+                q, omega = segment.state_at(stamps[chosen]).parts
                 if of_sensor and (imu := segment.rig.imu):
                     q, omega = compose(q, imu.mount.orientation), imu.mount.to_body(omega)
                 orientations[chosen], rates[chosen] = q, omega

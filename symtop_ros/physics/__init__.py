@@ -16,7 +16,7 @@ Examples
 from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
 from symtop_ros.physics.exact.kind import Kind
-from symtop_ros.physics.kernel import accelerated, describe_engine, python_alone
+from symtop_ros.physics.kernel import accelerated, describe_engine
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -27,6 +27,7 @@ from symtop_ros.physics.kicks import (
     validate_hold,
 )
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.motions import Motions
 from symtop_ros.physics.perry import Direction
 from symtop_ros.physics.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.potential import EffectivePotential
@@ -57,6 +58,7 @@ __all__ = [
     "HurryEffect",
     "Kind",
     "Motion",
+    "Motions",
     "State",
     "Top",
     "Verdict",
@@ -71,7 +73,6 @@ __all__ = [
     "point_acceleration",
     "precessing_frame_torques",
     "precession_rate",
-    "python_alone",
     "regular_precession_rates",
     "set_precession_rate",
     "specific_force",

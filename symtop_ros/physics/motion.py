@@ -1,7 +1,6 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
-from collections.abc import Iterable
 from decimal import localcontext
 from functools import cached_property
 from typing import Any, Literal, Protocol
@@ -10,23 +9,31 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Quaternion, Real, Vector
+from symtop_ros.physics.arguments import (
+    NO_FRICTION,
+    NO_TORQUE,
+    Setting,
+    find_shape,
+    is_free,
+    validate_times,
+    validate_torque,
+    validate_types,
+    wrap_states,
+)
 from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.exact.closed_form import ClosedFormMotion
 from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.exact.precise import PRECISE
-from symtop_ros.physics.kernel import find_kernel
+from symtop_ros.physics.kernel import PURE, find_kernel
 from symtop_ros.physics.kernel.compiled import CompiledMotion
-from symtop_ros.physics.many import Arguments, find_shape, for_each, is_free
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import refuse, validate_array, validate_vector
 
 # Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
 BLOCK = 12288
-NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 
 
 class Engine(Protocol):
@@ -59,37 +66,39 @@ class Engine(Protocol):
         """True if psi' takes both signs."""
 
 
-class Motion:
-    """The motion of a top from a state, or many motions at once.
+class Motion(Setting):
+    """The motion of a top from a state.
 
-    Tops, starts, frictions and torques may be arrays; they are broadcast together. Then states have
-    the shape of the motions, followed by that of the times, and properties have the shape of the
-    motions. Each motion is the same, bit for bit, as alone.
+    Without friction and applied torque it is exact at any time. With them it is integrated; turning
+    angles, nutation period and mean rates are then those of the motion that would follow from the
+    start under gravity alone.
 
-    Without friction and applied torque it is exact at any time. With them it is integrated; kind,
-    turning angles, nutation period and mean rates are then those of the motion that would follow
-    from the start under gravity alone.
+    If an argument is an array, `Motion(...)` returns `Motions`: many motions at once.
 
     Parameters
     ----------
     top : Top
-        One top, or many of shape (...).
+        The top.
     start : State
-        The state at t = 0, or many of shape (...).
+        The state at t = 0.
     friction : Friction
-        Friction at the pivot and in the air; one, or many of shape (...).
-    torque : array_like (..., 3)
+        Friction at the pivot and in the air.
+    torque : array_like (3,)
         Applied torque in the world frame, constant, in N m.
+    pure : bool
+        True computes with Python alone; else the compiled kernel is used if it was built. States
+        under gravity alone have the same bits. The default is that of the environment variable
+        SYMTOP_PURE.
 
     Attributes
     ----------
     top : Top
     start : State
     friction : Friction
-    applied_torque : (float, float, float) or ndarray (..., 3)
+    applied_torque : (float, float, float)
         In the world frame, in N m.
     shape : tuple of int
-        () for one motion, (...) for many.
+        ().
     engine : {"closed form", "free", "taylor"}
         Method of solution: elliptic functions; circular functions if Mgl is 0 or if the axis rests
         on the vertical; with friction or an applied torque Taylor series in time.
@@ -110,15 +119,27 @@ class Motion:
     0.159545
     >>> motion.at([0.0, 10.0, 1e6]).orientation.shape
     (3, 4)
-
-    Two tops from one start, at three times:
-
-    >>> motions = Motion(Top(Ix=0.000228, Iz=0.0000572, Mgl=[0.068, 0.07]), motion.start)
-    >>> motions.at([0.0, 10.0, 1e6]).orientation.shape, motions.kind.tolist()
-    ((2, 3, 4), ['cusps', 'cusps'])
     """
 
     engine: Literal["closed form", "free", "taylor"]
+
+    def __new__(
+        cls,
+        top: Top,
+        start: State,
+        friction: Friction = NO_FRICTION,
+        torque: ArrayLike = NO_TORQUE,
+        *,
+        pure: bool = PURE,
+    ) -> Any:
+        """Return the motion, or many if an argument is an array."""
+        validate_types(top, start, friction)
+        if find_shape(top, start, friction, validate_torque(torque)):
+            # Many motions are made of single ones, so their module imports this one.
+            from symtop_ros.physics.motions import Motions  # noqa: PLC0415
+
+            return Motions(top, start, friction, torque, pure=pure)
+        return object.__new__(cls)
 
     def __init__(
         self,
@@ -126,18 +147,12 @@ class Motion:
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
+        *,
+        pure: bool = PURE,
     ) -> None:
-        _validate_types(top, start, friction)
-        self.top = top
-        self.start = start
-        self.friction = friction
-        self.applied_torque: Any = _validate_torque(torque)
-        self.shape = find_shape(top, start, friction, self.applied_torque)
+        super().__init__(top, start, friction, validate_torque(torque), pure)
+        self.shape: tuple[int, ...] = ()
         self.engine = "closed form"
-        self._kernel = find_kernel()
-        self._driven: DrivenMotion | None = None
-        if self.shape:
-            return
         # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
         self._is_turned_over = top.Mgl < 0
         self._arguments = self._collect_arguments()
@@ -145,18 +160,10 @@ class Motion:
         self._is_free = bool(is_free(*self._arguments))
         if self._is_free:
             self.engine = "free"
+        self._driven: DrivenMotion | None = None
         if self.is_driven:
-            self._driven = DrivenMotion(top, start, friction, self.applied_torque)
+            self._driven = DrivenMotion(top, start, friction, self.applied_torque, pure)
             self.engine = "taylor"
-
-    @cached_property
-    def members(self) -> list["Motion"]:
-        """The motions one by one, in the order of a flat array; of one motion itself."""
-        return [Motion(*each) for each in self._all_arguments] if self.shape else [self]
-
-    @cached_property
-    def _all_arguments(self) -> Arguments:
-        return Arguments.of(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
     def _collect_arguments(self) -> tuple[Vector, Quaternion, Vector]:
         """Return what an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
@@ -174,19 +181,8 @@ class Motion:
     @cached_property
     def _compiled(self) -> CompiledMotion | None:
         """The kernel's engine, for states alone."""
-        if self._is_free or not self._kernel:
-            return None
-        return CompiledMotion(self._kernel, self._arguments, self._is_turned_over)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle a motion by its arguments: copies share no integrator."""
-        return Motion, (self.top, self.start, self.friction, self.applied_torque)
-
-    @property
-    def is_driven(self) -> bool:
-        """True if friction or an applied torque acts: there is no closed form, only series."""
-        torque = self.applied_torque
-        return bool(self.friction) or (any(torque) if type(torque) is tuple else bool(torque.any()))
+        kernel = None if self._is_free else find_kernel(self._pure)
+        return CompiledMotion(kernel, self._arguments, self._is_turned_over) if kernel else None
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -196,7 +192,7 @@ class Motion:
         t : float, array_like (...) or ExactTimes
             Time since the start in s, any finite number of either sign, or exact times in ns. A
             driven motion takes exact times in extended precision, and costs about 0.04 ms for
-            each radian of nutation on the way.
+            each radian of nutation on the way: a minute for a time of six hours. Ctrl-C ends it.
 
         Returns
         -------
@@ -217,36 +213,51 @@ class Motion:
         >>> round(motion.at(motion.nutation_period).euler_angles.theta, 9)
         0.5
         """
-        times: float | Real | ExactTimes = t if isinstance(t, ExactTimes) else _validate_times(t)
-        if self.shape:
-            return self._compute_members(times)
-        if self._driven:
-            if isinstance(times, ExactTimes):
-                return _fill_states(self._driven, *times.split_seconds)
-            seconds = np.asarray(times)
-            return _fill_states(self._driven, seconds, np.zeros_like(seconds))
-        if isinstance(times, np.ndarray) or (isinstance(times, ExactTimes) and times.shape):
-            return self._compute_many(times)
-        return self._compute_one(times)
+        times = validate_times(t)
+        if isinstance(times, float):
+            return self._compute_one(times)
+        count = math.prod(times.shape)
+        orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
+        self.fill(times, orientation, angular_velocity)
+        return wrap_states(orientation, angular_velocity, times.shape, len(times.shape))
 
-    def _compute_one(self, time: float | ExactTimes) -> State:
-        if self._compiled and isinstance(time, ExactTimes):
-            orientation, omega = np.empty(4), np.empty(3)
-            self._compiled.fill_exact(time, orientation, omega)
-            return State.wrap(orientation, omega)
-        state = None
-        if self._compiled and isinstance(time, float):
-            state = self._compiled.at(time)
+    def _compute_one(self, time: float) -> State:
+        if self._driven:
+            orientation, angular_velocity = np.empty((1, 4)), np.empty((1, 3))
+            self._driven.fill(np.array([time]), np.zeros(1), orientation, angular_velocity)
+            return State.wrap(orientation[0], angular_velocity[0])
+        state = self._compiled.at(time) if self._compiled else None
         w, x, y, z, wx, wy = state or self._evaluate(time)
         return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, self._spin)))
 
-    def _compute_many(self, times: Real | ExactTimes) -> State:
-        count = math.prod(times.shape)
-        flat = times if isinstance(times, ExactTimes) else times.reshape(-1)
-        orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
-        if not self._fill_compiled(flat, orientation, angular_velocity):
+    def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
+        """Write the states at many times into arrays; the times are not validated.
+
+        Parameters
+        ----------
+        times : ndarray (...) or ExactTimes () or (n,)
+            Finite times in s, or exact times in ns; n in all.
+        orientation : ndarray (n, 4)
+            Receives the quaternions.
+        angular_velocity : ndarray (n, 3)
+            Receives the angular velocities.
+        """
+        if self._driven:
+            parts = times.split_seconds if isinstance(times, ExactTimes) else (times, 0.0 * times)
+            seconds, rests = (each.reshape(-1) for each in parts)
+            self._driven.fill(seconds, rests, orientation, angular_velocity)
+            return
+        flat = times.ravel()
+        if not self._compiled:
             self._fill_in_blocks(flat, orientation, angular_velocity)
-        return _wrap(orientation, angular_velocity, times.shape)
+            return
+        far = self._compiled.fill(flat, orientation, angular_velocity)
+        if far.size:  # a few, or all of them; the others are written
+            late, rates = np.empty((far.size, 4)), np.empty((far.size, 3))
+            self._fill_in_blocks(
+                flat.select(far) if isinstance(flat, ExactTimes) else flat[far], late, rates
+            )
+            orientation[far], angular_velocity[far] = late, rates
 
     def _fill_in_blocks(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> None:
         """Write the states at times (n,) by NumPy, in blocks that fit into a processor's cache."""
@@ -260,27 +271,6 @@ class Motion:
             for k, column in enumerate(columns[:4]):
                 orientation[block, k] = column
             omega[block, 0], omega[block, 1] = columns[4:]
-
-    def _compute_members(self, times: float | Real | ExactTimes) -> State:
-        """Return the states of many motions: from the kernel, or one motion after the other."""
-        count = math.prod(self.shape)
-        shape = times.shape if isinstance(times, ExactTimes) else np.shape(times)
-        orientation, omega = np.empty((count, *shape, 4)), np.empty((count, *shape, 3))
-        left: Iterable[int] = range(count)
-        if self._kernel and not self.is_driven and not isinstance(times, ExactTimes):
-            left = self._all_arguments.fill(self._kernel, np.asarray(times), orientation, omega)
-        for n in left:
-            orientation[n], omega[n] = self.members[n].at(times)
-        return _wrap(orientation, omega, (*self.shape, *shape))
-
-    def _fill_compiled(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> bool:
-        """Write the states at times (n,) if there is a kernel, and it can."""
-        if not self._compiled:
-            return False
-        if isinstance(times, ExactTimes):
-            self._compiled.fill_exact(times, orientation, omega)
-            return True
-        return self._compiled.fill(times, orientation, omega)
 
     def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
         """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
@@ -326,43 +316,7 @@ class Motion:
         """
         return self._driven.reach(t, steps) if self._driven else t
 
-    def total_torque(self, state: State) -> Real:
-        """Return the torque of gravity, friction and the applied torque about the pivot.
-
-        Parameters
-        ----------
-        state : State
-            One state or many.
-
-        Returns
-        -------
-        ndarray (..., 3)
-            In the world frame, in N m.
-        """
-        torque = self.top.gravity_torque(state)
-        return torque + self.added_torque(state) if self.is_driven else torque
-
-    def added_torque(self, state: State) -> Real:
-        """Return the torque of friction and the applied torque, without gravity.
-
-        Parameters
-        ----------
-        state : State
-            One state or many.
-
-        Returns
-        -------
-        ndarray (..., 3)
-            In the world frame, in N m.
-        """
-        torque = np.asarray(self.applied_torque)
-        if self.shape:  # axes for the times
-            motions, times = torque.shape[:-1], state.orientation.ndim - 1 - len(self.shape)
-            torque = torque.reshape(*motions, *(1,) * times, 3)
-        return np.asarray(state.to_world(self.friction.torque(state)) + torque)
-
     @property
-    @for_each
     def kind(self) -> Kind:
         """Name of the motion, by phi' at the two turning angles.
 
@@ -375,21 +329,18 @@ class Motion:
             return self._engine.kind
 
     @property
-    @for_each
     def nutation_period(self) -> float:
         """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
         with localcontext(PRECISE):
             return self._engine.nutation_period
 
     @property
-    @for_each
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
         with localcontext(PRECISE):
             return self._engine.turning_angles(self._is_turned_over)
 
     @property
-    @for_each
     def mean_precession_rate(self) -> float:
         """Mean phi' over a nutation in rad/s.
 
@@ -400,7 +351,6 @@ class Motion:
         return -rate if self._is_turned_over else rate
 
     @property
-    @for_each
     def mean_spin_rate(self) -> float:
         """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
         return self._mean_rates[1]
@@ -417,7 +367,6 @@ class Motion:
         return self.kind in ("sleeping", "through the pole")
 
     @property
-    @for_each
     def precession_per_nutation(self) -> float:
         """Precession in a nutation as a fraction of a turn, 2 pi rad.
 
@@ -439,7 +388,6 @@ class Motion:
         return -turns if self._is_turned_over else turns
 
     @property
-    @for_each
     def spin_reverses(self) -> bool:
         """True if psi' takes both signs in a nutation, although L_z is constant.
 
@@ -460,7 +408,6 @@ class Motion:
         return 2 * math.pi / self.nutation_period
 
     @property
-    @for_each
     def fast_top_precession_rate(self) -> float:
         """Mean phi' of the fast top in rad/s: Mgl/p_psi (Goldstein, section 5.7); nan if p_psi = 0.
 
@@ -479,7 +426,6 @@ class Motion:
         return self.top.Mgl / p_psi if p_psi else math.nan
 
     @property
-    @for_each
     def fast_top_nutation_rate(self) -> float:
         """Nutation rate of the fast top in rad/s: |p_psi|/Ix (Goldstein, section 5.7).
 
@@ -494,43 +440,3 @@ class Motion:
         (50.18, 39.38)
         """
         return abs(float(self.top.axial_momentum(self.start))) / self.top.Ix
-
-
-def _validate_torque(torque: Any) -> Any:
-    """Return three floats, or an array (..., 3)."""
-    if torque is NO_TORQUE:
-        return NO_TORQUE
-    if np.ndim(torque) <= 1:
-        return validate_vector("torque", torque, "N m, world frame")
-    return validate_array("torque", torque, 3, "N m, world frame")
-
-
-def _validate_times(t: Any) -> float | Real:
-    if type(t) is float and math.isfinite(t):  # the common cases: no copy
-        return t
-    if type(t) is np.ndarray and t.dtype == np.float64 and t.ndim and np.isfinite(t).all():
-        return t
-    array = validate_array("t", t, unit="s")
-    return array if array.ndim else float(array)
-
-
-def _fill_states(driven: DrivenMotion, seconds: Real, rests: Real) -> State:
-    orientation, angular_velocity = np.empty((seconds.size, 4)), np.empty((seconds.size, 3))
-    driven.fill(seconds.reshape(-1), rests.reshape(-1), orientation, angular_velocity)
-    return _wrap(orientation, angular_velocity, seconds.shape)
-
-
-def _wrap(orientation: Real, angular_velocity: Real, shape: tuple[int, ...]) -> State:
-    """Return the states of arrays (n, 4) and (n, 3)."""
-    for array in (orientation, angular_velocity):
-        array.flags.writeable = False  # so that it cannot be written to as `base` of a view
-    return State.wrap(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
-
-
-def _validate_types(top: Any, start: Any, friction: Any) -> None:
-    if not isinstance(top, Top):
-        raise refuse("top", "a Top", repr(top))
-    if not isinstance(start, State):
-        raise refuse("start", "a State", repr(start))
-    if not isinstance(friction, Friction):
-        raise refuse("friction", "a Friction", repr(friction))

@@ -52,7 +52,7 @@ class Angles(NamedTuple):
     psi: Any
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class State:
     """Orientation and angular velocity at one instant, or at many.
 
@@ -69,6 +69,9 @@ class State:
     given_orientation : ndarray (..., 4)
         The orientation before it is normalised. A motion starts from these doubles, normalised with
         50 digits: the rounding of `orientation` would be an error that grows with time.
+    time_axes : int
+        Number of last axes (...) that are times of a motion. Tops, frictions and torques are
+        broadcast with the axes before them.
 
     Raises
     ------
@@ -87,6 +90,7 @@ class State:
     orientation: Real
     angular_velocity: Real
     given_orientation: Real  # not normalised: a motion normalises it with 50 digits
+    time_axes: int = 0
 
     def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None:
         q = _flush_tiny(validate_array("orientation", orientation, 4))
@@ -102,7 +106,7 @@ class State:
         self._set(q, _normalize(q), omega)
 
     @classmethod
-    def wrap(cls, orientation: Real, angular_velocity: Real) -> "State":
+    def wrap(cls, orientation: Real, angular_velocity: Real, time_axes: int = 0) -> "State":
         """Return the state of arrays that are known to be valid, without copying them.
 
         The arrays become read-only. This skips the validation of many computed states.
@@ -113,18 +117,40 @@ class State:
             Finite quaternions of norm 1 to rounding; they are not normalised.
         angular_velocity : ndarray (..., 3)
             Finite angular velocities of the same leading shape, in rad/s.
+        time_axes : int
+            Number of last axes that are times.
         """
         state = object.__new__(cls)
-        state._set(orientation, orientation, angular_velocity)
+        state._set(orientation, orientation, angular_velocity, time_axes)
         return state
 
-    def _set(self, given: Real, orientation: Real, angular_velocity: Real) -> None:
-        for array in (given, orientation, angular_velocity):
+    def _set(self, given: Real, orientation: Real, omega: Real, time_axes: int = 0) -> None:
+        for array in (given, orientation, omega):
             _make_read_only(array)
         # The class is frozen; its dictionary takes half the time of object.__setattr__.
         vars(self).update(
-            given_orientation=given, orientation=orientation, angular_velocity=angular_velocity
+            given_orientation=given,
+            orientation=orientation,
+            angular_velocity=omega,
+            time_axes=time_axes,
         )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle a state by its arrays, which are read-only in the copy, too."""
+        arrays = self.given_orientation, self.orientation, self.angular_velocity
+        return _restore, (*(array.copy() for array in arrays), self.time_axes)
+
+    def __repr__(self) -> str:
+        """Return the call that makes one state; of many, their shape."""
+        if self.orientation.ndim > 1:
+            return f"<State of shape {self.orientation.shape[:-1]}>"
+        orientation, omega = (tuple(part.tolist()) for part in self.parts)
+        return f"State(orientation={orientation}, angular_velocity={omega})"
+
+    @property
+    def parts(self) -> tuple[Real, Real]:
+        """Orientation and angular velocity."""
+        return self.orientation, self.angular_velocity
 
     @classmethod
     def from_euler(
@@ -358,10 +384,11 @@ class State:
 
         ``pandas.DataFrame(table)`` is a data frame of it.
         """
-        t = np.array(times, dtype=float)
-        if t.ndim != 1 or self.orientation.shape[:-1] != t.shape:
-            condition = f"of shape {self.orientation.shape[:-1]}, one for each of a row of states"
-            raise refuse("times", condition, f"shape {t.shape}")
+        t, shape = validate_array("times", times, unit="s"), self.orientation.shape[:-1]
+        if len(shape) != 1:
+            raise refuse("states", "of shape (n,)", f"shape {shape}")
+        if t.shape != shape:
+            raise refuse("times", f"of shape {shape}, one for each state", f"shape {t.shape}")
         columns = [*split(self.orientation), *split(self.angular_velocity)]
         columns += [*self.euler_angles, *self.euler_rates]
         return dict(zip(COLUMNS, (t, *map(np.array, columns)), strict=True))
@@ -379,8 +406,31 @@ class State:
         if self.orientation.ndim == 1:
             raise IndexError("one state has no places; orientation and angular_velocity have")
         places = place if isinstance(place, tuple) else (place,)
-        where = (*places, slice(None)) if Ellipsis in places else (*places, ..., slice(None))
-        return State.wrap(*(part[where] for part in self))
+        has_gap = any(each is Ellipsis for each in places)
+        where = (*places, slice(None)) if has_gap else (*places, ..., slice(None))
+        orientation, omega = (part[where] for part in self.parts)
+        return State.wrap(orientation, omega, self._count_time_axes(places))
+
+    def _count_time_axes(self, places: tuple[Any, ...]) -> int:
+        """Return how many axes of times indexing leaves.
+
+        A whole number takes its axis away, and arrays make theirs one. If it has axes of motions
+        and of times, it counts as one of motions.
+        """
+        taken = [_count_axes(each) for each in places]
+        motions = self.orientation.ndim - 1 - self.time_axes
+        left, axis, arrays = self.time_axes, 0, set()
+        for place, count in zip(places, taken, strict=True):
+            if place is Ellipsis:
+                axis += motions + self.time_axes - sum(taken)
+                continue
+            of_times = max(0, axis + count - max(axis, motions))
+            if not isinstance(place, slice):
+                left -= of_times
+            if not isinstance(place, slice | int | np.integer) and place is not None:
+                arrays.add(of_times == count)
+            axis += count
+        return left + (arrays == {True})
 
     def __len__(self) -> int:
         """Return the number of states along the first axis."""
@@ -392,17 +442,32 @@ class State:
         """Return True: an empty array of states is a state, too."""
         return True
 
-    def __iter__(self) -> Iterator[Real]:
-        """Unpack as orientation, angular_velocity."""
-        return iter((self.orientation, self.angular_velocity))
+    def __iter__(self) -> Iterator["State"]:
+        """Iterate over many states along the first axis."""
+        return (self[n] for n in range(len(self)))
 
     def __eq__(self, other: object) -> bool:
         """Compare bit for bit (q and -q differ)."""
         return isinstance(other, State) and all(
-            np.array_equal(a, b) for a, b in zip(self, other, strict=True)
+            np.array_equal(a, b) for a, b in zip(self.parts, other.parts, strict=True)
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _count_axes(place: Any) -> int:
+    """Return how many axes a part of an index takes."""
+    if place is None or place is Ellipsis:
+        return 0
+    array = np.asarray(place) if not isinstance(place, slice) else None
+    return array.ndim if array is not None and array.dtype == np.bool_ else 1
+
+
+def _restore(given: Real, orientation: Real, omega: Real, time_axes: int) -> State:
+    """Return a state from its arrays."""
+    state = object.__new__(State)
+    state._set(given, orientation, omega, time_axes)
+    return state
 
 
 def _half_sum(a: float, b: float) -> tuple[float, float]:

@@ -117,12 +117,16 @@ class ExactTimes:
         elapsed, pieces = self.elapsed.as_integer_ratio()
         return elapsed / (pieces * SECOND) + self.factor * (self.nanoseconds * 1e-9)
 
-    def select(self, part: slice | NDArray[np.bool_]) -> "ExactTimes":
+    def ravel(self) -> "ExactTimes":
+        """Return the times as an array (n,), of one time (1,)."""
+        return ExactTimes(np.atleast_1d(self.nanoseconds), self.factor, self.elapsed)
+
+    def select(self, part: slice | NDArray[np.bool_ | np.intp]) -> "ExactTimes":
         """Return a part of an array of times.
 
         Parameters
         ----------
-        part : slice or ndarray (n,) of bool
+        part : slice or ndarray of bool (n,) or of places
             The times to return.
         """
         return ExactTimes(np.asarray(self.nanoseconds)[part], self.factor, self.elapsed)

@@ -175,9 +175,14 @@ def match(value: Any, state: State) -> Any:
     """Return a number of each top, (...), with axes added for the times of its states."""
     if isinstance(value, float):
         return value
-    shape = np.shape(value)
-    times = state.angular_velocity.ndim - 1 - len(shape)
-    return np.reshape(value, shape + (1,) * max(times, 0)) if shape else value
+    array = np.reshape(value, np.shape(value) + (1,) * state.time_axes)
+    states = state.angular_velocity.shape[:-1]
+    try:
+        np.broadcast_shapes(array.shape, states)
+    except ValueError:
+        shapes = f"{np.shape(value)} and {states}, of which the last {state.time_axes} are times"
+        raise refuse("top and state", "of shapes that fit together", shapes) from None
+    return array
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
@@ -10,7 +9,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, State, Top, accelerated, python_alone
+from symtop_ros.physics import Motion, State, Top, accelerated
 from symtop_ros.report.peers import ALONE, CLOSED_FORM
 
 SEED = 1
@@ -58,9 +57,9 @@ Program = Callable[[Motions, float], Real]  # the orientations (n, 4) at a time 
 
 def find_programs() -> list[tuple[str, Program]]:
     """Return the programs that can be measured, by name."""
-    programs: list[tuple[str, Program]] = [(CLOSED_FORM, partial(compute, nullcontext))]
+    programs: list[tuple[str, Program]] = [(CLOSED_FORM, partial(compute, False))]
     if accelerated:
-        programs.append((CLOSED_FORM + ALONE, partial(compute, python_alone)))
+        programs.append((CLOSED_FORM + ALONE, partial(compute, True)))
     if find_spec("heyoka"):
         from symtop_ros.report.peers.heyoka_peer import prepare_batches
 
@@ -70,10 +69,9 @@ def find_programs() -> list[tuple[str, Program]]:
     return programs
 
 
-def compute(path: Callable[[], AbstractContextManager[None]], motions: Motions, t: float) -> Real:
+def compute(pure: bool, motions: Motions, t: float) -> Real:
     """Return the orientations from the package."""
-    with path():
-        return Motion(motions.top, motions.start).at(t).orientation
+    return Motion(motions.top, motions.start, pure=pure).at(t).orientation
 
 
 def measure_many(name: str, program: Program, count: int, t: float) -> ManyCost:
@@ -86,7 +84,7 @@ def measure_many(name: str, program: Program, count: int, t: float) -> ManyCost:
     began = time.perf_counter()
     program(motions, t)
     seconds = time.perf_counter() - began
-    exact, found = compute(python_alone, compared, t), program(compared, t)
+    exact, found = compute(True, compared, t), program(compared, t)
     signs = np.sign((exact * found).sum(axis=1, keepdims=True))
     error = 2 * np.linalg.norm(exact - signs * found, axis=1).max()
     return ManyCost(name, count, seconds / count, float(error))

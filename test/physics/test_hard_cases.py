@@ -35,10 +35,10 @@ def assert_met(top, start, *times):
     The limit, what half an ulp of every input does to the exact motion, costs ten motions more: it
     is not asked for where an error is below 8 eps in any case.
     """
-    inputs = Inputs.of(*top.moments, *(part.tolist() for part in start))
+    inputs = Inputs.of(*top.moments, *(part.tolist() for part in start.parts))
     motion = Motion(top, start)
     for t in times:
-        errors = differences(exact_motion(inputs, t), motion.at(t))
+        errors = differences(exact_motion(inputs, t), motion.at(t).parts)
         if max(errors) > 8 * EPS:
             for error, limit in zip(errors, limits(inputs, t), strict=True):
                 assert error <= 4 * limit + 8 * EPS

@@ -51,7 +51,7 @@ def difference(case, a, b):
 
 def turned(state, before, after):
     """Turn a state about the vertical by `before`, and its body about the axis by `after`."""
-    (w, x, y, z), (wx, wy, wz) = state
+    (w, x, y, z), (wx, wy, wz) = state.parts
     A = complex(w, z) * np.exp(0.5j * (before + after))
     B = complex(x, y) * np.exp(0.5j * (before - after))
     across = complex(wx, wy) * np.exp(-1j * after)
@@ -60,7 +60,7 @@ def turned(state, before, after):
 
 def mirrored(state):
     """Reflect the world in its plane x'z', and the body in its plane xz."""
-    (w, x, y, z), (wx, wy, wz) = state
+    (w, x, y, z), (wx, wy, wz) = state.parts
     return State((w, -x, y, -z), (-wx, wy, -wz))
 
 

@@ -14,6 +14,7 @@ from symtop_ros.physics import (
     ExactTimes,
     Friction,
     Motion,
+    Motions,
     State,
     Top,
     apply_impulse,
@@ -21,7 +22,6 @@ from symtop_ros.physics import (
     compare_hurried,
     kick_verdict,
     perrys_rule,
-    python_alone,
     regular_precession_rates,
 )
 
@@ -48,7 +48,7 @@ def many(count):
 
 def stack(tops, starts):
     columns = zip(*(top.moments for top in tops), strict=True)
-    q, omega = (np.stack(parts) for parts in zip(*starts, strict=True))
+    q, omega = (np.stack(parts) for parts in zip(*(start.parts for start in starts), strict=True))
     return Top(*map(np.array, columns)), State(q, omega)
 
 
@@ -70,9 +70,8 @@ def test_each_state_is_that_of_the_motion_alone(times):
 
 def test_without_the_kernel_the_bits_are_the_same():
     motion = Motion(*stack(*many(20)))
-    with python_alone():
-        other = Motion(motion.top, motion.start)
-        assert motion.at(TIMES) == other.at(TIMES)
+    other = Motion(motion.top, motion.start, pure=True)
+    assert motion.at(TIMES) == other.at(TIMES)
 
 
 @pytest.mark.parametrize("name", PROPERTIES)
@@ -114,6 +113,86 @@ def test_quantities_of_the_states_belong_to_their_tops():
             assert np.array_equal(found[..., n, :] if name == "energy" else found[n], expected)
         single = Motion(top, CUSPS, Friction([1e-3, 0.0][n]), torque=(0, 0, n + 1.0))
         assert np.array_equal(total.total_torque(states)[n], single.total_torque(alone))
+
+
+def test_energies_of_broadcast_motions_belong_to_their_tops():
+    # three tops and three by one starts: the tops are those of the last axis
+    tops = Top(1.0, 1.0, [1.0, 2.0, 3.0])
+    starts = State(np.tile([0.8, 0.6, 0, 0], (3, 1, 1)), np.zeros((3, 1, 3)))
+    motions = Motion(
+        tops, starts, Friction([0.0, 0.1, 0.2]), torque=[[0, 0, 1], [0, 1, 0], [1, 0, 0]]
+    )
+    states = motions.at([0.0, 0.5])
+    for name in ("energy", "axial_momentum", "angular_momentum", "gravity_torque"):
+        found = getattr(tops, name)(states)
+        for row, n in np.ndindex(3, 3):
+            top = Top(1.0, 1.0, n + 1.0)
+            assert np.array_equal(found[row, n], getattr(top, name)(states[row, n]))
+    for n, member in enumerate(motions.members):
+        row, column = divmod(n, 3)
+        alone = member.at([0.0, 0.5])
+        assert np.array_equal(motions.total_torque(states)[row, column], member.total_torque(alone))
+
+
+def test_indexing_keeps_times_apart_from_motions():
+    tops = Top(1.0, 1.0, [1.0, 2.0])
+    states = Motion(tops, CUSPS).at(np.linspace(0, 1, 6).reshape(2, 3))
+    mask = np.array([[True, False, True], [False, False, True]])
+    for place, axes in (
+        (0, 2),
+        (slice(None), 2),
+        ((0, 1), 1),
+        ((0, 1, 2), 0),
+        ((..., 0), 1),
+        ((0, ...), 2),
+        (None, 2),
+        (np.array([1, 0]), 2),
+        ((slice(None), np.array([1, 0])), 2),
+        ((slice(None), mask), 1),
+        ((np.array([True, False]), 0), 1),
+    ):
+        assert states[place].time_axes == axes
+    assert np.array_equal(tops.energy(states[:, 0]), tops.energy(states)[:, 0])
+    assert np.array_equal(tops.energy(states[:, 0, 1]), tops.energy(states)[:, 0, 1])
+
+
+def test_states_that_do_not_fit_the_tops_are_refused():
+    states = Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS).at([0.0, 1.0, 2.0])
+    with refused("top and state", "of shapes that fit together", "(3,) and (2, 3)"):
+        Top(1.0, 1.0, [1.0, 2.0, 3.0]).energy(states)
+
+
+def test_each_motion_of_many_has_its_own_engine_and_one_motion_alone_can_be_reached():
+    tops = Top(1.0, 1.0, [1.0, 0.0, 1.0])
+    motions = Motion(tops, CUSPS, Friction([0.0, 0.0, 0.1]))
+    assert isinstance(motions, Motions)
+    assert motions.engine.tolist() == ["closed form", "free", "taylor"]
+    assert not hasattr(motions, "reach")
+
+
+def test_turning_angles_of_no_motions_are_two_empty_arrays():
+    motions = Motion(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
+    assert [angles.shape for angles in motions.turning_angles] == [(0,), (0,)]
+
+
+@pytest.mark.parametrize("odd", ["weightless", "damped", "late"])
+def test_only_what_the_kernel_cannot_compute_takes_the_slow_way(odd, monkeypatch):
+    made = []
+    monkeypatch.setattr(Motion, "fill", lambda self, *_: made.append(self))
+    monkeypatch.setattr(Motion, "at", lambda self, times: made.append(times) or CUSPS)
+    pulls, frictions, times = np.full(50, 0.068), np.zeros(50), np.array([0.1, 0.2])
+    if odd == "weightless":
+        pulls[7] = 0.0
+    if odd == "damped":
+        frictions[7] = 1e-6
+    if odd == "late":
+        times[1] = 1e17
+    motions = Motions(Top(0.000228, 0.0000572, pulls), CUSPS, Friction(frictions))
+    motions.at(times)
+    if odd == "late":
+        assert [each.tolist() for each in made] == [[1e17]] * 50
+    else:
+        assert [each.top.Mgl for each in made] == [pulls[7]]
 
 
 def test_the_effect_of_hurrying_takes_many_tops():

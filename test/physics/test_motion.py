@@ -41,10 +41,14 @@ def test_shapes_follow_those_of_the_times(shape):
     assert state.angular_velocity.shape == (*shape, 3)
 
 
-def test_lists_of_times_and_unpacking_work():
-    orientation, angular_velocity = Motion(ARTICLE, CUSPS).at([0.0, 1.0])
-    assert orientation.shape == (2, 4)
-    assert angular_velocity.shape == (2, 3)
+def test_states_of_a_list_of_times_are_iterated_one_by_one():
+    times, motion = [0.0, 1.0], Motion(ARTICLE, CUSPS)
+    for t, state in zip(times, motion.at(times), strict=True):
+        assert state == motion.at(t)
+    orientation, angular_velocity = motion.at(times).parts
+    assert (orientation.shape, angular_velocity.shape) == ((2, 4), (2, 3))
+    with pytest.raises(TypeError, match="one state has no length"):
+        list(CUSPS)
 
 
 @pytest.mark.parametrize("t", [math.nan, math.inf, -math.inf, [0.0, math.nan]])
@@ -63,7 +67,7 @@ def test_a_time_that_is_not_a_number_is_refused(t):
     ("arguments", "name", "condition"),
     [
         ((ARTICLE.moments, CUSPS), "top", "a Top"),
-        ((ARTICLE, tuple(CUSPS)), "start", "a State"),
+        ((ARTICLE, CUSPS.parts), "start", "a State"),
         ((ARTICLE, CUSPS, 2e-6), "friction", "a Friction"),
     ],
 )
@@ -203,7 +207,7 @@ def test_an_orientation_is_normalised_with_all_digits(norm):
 
 def test_states_cannot_be_written_to_through_their_base():
     for times in (1.0, [0.0, 1.0], [[0.0], [1.0]]):
-        for array in Motion(ARTICLE, CUSPS).at(times):
+        for array in Motion(ARTICLE, CUSPS).at(times).parts:
             assert array.base is None or not array.base.flags.writeable
 
 

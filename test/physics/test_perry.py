@@ -54,7 +54,7 @@ def exact_change(top, state, factor, hold):
     From the doubles of the state and the article's equation; the spin rate of the kicked top
     follows from what is held.
     """
-    w, x, y, z, wx, wy, wz = (mpf(float(c)) for part in state for c in part)
+    w, x, y, z, wx, wy, wz = (mpf(float(c)) for part in state.parts for c in part)
     Ix, Iz = mpf(top.Ix), mpf(top.Iz)
     norm = w * w + x * x + y * y + z * z
     gx, gy = 2 * (x * z - w * y) / norm, 2 * (y * z + w * x) / norm

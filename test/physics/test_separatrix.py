@@ -55,7 +55,7 @@ OFTEN = pytest.mark.parametrize(
 
 
 def series(top, start, digits):
-    return TaylorMotion(top.moments, *(part.tolist() for part in start), digits)
+    return TaylorMotion(top.moments, *(part.tolist() for part in start.parts), digits)
 
 
 @functools.cache
@@ -99,7 +99,7 @@ def test_a_pendulum_hardly_pushed_from_the_top_is_right_at_the_bottom(push, monk
     start = State((1, 0, 0, 0), (0.6 * push, -0.8 * push, 0))
     motion = Motion(PENDULUM, start)
     t = 0.4999 * motion.nutation_period
-    inputs = Inputs.of(1.0, 0.5, 1.0, *(part.tolist() for part in start))
+    inputs = Inputs.of(1.0, 0.5, 1.0, *(part.tolist() for part in start.parts))
     (q, omega), state = exact_motion.exact_motion(inputs, t), motion.at(t)
     assert distance(q, state.orientation) <= 5 * EPS
     assert distance(omega, state.angular_velocity) <= 5 * EPS * 2.0

@@ -29,7 +29,7 @@ class Case:
 
     @property
     def inputs(self) -> Inputs:
-        return Inputs.of(*self.top.moments, *(part.tolist() for part in self.start))
+        return Inputs.of(*self.top.moments, *(part.tolist() for part in self.start.parts))
 
 
 def random_case(seed: int, family: str) -> Case:

@@ -81,7 +81,7 @@ def entry(
     name: str, top: Top, state: State, times: list[float], friction: Friction | None = None
 ) -> dict[str, Any]:
     """Return the entry of a motion in the file."""
-    q, omega = (part.tolist() for part in state)
+    q, omega = (part.tolist() for part in state.parts)
     if friction:
         body = DrivenTop(top.moments, (friction.axial, friction.transverse), (0, 0, 0))
         exact, limits = [body.state_at(q, omega, t) for t in times], None

@@ -53,7 +53,7 @@ class Setting:
 def euler(theta, **others):
     """A start with these Euler angles and rates, in decimals of six digits."""
     start = State.from_euler(theta=theta, **others)
-    return State(*([float(f"{x:.6g}") for x in part] for part in start))
+    return State(*([float(f"{x:.6g}") for x in part] for part in start.parts))
 
 
 def article(phi_dot):

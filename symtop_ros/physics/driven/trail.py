@@ -20,6 +20,8 @@ from symtop_ros.physics.values import refuse
 KEPT = 1024  # knots kept over the whole integration; beyond this every other one is dropped
 BLOCK = 1024  # times whose variables are held at once
 MOST_DECAYS = 1e5  # decay times in one call: some seconds
+# Steps in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
+STEPS = 256.0
 RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
 
 
@@ -29,11 +31,13 @@ class DrivenMotion:
     Threads may share it: a lock keeps each call whole, because a call moves along the pieces.
     """
 
-    def __init__(self, top: Top, start: State, friction: Friction, torque: Vector) -> None:
+    def __init__(
+        self, top: Top, start: State, friction: Friction, torque: Vector, pure: bool
+    ) -> None:
         self._start = start
         self._decay = max(friction.transverse / top.Ix, friction.axial / top.Iz)  # 1/s
         self._lock = Lock()
-        kernel = find_kernel()
+        kernel = find_kernel(pure)
         if kernel:
             arguments = (
                 *(top.moments, (friction.axial, friction.transverse), torque),
@@ -96,19 +100,27 @@ class CompiledTrail:
 
     def compute_states(self, times: Real, rests: Real) -> tuple[Real, Real]:
         """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""
-        orientation, omega = np.empty((times.size, 4)), np.empty((times.size, 3))
-        count = self._trail.fill(times, rests, orientation, omega)
-        if count < times.size:
-            t = float(times[count])
-            raise refuse_too_fast(t, self._trail.reach(t, 0)[0])
+        orientation, omega, first = np.empty((times.size, 4)), np.empty((times.size, 3)), 0
+        while first < times.size:
+            left = slice(first, None)
+            count, is_stuck = self._trail.fill(
+                times[left], rests[left], orientation[left], omega[left], STEPS
+            )
+            first += count
+            if is_stuck:
+                t = float(times[first])
+                raise refuse_too_fast(t, self._trail.reach(t, 0)[0])
         return orientation, omega
 
     def reach(self, t: float, steps: float) -> float:
         """Integrate towards a time in a limited number of steps."""
-        reached, is_stuck = self._trail.reach(t, steps)
-        if is_stuck:
-            raise refuse_too_fast(t, reached)
-        return float(reached)
+        while True:
+            reached, is_stuck = self._trail.reach(t, min(steps, STEPS))
+            steps -= STEPS
+            if is_stuck:
+                raise refuse_too_fast(t, reached)
+            if reached == t or steps <= 0:
+                return float(reached)
 
 
 class Trail:

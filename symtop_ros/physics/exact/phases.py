@@ -75,17 +75,17 @@ class Phases:
         self._ticks = 2.0**self._exponent  # per s
         self._limbs = [_split_step(step) for step in self._steps]
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]
-        self._farthest = math.ldexp(1.0, min(COUNT_BITS - self._exponent, 1023))
+        self.farthest = math.ldexp(1.0, min(COUNT_BITS - self._exponent, 1023))
 
     def at(self, times: Number | ExactTimes) -> list["Phase"]:
         """Return the phases at times in s, or at exact times."""
         if isinstance(times, ExactTimes):
             return self._at_exact(times)
         if isinstance(times, np.ndarray):
-            far = np.abs(times) >= self._farthest
+            far = np.abs(times) >= self.farthest
             if far.any():
                 return self._at_far(times, far)
-        elif abs(times) >= self._farthest:
+        elif abs(times) >= self.farthest:
             return self._at_far_time(times)
         ticks = times * self._ticks
         counts = round_to_integer(ticks)

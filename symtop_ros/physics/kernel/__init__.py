@@ -1,12 +1,11 @@
 """The compiled kernel, if it was built and is wanted: the same states as from Python, much faster.
 
 Python is the reference; `exact` and `driven` describe and test what the kernel computes. Without a
-compiler the package is installed without it. The environment variable SYMTOP_PURE=1 selects Python.
+compiler the package is installed without it. The environment variable SYMTOP_PURE=1 selects Python
+for a whole program, and `Motion(..., pure=True)` for one motion.
 """
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
@@ -14,11 +13,12 @@ import numpy as np
 
 from symtop_ros.physics.exact.phases import ROWS
 
+# True if Python is to compute the states of motions that are not asked for otherwise.
+PURE = os.environ.get("SYMTOP_PURE", "0") not in ("", "0")
+
 
 def _load() -> Any:
     """Return the compiled module, or None."""
-    if os.environ.get("SYMTOP_PURE", "0") not in ("", "0"):
-        return None
     try:
         module = import_module("symtop_ros.physics.kernel._kernel")
     except ImportError:  # it was not built
@@ -28,13 +28,12 @@ def _load() -> Any:
 
 
 _KERNEL = _load()
-_is_used = [_KERNEL is not None]
-accelerated: bool = _KERNEL is not None
+accelerated: bool = _KERNEL is not None and not PURE
 
 
-def find_kernel() -> Any:
+def find_kernel(pure: bool) -> Any:
     """Return the compiled module, or None if Python is to be used."""
-    return _KERNEL if _is_used[0] else None
+    return None if pure else _KERNEL
 
 
 def describe_engine() -> str:
@@ -48,30 +47,6 @@ def describe_engine() -> str:
     """
     if accelerated:
         return "the compiled kernel"
-    if os.environ.get("SYMTOP_PURE", "0") not in ("", "0"):
+    if PURE:
         return "Python (SYMTOP_PURE is set)"
     return "Python (the kernel was not built: it needs a C++ compiler and Python's headers)"
-
-
-@contextmanager
-def python_alone() -> Iterator[None]:
-    """Have the motions that are created inside computed by Python, to compare the two.
-
-    Under gravity alone the states have the same bits. The environment variable SYMTOP_PURE=1 has
-    the same effect for a whole program.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import Motion, State, Top, python_alone
-    >>> top, start = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
-    >>> with python_alone():
-    ...     slow = Motion(top, start)
-    >>> slow.at(10.0) == Motion(top, start).at(10.0)
-    True
-    """
-    before = _is_used[0]
-    _is_used[0] = False
-    try:
-        yield
-    finally:
-        _is_used[0] = before

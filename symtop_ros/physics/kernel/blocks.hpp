@@ -50,8 +50,9 @@ inline bool are_later(const ClosedForm& motion, const double* times) {
   return are;
 }
 
-// States at times; false if some are too far.
-inline bool fill(ClosedForm& motion, const double* times, int64_t count, const Target& to) {
+// States at times, but for those that are too far, which are marked.
+inline void fill(ClosedForm& motion, const double* times, int64_t count, const Target& to,
+                 uint8_t* is_far) {
   uint64_t turns[FUNCTIONS][LANES];
   double rests[FUNCTIONS][LANES];
   for (int64_t i = 0; i < count;) {
@@ -63,14 +64,14 @@ inline bool fill(ClosedForm& motion, const double* times, int64_t count, const T
           turns[k][lane] = phases[k].turns, rests[k][lane] = phases[k].rest;
       }
       fill_lanes(motion, times + i, turns, rests, to.from(i));
+      std::memset(is_far + i, 0, LANES);
       i += LANES;
     } else {
-      if (motion.is_far(times[i])) return false;
-      write_state(motion.at(times[i]), motion.start.wz, to.from(i));
+      is_far[i] = motion.is_far(times[i]);
+      if (!is_far[i]) write_state(motion.at(times[i]), motion.start.wz, to.from(i));
       i++;
     }
   }
-  return true;
 }
 
 // States at phases that Python has computed from exact times; turns are (4, n): three phases and

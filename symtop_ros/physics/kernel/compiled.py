@@ -4,11 +4,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symtop_ros.arrays import Quaternion, Real, Vector
 from symtop_ros.physics.exact.phases import Phases
 from symtop_ros.physics.times import ExactTimes
 
+# States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
+STATES = 2**16
 AT_START = 2  # other times: 1 in the first instants, else 0
 
 Attitude = tuple[float, float, float, float, float, float]
@@ -34,17 +37,27 @@ class CompiledMotion:
         state: Attitude | None = self._motion.at(t)
         return state
 
-    def fill(self, times: Real, orientation: Real, omega: Real) -> bool:
-        """Write the states at times (n,) in s; return False if some are too far."""
-        return bool(self._motion.fill(np.ascontiguousarray(times), orientation, omega))
+    def fill(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> NDArray[np.intp]:
+        """Write the states at times in s or exact times; return the places that are too far."""
+        if isinstance(times, ExactTimes):
+            return self._fill_exact(times, orientation, omega)
+        far, times = np.empty(times.size, np.bool_), np.ascontiguousarray(times)
+        for first in range(0, times.size, STATES):
+            part = slice(first, first + STATES)
+            self._motion.fill(times[part], orientation[part], omega[part], far[part])
+        return np.flatnonzero(far)
 
-    def fill_exact(self, times: ExactTimes, orientation: Real, omega: Real) -> None:
-        """Write the states at exact times () or (n,)."""
+    def _fill_exact(self, times: ExactTimes, orientation: Real, omega: Real) -> NDArray[np.intp]:
         first_end, phases, half_turn = self._phases
-        rough = np.asarray(times.rough_seconds)
+        rough = times.rough_seconds
+        # Far phases need all digits of the rates, in which the kernel and Python differ.
+        far = np.flatnonzero(np.abs(rough) >= phases.farthest)
+        if far.size:
+            return np.arange(rough.size)
         places = np.where(rough == 0, AT_START, np.abs(rough) <= first_end).astype(np.uint8)
         turns = np.array([phase.turns for phase in (*phases.at(times), *half_turn.at(times))])
-        self._motion.fill_phases(np.asarray(times.seconds), places, turns, orientation, omega)
+        self._motion.fill_phases(times.seconds, places, turns, orientation, omega)
+        return far
 
     @cached_property
     def _phases(self) -> tuple[float, Phases, Phases]:

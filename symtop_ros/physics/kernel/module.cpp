@@ -82,6 +82,10 @@ PyObject* new_closed_form(PyTypeObject* type, PyObject* arguments, PyObject*) {
   if (!PyArg_ParseTuple(arguments, "(ddd)(dddd)(ddd)p", s, s + 1, s + 2, s + 3, s + 4, s + 5, s + 6,
                         s + 7, s + 8, s + 9, &is_turned_over))
     return nullptr;
+  if (!can_solve(read_start(s))) {
+    PyErr_SetString(PyExc_ValueError, "start must be finite, with Mgl > 0 and an axis that moves");
+    return nullptr;
+  }
   PyObject* self = allocate<ClosedForm>(type);
   if (self) held<ClosedForm>(self).prepare(read_start(s), is_turned_over);
   return self;
@@ -97,22 +101,23 @@ PyObject* closed_form_at(PyObject* self, PyObject* time) {
   return Py_BuildValue("(dddddd)", s.w, s.x, s.y, s.z, s.omega_x, s.omega_y);
 }
 
-// fill(times, orientation, omega): False if a time is too far
+// fill(times, orientation, omega, far): far[i] is set to 1 if time i is too far; no state is written
+// for it
 PyObject* closed_form_fill(PyObject* self, PyObject* arguments) {
-  PyObject *times, *orientation, *omega;
-  if (!PyArg_ParseTuple(arguments, "OOO", &times, &orientation, &omega)) return nullptr;
-  Buffer t(times, false), q(orientation, true), rates(omega, true);
+  PyObject *times, *orientation, *omega, *far;
+  if (!PyArg_ParseTuple(arguments, "OOOO", &times, &orientation, &omega, &far)) return nullptr;
+  Buffer t(times, false), q(orientation, true), rates(omega, true), f(far, true);
   const Py_ssize_t count = t.bytes() / static_cast<Py_ssize_t>(sizeof(double));
   const double* from = t.get<double>(count);
   double *to = q.get<double>(4 * count), *to_rates = rates.get<double>(3 * count);
+  uint8_t* is_far = f.get<uint8_t>(count);
   if (PyErr_Occurred()) return nullptr;
   ClosedForm& motion = held<ClosedForm>(self);
   motion.prepare_first_instants();  // now, because threads may share the motion
-  bool is_near = false;
   Py_BEGIN_ALLOW_THREADS
-  is_near = fill(motion, from, count, {to, to_rates});
+  fill(motion, from, count, {to, to_rates}, is_far);
   Py_END_ALLOW_THREADS
-  return PyBool_FromLong(is_near);
+  Py_RETURN_NONE;
 }
 
 // fill_phases(seconds, places, turns, orientation, omega): states at phases that Python has
@@ -190,16 +195,19 @@ PyObject* trail_reach(PyObject* self, PyObject* arguments) {
   bool is_stuck = false;
   double reached = 0.0;
   Py_BEGIN_ALLOW_THREADS
-  reached = trail.reach(t, steps, &is_stuck);
+  reached = trail.reach(t, &steps, &is_stuck);
   Py_END_ALLOW_THREADS
   return Py_BuildValue("(dN)", reached, PyBool_FromLong(is_stuck));
 }
 
-// fill(times, rests, orientation, omega): the number of states written, from the first on; less
-// than all if the motion becomes too fast. Times are sums of two doubles, sorted from the start on.
+// fill(times, rests, orientation, omega, steps): the number of states written, from the first on, and
+// True if the motion is too fast to go on. Less than all are written then, or after so many steps.
+// Times are sums of two doubles, sorted from the start on.
 PyObject* trail_fill(PyObject* self, PyObject* arguments) {
   PyObject *times, *rests, *orientation, *omega;
-  if (!PyArg_ParseTuple(arguments, "OOOO", &times, &rests, &orientation, &omega)) return nullptr;
+  double steps;
+  if (!PyArg_ParseTuple(arguments, "OOOOd", &times, &rests, &orientation, &omega, &steps))
+    return nullptr;
   Buffer t(times, false), r(rests, false), q(orientation, true), rates(omega, true);
   const Py_ssize_t count = t.bytes() / static_cast<Py_ssize_t>(sizeof(double));
   const double *from = t.get<double>(count), *rest = r.get<double>(count);
@@ -207,14 +215,15 @@ PyObject* trail_fill(PyObject* self, PyObject* arguments) {
   if (PyErr_Occurred()) return nullptr;
   Trail& trail = held<Trail>(self);
   Py_ssize_t written = 0;
+  bool is_stuck = false;
   Py_BEGIN_ALLOW_THREADS
-  for (bool is_stuck = false; written < count; written++) {
-    trail.reach(from[written], INFINITY, &is_stuck);
-    if (is_stuck) break;
-    trail.read(from[written], rest[written], to + 4 * written, to_rates + 3 * written);
+  for (; written < count; written++) {
+    const double t = from[written];
+    if (trail.reach(t, &steps, &is_stuck) != t) break;
+    trail.read(t, rest[written], to + 4 * written, to_rates + 3 * written);
   }
   Py_END_ALLOW_THREADS
-  return PyLong_FromSsize_t(written);
+  return Py_BuildValue("(nN)", written, PyBool_FromLong(is_stuck));
 }
 
 PyMethodDef TRAIL_METHODS[] = {
@@ -236,7 +245,8 @@ PyType_Spec TRAIL = {"symtop_ros.physics.kernel._kernel.Trail", sizeof(Holder<Tr
 // ---- Many motions -------------------------------------------------------------------------------
 
 // fill_many(starts, turned_over, times, orientation, omega, far): n motions at the same m times, with
-// 10 numbers for a start; far[i] is set to 1 if a time is too far for motion i.
+// 10 numbers for a start; far[i][j] is set to 1 if time j is too far for motion i. A motion without a
+// closed form is not computed: all of its times are far.
 PyObject* fill_many(PyObject*, PyObject* arguments) {
   PyObject *starts, *turned_over, *times, *orientation, *omega, *far;
   if (!PyArg_ParseTuple(arguments, "OOOOOO", &starts, &turned_over, &times, &orientation, &omega,
@@ -248,14 +258,19 @@ PyObject* fill_many(PyObject*, PyObject* arguments) {
   const double *start = s.get<double>(10 * count), *from = t.get<double>(each);
   const uint8_t* over = o.get<uint8_t>(count);
   double *to = q.get<double>(4 * count * each), *to_rates = rates.get<double>(3 * count * each);
-  uint8_t* is_far = f.get<uint8_t>(count);
+  uint8_t* is_far = f.get<uint8_t>(count * each);
   if (PyErr_Occurred()) return nullptr;
   Py_BEGIN_ALLOW_THREADS
   ClosedForm motion;
   for (Py_ssize_t i = 0; i < count; i++) {
+    const Start given = read_start(start + 10 * i);
+    if (!can_solve(given)) {
+      std::memset(is_far + i * each, 1, each);
+      continue;
+    }
     motion.has_first_instants = false;
-    motion.prepare(read_start(start + 10 * i), over[i]);
-    is_far[i] = !fill(motion, from, each, {to + 4 * i * each, to_rates + 3 * i * each});
+    motion.prepare(given, over[i]);
+    fill(motion, from, each, {to + 4 * i * each, to_rates + 3 * i * each}, is_far + i * each);
   }
   Py_END_ALLOW_THREADS
   Py_RETURN_NONE;

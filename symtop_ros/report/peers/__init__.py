@@ -1,12 +1,10 @@
 """The integrators that are measured: the package's own engines here, peers in a file each."""
 
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from importlib import import_module
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, accelerated, python_alone
+from symtop_ros.physics import Motion, accelerated
 from symtop_ros.report.peers.peer import Arrays, Peer, Solution, Task, spread_times
 
 CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"
@@ -22,16 +20,12 @@ OPTIONAL = {  # package, and the file here that needs it
 }
 
 
-Path = Callable[[], AbstractContextManager[None]]
-
-
-def prepare(task: Task, _: float, path: Path = nullcontext) -> Solution:
+def prepare(task: Task, _: float, pure: bool = False) -> Solution:
     """Return a solution that sets the motion up at each call: that is part of its cost."""
-    arrays = prepare_arrays(task, path)
+    arrays = prepare_arrays(task, pure)
 
     def reach(t: float) -> Real:
-        with path():
-            return Motion(task.top, task.start, task.friction, task.torque).at(t).orientation
+        return _find_motion(task, pure).at(t).orientation
 
     def record(t: float) -> tuple[Real, Real]:
         times = spread_times(t)
@@ -40,25 +34,28 @@ def prepare(task: Task, _: float, path: Path = nullcontext) -> Solution:
     return Solution(reach, record)
 
 
-def prepare_arrays(task: Task, path: Path = nullcontext) -> Arrays:
+def prepare_arrays(task: Task, pure: bool = False) -> Arrays:
     """Return a function for the orientations at many times."""
 
     def compute(times: Real) -> Real:
-        with path():
-            return Motion(task.top, task.start, task.friction, task.torque).at(times).orientation
+        return _find_motion(task, pure).at(times).orientation
 
     return compute
 
 
-def _list_own(ending: str, path: Path) -> list[Peer]:
-    solve, arrays = partial(prepare, path=path), partial(prepare_arrays, path=path)
+def _find_motion(task: Task, pure: bool) -> Motion:
+    return Motion(task.top, task.start, task.friction, task.torque, pure=pure)
+
+
+def _list_own(ending: str, pure: bool) -> list[Peer]:
+    solve, arrays = partial(prepare, pure=pure), partial(prepare_arrays, pure=pure)
     return [
         Peer(CLOSED_FORM + ending, (0.0,), solve, prepare_arrays=arrays, quick="every motion"),
         Peer(TAYLOR + ending, (0.0,), solve, friction="only", quick="every motion"),
     ]
 
 
-OWN = _list_own("", nullcontext) + (_list_own(ALONE, python_alone) if accelerated else [])
+OWN = _list_own("", pure=False) + (_list_own(ALONE, pure=True) if accelerated else [])
 
 
 def find_peers() -> tuple[list[Peer], list[str]]:

@@ -137,9 +137,9 @@ def test_near_the_separatrix_every_step_is_met():
         for sign in (1, -1):
             omega = -2.0 * (1 + sign * 10.0**-k)
             start = State((0.0, 1.0, 0.0, 0.0), (omega, 0.0, 0.1))
-            inputs = Inputs.of(1.0, 0.5, 1.0, *(part.tolist() for part in start))
+            inputs = Inputs.of(1.0, 0.5, 1.0, *(part.tolist() for part in start.parts))
             state = Motion(Top(1.0, 0.5, 1.0), start).at(7.0)
-            error, _, limit = error_and_limit(inputs, 7.0, *state)
+            error, _, limit = error_and_limit(inputs, 7.0, *state.parts)
             assert error <= 4 * limit + 8 * EPS
 
 

@@ -14,7 +14,7 @@ from symtop_ros.physics.exact.nutation import Nutation, find_roots
 def test_roots_are_roots_and_lie_in_order(family, seed):
     case = random_case(seed, family)
     Ix, Iz, Mgl = case.top.moments
-    nutation = Nutation.of((Ix, Iz, abs(Mgl)), *(part.tolist() for part in case.start))
+    nutation = Nutation.of((Ix, Iz, abs(Mgl)), *(part.tolist() for part in case.start.parts))
     roots = find_roots(nutation)
     assert roots.s1 <= 0 <= roots.s2 <= roots.s3
     with mp.workdps(60):

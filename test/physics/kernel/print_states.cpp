@@ -32,7 +32,10 @@ static void print_closed_form() {
   std::vector<double> times(static_cast<size_t>(read_number()));
   for (double& each : times) each = read_number();
   std::vector<double> q(4 * times.size()), omega(3 * times.size());
-  if (!fill(motion, times.data(), times.size(), {q.data(), omega.data()})) std::exit(1);
+  std::vector<uint8_t> is_far(times.size());
+  fill(motion, times.data(), times.size(), {q.data(), omega.data()}, is_far.data());
+  for (uint8_t each : is_far)
+    if (each) std::exit(1);
   for (size_t i = 0; i < times.size(); i++) write_state(&q[4 * i], &omega[3 * i]);
 }
 
@@ -46,9 +49,9 @@ static void print_driven() {
   const double t = read_number();
   Trail trail;
   bool is_stuck = false;
-  double q[4], omega[3];
+  double q[4], omega[3], steps = INFINITY;
   if (!trail.prepare(a, t < 0 ? -1 : 1)) std::exit(1);
-  trail.reach(t, INFINITY, &is_stuck);
+  trail.reach(t, &steps, &is_stuck);
   trail.read(t, 0.0, q, omega);
   write_state(q, omega);
 }

@@ -50,7 +50,7 @@ def encode(motions, driven):
 def expect(motions, driven):
     states = [motion.at(times) for motion, times in motions]
     states += [case.motion.at([case.times[1]]) for case in driven]
-    parts = [np.concatenate([*each], axis=1) for each in states]
+    parts = [np.concatenate(each.parts, axis=1) for each in states]
     return np.concatenate(parts)
 
 

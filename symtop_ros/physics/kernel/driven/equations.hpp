@@ -64,6 +64,17 @@ inline Double2 root(Double2 a) {
   return fast_sum_of(x, rest.high / (2 * x));
 }
 
+// The length of a vector. Its components are scaled by a power of two, which rounds nothing: the
+// squares of a weak torque or a slow rate would be zero, and steps then far too long.
+inline double find_length(double x, double y, double z) {
+  const double largest = std::fmax(std::fmax(std::fabs(x), std::fabs(y)), std::fabs(z));
+  if (!(largest > 0 && largest < INFINITY)) return largest;
+  int exponent;
+  std::frexp(largest, &exponent);
+  x = std::ldexp(x, -exponent), y = std::ldexp(y, -exponent), z = std::ldexp(z, -exponent);
+  return std::ldexp(std::sqrt(x * x + y * y + z * z), exponent);
+}
+
 enum { W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z, ONE, SPIN, VARIABLES };
 const int FACTORS = 8;
 
@@ -143,8 +154,7 @@ struct DrivenEquations {
       add_torque(OMEGA_Y, axis, 1, torque / Ix);
       add_torque(OMEGA_Z, axis, 2, torque / Iz);
     }
-    const double* f = top.torque;
-    const double size = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    const double size = find_length(top.torque[0], top.torque[1], top.torque[2]);
     swing = std::sqrt((std::fabs(top.Mgl) + size) / top.Ix);
     decay = std::fmax(across.high, along.high);
     sort_terms();
@@ -170,9 +180,8 @@ struct DrivenEquations {
   }
 
   double estimate_rate(const Double2 values[]) const {
-    const double x = values[OMEGA_X].high, y = values[OMEGA_Y].high,
-                 z = ratio * values[OMEGA_Z].high;
-    return std::sqrt(x * x + y * y + z * z) + swing + decay;
+    return find_length(values[OMEGA_X].high, values[OMEGA_Y].high, ratio * values[OMEGA_Z].high) +
+           swing + decay;
   }
 };
 

@@ -30,17 +30,18 @@ class Trail {
     std::free(recent_);
   }
 
-  // Trail.reach; *is_stuck is set if the motion is too fast to go on.
-  double reach(double t, double steps, bool* is_stuck) {
+  // Trail.reach; *steps is lowered by those taken, and *is_stuck is set if the motion is too fast to
+  // go on.
+  double reach(double t, double* steps, bool* is_stuck) {
     go_back(t);
     *is_stuck = false;
-    while (steps > 0 && std::fabs(present().end) < std::fabs(t)) {
+    while (*steps > 0 && std::fabs(present().end) < std::fabs(t)) {
       if (present().end == present().start.t) {
         *is_stuck = true;
         break;
       }
       step();
-      steps -= 1;
+      *steps -= 1;
     }
     return std::fabs(t) <= std::fabs(present().end) ? t : present().end;
   }

@@ -22,6 +22,17 @@ inline Precise add_rates(const Precise& mean, const Precise& half_c) {
   return is_lost(rate, half_c) ? Precise() : rate;
 }
 
+// True if the motion has a closed form: else the search for a root would not end.
+inline bool can_solve(const Start& s) {
+  const double numbers[] = {s.Ix, s.Iz, s.Mgl, s.w, s.x, s.y, s.z, s.wx, s.wy, s.wz};
+  for (double each : numbers)
+    if (!std::isfinite(each)) return false;
+  const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
+  const bool has_attitude = s.w != 0 || s.x != 0 || s.y != 0 || s.z != 0;
+  return s.Ix > 0 && s.Iz > 0 && s.Mgl > 0 && has_attitude &&
+         !(is_vertical && s.wx == 0 && s.wy == 0);
+}
+
 struct ClosedForm {
   Start start;
   bool is_turned_over, has_first_instants = false;

@@ -1,0 +1,238 @@
+"""The arguments of many motions: tops, starts, frictions and torques, broadcast together."""
+
+import math
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from symtop_ros.arrays import Real, Vector
+from symtop_ros.physics.state import State
+from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.values import refuse, validate_array, validate_vector
+
+NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
+# Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
+# root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
+WEIGHTLESS = 1e-200
+# States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
+# To set up a motion takes the time of some hundred states.
+STATES, STATES_OF_SETUP = 2**16, 200
+
+
+def validate_torque(torque: Any) -> Any:
+    """Return three floats, or an array (..., 3)."""
+    if torque is NO_TORQUE:
+        return NO_TORQUE
+    if np.ndim(torque) <= 1:
+        return validate_vector("torque", torque, "N m, world frame")
+    return validate_array("torque", torque, 3, "N m, world frame")
+
+
+def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:
+    """Return one time as a float, many as an array, and exact times as they are."""
+    if type(t) is float and math.isfinite(t):  # the common cases: no copy
+        return t
+    if type(t) is np.ndarray and t.dtype == np.float64 and t.ndim and np.isfinite(t).all():
+        return t
+    if isinstance(t, ExactTimes):
+        return t
+    array = validate_array("t", t, unit="s")
+    return array if array.ndim else float(array)
+
+
+def validate_types(top: Any, start: Any, friction: Any) -> None:
+    """Refuse arguments of other classes."""
+    if not isinstance(top, Top):
+        raise refuse("top", "a Top", repr(top))
+    if not isinstance(start, State):
+        raise refuse("start", "a State", repr(start))
+    if not isinstance(friction, Friction):
+        raise refuse("friction", "a Friction", repr(friction))
+
+
+def wrap_states(
+    orientation: Real, angular_velocity: Real, shape: tuple[int, ...], time_axes: int
+) -> State:
+    """Return the states of arrays (n, 4) and (n, 3), in a shape that ends in that of the times."""
+    for array in (orientation, angular_velocity):
+        array.flags.writeable = False  # so that it cannot be written to as `base` of a view
+    parts = orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3)
+    return State.wrap(*parts, time_axes)
+
+
+def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple[int, ...]:
+    """Return the shape of the motions; () for one."""
+    if (
+        not top.shape
+        and not friction.shape
+        and start.orientation.ndim == 1
+        and type(torque) is tuple
+    ):
+        return ()  # the common case, and NumPy needs 10 us for the question
+    shapes = top.shape, start.orientation.shape[:-1], friction.shape, np.shape(torque)[:-1]
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        names = "top, start, friction and torque"
+        text = ", ".join(map(str, shapes))
+        raise refuse(names, "of shapes that fit together", text) from None
+
+
+class Setting:
+    """The arguments of one motion or of many, and the torques that belong to them."""
+
+    shape: tuple[int, ...]
+
+    def __init__(self, top: Top, start: State, friction: Friction, torque: Any, pure: bool) -> None:
+        self.top, self.start, self.friction = top, start, friction
+        self.applied_torque: Any = torque
+        self._pure = pure
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle a motion by its arguments: copies share no integrator."""
+        arguments = self.top, self.start, self.friction, self.applied_torque
+        return partial(type(self), pure=self._pure), arguments
+
+    def __repr__(self) -> str:
+        """Return the call that makes the motion; without friction and torque, if none acts."""
+        parts = [self.top, self.start]
+        if self.is_driven:
+            parts += [self.friction, self.applied_torque]
+        return f"{type(self).__name__}({', '.join(map(repr, parts))})"
+
+    @property
+    def is_driven(self) -> bool:
+        """True if friction or an applied torque acts: there is no closed form, only series."""
+        torque = self.applied_torque
+        return bool(self.friction) or (any(torque) if type(torque) is tuple else bool(torque.any()))
+
+    def total_torque(self, state: State) -> Real:
+        """Return the torque of gravity, friction and the applied torque about the pivot.
+
+        Parameters
+        ----------
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In the world frame, in N m.
+        """
+        torque = self.top.gravity_torque(state)
+        return torque + self.added_torque(state) if self.is_driven else torque
+
+    def added_torque(self, state: State) -> Real:
+        """Return the torque of friction and the applied torque, without gravity.
+
+        Parameters
+        ----------
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In the world frame, in N m.
+        """
+        torque = np.asarray(self.applied_torque)
+        axes = (1,) * state.time_axes if torque.ndim > 1 else ()
+        torque = torque.reshape(*torque.shape[:-1], *axes, 3)
+        return np.asarray(state.to_world(self.friction.torque(state)) + torque)
+
+
+@dataclass(frozen=True, slots=True)
+class Arguments:
+    """Arguments of n motions."""
+
+    moments: Real  # (n, 3)
+    orientation: Real  # (n, 4), as given
+    omega: Real  # (n, 3)
+    friction: Real  # (n, 2), axial and transverse
+    torque: Real  # (n, 3)
+
+    @classmethod
+    def of(
+        cls, top: Top, start: State, friction: Friction, torque: Any, shape: tuple[int, ...]
+    ) -> "Arguments":
+        """Return the arguments of motions of this shape."""
+        arrays = (
+            np.stack(top.moments, axis=-1),
+            start.given_orientation,
+            start.angular_velocity,
+            np.stack([friction.axial, friction.transverse], axis=-1),
+            np.asarray(torque),
+        )
+        count = math.prod(shape)
+        spread = [
+            np.broadcast_to(each, (*shape, each.shape[-1])).reshape(count, each.shape[-1])
+            for each in arrays
+        ]
+        return cls(*spread)
+
+    def __getitem__(self, n: int) -> tuple[Top, State, Friction, Vector]:
+        """Return the arguments of one motion."""
+        start = State(self.orientation[n], self.omega[n])
+        friction, (x, y, z) = Friction(*self.friction[n].tolist()), self.torque[n].tolist()
+        return Top(*self.moments[n].tolist()), start, friction, (x, y, z)
+
+    def __len__(self) -> int:
+        """Return the number of motions."""
+        return len(self.moments)
+
+    def fill(self, kernel: Any, times: Real, orientation: Real, omega: Real) -> NDArray[np.bool_]:
+        """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3), with the kernel.
+
+        Returns (n, m), True for the states that are left: those of motions that are driven or need
+        no elliptic functions, and those at times that are too far.
+        """
+        left = np.ones((len(self.moments), times.size), np.bool_)
+        kept = np.flatnonzero(~(self._are_driven | self._are_free))
+        starts, is_turned_over = self._turn_over()
+        rows = max(1, STATES // (times.size + STATES_OF_SETUP))
+        for first in range(0, len(kept), rows):
+            some = kept[first : first + rows]
+            whole = len(some) == some[-1] - some[0] + 1
+            place: Any = slice(some[0], some[-1] + 1) if whole else some
+            # In place if the motions are neighbours: an indexed array would be a copy.
+            parts = orientation[place], omega[place], left[place]
+            kernel.fill_many(starts[some], is_turned_over[some], times, *parts)
+            if not whole:
+                orientation[place], omega[place], left[place] = parts
+        return left
+
+    @property
+    def _are_driven(self) -> NDArray[np.bool_]:
+        return np.asarray(self.friction.any(axis=1) | self.torque.any(axis=1))
+
+    @property
+    def _are_free(self) -> NDArray[np.bool_]:
+        with np.errstate(under="ignore"):  # of a rate far below the weight
+            free = is_free(self.moments.T, self.orientation.T, self.omega.T)
+        return np.asarray(free)
+
+    def _turn_over(self) -> tuple[Real, NDArray[np.bool_]]:
+        """Return (n, 10) arguments of the closed form, which wants Mgl > 0, and those turned."""
+        is_turned_over = self.moments[:, 2] < 0
+        moments, q = self.moments.copy(), self.orientation
+        moments[:, 2] = np.abs(moments[:, 2])
+        turned = np.stack([-q[:, 1], q[:, 0], -q[:, 3], q[:, 2]], axis=1)
+        q = np.where(is_turned_over[:, np.newaxis], turned, q)
+        return np.concatenate([moments, q, self.omega], axis=1), is_turned_over
+
+
+def is_free(moments: Any, orientation: Any, omega: Any) -> Any:
+    """Return True if no torque turns the axis: for circular functions instead of elliptic ones.
+
+    The arguments are numbers, or arrays (3, n), (4, n) and (3, n) of many motions.
+    """
+    (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, omega
+    is_vertical = ((w == 0) & (z == 0)) | ((x == 0) & (y == 0))
+    free, weight = (wx == 0) & (wy == 0) & is_vertical, abs(Mgl) / Ix
+    for rate in (wx, wy, Iz / Ix * wz):  # not wz: a rod may spin fast
+        free |= weight <= WEIGHTLESS * rate * rate
+    return free

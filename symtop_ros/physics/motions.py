@@ -1,0 +1,209 @@
+"""Many motions at once, with the interface of one."""
+
+import math
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from symtop_ros.arrays import Real
+from symtop_ros.physics.arguments import (
+    NO_FRICTION,
+    NO_TORQUE,
+    Arguments,
+    Setting,
+    find_shape,
+    validate_times,
+    validate_torque,
+    validate_types,
+    wrap_states,
+)
+from symtop_ros.physics.kernel import PURE, find_kernel
+from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.state import State
+from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.top import Friction, Top
+
+
+class Motions(Setting):
+    """The motions of many tops, or from many states.
+
+    Tops, starts, frictions and torques are one or many each; they are broadcast together. States
+    have the shape of the motions, followed by that of the times, and properties have the shape of
+    the motions. Each motion is the same, bit for bit, as alone. The kernel computes the states of
+    all motions in one call; those that it cannot compute are computed one after the other.
+
+    Parameters
+    ----------
+    top : Top
+        One top, or many of shape (...).
+    start : State
+        The state at t = 0, or many of shape (...).
+    friction : Friction
+        One friction, or many of shape (...).
+    torque : array_like (..., 3)
+        Applied torque in the world frame, constant, in N m.
+    pure : bool
+        True computes with Python alone, as in `Motion`.
+
+    Attributes
+    ----------
+    top : Top
+    start : State
+    friction : Friction
+    applied_torque : (float, float, float) or ndarray (..., 3)
+        In the world frame, in N m.
+    shape : tuple of int
+        Shape (...) of the motions.
+
+    Raises
+    ------
+    ValueError
+        If an argument is refused.
+
+    Examples
+    --------
+    Two tops from one start, at three times:
+
+    >>> from symtop_ros.physics import Motion, State, Top
+    >>> tops = Top(Ix=0.000228, Iz=0.0000572, Mgl=[0.068, 0.07])
+    >>> motions = Motion(tops, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> motions.at([0.0, 10.0, 1e6]).orientation.shape, motions.kind.tolist()
+    ((2, 3, 4), ['cusps', 'cusps'])
+    """
+
+    def __init__(
+        self,
+        top: Top,
+        start: State,
+        friction: Friction = NO_FRICTION,
+        torque: ArrayLike = NO_TORQUE,
+        *,
+        pure: bool = PURE,
+    ) -> None:
+        validate_types(top, start, friction)
+        super().__init__(top, start, friction, validate_torque(torque), pure)
+        self.shape = find_shape(top, start, friction, self.applied_torque)
+        self._made: dict[int, Motion] = {}
+
+    @property
+    def members(self) -> list[Motion]:
+        """The motions one by one, in the order of a flat array."""
+        return [self._find_member(n) for n in range(math.prod(self.shape))]
+
+    def _find_member(self, n: int) -> Motion:
+        # Kept, because the pieces of an integration are.
+        if n not in self._made:
+            self._made[n] = Motion(*self._arguments[n], pure=self._pure)
+        return self._made[n]
+
+    @cached_property
+    def _arguments(self) -> Arguments:
+        return Arguments.of(self.top, self.start, self.friction, self.applied_torque, self.shape)
+
+    def at(self, t: ArrayLike | ExactTimes) -> State:
+        """Return the states at one time, or at many.
+
+        Parameters
+        ----------
+        t : float, array_like (m, ...) or ExactTimes
+            Times, as in `Motion.at`; the same for all motions.
+
+        Returns
+        -------
+        State
+            orientation (..., m, ..., 4) and angular_velocity (..., m, ..., 3).
+
+        Raises
+        ------
+        ValueError
+            If one of the motions has no state at one of the times.
+        """
+        times = validate_times(t)
+        shape = times.shape if isinstance(times, ExactTimes) else np.shape(times)
+        flat = np.array([times]) if isinstance(times, float) else times.ravel()
+        count, many = math.prod(self.shape), math.prod(shape)
+        orientation, omega = np.empty((count, many, 4)), np.empty((count, many, 3))
+        left = np.ones((count, many), np.bool_)
+        kernel = find_kernel(self._pure)
+        if kernel and not isinstance(flat, ExactTimes):
+            left = self._arguments.fill(kernel, flat, orientation, omega)
+        for n in np.flatnonzero(left.any(axis=1)).tolist():
+            self._fill_member(n, flat, left[n], (orientation[n], omega[n]))
+        return wrap_states(orientation, omega, (*self.shape, *shape), len(shape))
+
+    def _fill_member(
+        self, n: int, times: Real | ExactTimes, left: NDArray[np.bool_], target: tuple[Real, Real]
+    ) -> None:
+        """Write the states of one motion at the times that are left."""
+        member, (orientation, omega) = self._find_member(n), target
+        if left.all():
+            member.fill(times, orientation, omega)
+            return
+        states = member.at(times.select(left) if isinstance(times, ExactTimes) else times[left])
+        orientation[left], omega[left] = states.orientation, states.angular_velocity
+
+    def _collect(self, ask: Callable[[Motion], Any], dtype: Any = np.float64) -> Any:
+        """Return what each motion answers, in the shape of the motions."""
+        answers = np.array([ask(member) for member in self.members], dtype)
+        return answers.reshape(self.shape)
+
+    @property
+    def engine(self) -> NDArray[np.str_]:
+        """Methods of solution, as in `Motion.engine`."""
+        return np.asarray(self._collect(lambda motion: motion.engine, np.str_))
+
+    @property
+    def kind(self) -> NDArray[np.str_]:
+        """Names of the motions, as in `Motion.kind`."""
+        return np.asarray(self._collect(lambda motion: motion.kind, np.str_))
+
+    @property
+    def nutation_period(self) -> Real:
+        """Periods of theta in s."""
+        return np.asarray(self._collect(lambda motion: motion.nutation_period))
+
+    @property
+    def nutation_rate(self) -> Real:
+        """2 pi over the nutation periods in rad/s."""
+        return np.asarray(self._collect(lambda motion: motion.nutation_rate))
+
+    @property
+    def turning_angles(self) -> tuple[Real, Real]:
+        """Smallest and largest theta in rad."""
+        return (
+            self._collect(lambda motion: motion.turning_angles[0]),
+            self._collect(lambda motion: motion.turning_angles[1]),
+        )
+
+    @property
+    def mean_precession_rate(self) -> Real:
+        """Mean phi' in rad/s, as in `Motion.mean_precession_rate`."""
+        return np.asarray(self._collect(lambda motion: motion.mean_precession_rate))
+
+    @property
+    def mean_spin_rate(self) -> Real:
+        """Mean psi' in rad/s, as in `Motion.mean_spin_rate`."""
+        return np.asarray(self._collect(lambda motion: motion.mean_spin_rate))
+
+    @property
+    def precession_per_nutation(self) -> Real:
+        """Precession in a nutation as a fraction of a turn."""
+        return np.asarray(self._collect(lambda motion: motion.precession_per_nutation))
+
+    @property
+    def spin_reverses(self) -> NDArray[np.bool_]:
+        """True where psi' takes both signs in a nutation."""
+        return np.asarray(self._collect(lambda motion: motion.spin_reverses, np.bool_))
+
+    @property
+    def fast_top_precession_rate(self) -> Real:
+        """Mgl/p_psi in rad/s, as in `Motion.fast_top_precession_rate`."""
+        return np.asarray(self._collect(lambda motion: motion.fast_top_precession_rate))
+
+    @property
+    def fast_top_nutation_rate(self) -> Real:
+        """|p_psi|/Ix in rad/s."""
+        return np.asarray(self._collect(lambda motion: motion.fast_top_nutation_rate))
