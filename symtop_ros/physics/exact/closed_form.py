@@ -215,7 +215,7 @@ class ClosedFormMotion:
         A, B, omega_xy = (self._find_factor(k, to_floats(each)) for k, each in enumerate(values))
         size = find_modulus(omega_xy)
         if size:  # else it is below all doubles, as is its change
-            share = self._modulus_of_third_factor / size
+            share = self._find_modulus_of_third_factor(size) / size
             omega_xy = omega_xy[0] * share, omega_xy[1] * share
         return A, B, _conjugate(omega_xy)
 
@@ -228,16 +228,28 @@ class ClosedFormMotion:
 
         return self._quotients[k].find_factor(value, find_slope, phase.shortest_change)
 
-    @property
-    def _modulus_of_third_factor(self) -> float:
-        """Modulus of the factor of omega_xy.
+    def _find_modulus_of_third_factor(self, from_start: float) -> float:
+        """Return the modulus of the factor of omega_xy, of which the start gives one estimate.
 
-        At the lower turning point |omega_xy|^2 is alpha - beta u1, and largest. From a start at
-        which omega_xy is small, its rounding would be an error of all later ones.
+        |omega_xy|^2 = alpha - beta u is known at three places: the start and both turning points.
+        Where it is small its rounding would be an error of all later ones; of the others the mean
+        is taken, because each quotient has a rounding of its own.
         """
-        largest = math.sqrt(self.nutation.beta * self.zeros.omega_xy.from_u1)
-        value = self._series.values(self._nutation_phase.lower_turning_point)[2]
-        return largest / find_modulus(to_floats(value))
+        zero, phase = self.zeros.omega_xy, self._nutation_phase
+        estimates = []
+        for square, place in (
+            (zero.from_u1, phase.lower_turning_point),
+            (zero.from_u2, phase.upper_turning_point),
+        ):
+            if 4 * square >= zero.from_u1:
+                value = find_modulus(to_floats(self._series.values(place)[2]))
+                estimates.append(math.sqrt(self.nutation.beta * square) / value)
+        if 4 * self.nutation.height_left >= zero.from_u1:
+            estimates.append(from_start)
+        total = 0.0
+        for estimate in estimates:
+            total += estimate
+        return total / len(estimates)
 
 
 def _add(mean: Decimal, half_c: Decimal) -> Decimal:

@@ -115,6 +115,11 @@ class NutationPhase:
         return Location(0.0, 0.0, math.pi * max(1.0, self.K / self.Kc))
 
     @property
+    def upper_turning_point(self) -> Location:
+        """The location at which theta is smallest."""
+        return Location(math.pi, math.pi * max(1.0, self.K / self.Kc), 0.0)
+
+    @property
     def shortest_change(self) -> float:
         """Time in s in which the functions of the motion change where they change fastest."""
         return 0.5 / math.pi * min(self.K, self.Kc) / self.Omega

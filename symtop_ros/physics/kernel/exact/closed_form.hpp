@@ -124,12 +124,28 @@ struct ClosedForm {
     }
     const double modulus = find_modulus(factors[OF_OMEGA_XY]);
     if (modulus) {
-      compute_series(nutation_phase.lower_turning_point(), values);
-      const double largest = std::sqrt((n.beta * zeros[OF_OMEGA_XY].from_u1).to_double());
-      const double share = largest / find_modulus(values[OF_OMEGA_XY]) / modulus;
+      const double share = find_modulus_of_third_factor(n, zeros[OF_OMEGA_XY], modulus) / modulus;
       factors[OF_OMEGA_XY] = {factors[OF_OMEGA_XY].x * share, factors[OF_OMEGA_XY].y * share};
     }
     factors[OF_OMEGA_XY] = conjugate(factors[OF_OMEGA_XY]);
+  }
+
+  // _find_modulus_of_third_factor
+  double find_modulus_of_third_factor(const Nutation& n, const Zero& zero,
+                                      double from_start) const {
+    double total = 0.0;
+    int count = 0;
+    const auto add = [&](double estimate) { total += estimate, count++; };
+    const auto add_turning_point = [&](const Precise& square, const Location& place) {
+      if (square.scale(2) < zero.from_u1) return;
+      Pair values[FUNCTIONS];
+      compute_series(place, values);
+      add(std::sqrt((n.beta * square).to_double()) / find_modulus(values[OF_OMEGA_XY]));
+    };
+    add_turning_point(zero.from_u1, nutation_phase.lower_turning_point());
+    add_turning_point(zero.from_u2, nutation_phase.upper_turning_point());
+    if (!((n.omega_xy_squared / n.beta).scale(2) < zero.from_u1)) add(from_start);
+    return total / count;
   }
 
   Pair find_factor(int k, Pair at_start, Pair change, Pair value, double mean,

@@ -23,6 +23,9 @@ struct NutationPhase {
   Location lower_turning_point() const {
     return {0.0, 0.0, PI * (1.0 > K / Kc ? 1.0 : K / Kc), 0.0};
   }
+  Location upper_turning_point() const {
+    return {PI, PI * (1.0 > K / Kc ? 1.0 : K / Kc), 0.0, 0.0};
+  }
 
   template <class R>
   SYMTOP_INLINE LocationOf<R> locate(R t, R high, R low) const {
