@@ -27,6 +27,7 @@ from symtop_ros.physics.exact.elementary import (
 )
 from symtop_ros.physics.exact.first_instants import FirstInstants, find_end
 from symtop_ros.physics.exact.kind import Kind, classify
+from symtop_ros.physics.exact.mean_rates import add_means
 from symtop_ros.physics.exact.nutation import Nutation, find_roots, is_lost
 from symtop_ros.physics.exact.nutation_phase import NutationPhase
 from symtop_ros.physics.exact.phases import Phases
@@ -65,6 +66,7 @@ class ClosedFormMotion:
         self._half_c = HALF * wz * (Ix - Iz) / Ix
         # A state at a time of at most this size comes from a Taylor series.
         self._first_end = find_end(moments, angular_velocity)
+        self._given = moments, orientation, angular_velocity
         self._arguments = moments, normalize(orientation), angular_velocity
 
     @cached_property
@@ -93,18 +95,20 @@ class ClosedFormMotion:
 
     @property
     def mean_rates(self) -> tuple[float, float]:
-        """Mean phi' and psi' in rad/s: sum and difference of the rates of arg A and arg B.
-
-        These are a + c/2 and b - c/2, with the means a and b.
-        """
-        a, b, _ = self._means
-        return float(a + b), float(a - b + TWO * self._half_c)
+        """Mean phi' and psi' in rad/s: sum and difference of the rates of arg A and arg B."""
+        precession, spin = self._mean_rates
+        return float(precession), float(spin)
 
     @property
     def precession_per_nutation(self) -> float:
         """Turns of the precession in a nutation; nan at the separatrix."""
-        turn = self._means[0] + self._means[1]
-        return float(turn / self.nutation_rate) if self.nutation_rate else math.nan
+        return float(self._mean_rates[0] / self.nutation_rate) if self.nutation_rate else math.nan
+
+    @cached_property
+    def _mean_rates(self) -> tuple[Decimal, Decimal]:
+        # The rates of arg A and arg B are a + c/2 and b - c/2, with the means a and b.
+        a, b, _ = self._means
+        return add_means(a, b, TWO * self._half_c, *self._given)
 
     @property
     def spin_reverses(self) -> bool:

@@ -34,18 +34,17 @@ computed again in fractions of integers, exactly.
 
 import math
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import Decimal, getcontext
 from fractions import Fraction
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.exact.precise import HALF, TWO, ZERO
+from symtop_ros.physics.exact.precise import HALF, ONE, TWO, ZERO
 from symtop_ros.physics.values import EPS
 
 # A sum below this share of its terms has lost 10 of its 50 digits. It is computed exactly instead.
 CANCELLED = Decimal("1e-10")
 # Decimal digits after which a sum has none of its terms' digits, and may be zero.
 LOST_DIGITS = 40
-CONVERGED = Decimal("1e-26")  # the square of this share of a root is below 50 digits
 MOST_STEPS = 60  # of Newton's method in doubles; from the bound some 5 are usual
 
 
@@ -275,13 +274,14 @@ def _find_largest_root(a2: Decimal, a1: Decimal, a0: Decimal, s: Decimal) -> Dec
     estimate = _estimate_largest_root(float(a2), float(a1), float(a0), float(s))
     if 3 * estimate > -a2 and _cubic(estimate, a2, a1, a0) > 0:  # above the root as well
         s = estimate
+    converged = ONE.scaleb(-(getcontext().prec // 2 + 1))  # its square is below all digits
     while True:
         value = _cubic(s, a2, a1, a0)
         slope = (3 * s + TWO * a2) * s + a1
         if value <= 0 or slope <= 0:
             return s
         step = value / slope
-        if step < CONVERGED * s:
+        if step < converged * s:
             return s - step
         s -= step
 

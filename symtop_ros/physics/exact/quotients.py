@@ -15,7 +15,7 @@ the same way for all three.
 
 import math
 from collections.abc import Callable
-from decimal import Decimal
+from decimal import Decimal, getcontext
 from typing import NamedTuple
 
 from symtop_ros.physics.exact.elementary import (
@@ -27,8 +27,6 @@ from symtop_ros.physics.exact.elementary import (
 )
 from symtop_ros.physics.exact.nutation import CANCELLED, Nutation, Roots
 from symtop_ros.physics.exact.precise import HALF, ONE, TWO, ZERO
-
-CONVERGED = Decimal("1e-24")  # convergence is quadratic: this leaves 48 digits
 
 
 class Zero(NamedTuple):
@@ -202,7 +200,9 @@ def compute_mean(k: Decimal) -> Decimal:
 def _iterate_mean(k: Decimal) -> tuple[Decimal, list[Decimal]]:
     """Return the arithmetic-geometric mean of 1 and k, and 4^n a_n b_n of its steps n >= 1."""
     a, b, power, products = ONE, k, ONE, []
-    while a - b > CONVERGED * a:
+    # Convergence is quadratic: of 50 digits this leaves 48.
+    converged = ONE.scaleb(-(getcontext().prec // 2 - 1))
+    while a - b > converged * a:
         a, b, power = (a + b) * HALF, (a * b).sqrt(), 4 * power
         products.append(power * a * b)
     return (a + b) * HALF, products
