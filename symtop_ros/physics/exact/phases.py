@@ -27,6 +27,7 @@ from symtop_ros.physics.exact.precise import (
     split,
 )
 from symtop_ros.physics.times import SECOND, ExactTimes
+from symtop_ros.physics.values import refuse
 
 PER_TURN = Decimal("0.159154943091895335768883763372514362034459645740456")  # 1/(2 pi)
 
@@ -38,6 +39,9 @@ TURN = Decimal(2**TURN_BITS)
 # reaches 4e15 turns, and the rest of a tick is small enough for a product in doubles.
 TICK_BITS = 10
 COUNT_BITS = 62
+# From 2^48 times as many turns on, about 1e30, 50 digits of a rate are too few. The phase would
+# lose its digits then, one after the other.
+LATEST = 2.0**48
 LOW_HALF = 2**32 - 1
 # 2 pi in two parts. The product of a phase of 27 bits and the first part of 26 bits is exact.
 COARSE_BITS = 37  # low bits of a phase that the coarse part leaves out
@@ -76,6 +80,7 @@ class Phases:
         self._limbs = [_split_step(step) for step in self._steps]
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]
         self.farthest = math.ldexp(1.0, min(COUNT_BITS - self._exponent, 1023))
+        self._latest = self.farthest * LATEST if any(steps) else math.inf
 
     def at(self, times: Number | ExactTimes) -> list["Phase"]:
         """Return the phases at times in s, or at exact times."""
@@ -98,7 +103,15 @@ class Phases:
             for limbs, rate in zip(self._limbs, self._rest_rates, strict=True)
         ]
 
+    def _refuse_late(self, seconds: Number) -> None:
+        """Refuse times at which no digit of a phase can be promised."""
+        latest = float(np.max(np.abs(seconds), initial=0.0))
+        if latest > self._latest:
+            condition = f"within {self._latest:.2g} s of the start (1e30 turns)"
+            raise refuse("t", condition, latest)
+
     def _at_exact(self, times: ExactTimes) -> list["Phase"]:
+        self._refuse_late(times.rough_seconds)
         counts = _Counts(times.nanoseconds)
         return [
             Phase(_wrap(counts.multiply(limbs) + start))
@@ -131,6 +144,7 @@ class Phases:
 
     def _at_far(self, times: Real, far: NDArray[np.bool_]) -> list["Phase"]:
         """Return the phases at times of which some are too long for a count of ticks."""
+        self._refuse_late(times)
         phases = self.at(np.where(far, 0.0, times))
         for n in np.flatnonzero(far).tolist():
             for phase, own in zip(phases, self._at_far_time(float(times[n])), strict=True):
@@ -138,6 +152,7 @@ class Phases:
         return phases
 
     def _at_far_time(self, time: float) -> list["Phase"]:
+        self._refuse_late(time)
         elapsed, parts = time.as_integer_ratio()
         turns = [self._scale(step * elapsed, parts) for step in self._steps]
         return [Phase(_wrap_turns(each)) for each in turns]
