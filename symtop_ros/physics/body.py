@@ -119,7 +119,7 @@ class Body:
         1.0
         """
         mass, arm = validate_number("mass", mass, "kg"), validate_number("arm", arm, "m")
-        Ix, lost = validate_number("Ix", Ix, "kg m^2"), mass * arm**2
+        Ix, lost = validate_number("Ix", Ix, "kg m^2"), (mass * arm) * arm
         if Ix <= lost:
             raise refuse("Ix", f"> mass arm^2 = {lost:g} kg m^2", Ix)
         return cls(mass, arm, Ix - lost, Iz, gravity)

@@ -10,23 +10,33 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import refuse, validate_number, validate_vector
+from symtop_ros.physics.top import Top, match
+from symtop_ros.physics.values import (
+    LARGEST_ANGULAR_VELOCITY,
+    ignore_underflow,
+    refuse,
+    validate_array,
+    validate_numbers,
+    validate_rate,
+    validate_vector,
+)
+from symtop_ros.quaternions import split
 
 Hold = Literal["spin_rate", "spin_momentum"]
 HOLDS: tuple[Hold, ...] = ("spin_rate", "spin_momentum")
 
 
-def set_precession_rate(state: State, phi_dot: float, hold: Hold = "spin_rate") -> State:
+def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rate") -> State:
     """Return the state with a new precession rate phi', theta' held.
 
     Parameters
     ----------
     state : State
-        One state.
-    phi_dot : float
-        New precession rate in rad/s.
+        One state, or many of shape (...).
+    phi_dot : float or array_like (...)
+        New precession rate in rad/s; states and rates are broadcast together.
     hold : {"spin_rate", "spin_momentum"}
         The second quantity that is held: psi' (the article's comparison) or L_z = Iz omega_z (a
         push on the axle, which cannot change it; psi' then changes by -delta phi' cos(theta)).
@@ -44,22 +54,22 @@ def set_precession_rate(state: State, phi_dot: float, hold: Hold = "spin_rate") 
     >>> round(rates.phi, 9), round(rates.psi, 9)
     (9.1, 200.0)
     """
-    rate = validate_number("phi_dot", phi_dot, "rad/s")
-    hold = validate_hold(hold)
-    change = (rate - precession_rate(state)) * state.vertical
+    rate, hold = validate_rate("phi_dot", phi_dot), validate_hold(hold)
+    _validate_fit(state, np.shape(rate))
+    change = np.asarray(rate - precession_rate(state))[..., np.newaxis] * state.vertical
     if hold == "spin_momentum":
-        change[2] = 0.0
-    return State(state.orientation, state.angular_velocity + change)
+        change[..., 2] = 0.0
+    return _add(state, change)
 
 
-def hurry(state: State, factor: float = 1.4, hold: Hold = "spin_rate") -> State:
+def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> State:
     """Return the state with phi' multiplied by a factor.
 
     Parameters
     ----------
     state : State
-        One state.
-    factor : float
+        One state, or many of shape (...).
+    factor : float or array_like (...)
         Above 1 it hurries the precession, between 0 and 1 it delays it.
     hold : {"spin_rate", "spin_momentum"}
         As in `set_precession_rate`.
@@ -77,9 +87,13 @@ def hurry(state: State, factor: float = 1.4, hold: Hold = "spin_rate") -> State:
     9.1
     >>> hurry(state, hold="spin_momentum").angular_velocity[2] == state.angular_velocity[2]
     np.True_
+    >>> hurry(state, factor=[1.1, 1.2]).euler_rates.phi.round(9).tolist()
+    [7.15, 7.8]
     """
-    factor = validate_number("factor", factor)
-    return set_precession_rate(state, factor * precession_rate(state), hold)
+    factor = validate_numbers("factor", factor)
+    _validate_fit(state, np.shape(factor))
+    with np.errstate(over="ignore", under="ignore"):  # a rate that is too large is refused
+        return set_precession_rate(state, factor * precession_rate(state), hold)
 
 
 def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
@@ -88,16 +102,18 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     Parameters
     ----------
     top : Top
-        The top: its moments of inertia turn a momentum into an angular velocity.
+        The top: its moments of inertia turn a momentum into an angular velocity; one or many of
+        shape (...).
     state : State
-        One state.
-    impulse : array_like (3,)
-        Angular impulse in the world frame, in N m s.
+        One state, or many of shape (...).
+    impulse : array_like (..., 3)
+        Angular impulse in the world frame, in N m s; tops, states and impulses are broadcast
+        together.
 
     Raises
     ------
     ValueError
-        If the impulse is not 3 finite numbers.
+        If the impulse is not 3 finite numbers, or makes a top faster than 1e100 rad/s.
 
     Examples
     --------
@@ -107,24 +123,51 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     >>> apply_impulse(top, state, (0.000228, 0, 0)).angular_velocity.tolist()
     [1.0, 0.0, 200.0]
     """
-    validate_one(top)
-    J = validate_vector("impulse", impulse, "N m s, world frame")
-    change = state.to_body(J) / np.array([top.Ix, top.Ix, top.Iz])
-    return State(state.orientation, state.angular_velocity + change)
+    unit = "N m s, world frame"
+    if np.ndim(impulse) <= 1:
+        J = np.array(validate_vector("impulse", impulse, unit))
+    else:
+        J = validate_array("impulse", impulse, 3, unit)
+    _validate_fit(state, J.shape[:-1])
+    x, y, z = split(state.to_body(J))
+    Ix, Iz = match(top.Ix, state), match(top.Iz, state)
+    with np.errstate(over="ignore", under="ignore"):
+        change = np.stack(np.broadcast_arrays(x / Ix, y / Ix, z / Iz), axis=-1)
+    if not (np.abs(change) <= LARGEST_ANGULAR_VELOCITY).all():
+        condition = f"so small that no rate changes by more than {LARGEST_ANGULAR_VELOCITY:g} rad/s"
+        raise refuse("impulse", condition, f"{float(np.abs(J).max()):g} {unit}")
+    return _add(state, change)
 
 
-def precession_rate(state: State) -> float:
-    """Return phi' of one state in rad/s.
+def _add(state: State, change: Real) -> State:
+    """Return states with a change of their angular velocity, (..., 3), in the body frame."""
+    omega = state.angular_velocity + change
+    kicked = State(np.broadcast_to(state.orientation, (*omega.shape[:-1], 4)), omega)
+    vars(kicked)["time_axes"] = state.time_axes
+    return kicked
+
+
+def _validate_fit(state: State, shape: tuple[int, ...]) -> None:
+    try:
+        np.broadcast_shapes(state.orientation.shape[:-1], shape)
+    except ValueError:
+        shapes = f"{state.orientation.shape[:-1]} and {shape}"
+        raise refuse("state and kick", "of shapes that fit together", shapes) from None
+
+
+@ignore_underflow
+def precession_rate(state: State) -> Any:
+    """Return phi' in rad/s, a float or (...).
 
     Parameters
     ----------
     state : State
-        One state.
+        One state, or many of shape (...).
 
     Raises
     ------
     ValueError
-        If the axis is vertical, where phi' is undefined.
+        If an axis is vertical, where phi' is undefined.
 
     Examples
     --------
@@ -132,12 +175,11 @@ def precession_rate(state: State) -> float:
     >>> precession_rate(State.from_euler(theta=0.5, phi_dot=4.0))
     4.0
     """
-    if state.orientation.ndim != 1:
-        raise refuse("state", "one state", f"{state.orientation.shape[:-1]} states")
-    if state.is_vertical:
+    if np.any(state.is_vertical):
         condition = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
-        raise refuse("axis", condition, f"theta = {state.euler_angles.theta:g} rad")
-    return float(state.euler_rates.phi)
+        theta = float(np.extract(state.is_vertical, state.euler_angles.theta)[0])
+        raise refuse("axis", condition, f"theta = {theta:g} rad")
+    return state.euler_rates.phi
 
 
 def validate_hold(hold: Any) -> Hold:

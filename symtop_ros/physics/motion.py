@@ -31,6 +31,7 @@ from symtop_ros.physics.kernel.compiled import CompiledMotion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.values import refuse, validate_number
 
 # Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
 BLOCK = 12288
@@ -314,6 +315,9 @@ class Motion(Setting):
         >>> 0 < Motion(top, start, Friction(axial=2e-6)).reach(10.0, steps=100) < 10
         True
         """
+        t = validate_number("t", t, "s")
+        if not steps >= 0:
+            raise refuse("steps", ">= 0", steps)
         return self._driven.reach(t, steps) if self._driven else t
 
     @property
@@ -323,8 +327,13 @@ class Motion(Setting):
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
         zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
         (the axis approaches the vertical for ever; the separatrix) or "sleeping" (it rests on the
-        vertical). The article calls a unidirectional motion spiralling.
+        vertical). The article calls a unidirectional motion spiralling. With friction or an applied
+        torque it is "driven": the angles then change, and phi' at them.
         """
+        return "driven" if self._driven else self._kind_under_gravity
+
+    @property
+    def _kind_under_gravity(self) -> Kind:
         with localcontext(PRECISE):
             return self._engine.kind
 
@@ -364,7 +373,7 @@ class Motion(Setting):
 
     @property
     def _is_undefined(self) -> bool:
-        return self.kind in ("sleeping", "through the pole")
+        return self._kind_under_gravity in ("sleeping", "through the pole")
 
     @property
     def precession_per_nutation(self) -> float:

@@ -26,10 +26,12 @@ fails, and the reverse. The answer to a kick says so.
 """
 
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from typing import Literal
 
 import numpy as np
 
+from symtop_ros.physics.exact.precise import PRECISE
 from symtop_ros.physics.kicks import Hold
 from symtop_ros.physics.precession import TiltQuadratic
 from symtop_ros.physics.state import State
@@ -38,6 +40,7 @@ from symtop_ros.physics.values import EPS
 
 Direction = Literal["rises", "falls", "stays"]
 NOTHING = "Perry's rule says nothing"
+ROUNDING = 4 * Decimal.from_float(EPS)  # of a sum of two products, relative to its terms
 STATE_ROUNDING = 8 * EPS  # cos(theta) of a quaternion: four squares, each rounded, and its norm
 
 
@@ -65,7 +68,7 @@ class TiltAcceleration:
         gx, gy, gz = state.vertical.tolist()
         spin = float(state.angular_velocity[2])
         if hold == "spin_rate":
-            spin = float(state.euler_rates.psi)
+            spin = _find_rates(state)[1]
         if abs(gz) <= STATE_ROUNDING:
             gz = 0.0
         if abs(spin) <= STATE_ROUNDING * float(np.abs(state.angular_velocity).max()):
@@ -187,10 +190,26 @@ class PrecessionChange:
 
 def find_precession(state: State) -> float:
     """Return phi' in rad/s; exactly 0 if it vanishes up to rounding of its two terms."""
-    (gx, gy, _), (wx, wy, _) = state.vertical.tolist(), state.angular_velocity.tolist()
-    if abs(wx * gx + wy * gy) <= 4 * EPS * (abs(wx * gx) + abs(wy * gy)):
-        return 0.0
-    return float(state.euler_rates.phi)
+    return _find_rates(state)[0]
+
+
+def _find_rates(state: State) -> tuple[float, float]:
+    """Return phi' and psi' of one state in rad/s, the nearest doubles to those of its doubles.
+
+    Next to the vertical phi' is a quotient of small differences. With the rounding of doubles it
+    has half of its digits there, and a large factor can take the kicked rate to a place where the
+    others decide.
+    """
+    with localcontext(PRECISE):
+        w, x, y, z = map(Decimal, state.given_orientation.tolist())
+        wx, wy, wz = map(Decimal, state.angular_velocity.tolist())
+        upper, lower = w * w + z * z, x * x + y * y
+        along_x, along_y = wx * (x * z - w * y), wy * (y * z + w * x)
+        if abs(along_x + along_y) <= ROUNDING * (abs(along_x) + abs(along_y)):
+            return 0.0, float(wz)
+        size = (upper + lower) / 2  # 1/2 but for the rounding of the quaternion
+        phi_dot = (along_x + along_y) / upper / lower * size
+        return float(phi_dot), float(wz - phi_dot * (upper - lower) / (upper + lower))
 
 
 def format_rate(rate: float) -> str:

@@ -15,7 +15,12 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.kicks import Hold, validate_hold
 from symtop_ros.physics.precession import TiltQuadratic
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import validate_array, validate_number
+from symtop_ros.physics.values import (
+    ignore_underflow,
+    validate_array,
+    validate_number,
+    validate_rate,
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +62,7 @@ class HurryEffect:
         return np.asarray(self.after[1] - self.before[1])
 
 
+@ignore_underflow
 def compare_hurried(
     top: Top,
     theta: ArrayLike,
@@ -94,9 +100,10 @@ def compare_hurried(
     _, theta, phi_dot, psi_dot = np.broadcast_arrays(
         np.empty(top.shape),
         validate_array("theta", theta, unit="rad"),
-        validate_array("phi_dot", phi_dot, unit="rad/s"),
-        validate_array("psi_dot", psi_dot, unit="rad/s"),
+        validate_rate("phi_dot", phi_dot),
+        validate_rate("psi_dot", psi_dot),
     )
+    validate_rate("factor * phi_dot", float(np.max(np.abs(phi_dot), initial=0.0)) * factor)
     u = np.cos(theta)
     spin, kicked_psi_dot = psi_dot, psi_dot
     if hold == "spin_momentum":
@@ -123,8 +130,14 @@ def find_other_turning_angle(top: Top, theta: Real, phi_dot: Real, psi_dot: Real
     roots are q/f3 and f1/q, and neither is formed by a subtraction that cancels.
     """
     u, sine_squared = np.cos(theta), np.sin(theta) ** 2
+    # In this unit of time, a power of two, no product of rates overflows.
+    fastest = np.maximum(
+        np.maximum(np.abs(phi_dot), np.abs(psi_dot)), np.sqrt(np.abs(top.Mgl) / top.Ix)
+    )
+    unit = np.ldexp(1.0, -np.frexp(fastest)[1])
+    phi_dot, psi_dot = phi_dot * unit, psi_dot * unit
     a = top.Iz / top.Ix * (psi_dot + phi_dot * u)  # Goldstein's a = p_psi/Ix
-    beta = 2 * top.Mgl / top.Ix  # Goldstein's beta
+    beta = 2 * (top.Mgl / top.Ix * unit) * unit  # Goldstein's beta
     f1 = -sine_squared * (beta + 2 * phi_dot * (u * phi_dot - a))
     f2 = 2 * beta * u - sine_squared * phi_dot**2 - a**2
     root = np.sqrt(np.maximum(f2 * f2 - 4 * beta * f1, 0.0))

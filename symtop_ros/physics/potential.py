@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import validate_array
+from symtop_ros.physics.values import ignore_underflow, validate_array
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +55,7 @@ class EffectivePotential:
         energy = kinetic + top.Mgl * float(state.vertical[2])
         return cls(top, float(top.vertical_momentum(state)), axial, energy)
 
+    @ignore_underflow
     def at(self, theta: ArrayLike) -> Real:
         """Return U_eff = (p_phi - p_psi cos(theta))^2/(2 Ix sin^2(theta)) + Mgl cos(theta) in J.
 
@@ -72,10 +73,11 @@ class EffectivePotential:
         """
         theta = validate_array("theta", theta, unit="rad")
         turning = self._rate(np.cos(theta), 2 * np.sin(theta / 2) ** 2)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             share = np.where(turning == 0, 0.0, turning / np.sin(theta))
-        return np.asarray(self.top.Ix * share * share / 2 + self.top.Mgl * np.cos(theta))
+            return np.asarray(self.top.Ix * share * share / 2 + self.top.Mgl * np.cos(theta))
 
+    @ignore_underflow
     def cubic(self, u: ArrayLike) -> Real:
         """Return f(u) = (1 - u^2)(alpha - beta u) - (b - a u)^2 = (du/dt)^2 in 1/s^2.
 

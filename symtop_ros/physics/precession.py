@@ -28,8 +28,16 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real
 from symtop_ros.physics.exact.precise import PRECISE, ZERO, compute_cosine
 from symtop_ros.physics.kicks import Hold
-from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import EPS, START_ROUNDING, refuse, validate_number
+from symtop_ros.physics.top import Top
+from symtop_ros.physics.values import (
+    EPS,
+    START_ROUNDING,
+    ignore_underflow,
+    refuse,
+    validate_array,
+    validate_rate,
+    validate_together,
+)
 
 LARGEST_TILT = 1e15  # rad
 
@@ -103,7 +111,7 @@ class TiltQuadratic:
         return solve_quadratic(float(self.a), float(self.b), self.Mgl)
 
 
-def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[float, ...]:
+def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> tuple[Any, ...]:
     """Return the rates phi' of regular precession at one tilt and spin rate.
 
     They are the roots of (Ix - Iz) cos(theta) p^2 - Iz psi' p + Mgl = 0, formed without
@@ -112,17 +120,19 @@ def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[fl
     Parameters
     ----------
     top : Top
-    theta : float
+        One top, or many of shape (...).
+    theta : float or array_like (...)
         Tilt in rad.
-    psi_dot : float
-        Spin rate psi' in rad/s.
+    psi_dot : float or array_like (...)
+        Spin rate psi' in rad/s. Tops, tilts and spin rates are broadcast together.
 
     Returns
     -------
-    tuple of float
+    tuple of float, or of two ndarray (...)
         (slow, fast) in rad/s with |slow| <= |fast|; one rate if the equation is linear; none if the
-        spin is too small. They are the nearest doubles to the exact rates of the doubles given,
-        but |cos(theta)| <= 2.2e-16 counts as zero: no double is exactly pi/2.
+        spin is too small. Of arrays two arrays, with nan for a rate that there is not. They are
+        the nearest doubles to the exact rates of the doubles given, but |cos(theta)| <= 2.2e-16
+        counts as zero: no double is exactly pi/2.
 
     Raises
     ------
@@ -136,20 +146,42 @@ def regular_precession_rates(top: Top, theta: float, psi_dot: float) -> tuple[fl
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> [round(rate, 2) for rate in regular_precession_rates(top, theta=0.5, psi_dot=200.0)]
     [6.5, 69.82]
+    >>> slow, fast = regular_precession_rates(top, theta=0.5, psi_dot=[100.0, 200.0])
+    >>> slow.round(2).tolist(), fast.round(2).tolist()
+    ([nan, 6.5], [nan, 69.82])
     """
-    validate_one(top)
-    theta = validate_number("theta", theta, "rad")
-    psi_dot = validate_number("psi_dot", psi_dot, "rad/s")
-    if abs(theta) > LARGEST_TILT:
-        raise refuse("theta", f"at most {LARGEST_TILT:g} rad in size", theta)
+    given = {"theta": theta, "psi_dot": psi_dot}
+    theta, psi_dot = validate_together(given, ("rad", "rad/s"))
+    largest = float(np.max(np.abs(theta), initial=0.0))
+    if largest > LARGEST_TILT:
+        raise refuse("theta", f"at most {LARGEST_TILT:g} rad in size", largest)
+    if not top.shape and isinstance(theta, float):
+        return _solve_regular(*top.moments, theta, psi_dot)
+    try:
+        arrays = np.broadcast_arrays(*top.moments, theta, psi_dot)
+    except ValueError:
+        shapes = f"{top.shape} and {np.shape(theta)}"
+        raise refuse("top and theta", "of shapes that fit together", shapes) from None
+    rates = np.full((2, arrays[0].size), np.nan)
+    for n, values in enumerate(zip(*(array.ravel().tolist() for array in arrays), strict=True)):
+        found = _solve_regular(*values)
+        rates[: len(found), n] = found
+    slow, fast = rates.reshape(2, *arrays[0].shape)
+    return slow, fast
+
+
+def _solve_regular(
+    Ix: float, Iz: float, Mgl: float, theta: float, psi_dot: float
+) -> tuple[float, ...]:
     with localcontext(PRECISE) as context:
         context.prec = 120
-        Ix, Iz, Mgl, spin = (Decimal(value) for value in (*top.moments, psi_dot))
         is_horizontal = abs(math.cos(theta)) <= EPS
         cosine = ZERO if is_horizontal else compute_cosine(Decimal(theta))
-        return solve_quadratic((Ix - Iz) * cosine, Iz * spin, Mgl)
+        transverse, axial = Decimal(Ix) - Decimal(Iz), Decimal(Iz)
+        return solve_quadratic(transverse * cosine, axial * Decimal(psi_dot), Decimal(Mgl))
 
 
+@ignore_underflow
 def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
     """Return Ix theta''/sin(theta): zero where precession is regular, negative if the top rises.
 
@@ -173,10 +205,12 @@ def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayL
     >>> round(float(theta_torque(top, theta=0.5, phi_dot=9.1, psi_dot=200.0)), 6)
     -0.023692
     """
-    theta, phi_dot, psi_dot = (np.asarray(each, dtype=float) for each in (theta, phi_dot, psi_dot))
+    theta = validate_array("theta", theta, unit="rad")
+    phi_dot, psi_dot = validate_rate("phi_dot", phi_dot), validate_rate("psi_dot", psi_dot)
     return np.asarray(TiltQuadratic.of(top, np.cos(theta), psi_dot).at(phi_dot))
 
 
+@ignore_underflow
 def theta_acceleration(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
     """Return theta'' as displayed in the article: sin(theta)/Ix times `theta_torque`.
 
@@ -217,6 +251,7 @@ class FrameTorques(NamedTuple):
         return self.gravity + self.coriolis + self.centrifugal
 
 
+@ignore_underflow
 def precessing_frame_torques(
     top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike
 ) -> FrameTorques:
@@ -252,7 +287,9 @@ def precessing_frame_torques(
     [0.0326, -0.04936, 0.00582, -0.01094]
     """
     theta, phi_dot, psi_dot = np.broadcast_arrays(
-        *(np.asarray(each, dtype=float) for each in (theta, phi_dot, psi_dot))
+        validate_array("theta", theta, unit="rad"),
+        validate_rate("phi_dot", phi_dot),
+        validate_rate("psi_dot", psi_dot),
     )
     sine = np.sin(theta)
     return FrameTorques(

@@ -9,13 +9,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics.exact.elementary import (
+    arc_tangent,
+    find_cosine_and_sine,
+    find_length,
+    multiply,
+)
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
+    ignore_underflow,
     refuse,
     to_float,
     validate_array,
-    validate_number,
+    validate_together,
 )
 from symtop_ros.quaternions import rotate, split, stack
 
@@ -153,32 +160,33 @@ class State:
         return self.orientation, self.angular_velocity
 
     @classmethod
+    @ignore_underflow
     def from_euler(
         cls,
         *,
-        theta: float,
-        phi: float = 0.0,
-        psi: float = 0.0,
-        theta_dot: float = 0.0,
-        phi_dot: float = 0.0,
-        psi_dot: float = 0.0,
+        theta: ArrayLike,
+        phi: ArrayLike = 0.0,
+        psi: ArrayLike = 0.0,
+        theta_dot: ArrayLike = 0.0,
+        phi_dot: ArrayLike = 0.0,
+        psi_dot: ArrayLike = 0.0,
     ) -> "State":
-        """Return the state with these Euler angles z-x-z and rates.
+        """Return the state with these Euler angles z-x-z and rates, or the states with many.
 
         The quaternion and the angular velocity are right to some rounding of doubles. The motion
         then starts from exactly these doubles.
 
         Parameters
         ----------
-        theta, phi, psi : float
+        theta, phi, psi : float or array_like, broadcast to (...)
             Tilt, precession and spin angle in rad.
-        theta_dot, phi_dot, psi_dot : float
+        theta_dot, phi_dot, psi_dot : float or array_like, broadcast to (...)
             Their rates in rad/s.
 
         Raises
         ------
         ValueError
-            If a value is not a finite number.
+            If a value is not a finite number, or if the shapes do not fit together.
 
         Examples
         --------
@@ -186,27 +194,16 @@ class State:
         >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
         >>> round(state.euler_rates.phi, 12)
         6.5
+        >>> State.from_euler(theta=[0.4, 0.5, 0.6], psi_dot=200.0)
+        <State of shape (3,)>
         """
-        phi, theta, psi = (
-            validate_number(name, value, "rad")
-            for name, value in (("phi", phi), ("theta", theta), ("psi", psi))
-        )
-        phi_dot, theta_dot, psi_dot = (
-            validate_number(f"{name}_dot", value, "rad/s")
-            for name, value in (("phi", phi_dot), ("theta", theta_dot), ("psi", psi_dot))
-        )
-        (cos_plus, sin_plus), (cos_minus, sin_minus) = _half_sum(phi, psi), _half_sum(phi, -psi)
-        c, s = np.cos(theta / 2), np.sin(theta / 2)
-        orientation = c * cos_plus, s * cos_minus, s * sin_minus, c * sin_plus
-        sine = np.sin(theta)
-        omega = (
-            phi_dot * sine * np.sin(psi) + theta_dot * np.cos(psi),
-            phi_dot * sine * np.cos(psi) - theta_dot * np.sin(psi),
-            phi_dot * np.cos(theta) + psi_dot,
-        )
-        return cls(orientation, omega)
+        names = "phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"
+        given = dict(zip(names, (phi, theta, psi, phi_dot, theta_dot, psi_dot), strict=True))
+        numbers = validate_together(given, ("rad",) * 3 + ("rad/s",) * 3)
+        return cls(_turn_by_angles(*numbers[:3]), _turn_by_rates(*numbers[1:]))
 
     @cached_property
+    @ignore_underflow
     def vertical(self) -> Real:
         """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta.
 
@@ -229,33 +226,33 @@ class State:
         return w, x, y, z
 
     @property
+    @ignore_underflow
     def euler_angles(self) -> Angles:
         """Angles (phi, theta, psi) in rad, with 0 <= theta <= pi; phi is 0 on the vertical."""
-        # Copies, because the components are strided views: NumPy 1.26 takes another vectorised
-        # arctan2 for two strided elements than for one or for many, which differs in the last bit.
-        # The angles of a state would then depend on the states that are computed with it.
-        w, x, y, z = (np.array(component) for component in self._components)
+        w, x, y, z = self._components
         # acos(cos theta) would lose half the digits of a small tilt; this quotient keeps them all.
-        theta = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
-        upper, lower = np.arctan2(z, w), np.arctan2(y, x)  # (phi + psi)/2 and (phi - psi)/2
+        theta = 2 * arc_tangent(find_length(x, y), find_length(w, z))
+        upper, lower = arc_tangent(z, w), arc_tangent(y, x)  # (phi + psi)/2 and (phi - psi)/2
         on_vertical = (theta == 0) | (theta == np.pi)
         phi = np.where(on_vertical, 0.0, _wrap_angle(upper + lower))
         psi = np.where(on_vertical, np.where(theta == 0, 2 * upper, -2 * lower), upper - lower)
         return Angles(*(to_float(angle) for angle in (phi, theta, _wrap_angle(psi))))
 
     @cached_property
+    @ignore_underflow
     def euler_rates(self) -> Angles:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
         gx, gy, gz = split(self.vertical)
         wx, wy, wz = split(self.angular_velocity)
-        sine = np.hypot(gx, gy)
+        sine = np.asarray(find_length(gx, gy))[()]  # a float of NumPy's: 0/0 is nan
         with np.errstate(invalid="ignore", divide="ignore"):
             # Divided twice: the square of a sine below 1e-154 would underflow.
             phi_dot = np.where(sine > 0, (wx * gx + wy * gy) / sine / sine, 0.0)
-            theta_dot = np.where(sine > 0, (wx * gy - wy * gx) / sine, np.hypot(wx, wy))
+            theta_dot = np.where(sine > 0, (wx * gy - wy * gx) / sine, find_length(wx, wy))
         psi_dot = wz - phi_dot * gz
         return Angles(*(to_float(rate) for rate in (phi_dot, theta_dot, psi_dot)))
 
+    @ignore_underflow
     def to_world(self, vector: ArrayLike) -> Real:
         """Rotate body-frame vectors into the world frame.
 
@@ -271,6 +268,7 @@ class State:
         """
         return rotate(*self._components, np.asarray(vector, dtype=float))
 
+    @ignore_underflow
     def to_body(self, vector: ArrayLike) -> Real:
         """Rotate world-frame vectors into the body frame.
 
@@ -288,6 +286,7 @@ class State:
         return rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
     @property
+    @ignore_underflow
     def matrix(self) -> Real:
         """Rotation matrices from body to world, (..., 3, 3): the columns are the body's axes.
 
@@ -470,19 +469,31 @@ def _restore(given: Real, orientation: Real, omega: Real, time_axes: int) -> Sta
     return state
 
 
-def _half_sum(a: float, b: float) -> tuple[float, float]:
+def _turn_by_angles(phi: Any, theta: Any, psi: Any) -> Real:
+    """Return the orientations of Euler angles."""
+    (cos_plus, sin_plus), (cos_minus, sin_minus) = _half_sum(phi, psi), _half_sum(phi, -psi)
+    c, s = find_cosine_and_sine(theta / 2)
+    return np.stack([c * cos_plus, s * cos_minus, s * sin_minus, c * sin_plus], axis=-1)
+
+
+def _turn_by_rates(theta: Any, psi: Any, phi_dot: Any, theta_dot: Any, psi_dot: Any) -> Real:
+    """Return the angular velocities of Euler rates."""
+    (cosine, sine), (c, s) = find_cosine_and_sine(theta), find_cosine_and_sine(psi)
+    across_x = phi_dot * sine * s + theta_dot * c
+    across_y = phi_dot * sine * c - theta_dot * s
+    return np.stack([across_x, across_y, phi_dot * cosine + psi_dot], axis=-1)
+
+
+def _half_sum(a: Any, b: Any) -> tuple[Any, Any]:
     """Return cosine and sine of (a + b)/2; the rounding of a large sum is made good.
 
-    Up to a turn this rounding is no larger than that of the result. It is left there, so that
-    starts with ordinary angles have the doubles that they always had.
+    Up to a turn this rounding is no larger than that of the result, and it is left there.
     """
     total = a + b
-    if abs(total) <= 2 * np.pi:
-        return np.cos(total / 2), np.sin(total / 2)
     part = total - a
     lost = ((a - (total - part)) + (b - part)) / 2  # Knuth's two-sum
-    c, s = np.cos(total / 2), np.sin(total / 2)
-    return c - s * lost, s + c * lost
+    lost = np.where(np.abs(total) <= 2 * np.pi, 0.0, lost)[()]
+    return multiply(find_cosine_and_sine(total / 2), find_cosine_and_sine(lost))
 
 
 def _flush_tiny(array: Real) -> Real:
@@ -507,7 +518,7 @@ def _normalize(q: Real) -> Real:
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
 
 
-def _wrap_angle(angle: Real) -> Real:
+def _wrap_angle(angle: Any) -> Real:
     return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
 
 

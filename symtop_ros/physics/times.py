@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.values import refuse, validate_number
+from symtop_ros.physics.values import ignore_underflow, refuse, validate_number
 
 SECOND = 10**9  # ns
 LARGEST_STAMP = 2**63 - 1  # ns
@@ -112,6 +112,7 @@ class ExactTimes:
         return self.elapsed + Fraction(self.factor) * nanoseconds
 
     @property
+    @ignore_underflow
     def rough_seconds(self) -> Any:
         """Seconds, a float or (n,), up to a few roundings; much faster than `seconds`."""
         elapsed, pieces = self.elapsed.as_integer_ratio()

@@ -13,6 +13,7 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_MOMENT,
     SMALLEST_MOMENT,
+    ignore_underflow,
     refuse,
     to_float,
     validate_together,
@@ -118,16 +119,19 @@ class Top:
         least = 2 * math.sqrt(self.Ix) * math.sqrt(weight)
         return abs(float(self.axial_momentum(state))) >= (1 - 8 * EPS) * least
 
+    @ignore_underflow
     def body_angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the body frame, (..., 3), in N m s."""
         Ix, Iz = match(self.Ix, state), match(self.Iz, state)
         x, y, z = split(state.angular_velocity)
         return stack(x * Ix, y * Ix, z * Iz)
 
+    @ignore_underflow
     def angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the world frame, (..., 3), in N m s."""
         return state.to_world(self.body_angular_momentum(state))
 
+    @ignore_underflow
     def gravity_torque(self, state: State) -> Real:
         """Return the torque of gravity about the pivot in the world frame, (..., 3), in N m.
 
@@ -138,16 +142,19 @@ class Top:
         x, y, z = split(state.to_world(stack(none, none, Mgl)))
         return stack(-y, x, 0.0 * abs(z))
 
+    @ignore_underflow
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
         omega = state.angular_velocity
         kinetic = (self.body_angular_momentum(state) * omega).sum(axis=-1) / 2
         return kinetic + match(self.Mgl, state) * state.vertical[..., 2]
 
+    @ignore_underflow
     def axial_momentum(self, state: State) -> Any:
         """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant without friction."""
         return match(self.Iz, state) * state.angular_velocity[..., 2]
 
+    @ignore_underflow
     def vertical_momentum(self, state: State) -> Any:
         """Return L_z' = p_phi = L . z', (...), in N m s; constant without friction."""
         return (self.body_angular_momentum(state) * state.vertical).sum(axis=-1)
@@ -247,6 +254,7 @@ class Friction:
             return bool(np.any(self.axial) or np.any(self.transverse))
         return self.axial > 0 or self.transverse > 0
 
+    @ignore_underflow
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""
         across, along = -match(self.transverse, state), -match(self.axial, state)

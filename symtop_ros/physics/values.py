@@ -5,14 +5,17 @@ Every refused argument raises a ValueError of one form: "NAME must be CONDITION,
 
 import math
 import numbers
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Vector
 
+P = ParamSpec("P")
+T = TypeVar("T")
 Complex = NDArray[np.complex128]
 
 EPS = 2.0**-52  # distance from 1 to the next double
@@ -67,6 +70,7 @@ def validate_number(name: str, value: Any, unit: str = "") -> float:
     """
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
+    _refuse_units(name, value, unit)
     if not _is_real(value):
         raise refuse(name, _with_unit("a number", unit), repr(value))
     try:
@@ -97,6 +101,7 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     ValueError
         If a value is not a number or not finite, or if the shape does not fit.
     """
+    _refuse_units(name, value, unit)
     try:
         if np.ma.isMaskedArray(value):
             raise TypeError
@@ -112,8 +117,80 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
         raise refuse(name, f"of shape (..., {size})", f"shape {array.shape}")
     # One number is the common case, and NumPy needs 2 us for the question.
     if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
-        raise refuse(name, _with_unit("an array of finite numbers", unit), repr(value))
+        raise refuse(name, _with_unit("an array of finite numbers", unit), _find_odd(array))
     return array
+
+
+def _find_odd(array: Real) -> str:
+    """Return the first number that is not finite, and its place."""
+    place = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
+    return f"{float(array[place])!r}" + (f" at {list(place)}" if place else "")
+
+
+def _refuse_units(name: str, value: Any, unit: str) -> None:
+    """Refuse quantities of libraries for units, which NumPy would take for plain numbers."""
+    if type(value) is np.ndarray or type(value) is float:
+        return
+    parts = value if isinstance(value, list | tuple) else (value,)
+    for part in parts:
+        if hasattr(part, "units") or hasattr(part, "unit"):
+            condition = _with_unit("plain numbers, converted to SI units", unit)
+            raise refuse(name, condition, repr(value))
+        if part is not value and isinstance(part, list | tuple):
+            _refuse_units(name, part, unit)
+
+
+def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
+    """Return one finite real number as a float, or many as a new array of doubles.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : float or array_like (...)
+        The numbers.
+    unit : str
+        Unit, for the message.
+
+    Raises
+    ------
+    ValueError
+        As `validate_number` and `validate_array`.
+    """
+    return (validate_array if _is_array(value) else validate_number)(name, value, unit=unit)
+
+
+def validate_rate(name: str, value: Any) -> Any:
+    """Return rates in rad/s as a float or an array, of a size of which squares are doubles.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for the message.
+    value : float or array_like (...)
+        The rates.
+
+    Raises
+    ------
+    ValueError
+        If a rate is not a finite number, or above 1e100 rad/s.
+    """
+    rate = validate_numbers(name, value, "rad/s")
+    largest = float(np.max(np.abs(rate), initial=0.0))
+    if largest > LARGEST_ANGULAR_VELOCITY:
+        raise refuse(name, f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s in size", largest)
+    return rate
+
+
+def ignore_underflow(function: Callable[P, T]) -> Callable[P, T]:
+    """Have a function compute although the caller's NumPy raises for what underflows to zero."""
+
+    @wraps(function)
+    def compute(*arguments: P.args, **named: P.kwargs) -> T:
+        with np.errstate(under="ignore"):
+            return function(*arguments, **named)
+
+    return compute
 
 
 def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]:
@@ -133,15 +210,16 @@ def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]
     """
     validated: list[Any] = []
     for (name, value), unit in zip(values.items(), units, strict=True):
-        validate = validate_array if _is_array(value) else validate_number
-        validated.append(validate(name, value, unit=unit))
+        validated.append(validate_numbers(name, value, unit))
     if not any(isinstance(value, np.ndarray) for value in validated):
         return validated
     try:
         arrays = [array.copy() for array in np.broadcast_arrays(*validated)]
     except ValueError:
-        shapes = ", ".join(str(np.shape(value)) for value in validated)
-        raise refuse(" and ".join(values), "of shapes that fit together", shapes) from None
+        many = [(name, np.shape(value)) for name, value in zip(values, validated, strict=True)]
+        names, shapes = zip(*(each for each in many if each[1]), strict=True)
+        listed = ", ".join(map(str, shapes))
+        raise refuse(" and ".join(names), "of shapes that fit together", listed) from None
     for array in arrays:
         array.flags.writeable = False
     return arrays

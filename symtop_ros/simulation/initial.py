@@ -80,7 +80,7 @@ def _from_euler(top: Top, values: Mapping[str, Any]) -> State:
 
 def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
     rates = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
-    roots = [rate for rate in rates if abs(rate) <= MAX_RATE]
+    roots = [float(rate) for rate in rates if abs(rate) <= MAX_RATE]
     if len(roots) > PRECESSIONS.index(which):
         return roots[PRECESSIONS.index(which)]
     count = f"only {roots[0]:.6g} rad/s" if roots else "no real root"

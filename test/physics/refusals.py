@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from contextlib import AbstractContextManager
 from typing import Any
 
 import pytest
+
+from symtop_ros.physics import Motion
 
 NUMBER = "a number"
 FINITE_NUMBER = "a finite number"
@@ -14,8 +17,20 @@ FINITE_ARRAY = "an array of finite numbers"
 VECTOR = "3 finite numbers"
 HOLD = "'spin_rate' or 'spin_momentum'"
 TILTED = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
-ONE_STATE = "one state"
+NOT_TOO_LATE = "s of the start (1e30 turns)"
 NOT_TOO_FAST = "s of the start (the motion then becomes too fast)"
+
+
+def meet(motion: Motion, t: float) -> float:
+    """The time, or the last one that the refusal names if it is too late."""
+    try:
+        motion.at(t)
+    except ValueError as refusal:
+        if NOT_TOO_LATE not in str(refusal):
+            raise
+        last = float(str(refusal).removeprefix("t must be within ").split()[0])
+        return math.copysign(0.9 * last, t)
+    return t
 
 
 def refused(name: str, condition: str, value: str = "") -> AbstractContextManager[Any]:

@@ -78,7 +78,7 @@ def test_the_context_of_the_caller_does_not_matter_under_friction():
         assert states() == expected
 
 
-@pytest.mark.parametrize("Iz", [1e-20, 1e-30, 1e-36, 1e-60])
+@pytest.mark.parametrize("Iz", [1e-20, 1e-24, 1e-28])
 def test_a_rod_of_any_slenderness_moves_as_the_limit_of_slender_rods(Iz):
     # With p_psi = Iz omega_z = 2 held, theta does not depend on Iz: the spin angle alone does.
     start = State.from_euler(theta=0.5, phi_dot=0.3, psi_dot=2 / Iz)

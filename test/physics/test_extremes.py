@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
-from physics.refusals import TILTED
+from physics.refusals import TILTED, meet
 from physics.tops import ARTICLE, EPS, seeds
 
 from symtop_ros.physics import (
@@ -48,7 +48,8 @@ def test_no_combination_of_numbers_breaks_anything(block):
     for seed in range(100 * block, 100 * block + 100):
         top, start = extreme(seed)
         motion = Motion(top, start)
-        states = motion.at([0.0, 1.0, -1e9, 1e-9])
+        latest = meet(motion, 1e9)
+        states = motion.at([0.0, 1e-9 * latest, -latest, 1e-18 * latest])
         assert np.isfinite(states.angular_velocity).all()
         there = states.orientation[0]
         off = min(
@@ -114,7 +115,7 @@ def ask(moments, q, omega, t):
     """The motion, a state and the verdict, or the words of a refusal."""
     try:
         motion = Motion(Top(*moments), State(q, omega))
-        return motion, motion.at(t), str(perrys_rule(motion.top, motion.start))
+        return motion, motion.at(meet(motion, t)), str(perrys_rule(motion.top, motion.start))
     except ValueError as refusal:
         return str(refusal)
 

@@ -2,8 +2,8 @@ import math
 
 import numpy as np
 import pytest
-from physics.refusals import FINITE_NUMBER, HOLD, ONE_STATE, TILTED, VECTOR, refused
-from physics.tops import ARTICLE, EPS, random_states
+from physics.refusals import FINITE_NUMBER, HOLD, TILTED, VECTOR, refused
+from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import (
     Motion,
@@ -80,7 +80,6 @@ def test_on_the_vertical_a_rate_is_refused_and_an_impulse_is_not(q):
         (lambda: hurry(START, math.nan), "factor", FINITE_NUMBER, "nan"),
         (lambda: set_precession_rate(START, math.inf), "phi_dot", FINITE_NUMBER, "inf"),
         (lambda: apply_impulse(ARTICLE, START, [1.0, 2.0]), "impulse", VECTOR, "[1.0, 2.0]"),
-        (lambda: precession_rate(random_states(2)), "state", ONE_STATE, "(2,)"),
     ],
 )
 def test_a_bad_kick_is_refused_in_words(call, name, condition, value):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.refusals import FINITE_NUMBER, refused
-from physics.tops import ARTICLE, DISC, random_case
+from physics.tops import ARTICLE, DISC, random_case, seeds
 
 from symtop_ros.physics import (
     HOLDS,
@@ -23,7 +23,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.physics.perry import TiltAcceleration
+from symtop_ros.physics.perry import TiltAcceleration, find_precession
 
 pytestmark = pytest.mark.untraced
 
@@ -343,3 +343,46 @@ def test_where_the_rate_changes_nothing_the_verdict_does_not_depend_on_rounding(
         assert (verdict.rule_holds, verdict.direction) == (None, direction)
         assert "theta'' is the same with the kick as without it" in verdict.reason
         assert said(answer(before, top=top)) is None
+
+
+def test_a_large_factor_next_to_the_vertical_is_judged_by_exact_rates():
+    number = float.fromhex
+    moments = "0x1.95ec3f27829bfp-7", "0x1.6f07769c3f3d3p-6", "0x1.b7034667e3d6bp+1"
+    q = "0x1.a67d6ea156f68p-1", "0x1.e374d1127075ap-28", "0x1.8a9746143dc64p-27"
+    omega = "0x1.8cfc071e6bf5cp-6", "0x1.6366847e6323fp-7", "0x1.850c5f45dc636p+0"
+    top = Top(*map(number, moments))
+    state = State([*map(number, q), number("0x1.2137714bba92ap-1")], list(map(number, omega)))
+    with mp.workdps(60):
+        assert exact_change(top, state, 1000.0, "spin_rate") < 0
+    assert perrys_rule(top, state, 1000.0).rule_holds is True
+
+
+def state_next_to_the_vertical(rng):
+    """A tilt of 1e-3 to 1e-12, with phi' of which the two terms nearly cancel."""
+    tilt, phi, psi = 10 ** rng.uniform(-12, -3), rng.uniform(-3, 3), rng.uniform(-3, 3)
+    rates = {
+        "theta_dot": 10 ** rng.uniform(-3, 1),
+        "phi_dot": rng.gauss(0, 10 ** rng.uniform(-3, 2)),
+    }
+    return State.from_euler(theta=tilt, phi=phi, psi=psi, psi_dot=rng.gauss(0, 3), **rates)
+
+
+@pytest.mark.parametrize("seed", seeds(10, 50))
+def test_the_rule_next_to_the_vertical_is_that_of_sixty_digits(seed):
+    rng = random.Random(seed)
+    for _ in range(1000):
+        Ix = 10 ** rng.uniform(-3, 1)
+        top = Top(Ix, Ix * rng.uniform(0.1, 2.0), Ix * rng.gauss(0, 30))
+        state, hold = state_next_to_the_vertical(rng), rng.choice(HOLDS)
+        quadratic = TiltAcceleration.of(top, state, hold).quadratic
+        # a factor that takes the sum of the rates to where the slope of the quadratic is nearly 0
+        rate = find_precession(state) or 1.0  # it is zero up to rounding
+        factor = float(quadratic.b / quadratic.a) / rate - 1.0
+        factor *= 1 + rng.choice([-1, 1]) * 10 ** rng.uniform(-12, 0)
+        if not abs(factor) < 1e9 or factor < 0:
+            continue
+        holds = perrys_rule(top, state, factor, hold).rule_holds
+        with mp.workdps(60):
+            exact = exact_change(top, state, factor, hold)
+        if holds is not None:
+            assert holds == ((exact < 0) == (factor > 1)), (top, state, factor, hold)

@@ -1,4 +1,7 @@
+import copy
+import hashlib
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -14,8 +17,8 @@ from symtop_ros.physics import Motion, State, Top
     [
         ((1, 0, 0, 0, 0), (0, 0, 0), "orientation", "of shape (..., 4)", "shape (5,)"),
         ((1, 0, 0, 0), (0, 0), "angular_velocity", "of shape (..., 3)", "shape (2,)"),
-        ((1, 0, 0, math.nan), (0, 0, 0), "orientation", FINITE_ARRAY, "(1, 0, 0, nan)"),
-        ((1, 0, 0, 0), (0, math.inf, 0), "angular_velocity", FINITE_ARRAY, "(0, inf, 0)"),
+        ((1, 0, 0, math.nan), (0, 0, 0), "orientation", FINITE_ARRAY, "nan at [3]"),
+        ((1, 0, 0, 0), (0, math.inf, 0), "angular_velocity", FINITE_ARRAY, "inf at [1]"),
         ((1, 0, 0, 0.1), (0, 0, 0), "orientation", "norm 1 within 0.001", "a norm of 1.00499"),
         (("a", 0, 0, 0), (0, 0, 0), "orientation", FINITE_ARRAY, "('a', 0, 0, 0)"),
         ((1, 0, 0, 0), (0, 0, 1e200), "angular_velocity", "at most 1e+100 rad/s", "1e+200"),
@@ -153,6 +156,48 @@ def test_many_states_have_places_and_a_length():
         _ = states[1, 2][0]
     with pytest.raises(TypeError, match="one state has no length"):
         len(states[1, 2])
+
+
+def test_copies_of_states_are_read_only():
+    for state in (CUSPS, Motion(ARTICLE, CUSPS).at([0.0, 1.0])):
+        for other in (copy.deepcopy(state), pickle.loads(pickle.dumps(state))):
+            assert other == state
+            assert other.time_axes == state.time_axes
+            assert not any(part.flags.writeable for part in other.parts)
+
+
+def test_states_tops_and_motions_show_what_they_are():
+    start = State((1, 0, 0, 0), (0, 0, 200.0))
+    assert repr(start) == (
+        "State(orientation=(1.0, 0.0, 0.0, 0.0), angular_velocity=(0.0, 0.0, 200.0))"
+    )
+    assert eval(repr(start)) == start
+    assert repr(Motion(ARTICLE, start)) == f"Motion({ARTICLE!r}, {start!r})"
+    assert repr(Motion(ARTICLE, start).at([1.0, 2.0])) == "<State of shape (2,)>"
+
+
+def test_euler_angles_are_right_to_two_roundings():
+    rng = np.random.default_rng(5)
+    q = rng.normal(size=(4000, 4)) * 10 ** rng.uniform(-12, 0, (4000, 4))
+    states = State(q / np.linalg.norm(q, axis=1, keepdims=True), np.zeros((4000, 3)))
+    with mp.workdps(40):
+        for n, (w, x, y, z) in enumerate(states.orientation.tolist()):
+            exact = 2 * mp.atan2(mp.hypot(x, y), mp.hypot(w, z))
+            assert abs(states.euler_angles.theta[n] - exact) <= 3 * EPS * exact
+            upper, lower = mp.atan2(z, w), mp.atan2(y, x)
+            for angle, of in ((states.euler_angles.phi[n], upper + lower),):
+                off = (mpf(float(angle)) - of + 3 * mp.pi) % (2 * mp.pi) - mp.pi
+                assert abs(off) <= 4 * EPS * mp.pi
+
+
+def test_the_bits_of_angles_are_those_of_every_other_machine():
+    rng = np.random.default_rng(6)
+    angles = rng.uniform(-4, 4, (6, 1000)) * [[1], [1], [1e5], [1], [1], [30]]
+    names = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
+    states = State.from_euler(**dict(zip(names, angles, strict=True)))
+    found = [*states.parts, *states.euler_angles, *states.euler_rates]
+    digest = hashlib.sha256(b"".join(np.ascontiguousarray(each).tobytes() for each in found))
+    assert digest.hexdigest()[:12] == "4bcd9fccacbc"
 
 
 def test_a_table_has_a_column_for_each_quantity_of_many_states():

@@ -6,7 +6,22 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from physics.refusals import FINITE_ARRAY, FINITE_NUMBER, NUMBER, VECTOR, refused
+from physics.tops import ARTICLE, CUSPS
 
+from symtop_ros.physics import (
+    Body,
+    EffectivePotential,
+    ExactTimes,
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    compare_hurried,
+    hurry,
+    precessing_frame_torques,
+    theta_acceleration,
+    theta_torque,
+)
 from symtop_ros.physics.values import refuse, validate_array, validate_number, validate_vector
 
 
@@ -92,3 +107,67 @@ def test_a_long_value_is_shortened_to_one_line():
 def test_a_float_is_shown_with_all_its_digits():
     assert str(refuse("x", "< 2", 2.0000000000000004)) == "x must be < 2, got 2.0000000000000004"
     assert str(refuse("x", "< 2", np.float64(3.0))) == "x must be < 2, got 3"
+
+
+class Quantity:
+    """A number with a unit, as pint and astropy have them."""
+
+    units = "g cm^2"
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(2280.0)
+
+    def __float__(self):
+        return 2280.0
+
+
+@pytest.mark.parametrize("value", [Quantity(), [Quantity(), Quantity()], [[1.0, Quantity()]]])
+@pytest.mark.parametrize("name", ["Ix", "Mgl"])
+def test_quantities_with_units_are_refused(name, value):
+    moments = {"Ix": 1.0, "Iz": 1.0, "Mgl": 1.0, name: value}
+    with refused(name, "plain numbers, converted to SI units"):
+        Top(**moments)
+
+
+def test_the_first_odd_number_of_an_array_is_located():
+    times = np.zeros((40, 50))
+    times[30, 2] = np.nan
+    with refused("t", "an array of finite numbers (s)", "nan at [30, 2]"):
+        Motion(ARTICLE, CUSPS).at(times)
+
+
+@pytest.mark.parametrize("t", [math.nan, math.inf, "1"])
+def test_what_is_no_time_cannot_be_reached(t):
+    with refused("t", "number"):
+        Motion(ARTICLE, CUSPS).reach(t, 10)
+    with refused("steps", ">= 0", "nan"):
+        Motion(ARTICLE, CUSPS).reach(1.0, math.nan)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("function", [theta_torque, theta_acceleration, precessing_frame_torques])
+def test_rates_beyond_all_squares_are_refused(function):
+    for rate in (1e200, math.nan, [1.0, math.inf]):
+        with refused("phi_dot", ""):
+            function(ARTICLE, 0.5, rate, 200.0)
+    with refused("phi_dot", "at most 1e+100 rad/s in size", "1e+200"):
+        compare_hurried(ARTICLE, 0.5, 1e200, 1.0)
+    with refused("Ix", "> mass arm^2 = inf kg m^2"):
+        Body.about_pivot(1.0, 1e200, 1.0, 1.0)
+
+
+def test_nothing_underflows_into_an_error():
+    with np.errstate(all="raise"):
+        State.from_euler(theta=0.5, phi_dot=5e-324)
+        motion = Motion(ARTICLE, CUSPS)
+        motion.at(ExactTimes(np.array([1, 2]), 1e-305))
+        upright = Motion(Top(1, 1, 1), State((0, 1, 0, 0), (2, 0, 0)))
+        states = upright.at([360.0, 3600.0])
+        upright.top.energy(states)
+        upright.total_torque(states)
+        states.table([360.0, 3600.0])
+        compare_hurried(ARTICLE, [0, 1e-170, 0.5], [3, 3, 0], 200)
+        EffectivePotential.of(ARTICLE, CUSPS).at([0, 1e-170, 1e-160])
+        theta_acceleration(ARTICLE, [1e-300, 1e-170], [1e-300, 3.0], 1e-200)
+        hurry(State.from_euler(theta=[1e-90, 1.0], phi_dot=1e-200), [1e-300, 1.0])
+        apply_impulse(ARTICLE, states, (1e-300, 0, 1e-320))

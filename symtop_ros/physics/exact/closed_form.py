@@ -18,6 +18,7 @@ from symtop_ros.physics.exact.elementary import (
     Components,
     FloatPair,
     Number,
+    arc_tangent,
     find_modulus,
     find_size,
     multiply,
@@ -89,8 +90,8 @@ class ClosedFormMotion:
         near, far = self.zeros.B, self.zeros.A
         if from_below:
             near, far = far, near
-        first = 2 * math.atan2(math.sqrt(near.from_u2), math.sqrt(far.from_u2))
-        second = 2 * math.atan2(math.sqrt(near.from_u1), math.sqrt(far.from_u1))
+        first = 2 * float(arc_tangent(math.sqrt(near.from_u2), math.sqrt(far.from_u2)))
+        second = 2 * float(arc_tangent(math.sqrt(near.from_u1), math.sqrt(far.from_u1)))
         return (second, first) if from_below else (first, second)
 
     @property

@@ -16,7 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Quaternion, Real
-from symtop_ros.physics.exact.precise import PRECISE, TWO_PI, split_short
+from symtop_ros.physics.exact.precise import (
+    PI_LOW,
+    PRECISE,
+    TWO_PI,
+    compute_arc_tangent,
+    split,
+    split_short,
+)
 from symtop_ros.physics.values import EPS
 
 Number: TypeAlias = float | Real
@@ -33,11 +40,21 @@ with localcontext(PRECISE):
     QUARTER_HIGH, QUARTER_LOW = split_short(TWO_PI / 4)
     QUARTERS = 1 / (QUARTER_HIGH + QUARTER_LOW)
     LN2_HIGH, LN2_LOW = split_short(Decimal(2).ln())
+    HALF_PI_HIGH, HALF_PI_LOW = split(TWO_PI / 4)
+    EIGHTHS_OF_TANGENT = tuple(
+        np.array(column)
+        for column in zip(
+            *(split(compute_arc_tangent(Decimal(n) / 8)) for n in range(9)), strict=True
+        )
+    )
     DOUBLINGS = 1 / (LN2_HIGH + LN2_LOW)
 # Coefficients of the Taylor series (DLMF 4.19.1, 4.19.2 and 4.2.19). On the intervals in use, pi/4
 # and ln(2)/2, the first terms left out are below 2^-58 of the sum.
 SINE = [(-1) ** n / math.factorial(2 * n + 1) for n in range(8, 0, -1)]
 VERSINE = [(-1) ** (n + 1) / math.factorial(2 * n) for n in range(8, 0, -1)]
+ARC_TANGENT = [(-1) ** n / (2 * n + 1) for n in range(7, 0, -1)]
+LARGEST_ANGLE = 2.0**15  # rad, for `cosine_and_sine`
+LARGEST_REDUCED = 1e15  # rad
 EXPONENTIAL = [1 / math.factorial(n) for n in range(13, 1, -1)]
 
 
@@ -123,6 +140,87 @@ def exponential_minus_1(x: Number) -> Number:
     """Return exp(x) - 1, without loss of digits for small x."""
     power, p = expand_exponential(x)
     return (power - 1.0) + power * p
+
+
+def arc_tangent(y: Number, x: Number) -> Number:
+    """Return the angle of the point (x, y) in rad, from -pi to pi, right to 1 EPS of itself.
+
+    The ratio of the smaller coordinate to the larger one is turned back by the nearest of nine
+    angles, of which the tangents are eighths; the Taylor series of what is left has the sixteenth
+    part of the argument at most (DLMF 4.24.3). Signs of zero are those of `math.atan2`.
+    """
+    if not isinstance(y, np.ndarray) and not isinstance(x, np.ndarray):
+        return _find_angle(float(y), float(x))
+    y, x = np.broadcast_arrays(np.asarray(y, float), np.asarray(x, float))
+    height, width = np.abs(y), np.abs(x)
+    large, small = np.maximum(height, width), np.minimum(height, width)
+    ratio = np.divide(small, large, out=np.zeros(large.shape), where=large > 0)
+    place = np.rint(8.0 * ratio)
+    high, low = (column.take(place.astype(np.int64)) for column in EIGHTHS_OF_TANGENT)
+    angle = high + (_expand_arc_tangent(ratio, place) + low)
+    steep = (HALF_PI_HIGH - np.copysign(angle, x)) + HALF_PI_LOW
+    flat = np.where(np.signbit(x), (math.pi - angle) + PI_LOW, angle)
+    return np.asarray(np.copysign(np.where(height > width, steep, flat), y))
+
+
+def _find_angle(y: float, x: float) -> float:
+    height, width = abs(y), abs(x)
+    large, small = max(height, width), min(height, width)
+    ratio = small / large if large > 0 else 0.0
+    place = float(round(8.0 * ratio))
+    high, low = (float(column[int(place)]) for column in EIGHTHS_OF_TANGENT)
+    angle = high + (float(_expand_arc_tangent(ratio, place)) + low)
+    if height > width:
+        angle = (HALF_PI_HIGH - math.copysign(angle, x)) + HALF_PI_LOW
+    elif math.copysign(1.0, x) < 0:
+        angle = (math.pi - angle) + PI_LOW
+    return math.copysign(angle, y)
+
+
+def _expand_arc_tangent(ratio: Number, place: Number) -> Number:
+    """Return the arc tangent of a ratio without that of the nearest eighth."""
+    nearest = place * 0.125
+    z = (ratio - nearest) / (1.0 + ratio * nearest)
+    square = z * z
+    series: Number = ARC_TANGENT[0] * square
+    for c in ARC_TANGENT[1:]:
+        series = (series + c) * square
+    return z + z * series
+
+
+def find_length(x: Number, y: Number) -> Number:
+    """Return sqrt(x^2 + y^2), as `find_modulus` does, of numbers or arrays."""
+    if not isinstance(x, np.ndarray):
+        return find_modulus((float(x), float(y)))
+    width, height = np.abs(x), np.abs(y)
+    large, small = np.maximum(width, height), np.minimum(width, height)
+    ratio = np.divide(small, large, out=np.zeros(large.shape), where=large > 0)
+    return np.asarray(large * np.sqrt(1.0 + ratio * ratio))
+
+
+def find_cosine_and_sine(angle: Number) -> Pair:
+    """Return cosine and sine of angles of any size in rad.
+
+    Of more than some thousand turns, whole ones are taken off with 50 digits of pi; of more than
+    1e15 rad, where these are too few, the functions are those of the C library.
+    """
+    if not isinstance(angle, np.ndarray):
+        return _take_turns_off(angle) if abs(angle) > LARGEST_ANGLE else cosine_and_sine(angle)
+    is_large = np.abs(angle) > LARGEST_ANGLE
+    c, s = map(np.array, cosine_and_sine(np.where(is_large, 0.0, angle)))
+    for place in zip(*np.nonzero(is_large), strict=True):
+        c[place], s[place] = _take_turns_off(float(angle[place]))
+    return c, s
+
+
+def _take_turns_off(angle: float) -> FloatPair:
+    if abs(angle) > LARGEST_REDUCED:
+        return math.cos(angle), math.sin(angle)
+    with localcontext(PRECISE):
+        turns = (Decimal(angle) / TWO_PI).to_integral_value()
+        rest = Decimal(angle) - turns * TWO_PI
+        c, s = cosine_and_sine(float(rest))
+    return float(c), float(s)
 
 
 def integrate_rf_in_doubles(x: float, y: float) -> float:

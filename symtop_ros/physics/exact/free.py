@@ -4,7 +4,14 @@ import math
 from decimal import Decimal
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.exact.elementary import Components, Number, multiply, normalize
+from symtop_ros.physics.exact.elementary import (
+    Components,
+    Number,
+    arc_tangent,
+    find_modulus,
+    multiply,
+    normalize,
+)
 from symtop_ros.physics.exact.kind import Kind, classify_free
 from symtop_ros.physics.exact.phases import Phases
 from symtop_ros.physics.exact.precise import HALF
@@ -114,5 +121,6 @@ def _angle_to_vertical(orientation: Quaternion, direction: Vector) -> float:
     gx, gy = 2 * (x * z - w * y), 2 * (y * z + w * x)
     gz = (w * w + z * z) - (x * x + y * y)
     lx, ly, lz = direction
-    cross = math.hypot(gy * lz - gz * ly, gz * lx - gx * lz, gx * ly - gy * lx)
-    return math.atan2(cross, gx * lx + gy * ly + gz * lz)
+    across = find_modulus((gy * lz - gz * ly, gz * lx - gx * lz))
+    cross = find_modulus((across, gx * ly - gy * lx))
+    return float(arc_tangent(cross, gx * lx + gy * ly + gz * lz))

@@ -16,6 +16,7 @@ Kind = Literal[
     "through the pole",
     "asymptotic",
     "sleeping",
+    "driven",  # with friction or an applied torque, which have no turning angles
 ]
 
 ROUNDING = Decimal.from_float(START_ROUNDING)

@@ -43,6 +43,18 @@ def compute_cosine(x: Decimal) -> Decimal:
     return total
 
 
+def compute_arc_tangent(x: Decimal) -> Decimal:
+    """Return the arc tangent of a number from 0 to 1, to 48 digits of 1."""
+    halvings = 0
+    while x > Decimal("0.01"):  # tan(a/2) = tan(a)/(1 + sqrt(1 + tan(a)^2))
+        x, halvings = x / (1 + (1 + x * x).sqrt()), halvings + 1
+    square, power, total, n = x * x, x, x, 1
+    while abs(power) > Decimal("1e-55"):
+        power, n = -power * square, n + 2
+        total += power / n
+    return total * Decimal(2**halvings)
+
+
 def integrate_rf(x: Decimal, y: Decimal) -> Decimal:
     """Return Carlson's symmetric integral R_F(x, y, 1) to 34 digits.
 

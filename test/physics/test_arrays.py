@@ -1,0 +1,105 @@
+"""Functions of arrays: each element is that of the scalars alone, bit for bit."""
+
+import numpy as np
+import pytest
+from physics.refusals import refused
+from physics.tops import ARTICLE, CUSPS
+
+from symtop_ros.physics import (
+    State,
+    Top,
+    apply_impulse,
+    hurry,
+    regular_precession_rates,
+    set_precession_rate,
+)
+
+COUNT = 200
+RNG = np.random.default_rng(8)
+ANGLES = {
+    "theta": RNG.uniform(0.0, np.pi, COUNT),
+    "phi": RNG.choice([0.1, 1.0, 1e4, 1e9, 1e20], COUNT) * RNG.normal(size=COUNT),
+    "psi": RNG.choice([0.0, 3.0, 1e5, 1e12], COUNT) * RNG.normal(size=COUNT),
+}
+RATES = {
+    name: RNG.choice([0.0, 1e-200, 3.0, 200.0], COUNT)
+    for name in ("theta_dot", "phi_dot", "psi_dot")
+}
+STATES = State.from_euler(**ANGLES, **RATES)
+HOLDS = ["spin_rate", "spin_momentum"]
+
+
+def take(n, arrays):
+    return {name: float(array[n]) for name, array in arrays.items()}
+
+
+def test_states_from_arrays_of_angles_are_those_of_each():
+    for n, state in enumerate(STATES):
+        assert state == State.from_euler(**take(n, ANGLES), **take(n, RATES))
+        for many, alone in (
+            (STATES.euler_angles, state.euler_angles),
+            (STATES.euler_rates, state.euler_rates),
+        ):
+            assert [part[n] for part in many] == list(alone)
+
+
+def test_angles_and_rates_are_broadcast():
+    states = State.from_euler(theta=[[0.4], [0.5]], psi_dot=[1.0, 2.0, 3.0])
+    assert states.orientation.shape == (2, 3, 4)
+    assert states[1, 2] == State.from_euler(theta=0.5, psi_dot=3.0)
+    with refused("phi and theta", "of shapes that fit together"):
+        State.from_euler(theta=[0.4, 0.5], phi=[1.0, 2.0, 3.0])
+
+
+@pytest.mark.parametrize("hold", HOLDS)
+def test_kicks_of_arrays_are_those_of_each(hold):
+    rates, factors = RNG.normal(size=COUNT) * 10, RNG.uniform(-1, 3, COUNT)
+    one, other = set_precession_rate(STATES, rates, hold), hurry(STATES, factors, hold)
+    for n, state in enumerate(STATES):
+        assert one[n] == set_precession_rate(state, float(rates[n]), hold)
+        assert other[n] == hurry(state, float(factors[n]), hold)
+
+
+def test_one_state_takes_many_kicks_and_many_states_one():
+    kicked = hurry(CUSPS, [[0.5], [1.5]])
+    assert kicked.orientation.shape == (2, 1, 4)
+    assert hurry(STATES, 2.0)[3] == hurry(STATES[3], 2.0)
+    with refused("state and kick", "of shapes that fit together", "(200,) and (3,)"):
+        hurry(STATES, [1.0, 2.0, 3.0])
+
+
+def test_the_place_on_the_vertical_among_many_is_refused():
+    states = State.from_euler(theta=[0.5, np.pi, 0.0], psi_dot=1.0)
+    with refused("axis", "tilted", "theta = 3.14159 rad"):
+        hurry(State([[1, 0, 0, 0], [0, 1, 0, 0]], [[0, 0, 1]] * 2)[::-1])
+    assert hurry(states[:1]).orientation.shape == (1, 4)
+
+
+def test_impulses_on_many_tops_are_those_on_each():
+    tops = Top(RNG.uniform(0.5, 1.0, COUNT), 0.4, RNG.normal(size=COUNT))
+    impulses = RNG.normal(size=(COUNT, 3))
+    kicked = apply_impulse(tops, STATES, impulses)
+    for n, state in enumerate(STATES):
+        top = Top(float(tops.Ix[n]), 0.4, float(tops.Mgl[n]))
+        assert kicked[n] == apply_impulse(top, state, impulses[n])
+    assert apply_impulse(ARTICLE, CUSPS, impulses * 1e-6).orientation.shape == (COUNT, 4)
+
+
+@pytest.mark.filterwarnings("error")
+def test_an_impulse_beyond_all_rates_is_refused():
+    with refused("impulse", "so small that no rate changes by more than 1e+100 rad/s", "1e+305"):
+        apply_impulse(ARTICLE, CUSPS, (1e305, 0.0, 0.0))
+
+
+def test_regular_rates_of_arrays_are_those_of_each():
+    tops = Top(0.000228, RNG.choice([0.0000572, 0.000228, 0.0004], COUNT), 0.068)
+    spins = RNG.normal(size=COUNT) * 150
+    slow, fast = regular_precession_rates(tops, ANGLES["theta"], spins)
+    kinds = set()
+    for n in range(COUNT):
+        top = Top(0.000228, float(tops.Iz[n]), 0.068)
+        alone = regular_precession_rates(top, float(ANGLES["theta"][n]), float(spins[n]))
+        found = [float(rate) for rate in (slow[n], fast[n]) if not np.isnan(rate)]
+        assert found == list(alone)
+        kinds.add(len(alone))
+    assert kinds == {0, 1, 2}
