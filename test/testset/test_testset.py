@@ -145,7 +145,7 @@ def test_the_closed_form_of_the_package_solves_it(name):
     facts = problem.facts
     top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
     motion = Motion(top, State(facts["orientation"], facts["angular_velocity"]))
-    score = problem.score(*motion.at(facts["times"]))
+    score = problem.score(*motion.at(facts["times"]).parts)
     # 5 eps as a distance of quaternions are 10 as an angle; 4.5 eps are the worst of the 1200.
     assert score.angles.max() <= 10 * 2.0**-52
     largest = np.linalg.norm(motion.at(facts["times"]).angular_velocity, axis=1).max()

@@ -30,7 +30,7 @@ from symtop_ros.models.formats import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY
 
 FOLDER = Path(__file__).parents[2] / "symtop_ros" / "testset"
-VERSION = "2.0"
+VERSION = "2.1"
 SHOWN = 30  # digits
 AGREEMENT = mpf(10) ** -33  # of both methods, relative to the largest component
 EPS, EPS_32 = 2.0**-52, 2.0**-23  # of float64 and float32
