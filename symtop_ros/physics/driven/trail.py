@@ -22,6 +22,7 @@ BLOCK = 1024  # times whose variables are held at once
 MOST_DECAYS = 1e5  # decay times in one call: some seconds
 # Steps in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 STEPS = 256.0
+LOST = 1e-9  # squared norm of a quaternion; rounding leaves 1e-15
 RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
 
 
@@ -63,6 +64,7 @@ class DrivenMotion:
                 with self._lock:
                     self._refuse_stiff(trail, float(times[places[-1]]))
                     states = trail.compute_states(times[places], rests[places])
+                _refuse_lost(times[places], states[0])
                 orientation[places], angular_velocity[places] = states
         orientation[times == 0] = self._start.orientation  # bit for bit
 
@@ -84,6 +86,15 @@ class DrivenMotion:
         """Integrate towards t in a limited number of steps; return the time reached."""
         with self._lock:
             return (self._forward if t >= 0 else self._backward).reach(t, steps)
+
+
+def _refuse_lost(times: Real, orientations: Real) -> None:
+    """Refuse states that have no digits: a rod of which Iz is 1e-20 of Ix, spun up by a torque."""
+    norms = np.einsum("ni,ni->n", orientations, orientations)
+    lost = ~(np.abs(norms - 1.0) < LOST)
+    if lost.any():
+        condition = "so near to the start that a digit is left (the body turns too fast)"
+        raise refuse("t", condition, float(times[lost][0]))
 
 
 def refuse_too_fast(t: float, end: float) -> ValueError:

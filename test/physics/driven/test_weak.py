@@ -4,6 +4,7 @@ import random
 
 import numpy as np
 import pytest
+from physics.refusals import refused
 from physics.tops import distance, seeds
 
 from symtop_ros.physics import Friction, Motion, State, Top
@@ -35,6 +36,15 @@ def random_motion(rng):
 def test_a_torque_of_which_the_square_is_zero_turns_the_top(top, omega, torque, turned):
     state = Motion(top, State((1, 0, 0, 0), omega), torque=torque).at(1.0)
     assert state.orientation[1] == pytest.approx(turned, rel=1e-15)  # torque t^2/(4 Ix)
+
+
+def test_a_rod_that_turns_too_fast_for_all_digits_is_refused():
+    start = State.from_euler(theta=0.5, psi_dot=200.0)
+    motion = Motion(Top(1, 1e-21, 0.0), start, torque=(1, 1, 1))
+    for state in (motion.at(1e-3), motion.at(-1e-3)):
+        assert abs(np.linalg.norm(state.orientation) - 1) < 1e-15
+    with refused("t", "so near to the start that a digit is left"):
+        motion.at([1e-3, 1.0])
 
 
 @pytest.mark.parametrize("seed", seeds(20, 100))
