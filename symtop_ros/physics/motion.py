@@ -224,9 +224,7 @@ class Motion(Setting):
 
     def _compute_one(self, time: float) -> State:
         if self._driven:
-            orientation, angular_velocity = np.empty((1, 4)), np.empty((1, 3))
-            self._driven.fill(np.array([time]), np.zeros(1), orientation, angular_velocity)
-            return State.wrap(orientation[0], angular_velocity[0])
+            return State.wrap(*self._driven.at(time))
         state = self._compiled.at(time) if self._compiled else None
         w, x, y, z, wx, wy = state or self._evaluate(time)
         return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, self._spin)))

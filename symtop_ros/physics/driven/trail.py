@@ -3,7 +3,8 @@
 import math
 from bisect import bisect_left
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from threading import Lock
 from typing import Any, TypeAlias
 
@@ -39,17 +40,35 @@ class DrivenMotion:
         self._decay = max(friction.transverse / top.Ix, friction.axial / top.Iz)  # 1/s
         self._lock = Lock()
         kernel = find_kernel(pure)
+        self._trails: dict[int, AnyTrail] = {}  # by direction, made when they are asked for
+        self._make: Callable[[int], AnyTrail]
         if kernel:
-            arguments = (
-                *(top.moments, (friction.axial, friction.transverse), torque),
-                *(start.given_orientation.tolist(), start.angular_velocity.tolist()),
-            )
-            self._forward: AnyTrail = CompiledTrail(kernel, *map(tuple, arguments), 1)
-            self._backward: AnyTrail = CompiledTrail(kernel, *map(tuple, arguments), -1)
+            friction_and_torque = (friction.axial, friction.transverse), torque
+            attitude = tuple(start.given_orientation.tolist())
+            rates = tuple(start.angular_velocity.tolist())
+            arguments = (top.moments, *friction_and_torque, attitude, rates)
+            self._make = partial(CompiledTrail, kernel, arguments)
         else:
             equations = DrivenEquations(top, friction, torque)
-            stepper, knot = Stepper(equations), Knot(0.0, equations.start(start))
-            self._forward, self._backward = (Trail(equations, stepper, knot, d) for d in (1, -1))
+            knot = Knot(0.0, equations.start(start))
+            self._make = partial(Trail, equations, Stepper(equations), knot)
+
+    def _find_trail(self, t: float) -> "AnyTrail":
+        direction = 1 if t >= 0 else -1
+        if direction not in self._trails:
+            self._trails[direction] = self._make(direction)
+        return self._trails[direction]
+
+    def at(self, t: float) -> tuple[Real, Real]:
+        """Return orientation (4,) and angular velocity (3,) at one time in s."""
+        if t == 0:
+            return self._start.parts
+        with self._lock:
+            trail = self._find_trail(t)
+            self._refuse_stiff(trail, t)
+            orientation, omega = trail.compute_states(np.array([t]), np.zeros(1))
+        _refuse_lost(t, orientation)
+        return np.asarray(orientation[0], np.float64), np.asarray(omega[0], np.float64)
 
     def fill(self, times: Real, rests: Real, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at times (n,) in s into arrays (n, 4) and (n, 3).
@@ -57,14 +76,16 @@ class DrivenMotion:
         A time is the sum of two doubles, of which the second one is rounding of the first.
         """
         order = np.argsort(np.abs(times), kind="stable")
-        for trail, side in ((self._forward, times >= 0), (self._backward, times < 0)):
+        for side in (times >= 0, times < 0):
             sorted_places = order[side[order]]
             for first in range(0, len(sorted_places), BLOCK):
                 places = sorted_places[first : first + BLOCK]
+                last = float(times[places[-1]])
                 with self._lock:
-                    self._refuse_stiff(trail, float(times[places[-1]]))
+                    trail = self._find_trail(last)
+                    self._refuse_stiff(trail, last)
                     states = trail.compute_states(times[places], rests[places])
-                _refuse_lost(times[places], states[0])
+                _refuse_lost(last, states[0])
                 orientation[places], angular_velocity[places] = states
         orientation[times == 0] = self._start.orientation  # bit for bit
 
@@ -85,16 +106,15 @@ class DrivenMotion:
     def reach(self, t: float, steps: float) -> float:
         """Integrate towards t in a limited number of steps; return the time reached."""
         with self._lock:
-            return (self._forward if t >= 0 else self._backward).reach(t, steps)
+            return self._find_trail(t).reach(t, steps)
 
 
-def _refuse_lost(times: Real, orientations: Real) -> None:
+def _refuse_lost(t: float, orientations: Extended | Real) -> None:
     """Refuse states that have no digits: a rod of which Iz is 1e-20 of Ix, spun up by a torque."""
-    norms = np.einsum("ni,ni->n", orientations, orientations)
-    lost = ~(np.abs(norms - 1.0) < LOST)
-    if lost.any():
+    norms = (orientations * orientations).sum(axis=1)
+    if not (np.abs(norms - 1.0) < LOST).all():
         condition = "so near to the start that a digit is left (the body turns too fast)"
-        raise refuse("t", condition, float(times[lost][0]))
+        raise refuse("t", condition, t)
 
 
 def refuse_too_fast(t: float, end: float) -> ValueError:
@@ -106,8 +126,8 @@ def refuse_too_fast(t: float, end: float) -> ValueError:
 class CompiledTrail:
     """A `Trail` of the kernel: in sums of two doubles, so that it has the same bits everywhere."""
 
-    def __init__(self, kernel: Any, *arguments: Any) -> None:
-        self._trail = kernel.Trail(*arguments)
+    def __init__(self, kernel: Any, arguments: tuple[Any, ...], direction: int) -> None:
+        self._trail = kernel.Trail(*arguments, direction)
 
     def compute_states(self, times: Real, rests: Real) -> tuple[Real, Real]:
         """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""

@@ -87,7 +87,8 @@ struct DrivenArguments {
 };
 
 struct DrivenEquations {
-  int pair_count = 0, term_count = 0;
+  // Products with the number 1 stand last: they are no sums over orders.
+  int pair_count = 0, product_count = 0, term_count = 0;
   int left[MOST_PAIRS] = {}, right[MOST_PAIRS] = {};  // the two factors of a product
   int rows[MOST_TERMS], pairs[MOST_TERMS];            // of a term: its variable, and its product
   Double2 parts[PARTS][MOST_TERMS];
@@ -157,7 +158,23 @@ struct DrivenEquations {
     const double size = find_length(top.torque[0], top.torque[1], top.torque[2]);
     swing = std::sqrt((std::fabs(top.Mgl) + size) / top.Ix);
     decay = std::fmax(across.high, along.high);
+    sort_pairs();
     sort_terms();
+  }
+
+  void sort_pairs() {
+    int places[MOST_PAIRS], sorted[2][MOST_PAIRS];
+    for (int linear = 0, count = 0; linear < 2; linear++) {
+      for (int p = 0; p < pair_count; p++)
+        if ((right[p] == ONE) == linear) {
+          sorted[0][count] = left[p], sorted[1][count] = right[p];
+          places[p] = count++;
+        }
+      if (!linear) product_count = count;
+    }
+    std::memcpy(left, sorted[0], sizeof sorted[0]);
+    std::memcpy(right, sorted[1], sizeof sorted[1]);
+    for (int n = 0; n < term_count; n++) pairs[n] = places[pairs[n]];
   }
 
   void sort_terms() {

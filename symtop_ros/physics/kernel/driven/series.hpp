@@ -5,8 +5,10 @@
 
 namespace symtop {
 
-const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 12;  // twice as many as in Python: they cost little
-const double LAST = 1e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 3.5;
+// A frame that turns by at most 2 rad in a step has terms that fall so fast that the first eight alone
+// need sums of two doubles. Longer steps want twelve, which take half of the time.
+const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 8;
+const double LAST = 1e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
 const int LENGTH_BITS = 10;
 
@@ -14,9 +16,7 @@ const int LENGTH_BITS = 10;
 const Double2 INVERSES[EXTENDED_TERMS + 1] = {
     {0.0, 0.0}, {1.0, 0.0}, {1.0 / 2, 0.0}, {1.0 / 3, 0x1.5555555555555p-56}, {1.0 / 4, 0.0},
     {1.0 / 5, -0x1.999999999999ap-57}, {1.0 / 6, 0x1.5555555555555p-57},
-    {1.0 / 7, 0x1.2492492492492p-57}, {1.0 / 8, 0.0}, {1.0 / 9, 0x1.c71c71c71c71cp-58},
-    {1.0 / 10, -0x1.999999999999ap-58}, {1.0 / 11, -0x1.745d1745d1746p-59},
-    {1.0 / 12, 0x1.5555555555555p-58}};
+    {1.0 / 7, 0x1.2492492492492p-57}, {1.0 / 8, 0.0}};
 
 typedef double Four __attribute__((vector_size(32), may_alias));
 
@@ -127,8 +127,9 @@ class Stepper {
 
   // Add the products of two orders to sums of two doubles.
   SYMTOP_CLONES static void add_extended(const double* a, const double* a_rest, const double* b,
-                                         const double* b_rest, double* sum, double* rest) {
-    for (int p = 0; p < MOST_PAIRS; p++) {
+                                         const double* b_rest, int count, double* sum,
+                                         double* rest) {
+    for (int p = 0; p < count; p++) {
       const double product = a[p] * b[p], lost = __builtin_fma(a[p], b[p], -product);
       const double total = sum[p] + product, part = total - sum[p];
       const double error = (sum[p] - (total - part)) + (product - part);
@@ -137,10 +138,10 @@ class Stepper {
     }
   }
 
-  // The sums over m of a[m] b[order - m], for all products.
-  SYMTOP_CLONES static void add_products(const double a[][MOST_PAIRS], const double b[][MOST_PAIRS],
-                                         int order, double* sum) {
-    const int VECTORS = MOST_PAIRS / 4;
+  // The sums over m of a[m] b[order - m], for the first 4 VECTORS products.
+  template <int VECTORS>
+  static SYMTOP_INLINE void add_vectors(const double a[][MOST_PAIRS], const double b[][MOST_PAIRS],
+                                        int order, double* sum) {
     Four sums[VECTORS] = {};
     for (int m = 0; m <= order; m++) {
       const Four* x = reinterpret_cast<const Four*>(a[m]);
@@ -151,12 +152,25 @@ class Stepper {
     std::memcpy(sum, sums, sizeof sums);
   }
 
+  // Without an applied torque there are 18 products, with one up to 24.
+  SYMTOP_CLONES static void add_products(const double a[][MOST_PAIRS], const double b[][MOST_PAIRS],
+                                         int order, int count, double* sum) {
+    if (count <= 20)
+      add_vectors<5>(a, b, order, sum);
+    else
+      add_vectors<7>(a, b, order, sum);
+  }
+
   SYMTOP_CLONES void compute_low_order(int order) {
     double sum[MOST_PAIRS] = {}, rest[MOST_PAIRS] = {};
+    const int count = equations.product_count;
     for (int m = 0; m <= order; m++)
-      add_extended(left_[m], left_rest_[m], right_[order - m], right_rest_[order - m], sum, rest);
+      add_extended(left_[m], left_rest_[m], right_[order - m], right_rest_[order - m], count, sum,
+                   rest);
     Double2 products[MOST_PAIRS];
-    for (int p = 0; p < MOST_PAIRS; p++) products[p] = sum_of(sum[p], rest[p]);
+    for (int p = 0; p < count; p++) products[p] = sum_of(sum[p], rest[p]);
+    for (int p = count; p < equations.pair_count; p++)
+      products[p] = low_[order][equations.left[p]];
     for (int row = 0; row < FACTORS; row++) {
       double total = 0.0, lost = 0.0;
       for (int n = equations.first_terms[row]; n < equations.first_terms[row + 1]; n++) {
@@ -173,7 +187,9 @@ class Stepper {
 
   void compute_high_order(int order) {
     double sum[MOST_PAIRS];
-    add_products(left_, right_, order, sum);
+    add_products(left_, right_, order, equations.product_count, sum);
+    for (int p = equations.product_count; p < equations.pair_count; p++)
+      sum[p] = series_[order][equations.left[p]];
     for (int row = 0; row < FACTORS; row++) {
       double total = 0.0;
       for (int n = equations.first_terms[row]; n < equations.first_terms[row + 1]; n++) {

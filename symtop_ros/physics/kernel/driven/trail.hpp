@@ -7,7 +7,9 @@
 
 namespace symtop {
 
-const int KEPT = 1024, RECENT = 64;
+// Fewer than in Python, so that the two arrays are no mappings of their own: for a short motion that
+// would take as long as all of its steps.
+const int KEPT = 512, RECENT = 16;
 
 class Trail {
  public:
