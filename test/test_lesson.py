@@ -61,7 +61,7 @@ def tops():
 def do(tops, line):
     """Do what a command of top_ctl does, without a new process for each; return the answer."""
     options = client._parser().parse_args(shlex.split(line)[1:])
-    values = parse_values(getattr(options, "values", ()))
+    values = parse_values(vars(options).get("values", ()))
     granted, text = client._run(options, values, tops[options.node])
     assert granted, text
     return text

@@ -40,7 +40,7 @@ from symtop_ros.physics.precession import (
 from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.verdict import Verdict, kick_verdict, perrys_rule
+from symtop_ros.physics.verdict import KickVerdict, Lift, Verdict, kick_verdict, perrys_rule
 
 __all__ = [
     "HOLDS",
@@ -55,7 +55,9 @@ __all__ = [
     "Friction",
     "Hold",
     "HurryEffect",
+    "KickVerdict",
     "Kind",
+    "Lift",
     "Motion",
     "State",
     "Top",

@@ -1,20 +1,24 @@
-"""The consequences of a state or a kick in words: direction, turning angles, Perry's rule."""
+"""The consequences of a state or a kick: direction, turning angles, Perry's rule, as records."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.kicks import Hold, validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.perry import (
-    NOTHING,
     Direction,
     PrecessionChange,
+    Reason,
+    Rule,
+    Subject,
     TiltAcceleration,
+    VerticalCase,
     find_precession,
-    format_rate,
+    name_subject,
 )
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
@@ -24,21 +28,66 @@ from symtop_ros.physics.values import (
     refuse,
     validate_number,
 )
+from symtop_ros.wording import write
 
 # Turning angles that differ by less are reported as equal: next to a pole, or where two roots of
 # the cubic nearly meet, an angle is the square root of a quantity that is known to EPS.
 SAME_ANGLE = 1e-7  # rad
-OPPOSITE: dict[Direction, Direction] = {"rises": "falls", "falls": "rises", "stays": "stays"}
+Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
+
+
+@dataclass(frozen=True, slots=True)
+class Average:
+    """Mean precession of a motion, and its approximation for a fast top.
+
+    Attributes
+    ----------
+    rate : float
+        Mean phi' in rad/s.
+    turns : float
+        Turns of the precession in a nutation.
+    speed : {"fast", "slow"}
+        "fast" if the approximation is meant for this top: p_psi^2 > 4 Ix |Mgl|, Mgl not 0.
+    fast_top_rate : float
+        Mgl/p_psi in rad/s.
+    spin_reverses : bool
+        True if psi' changes sign in each nutation.
+    """
+
+    rate: float
+    turns: float
+    speed: Literal["fast", "slow"]
+    fast_top_rate: float
+    spin_reverses: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Lift:
+    """Rise of a turning point by a kick: what became higher or lower, and by how much (rad)."""
+
+    kind: Literal["higher", "lower", "unchanged"]
+    amount: float
+
+
+@dataclass(frozen=True, slots=True)
+class Contradiction:
+    """Facts after a kick that are contrary to the direction in which theta'' changed."""
+
+    rule: Rule
+    subject: Subject
+    facts: tuple[Fact, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
     """The motion that follows from a state, and Perry's rule for a kick at this state.
 
+    `str` of it is its text.
+
     Attributes
     ----------
-    subject : str
-        The top with its direction, in words; for Mgl < 0 the axis and the centre of mass apart.
+    subject : {"top", "axis"}
+        "axis" for Mgl < 0: the direction of the centre of mass is then the opposite.
     direction : {"rises", "falls", "stays"}
         Direction of the axis from this state on, without the kick: by theta', or by theta'' if
         theta' = 0.
@@ -49,11 +98,10 @@ class Verdict:
     rule_holds : bool or None
         True if Perry's rule holds for the axis; None if it says nothing. For Mgl < 0 the rule is
         the opposite for the centre of mass, which lies on the other side of the pivot.
-    reason : str
-        The reason, in a sentence: theta'' with the kick and without it.
-    average : str
-        Mean precession and its fast-top approximation, and a spin that reverses, in sentences;
-        empty if the mean precession is undefined.
+    reason : Reason
+        The reason: theta'' with the kick and without it.
+    average : Average or None
+        Mean precession and its fast-top approximation; None if the mean precession is undefined.
 
     Examples
     --------
@@ -67,18 +115,68 @@ class Verdict:
     nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
 
-    subject: str
+    subject: Subject
     direction: Direction
     turning_angles: tuple[float, float]
     regular_rates: tuple[float, ...]
     rule_holds: bool | None
-    reason: str
-    average: str
+    reason: Reason
+    average: Average | None
 
     def __str__(self) -> str:
         """Return direction, turning angles, reason and averages, in sentences."""
-        where = f"{self.subject}: {_describe_range(self.turning_angles)}."
-        return " ".join(filter(None, (where, self.reason, self.average)))
+        return write("verdict", self)
+
+
+@dataclass(frozen=True, slots=True)
+class KickVerdict:
+    """What a kick changed, and the motion that follows.
+
+    `str` of it is the answer to the kick.
+
+    Attributes
+    ----------
+    axis : {"tilted", "vertical"}
+        "vertical" if phi' was undefined before the kick.
+    hold : {"spin_rate", "spin_momentum"} or None
+        The quantity that the kick held; None for an angular impulse.
+    factor, before, after : float or None
+        phi' in rad/s before the kick and after it, and their ratio; None if undefined.
+    motion : str
+        Kind of the motion after the kick.
+    subject, direction, turning_angles
+        As in `Verdict`, after the kick.
+    driven : bool
+        True under friction or an applied torque. Turning angles are those without them.
+    reason : Reason
+        Perry's rule for the kick.
+    highest, lowest : Lift
+        Rise of the highest and of the lowest point, compared with no kick.
+    contradiction : Contradiction or None
+        Facts that are contrary to the change of theta''; None if there are none.
+    average : Average or None
+        As in `Verdict`; None for a driven motion too.
+    """
+
+    axis: Literal["tilted", "vertical"]
+    hold: Hold | None
+    factor: float | None
+    before: float | None
+    after: float | None
+    motion: Kind
+    subject: Subject
+    direction: Direction
+    turning_angles: tuple[float, float]
+    driven: bool
+    reason: Reason
+    highest: Lift
+    lowest: Lift
+    contradiction: Contradiction | None
+    average: Average | None
+
+    def __str__(self) -> str:
+        """Return the change, its consequences and Perry's rule, in sentences."""
+        return write("kick", self)
 
 
 def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_rate") -> Verdict:
@@ -114,33 +212,32 @@ def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_
     validate_one(top)
     factor, hold = validate_number("factor", factor), validate_hold(hold)
     motion = Motion(top, state)
-    direction = _find_direction(top, state)
-    subject = _describe_direction(top, direction)
     if state.is_vertical:
-        reason = f"{NOTHING}: {_describe_vertical(top, state)}."
-        return Verdict(
-            subject, direction, motion.turning_angles, (), None, reason, _describe_average(motion)
-        )
-    tilt, rate = TiltAcceleration.of(top, state, hold), find_precession(state)
-    if abs(factor * rate) > LARGEST_ANGULAR_VELOCITY:
-        condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-        raise refuse("factor", condition, factor)
-    kick = PrecessionChange(tilt, rate, factor * rate, factor)
-    rates = f" from {format_rate(rate)} to {format_rate(kick.after)} rad/s, theta'' would be"
-    reason = kick.explain(rates, tilt.describe_place(rate))
+        reason = Reason(_classify_vertical(top, state), None, name_subject(top.Mgl))
+        rates: tuple[float, ...] = ()
+    else:
+        kick = _plan_change(TiltAcceleration.of(top, state, hold), find_precession(state), factor)
+        reason, rates = kick.explain(is_done=False), kick.tilt.quadratic.roots
     return Verdict(
-        subject,
-        direction,
-        motion.turning_angles,
-        tilt.quadratic.roots,
-        kick.rule_holds,
-        reason,
-        _describe_average(motion),
+        subject=name_subject(top.Mgl),
+        direction=_find_direction(top, state),
+        turning_angles=motion.turning_angles,
+        regular_rates=rates,
+        rule_holds=None if reason.rule is None else reason.rule == "holds",
+        reason=reason,
+        average=_find_average(motion),
     )
 
 
-def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> str:
-    """Return the answer to a kick: the change, its consequences, and Perry's rule.
+def _plan_change(tilt: TiltAcceleration, rate: float, factor: float) -> PrecessionChange:
+    if abs(factor * rate) > LARGEST_ANGULAR_VELOCITY:
+        condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
+        raise refuse("factor", condition, factor)
+    return PrecessionChange(tilt, rate, factor * rate, factor)
+
+
+def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdict:
+    """Return what a kick changed: its consequences, and Perry's rule.
 
     Parameters
     ----------
@@ -176,84 +273,78 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> str:
     top, after = motion.top, motion.start
     if hold is not None:
         hold = validate_hold(hold)
-    expected: Direction | None = None
-    holds: bool | None = None
-    if before.is_vertical:
-        change = f"Kick on the vertical (motion: {motion.kind})."
-        rule = f"{NOTHING}: {_describe_vertical(top, after)}."
+    subject, direction = name_subject(top.Mgl), _find_direction(top, after)
+    kick = None if before.is_vertical else PrecessionChange.between(top, before, after, hold)
+    if kick is None:
+        reason = Reason(_classify_vertical(top, after), None, subject)
     else:
-        kick = PrecessionChange.between(top, before, after, hold)
-        change = f"Precession {format_rate(kick.before)} -> {format_rate(kick.after)} rad/s."
-        rule = kick.explain(", theta'' is", kick.tilt.describe_place(kick.after))
-        expected, holds = kick.expected_direction, kick.rule_holds
-    facts = _Facts(
-        top, _find_direction(top, after), Motion(top, before).turning_angles, motion.turning_angles
+        reason = kick.explain(is_done=True)
+    highest, lowest = _compare(Motion(top, before).turning_angles, motion.turning_angles)
+    return KickVerdict(
+        axis="vertical" if kick is None else "tilted",
+        hold=hold,
+        factor=None if kick is None else kick.factor,
+        before=reason.before,
+        after=reason.after,
+        motion=motion.kind,
+        subject=subject,
+        direction=direction,
+        turning_angles=motion.turning_angles,
+        driven=motion.is_driven,
+        reason=reason,
+        highest=highest,
+        lowest=lowest,
+        contradiction=_find_contradiction(reason, kick, direction, highest, lowest),
+        average=None if motion.is_driven else _find_average(motion),
     )
-    sentences = [change, facts.describe_motion(motion.is_driven), rule, facts.describe_lift()]
-    contradictions = " and ".join(facts.contradictions(expected))
-    if contradictions:
-        verb = "holds" if holds else "fails"
-        sentences.append(f"Although Perry's rule {verb}, {contradictions}.")
-    if not motion.is_driven:
-        sentences += filter(None, [_describe_average(motion)])
-    return " ".join(sentences)
 
 
-def _describe_average(motion: Motion) -> str:
-    """Return sentences on the mean precession, its approximation, and a spin that reverses."""
+def _find_average(motion: Motion) -> Average | None:
+    """Return mean precession and its approximation; None if the mean is undefined."""
     turns = motion.precession_per_nutation
     if not math.isfinite(turns):
-        return ""
-    rate, fast = motion.mean_precession_rate, motion.fast_top_precession_rate
-    sentence = f"On average phi' is {format_rate(rate)} rad/s, {turns:.3f} turns in a nutation"
+        return None
     top, omega_z = motion.top, float(motion.start.angular_velocity[2])
     # The approximation is for p_psi^2 >> 4 Ix |Mgl|; below that number it is not even a guess.
-    if top.Mgl and abs(omega_z) > 2 * math.sqrt(top.Ix) * math.sqrt(abs(top.Mgl)) / top.Iz:
-        sentence += f" (slow precession of a fast top: Mgl/p_psi = {format_rate(fast)} rad/s)"
-    return f"{sentence}." + (" psi' changes sign in each nutation." if motion.spin_reverses else "")
+    fast = top.Mgl and abs(omega_z) > 2 * math.sqrt(top.Ix) * math.sqrt(abs(top.Mgl)) / top.Iz
+    return Average(
+        motion.mean_precession_rate,
+        turns,
+        "fast" if fast else "slow",
+        motion.fast_top_precession_rate,
+        motion.spin_reverses,
+    )
 
 
-@dataclass(frozen=True, slots=True)
-class _Facts:
-    """Direction after a kick, and the turning angles without it and with it, in rad."""
+def _compare(before: tuple[float, float], after: tuple[float, float]) -> list[Lift]:
+    """Return the rise of the highest and of the lowest point, where rounding does not hide it."""
+    lifts = []
+    for was, now in zip(before, after, strict=True):
+        change = was - now if abs(was - now) > SAME_ANGLE else 0.0
+        kind: Literal["higher", "lower"] = "higher" if change > 0 else "lower"
+        lifts.append(Lift(kind if change else "unchanged", abs(change)))
+    return lifts
 
-    top: Top
-    direction: Direction
-    before: tuple[float, float]
-    after: tuple[float, float]
 
-    def describe_motion(self, is_driven: bool) -> str:
-        """Return the sentence on direction and turning angles."""
-        condition = "without friction and applied torque " if is_driven else ""
-        subject = _describe_direction(self.top, self.direction)
-        return f"{subject}: {condition}{_describe_range(self.after)}."
-
-    def describe_lift(self) -> str:
-        """Return the sentence on the highest and the lowest point."""
-        highest, lowest = map(_describe_lift, self._lifts)
-        name = "highest point of the axis" if self.top.Mgl < 0 else "highest point"
-        return f"Compared with no kick, the {name} is {highest} and the lowest point {lowest}."
-
-    def contradictions(self, expected: Direction | None) -> Iterator[str]:
-        """Yield the facts that are contrary to the direction in which theta'' changes."""
-        if expected is None:
-            return
-        if self.direction not in (expected, "stays"):
-            name = "axis" if self.top.Mgl < 0 else "top"
-            yield f"the {name} {self.direction}"
-        sign = 1 if expected == "rises" else -1
-        for name, lift in zip(("highest", "lowest"), self._lifts, strict=True):
-            if sign * lift < 0:
-                yield f"the {name} point is {'higher' if lift > 0 else 'lower'}"
-
-    @property
-    def _lifts(self) -> tuple[float, float]:
-        """Rise of the highest and of the lowest point in rad; 0 if rounding hides it."""
-        highest, lowest = (
-            was - now if abs(was - now) > SAME_ANGLE else 0.0
-            for was, now in zip(self.before, self.after, strict=True)
-        )
-        return highest, lowest
+def _find_contradiction(
+    reason: Reason,
+    kick: PrecessionChange | None,
+    direction: Direction,
+    highest: Lift,
+    lowest: Lift,
+) -> Contradiction | None:
+    """Return the facts that are contrary to the direction in which theta'' changed."""
+    expected = kick.expected_direction if kick else None
+    if expected is None or reason.rule is None:
+        return None
+    facts: list[Fact] = []
+    if direction not in (expected, "stays"):
+        facts.append("falls" if expected == "rises" else "rises")
+    if highest.kind == ("lower" if expected == "rises" else "higher"):
+        facts.append("highest_lower" if expected == "rises" else "highest_higher")
+    if lowest.kind == ("lower" if expected == "rises" else "higher"):
+        facts.append("lowest_lower" if expected == "rises" else "lowest_higher")
+    return Contradiction(reason.rule, reason.subject, tuple(facts)) if facts else None
 
 
 def _find_direction(top: Top, state: State) -> Direction:
@@ -270,27 +361,8 @@ def _find_direction(top: Top, state: State) -> Direction:
     return "rises" if change < 0 else "falls"
 
 
-def _describe_direction(top: Top, direction: Direction) -> str:
-    if top.Mgl >= 0:
-        return f"The top {direction}"
-    return f"The axis {direction} (and the centre of mass {OPPOSITE[direction]})"
-
-
-def _describe_vertical(top: Top, state: State) -> str:
+def _classify_vertical(top: Top, state: State) -> VerticalCase:
+    """Return why the rule says nothing about an axis on the vertical."""
     if any(state.angular_velocity[:2]):
-        return "the precession rate is undefined on the vertical"
-    stability = "stable" if top.sleeping_is_stable(state) else "unstable"
-    return f"the axis sleeps on the vertical, where it is {stability}"
-
-
-def _describe_range(angles: tuple[float, float]) -> str:
-    low, high = (f"{angle:.3f}" for angle in angles)
-    if low == high:
-        return f"theta will stay at {low} rad"
-    return f"theta will stay between {low} and {high} rad"
-
-
-def _describe_lift(lift: float) -> str:
-    if lift == 0:
-        return "unchanged"
-    return f"{abs(lift):.3g} rad {'higher' if lift > 0 else 'lower'}"
+        return "undefined"
+    return "stable" if top.sleeping_is_stable(state) else "unstable"

@@ -4,6 +4,7 @@ The time advances by the real-time factor, stands still in a pause and never goe
 rates are derivatives by the stamps at every factor. Gazebo's /clock is of this kind.
 """
 
+from symtop_ros.simulation.changes.outcomes import Step
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import JUMP, Clock, Host, Simulation, Sink
 from symtop_ros.simulation.ticker import CATCH_UP
@@ -80,7 +81,7 @@ class ClockedSimulation(Simulation):
         """Advance a paused motion and its time, with one sample at the end."""
         now = self.now + round(duration * NANOSECONDS)
         if now == self.now:
-            return self.report("step", "no step: the duration is below 1 ns")
+            return self.report("step", Step("none"))
         verdict = self.apply(self.timeline.step_clock(self.stamp, now))
         self._run_clock.stop(now)
         self._restart_grid(now)

@@ -14,11 +14,12 @@ from typing import Protocol
 from symtop_ros.physics import State
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
+from symtop_ros.simulation.changes.outcomes import Failure, Outcome, describe
+from symtop_ros.simulation.changes.timeline import Change, Request, Timeline
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.ticker import CATCH_UP, Ticker
-from symtop_ros.simulation.timeline import Change, Request, Timeline
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -91,7 +92,8 @@ class Simulation:
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
         self._clock, self._sink, self._host = clock, sink, host
         self._lock = threading.RLock()
-        self._failures: dict[str, str] = {}  # by the name of the turn
+        self._failures: dict[str, Failure] = {}  # by the name of the turn
+        self._events = 0  # events so far
         self._jumped_to: int | None = None  # ns
         self.ticker = Ticker(settings.publish_rate, self.now)
         self._last = self.now  # stamp of the last sample
@@ -150,13 +152,15 @@ class Simulation:
             except Exception as error:
                 if not self._host.is_open:
                     raise
-                turn.failure = f"{name} failed: {type(error).__name__}: {one_line(error)}"
-                self._report_failure(name, turn.failure, stamp, before)
+                failure = Failure(name, type(error).__name__, one_line(error))
+                turn.failure = describe("failure", failure)
+                self._report_failure(failure, stamp, before)
 
-    def _report_failure(self, name: str, failure: str, stamp: int, before: Timeline) -> None:
+    def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
+        name = failure.action
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
-            self._host.report_error(failure)
+            self._host.report_error(describe("failure", failure))
             change = self.timeline.report("failure", failure, {}, stamp)
             self.apply(replace(change, before=before.segment.state_at(stamp)))
 
@@ -302,10 +306,16 @@ class Simulation:
 
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
-        verdict = change.describe()
+        event = self._number_event(change)
         self.timeline = change.following
-        self._sink.send_event(change.event(verdict))
-        return verdict
+        self._sink.send_event(event)
+        return event.verdict
+
+    def _number_event(self, change: Change) -> Event:
+        """Return the event of a change with the next number; the change may fail."""
+        event = change.event(self._events + 1)
+        self._events += 1
+        return event
 
     def apply_at_once(self, change: Change) -> str:
         """Like `apply`, but publish the first sample before the verdict is computed.
@@ -315,10 +325,10 @@ class Simulation:
         self.timeline = change.following
         with self._sink.put_events_first():
             self._publish()
-            verdict = change.describe()
+            event = self._number_event(change)
             self._publish()
-            self._sink.send_event(change.event(verdict))
-        return verdict
+            self._sink.send_event(event)
+        return event.verdict
 
     def pause(self, paused: bool) -> str:
         """Stop the motion, or continue it."""
@@ -328,9 +338,9 @@ class Simulation:
         """Advance a paused motion by a duration in s."""
         return self.apply(self.timeline.step(self.stamp, duration))
 
-    def report(self, name: str, verdict: str, request: Request | None = None) -> str:
+    def report(self, name: str, outcome: Outcome, request: Request | None = None) -> str:
         """Announce an event that changes nothing of the motion; return the verdict."""
-        return self.apply(self.timeline.report(name, verdict, request or {}, self.stamp))
+        return self.apply(self.timeline.report(name, outcome, request or {}, self.stamp))
 
     def note_jump(self) -> None:
         """Note that the clock jumped to its current time; the next tick follows it.

@@ -118,7 +118,7 @@ def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
 
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.simulation.timeline.kick_verdict", fail)
+    monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
     for _ in range(2):
         assert run.trigger("hurry_precession") == (False, f"~/hurry_precession failed: {BUG}")
     run.spin_until(lambda: len(failures()) == 2)

@@ -232,7 +232,7 @@ def test_a_request_with_an_unexpected_exception_is_reported_and_the_motion_keeps
     def fail(*_):
         raise ZeroDivisionError("by a\nbug")
 
-    monkeypatch.setattr("symtop_ros.simulation.timeline.kick_verdict", fail)
+    monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
     before = run.top.simulation.segment
     report = "~/hurry_precession failed: ZeroDivisionError: by a bug"
     assert run.trigger("hurry_precession") == (False, report)
