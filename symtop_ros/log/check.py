@@ -11,7 +11,7 @@ from symtop_ros.log.batch import Columns
 from symtop_ros.log.course import Course
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import FORMAT, LAST_WITHOUT_FIELDS, WITHOUT_FIELDS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
 
@@ -121,8 +121,22 @@ class LogCheck:
 
 
 def check_log(log: TopLog) -> dict[str, Deviation]:
-    """Return the deviation of each topic in a log, by its name in `simulation.topics`."""
-    check, seen = LogCheck(list(log.events())), 0
+    """Return the deviation of each topic in a log, by its name in `simulation.topics`.
+
+    Raises
+    ------
+    LogError
+        If the log has events without fields: the version that wrote them checks it.
+    """
+    events = list(log.events())
+    if not all(event.has_fields for event in events):
+        own = log.file.metadata.get(METADATA, {}).get("version", "")
+        version = one_line(own or LAST_WITHOUT_FIELDS, 20)
+        raise LogError(
+            f"format of events must be {FORMAT} for a check, got {WITHOUT_FIELDS}: symtop_ros "
+            f"{version} has recorded {log.file.path} and checks it"
+        )
+    check, seen = LogCheck(events), 0
     for batch in log.batches():
         events = [place for place, _ in batch.events]
         for name, columns in batch.columns.items():

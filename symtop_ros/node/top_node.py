@@ -79,9 +79,9 @@ class TopNode(Node):
             "ros_distro": distribution_name(),
         }
         scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
-        name = self.get_fully_qualified_name()
+        full_name = self.get_fully_qualified_name()
         clock = SteadyClock() if settings.publish_clock else NodeClock(self)
-        self.session = Session(settings, clock, host, scene, environment, name)
+        self.session = Session(settings, clock, host, scene, environment, full_name)
         warn_of_unused_qos(self)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]

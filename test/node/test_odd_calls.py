@@ -20,7 +20,7 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.simulation import initial, kick
+from symtop_ros.simulation.changes import initial, kick
 from symtop_ros.simulation.settings import PARAMETERS
 
 RATE = 200.0  # Hz

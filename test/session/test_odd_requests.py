@@ -115,7 +115,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
         except RefusedError as refused:
             assert_one_sentence(str(refused))
         else:
-            assert_one_sentence(kick_verdict(after, state, hold))
+            assert_one_sentence(str(kick_verdict(after, state, hold)))
 
     check()
 

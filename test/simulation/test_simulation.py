@@ -124,7 +124,7 @@ def test_other_settings_continue_from_the_current_state():
     with run.simulation.turn("parameters"):
         run.simulation.apply_settings(settings)
     event = run.sink.events[-1]
-    assert event.values["request"] == "top.Mgl=-0.05; real_time_factor=0.5"
+    assert event.request == {"top.Mgl": "-0.05", "real_time_factor": "0.5"}
     assert run.simulation.segment.motion.start == before
     assert run.simulation.segment.factor == 0.5
     assert len(run.sink.descriptions) == 2
