@@ -170,10 +170,10 @@ class McapFile:
 
     def _read_summary(self, file: BinaryIO) -> None:
         """Read the header, and the index at the end if there is one."""
-        with suppress(DAMAGE):
+        with suppress(*DAMAGE):
             for header in islice(self._records_at(file, len(MAGIC), Opcode.HEADER), 1):
                 self.profile = Header.read(_stream(header.data)).profile
-        with suppress(DAMAGE):
+        with suppress(*DAMAGE):
             place = max(len(MAGIC), self.size - FOOTER_SIZE)
             for footer in islice(self._records_at(file, place, Opcode.FOOTER), 1):
                 self._read_index(file, Footer.read(_stream(footer.data)).summary_start)
@@ -302,7 +302,7 @@ def _count_indexed(data: bytes) -> int:
 
 def _chunk_of(record: Record) -> list[Chunk]:
     """Return the chunk in a list, for its times, or an empty list for another record."""
-    with suppress(DAMAGE):
+    with suppress(*DAMAGE):
         if record.opcode == Opcode.CHUNK:
             return [Chunk.read(_stream(record.data))]
     return []

@@ -14,9 +14,9 @@ from symtop_ros.session.recording import Recording, limits_of
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES, Plain, Service, Switch
 from symtop_ros.simulation.changes.initial import initial_state
-from symtop_ros.simulation.clocked import ClockedSimulation
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.simulation import Clock, Simulation
+from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.times import Clock
 from symtop_ros.simulation.validation import RefusedError
 
 Answer = tuple[bool, str]  # success, and the sentence or the reason
@@ -37,8 +37,7 @@ class Session:
         self._host = host
         self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
         self._outputs = Outputs(settings, host, self._recorder, name)
-        simulation = ClockedSimulation if settings.publish_clock else Simulation
-        self.simulation: Simulation = simulation(settings, clock, self._outputs, host)
+        self.simulation = Simulation(settings, clock, self._outputs, host)
         start = self.simulation.timeline.verdict
         verdict = self.simulation.report("start", start, {"scene": scene})
         metadata = {"scene": scene, **environment}

@@ -183,7 +183,7 @@ def _watched(browser, tmp_path_factory):
             page.actions.request("pause", True)  # software renders a moving top slowly
             watched = Watched(browser, page)
             watched.until(
-                lambda: "theta=0.3" in str(watched.run.event and watched.run.event.values)
+                lambda: watched.run.event and watched.run.event.request.get("theta") == "0.3"
             )
             yield watched
         finally:

@@ -57,13 +57,15 @@ def test_a_batch_never_ends_between_the_first_sample_of_a_kick_and_its_event(
 ):
     kicked, collected = threading.Event(), threading.Event()
 
-    def describe(_):
+    describe = Change.event
+
+    def describe_late(change, number):
         """Take time, as a verdict does; the sample has been sent, the event has not."""
         kicked.set()
         collected.wait(0.2)
-        return "the top rises"
+        return describe(change, number)
 
-    monkeypatch.setattr(Change, "describe", describe)
+    monkeypatch.setattr(Change, "event", describe_late)
     kick = threading.Thread(target=top.request, args=("kick", {"precession_rate_factor": 1.4}))
     monkeypatch.setattr(top, "_keep_up", lambda: (kick.start(), kicked.wait(10.0)))
     clock[0] += 0.02
