@@ -282,6 +282,7 @@ def test_a_run_starts_from_the_quaternion_of_the_parameters(start_top):
     assert state["euler_rates"]["psi"] != 0
 
 
+@pytest.mark.wording
 def test_another_factor_hurries_by_it(start_top):
     run = start_top(scene="hurry_slow", hurry_factor=2.0)
     assert run.trigger("hurry_precession")[1].startswith("Precession 6.50 -> 12.99 rad/s")

@@ -105,3 +105,31 @@ def test_a_plot_gets_few_rows_and_the_newest_digits():
     chosen = thin(rows, window=1.0)
     assert 480 <= len(chosen) <= 482
     assert chosen[7][1:] == [0.123457, 0.123457, 0.123457, None]
+
+
+@pytest.mark.wording
+def test_headline_and_verdict_do_not_contradict_each_other_and_are_given_in_degrees(played):
+    actions, run, look = played
+    actions.kick(1.4)
+    look()
+    facts = describe(run)
+    assert facts["headline"] == "The top moves higher than without the kick, by 0.063 rad."
+    assert facts["degrees"]["headline"].endswith("by 3.61°.")
+    assert "between 25.0° and 28.6°" in facts["degrees"]["why"]
+    assert facts["why"] == run.announced.event.verdict
+
+
+@pytest.mark.wording
+def test_a_headline_under_friction_says_that_its_limits_are_without_it(played):
+    actions, run, look = played
+    actions.choose_scene("friction")
+    look()
+    assert "without friction and applied torque" in describe(run)["headline"]
+
+
+def test_the_history_lists_requests_with_three_digits(played):
+    actions, run, look = played
+    actions.kick(1.23456789)
+    look()
+    (entry, *_) = describe(run)["history"]
+    assert entry[1] == "kick: precession_rate_factor=1.23"
