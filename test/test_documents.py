@@ -115,13 +115,23 @@ def folder(tmp_path_factory):
 
 @pytest.mark.parametrize(("words", "output"), COMMANDS)
 def test_a_command_works(words, output, folder, monkeypatch):
+    run_command(words, folder, monkeypatch)  # it fails if the command does
+
+
+@pytest.mark.wording
+@pytest.mark.parametrize(("words", "output"), [each for each in COMMANDS if each.values[1]])
+def test_a_command_prints_what_its_document_says(words, output, folder, monkeypatch):
+    printed = run_command(words, folder, monkeypatch)
+    assert same(printed, output), printed
+
+
+def run_command(words, folder, monkeypatch):
     monkeypatch.chdir(folder)
     if words[:3] == ["ros2", "run", "symtop_ros"]:
         words = words[3:]
     program, *rest = words
     program = program.removeprefix(".venv/bin/")
-    printed = find_runner(program, rest)(program, rest)
-    assert not output or same(printed, output), printed
+    return find_runner(program, rest)(program, rest)
 
 
 def find_runner(program, words):

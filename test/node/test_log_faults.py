@@ -16,6 +16,8 @@ from node.running_top import LATCHED, facts
 from programs import environment
 from sensor_msgs.msg import JointState
 
+from symtop_ros.session.answers import Answer
+
 DOMAIN = claim_domain()
 MS = 1_000_000
 UNWRITABLE = "record.directory must be a writable folder, got"
@@ -125,7 +127,7 @@ def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
         paths[-1].unlink()
         recording.run.spin_until(lambda: recorder.failure)
     assert not recorder.running
-    assert recording.run.switch("record", False) == (True, "not recording")
+    assert recording.run.switch("record", False) == (True, str(Answer("not_recording")))
     recording.run.spin_until(lambda: len(recording.errors) == 2)
     assert recording.errors == [(f"{path}: the file was removed") for path in paths]
     recording.assert_works()

@@ -73,7 +73,7 @@ def test_the_log_holds_the_bytes_that_were_published(start_top, tmp_path):
     assert run.trigger("hurry_precession")[0]
     run.spin_until(lambda: len(published) > heard + 800)
     assert stop_and_read(run) == path
-    assert run.switch("record", False) == (True, "not recording")
+    assert run.switch("record", False) == (True, str(Answer("not_recording")))
     logged = messages_of(path)
     assert {topic for topic, _, _ in logged} == {*TOPICS, "/clock"}
     assert logged[0][0] == "/top/events"
