@@ -17,6 +17,7 @@ from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.kernel import accelerated, describe_engine, python_alone
+from symtop_ros.physics.kick_effect import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -40,7 +41,7 @@ from symtop_ros.physics.precession import (
 from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.verdict import KickVerdict, Lift, Verdict, kick_verdict, perrys_rule
+from symtop_ros.physics.verdict import Verdict, perrys_rule
 
 __all__ = [
     "HOLDS",
