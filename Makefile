@@ -23,9 +23,16 @@ TESTS = $(RUN) -m pytest -q -m "$(MARKERS)"
 
 # Nothing is sent to the network, and an active ROS or other environment is not used.
 export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
-unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
+unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
-.PHONY: help demo panel test coverage test-nodes test-rest test-plain test-physics test-without-ros test-examples test-realtime test-long test-kilted lint style types docs matrix report stress soak node-cost clean
+# `make test-keys` has every template of wording replaced by its key.
+ifdef KEYS
+export PYTHONPATH := $(CURDIR)/test/keys
+else
+unexport PYTHONPATH
+endif
+
+.PHONY: help demo panel test coverage test-nodes test-rest test-plain test-physics test-without-ros test-examples test-realtime test-long test-keys test-kilted lint style types docs matrix report stress soak node-cost clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -68,8 +75,12 @@ test-examples:
 test-realtime:  # alone: these tests measure time
 	@$(BIN)/$(RUN) -m pytest -m "realtime and not long" $(REALTIME)
 
-test-long: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/aarch64 coverage test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/aarch64 coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
 	@$(BIN)/python -m pytest -m long test
+
+test-keys: $(VENV)/test $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
+	@$(MAKE) --no-print-directory KEYS=1 MARKERS="$(MARKERS) and not wording" \
+	  test-nodes test-rest test-plain test-physics test-without-ros
 
 matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
 	@$(BIN)/python test/matrix.py

@@ -116,6 +116,7 @@ setup(
             "web/*.js",
             "web/*.html",
             "web/*.yaml",
+            "wording/en.json",
             "report/reference.json",
         ],
         f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],

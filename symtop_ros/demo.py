@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
@@ -19,6 +20,7 @@ from symtop_ros.playback.replay import replay
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"
 NODE = "import sys; from symtop_ros.programs import top_node; sys.exit(top_node())"
+PATIENCE = 5.0  # s
 SAMPLES = 300  # before and after the kick: 1.5 s, nine nutations of this scene
 
 
@@ -52,6 +54,8 @@ def _show(top: Connection) -> Path:
     the same samples follow, in each run.
     """
     thetas: list[float] = []
+    logs: list[str] = []
+    top.subscribe(DiagnosticArray, "events", lambda message: logs.extend(_list_logs(message)))
     top.subscribe(JointState, "euler_angles", lambda message: thetas.append(message.position[1]))
     top.switch("pause", True)
     top.trigger("reset")
@@ -63,8 +67,16 @@ def _show(top: Connection) -> Path:
     _, answer = top.trigger("hurry_precession")
     print(f"the answer:           {answer}")
     print(f"the motion after it:  {_watch(top, thetas)}")
-    _, answer = top.switch("record", False)
-    return Path(answer.removeprefix("recorded to "))
+    top.switch("record", False)
+    if not top.spin_until(lambda: bool(logs), PATIENCE):
+        raise UnreachableError(f"no event of {top.name} within {PATIENCE:g} s: the log is unknown")
+    return Path(logs[-1])
+
+
+def _list_logs(message: DiagnosticArray) -> list[str]:
+    """Return the files of the recordings that ended."""
+    fields = [{each.key: each.value for each in status.values} for status in message.status]
+    return [each["outcome.path"] for each in fields if each.get("outcome.kind") == "ended"]
 
 
 def _replay(log: Path) -> int:

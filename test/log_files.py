@@ -58,7 +58,7 @@ class Run:
             self._samples(segment, stamps[half:])
 
     def _announce(self, name: str, before: State, segment: Segment, stamp: int) -> None:
-        event = Event.of(stamp, name, "a sentence", {}, before, segment, self.frame)
+        event = Event.of(stamp, name, None, {}, before, segment, self.frame)
         self.messages.append(("events", stamp, event.encode("world")))
 
     def _samples(self, segment: Segment, stamps: list[int]) -> None:

@@ -17,6 +17,7 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
 
 
+@pytest.mark.wording
 def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(
     tmp_path, monkeypatch
 ):

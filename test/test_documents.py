@@ -39,7 +39,12 @@ NOT_RUN = (
 )
 # test_lesson.py runs the commands of the lesson, one step after the other.
 COMMANDS = [
-    pytest.param(words, output, id=f"{page.stem}: {' '.join(words)}")
+    pytest.param(
+        words,
+        output,
+        id=f"{page.stem}: {' '.join(words)}",
+        marks=pytest.mark.wording if output else (),
+    )
     for page in PAGES
     if page.name != "lesson.md"
     for words, output in commands(page)

@@ -16,15 +16,22 @@ TOP = {"__init__", "arrays", "demo", "distribution", "programs", "quaternions", 
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
-    "physics": (set(), {"numpy"}),
+    "wording": (set(), set()),  # text from records of any kind, so it is below them
+    "physics": ({"wording"}, {"numpy"}),
     "wire": (set(), {"numpy"}),
-    "simulation": ({"physics", "wire"}, {*NUMERICAL, "yaml"}),
+    "simulation": ({"physics", "wire", "wording"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
     # what pages show, live and saved; viser
-    "web": ({"drawing", "log", "physics", "session", "simulation"}, {"numpy", "viser", "yaml"}),
+    "web": (
+        {"drawing", "log", "physics", "session", "simulation", "wording"},
+        {"numpy", "viser", "yaml"},
+    ),
     "playback": ({"drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
-    "session": ({"__init__", "log", "models", "physics", "simulation", "wire"}, set()),
+    "session": (
+        {"__init__", "log", "models", "physics", "simulation", "wire", "wording"},
+        set(),
+    ),
     "node": (
         {"distribution", "models", "physics", "session", "shutdown", "simulation", "wire"},
         {
@@ -98,7 +105,7 @@ def imports(folder):
                 package, _, rest = module.partition(".")
                 if package == "symtop_ros":
                     own.add(rest.partition(".")[0] or "__init__")
-                elif package not in sys.stdlib_module_names:
+                elif package not in {*sys.stdlib_module_names, "_typeshed"}:  # types only
                     others.add(package)
     return own - {folder, "arrays", "quaternions"}, others
 

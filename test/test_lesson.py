@@ -15,7 +15,7 @@ from PIL import Image
 from programs import running_node
 from write_lesson import PAGE, write_page
 
-from symtop_ros.article.lesson import picture_of, run_step, write_lesson
+from symtop_ros.article.lesson import DRAWS, picture_of, run_step, write_lesson
 from symtop_ros.client import main as client
 from symtop_ros.client.arguments import parse_values
 from symtop_ros.client.connection import Connection
@@ -61,7 +61,7 @@ def tops():
 def do(tops, line):
     """Do what a command of top_ctl does, without a new process for each; return the answer."""
     options = client._parser().parse_args(shlex.split(line)[1:])
-    values = parse_values(getattr(options, "values", ()))
+    values = parse_values(vars(options).get("values", ()))
     granted, text = client._run(options, values, tops[options.node])
     assert granted, text
     return text
@@ -146,3 +146,9 @@ def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys
     (tmp_path / "file").write_text("in the way")
     assert report.main(["lesson", str(tmp_path / "file")]) == 1
     assert capsys.readouterr().err == f"top_report: {tmp_path / 'file'}: File exists\n"
+
+
+def test_every_step_names_a_plot_that_there_is():
+    plots = {step.title: step.plot for step in STEPS}
+    assert set(plots.values()) == set(DRAWS)
+    assert plots["Three numbers that stay"] == "momentum"

@@ -1,5 +1,6 @@
 """colcon and pip install the files that `ros2 run` looks for."""
 
+import ast
 import os
 import re
 import shutil
@@ -146,3 +147,48 @@ def test_nothing_but_the_extra_brings_ros_from_pypi():
     text = (ROOT / "setup.py").read_text()
     required = text.split("install_requires=[")[1].split("]")[0]
     assert "ros-" not in required
+
+
+def attributes_of(methods):
+    """Names of the attributes of `self` that methods assign, by the name of the method."""
+    return {
+        method.name: {
+            node.attr
+            for node in ast.walk(method)
+            if isinstance(node, ast.Attribute)
+            and isinstance(node.ctx, ast.Store)
+            and isinstance(node.value, ast.Name)
+            and node.value.id == "self"
+        }
+        for method in methods
+    }
+
+
+# Scratch arrays of the numerical code, which its methods prepare once.
+PREPARED = {"Stepper", "Phases"}
+
+
+def test_attributes_are_made_in_the_constructor():
+    for path in sorted((ROOT / "symtop_ros").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ClassDef) and node.name not in PREPARED:
+                methods = [each for each in node.body if isinstance(each, ast.FunctionDef)]
+                made = attributes_of(methods)
+                first = made.pop("__init__", None)
+                if first is not None:
+                    assert set().union(*made.values()) <= first, (path, node.name)
+
+
+# Files that look names of other programs up: message classes and fields of ROS, arguments of peers.
+FOREIGN = {"node/services.py", "simulation/topics.py", "report/filters.py"}
+
+
+def test_no_name_of_this_package_is_looked_up_by_a_string_that_is_computed():
+    for path in sorted((ROOT / "symtop_ros").rglob("*.py")):
+        name = path.relative_to(ROOT / "symtop_ros").as_posix()
+        if name in FOREIGN or name.startswith(("report/peers/", "physics/")):
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                constant = len(node.args) > 1 and isinstance(node.args[1], ast.Constant)
+                assert node.func.id != "getattr" or constant, (name, node.lineno)

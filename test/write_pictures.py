@@ -21,10 +21,11 @@ from pictures import pause_at, picture, running_viewer, views  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from symtop_ros.article.recordings import sample, six_rates, write_scene  # noqa: E402
-from symtop_ros.physics import Motion, hurry, kick_verdict, perrys_rule  # noqa: E402
+from symtop_ros.physics import Motion, hurry, kick_verdict  # noqa: E402
 from symtop_ros.playback.replay import create_recording  # noqa: E402
 from symtop_ros.playback.view import entities  # noqa: E402
 from symtop_ros.playback.view.view import View  # noqa: E402
+from symtop_ros.simulation.changes.outcomes import Start  # noqa: E402
 from symtop_ros.simulation.segment import Segment  # noqa: E402
 
 KICK, END = 1_520_000_000, 3_000_000_000  # ns
@@ -38,8 +39,8 @@ def write_replay(file: Path) -> None:
     """Record a top on cusps that is hurried where it precesses fastest."""
     recording = create_recording(file, "replay")
     view, start = View(recording), Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
-    verdict, stamps = str(perrys_rule(ARTICLE, CUSPS)), np.arange(0, END, PERIOD)
-    view.send(sample("start", verdict, CUSPS, start, stamps[stamps < KICK]))
+    stamps = np.arange(0, END, PERIOD)
+    view.send(sample("start", Start.of(start.motion), CUSPS, start, stamps[stamps < KICK]))
     before = start.state_at(KICK)
     kicked = start.restart(hurry(before, factor=1.4), KICK)
     verdict = kick_verdict(kicked.motion, before, "spin_rate")

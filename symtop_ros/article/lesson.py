@@ -28,7 +28,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import LessonStep, read_lesson
 from symtop_ros.web.sheets import write_teacher_sheet, write_worksheet
@@ -64,7 +64,7 @@ def draw_step(step: LessonStep) -> Figure:
     figure = new_figure(2.9)
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
     runs = run_step(step)
-    draw = DRAWS.get(step.title, draw_tilt)
+    draw = DRAWS[step.plot]
     LEFT.get(draw, _draw_from_above)(left, runs)
     draw(right, runs)
     right.margins(x=0)
@@ -235,12 +235,12 @@ def draw_turning(axes: Axes, runs: Runs) -> None:
         text_in_inset.set_visible(False)
 
 
-DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # all other steps: `draw_tilt`
-    "Three numbers that stay": draw_momentum,
-    "How deep does it fall?": draw_potential,
-    "A push that stops the nodding": draw_turning,
-    "One torque, two precessions": draw_turning,
-    "Seen by an observer who precesses": draw_fictitious,
+DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a step
+    "tilt": draw_tilt,
+    "momentum": draw_momentum,
+    "potential": draw_potential,
+    "turning": draw_turning,
+    "fictitious": draw_fictitious,
 }
 # What is drawn left of these; all others: the end of the axis from above.
 LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {

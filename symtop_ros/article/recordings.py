@@ -30,7 +30,7 @@ from symtop_ros.article.motions import (
 from symtop_ros.article.rates import FACTOR
 from symtop_ros.drawing.mesh import create_body, draw_parallel
 from symtop_ros.log.batch import Batch, Columns
-from symtop_ros.physics import Motion, State, Top, hurry, perrys_rule, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top, hurry, regular_precession_rates
 from symtop_ros.playback.replay import create_recording
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
@@ -38,6 +38,7 @@ from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
 from symtop_ros.playback.view.view import View, ViewOptions
+from symtop_ros.simulation.changes.outcomes import Outcome, Start
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import STATE_TOPICS, Samples
@@ -214,17 +215,17 @@ def _record(motion: Motion, options: ViewOptions, file: Path) -> None:
     recording = create_recording(file, file.stem)
     segment = Segment.begin(motion, 0, 1.0)
     stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
-    verdict = str(perrys_rule(motion.top, motion.start))
-    View(recording, options=options).send(sample("start", verdict, motion.start, segment, stamps))
+    start = sample("start", Start.of(motion), motion.start, segment, stamps)
+    View(recording, options=options).send(start)
     recording.flush()
     recording.disconnect()
 
 
-def sample(name: str, verdict: str, before: State, segment: Segment, stamps: Stamps) -> Batch:
+def sample(name: str, outcome: Outcome, before: State, segment: Segment, stamps: Stamps) -> Batch:
     """Return an event and the samples that follow it, as `TopLog` reads them from a log."""
     samples, places = Samples.at(segment, stamps), 1 + np.arange(len(stamps))
     columns = {
         topic: Columns(stamps, each.compute(samples), places)
         for topic, each in STATE_TOPICS.items()
     }
-    return Batch(columns, [(0, Event.of(int(stamps[0]), name, verdict, {}, before, segment))])
+    return Batch(columns, [(0, Event.of(int(stamps[0]), name, outcome, {}, before, segment))])

@@ -27,7 +27,7 @@ def main(args: list[str] | None = None) -> int:
     arguments = sys.argv if args is None else ["top_ctl", *args]
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
-        values = parse_values(getattr(options, "values", ()))
+        values = parse_values(vars(options).get("values", ()))
         with ros_context(arguments) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
             top = Connection(node, options.node, options.timeout)
@@ -103,7 +103,7 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
         return top.switch("pause", False)
     service = BY_COMMAND[options.command]
     if SERVICES[service].kind == "switch":  # `pause` has no word: it means on
-        return top.switch(service, getattr(options, "switch", "on") == "on")
+        return top.switch(service, vars(options).get("switch", "on") == "on")
     if SERVICES[service].kind == "named":
         return top.set(service, values)
     granted, text = top.trigger(service)

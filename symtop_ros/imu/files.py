@@ -66,7 +66,7 @@ def _describe_sensor(record: ImuRecord) -> str:
     """Return sensor.yaml: the noise by its names in EuRoC and in Kalibr."""
     imu = record.imu
     lines = ["%YAML:1.0", "sensor_type: imu", f"rate_hz: {imu.rate!r}"]
-    lines += [f"{name}: {getattr(imu, name)!r}" for name in NOISE]
+    lines += [f"{name}: {asdict(imu)[name]!r}" for name in NOISE]
     return "\n".join(lines) + "\n"
 
 

@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,7 @@ import yaml
 
 from symtop_ros.imu.files import write_folder, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
-from symtop_ros.simulation.initial import start_motion
+from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.sensor import CONSUMER, NOISE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, one_line
@@ -64,7 +64,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
     if name is None:
         return {}
     if name == "consumer":
-        return {each: getattr(CONSUMER, each) for each in NOISE}
+        return {each: asdict(CONSUMER)[each] for each in NOISE}
     path = Path(name)
     with path.open("rb") as file:
         text = file.read(MAX_BYTES + 1)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.quaternions import compose
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
+from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.events import Event, start_event
-from symtop_ros.simulation.initial import start_motion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError

@@ -5,7 +5,7 @@ A bag of any kind is read like one `McapFile`, as a `MessageSource`.
 
 import os
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -32,6 +32,10 @@ class MessageSource(Protocol):
     schemas: dict[int, Schema]
     channels: dict[int, Channel]
     size: int
+
+    @property
+    def metadata(self) -> Mapping[str, Mapping[str, str]]:
+        """Metadata records by name."""
 
     @property
     def problems(self) -> list[str]:
@@ -90,6 +94,11 @@ class SeveralFiles:
         return sum(source.offset for source in self._sources)
 
     @property
+    def metadata(self) -> Mapping[str, Mapping[str, str]]:
+        """Metadata records by name; of several the first."""
+        return {k: v for each in reversed(self._sources) for k, v in each.metadata.items()}
+
+    @property
     def problems(self) -> list[str]:
         """Everything that is missing or damaged, with the name of its file."""
         return [f"{each.path.name}: {text}" for each in self._sources for text in each.problems]
@@ -131,6 +140,7 @@ class SqliteBag:
         self.schemas: dict[int, Schema] = {}
         self.channels: dict[int, Channel] = {}
         self.problems: list[str] = []
+        self.metadata: dict[str, dict[str, str]] = {}  # a bag has none
         try:
             self.size = path.stat().st_size
             for number, name, kind, encoding in self._rows(TOPICS):

@@ -9,11 +9,14 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.course import Course
+from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.writer import METADATA
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import FORMAT, LAST_WITHOUT_FIELDS, WITHOUT_FIELDS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
+from symtop_ros.simulation.validation import one_line
 
 # Under gravity alone a state has the same bits on every machine, and so has what follows from it by
 # products and sums: no difference is accepted there. Euler's angles and the noise of the sensor
@@ -121,15 +124,29 @@ class LogCheck:
 
 
 def check_log(log: TopLog) -> dict[str, Deviation]:
-    """Return the deviation of each topic in a log, by its name in `simulation.topics`."""
-    check, seen = LogCheck(list(log.events())), 0
+    """Return the deviation of each topic in a log, by its name in `simulation.topics`.
+
+    Raises
+    ------
+    LogError
+        If the log has events without fields: the version that wrote them checks it.
+    """
+    events = list(log.events())
+    if not all(event.has_fields for event in events):
+        own = log.file.metadata.get(METADATA, {}).get("version", "")
+        version = one_line(own or LAST_WITHOUT_FIELDS, 20)
+        raise LogError(
+            f"format of events must be {FORMAT} for a check, got {WITHOUT_FIELDS}: symtop_ros "
+            f"{version} has recorded {log.file.path} and checks it"
+        )
+    check, seen = LogCheck(events), 0
     for batch in log.batches():
-        events = [place for place, _ in batch.events]
+        begins = [place for place, _ in batch.events]
         for name, columns in batch.columns.items():
-            places = seen + np.searchsorted(events, columns.places, side="right")
+            places = seen + np.searchsorted(begins, columns.places, side="right")
             with np.errstate(all="ignore"):
                 check.add(name, columns, places)
-        seen += len(events)
+        seen += len(begins)
     return check.deviations
 
 

@@ -18,6 +18,7 @@ from typing import BinaryIO, NamedTuple
 import lz4.frame
 import zstandard
 from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.records import (
     Channel,
@@ -51,6 +52,23 @@ MAX_PROBLEMS = 20  # problems that are listed
 
 class LogError(ValueError):
     """A log that cannot be read or written; the text says why."""
+
+
+class DamageError(Exception):
+    """A record that contradicts itself."""
+
+
+# What reading a damaged record can raise: mcap and `struct` for one that is cut, a text that is not
+# UTF-8, a length beyond all of memory, and bytes that cannot be decompressed. Anything else is a
+# bug, and stays visible.
+DAMAGE = (
+    DamageError,
+    McapError,
+    struct.error,
+    UnicodeDecodeError,
+    OverflowError,
+    zstandard.ZstdError,
+)
 
 
 class Record(NamedTuple):
@@ -132,7 +150,7 @@ class McapFile:
                 chunked = chunked or record.opcode == Opcode.CHUNK
                 try:
                     contents = _contents(record)
-                except Exception:
+                except DAMAGE:
                     chunk = _chunk_of(record)
                     damaged += chunk
                     if not chunk:  # its times are not readable either
@@ -152,19 +170,24 @@ class McapFile:
 
     def _read_summary(self, file: BinaryIO) -> None:
         """Read the header, and the index at the end if there is one."""
-        with suppress(Exception):
-            header = next(self._records_at(file, len(MAGIC), Opcode.HEADER))
-            self.profile = Header.read(_stream(header.data)).profile
-        with suppress(Exception):
-            footer = next(self._records_at(file, self.size - FOOTER_SIZE, Opcode.FOOTER))
-            start = Footer.read(_stream(footer.data)).summary_start
-            for record in self._records_at(file, start, *SUMMARY) if start else ():
+        with suppress(*DAMAGE):
+            for header in islice(self._records_at(file, len(MAGIC), Opcode.HEADER), 1):
+                self.profile = Header.read(_stream(header.data)).profile
+        with suppress(*DAMAGE):
+            place = max(len(MAGIC), self.size - FOOTER_SIZE)
+            for footer in islice(self._records_at(file, place, Opcode.FOOTER), 1):
+                self._read_index(file, Footer.read(_stream(footer.data)).summary_start)
+        self._chunk_offsets.sort()
+
+    def _read_index(self, file: BinaryIO, start: int) -> None:
+        """Read descriptions and places of chunks from an offset on; 0: there are none."""
+        if 0 < start < self.size:
+            for record in self._records_at(file, start, *SUMMARY):
                 if record.opcode == Opcode.CHUNK_INDEX:
                     index = ChunkIndex.read(_stream(record.data))
                     self._chunk_offsets.append(index.chunk_start_offset)
                 else:
                     self._describe(_contents(record).descriptions)
-        self._chunk_offsets.sort()
 
     def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[Record]:
         """Yield the readable records with some opcodes from an offset on."""
@@ -279,7 +302,7 @@ def _count_indexed(data: bytes) -> int:
 
 def _chunk_of(record: Record) -> list[Chunk]:
     """Return the chunk in a list, for its times, or an empty list for another record."""
-    with suppress(Exception):
+    with suppress(*DAMAGE):
         if record.opcode == Opcode.CHUNK:
             return [Chunk.read(_stream(record.data))]
     return []
@@ -292,9 +315,9 @@ def _contents(record: Record) -> Contents:
     chunk = Chunk.read(_stream(record.data))
     data = _decompress(chunk)
     if len(data) != chunk.uncompressed_size:
-        raise ValueError("the size differs from the announced one")
+        raise DamageError("the size differs from the announced one")
     if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
-        raise ValueError("CRC")
+        raise DamageError("CRC")
     return _parse(data, Places(data), PARSED_IN_CHUNK)
 
 
@@ -311,7 +334,7 @@ class Places:
             opcode, length = RECORD_START.unpack_from(self.data, end)
             begin, end = end + RECORD_START.size, end + RECORD_START.size + length
             if not opcode or end > len(self.data):
-                raise ValueError("not a record")
+                raise DamageError("not a record")
             yield opcode, begin, end
 
 
@@ -322,7 +345,7 @@ def _parse(data: bytes, places: Iterable[Place], parsed: Mapping[int, Parse]) ->
         if opcode in parsed:
             descriptions.append(parsed[opcode](_stream(data[begin:end])))
         if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
-            raise ValueError("not a message")
+            raise DamageError("not a message")
     return Contents(descriptions, _messages(data, places))
 
 
@@ -338,10 +361,17 @@ def _decompress(chunk: Chunk) -> bytes:
     """Decompress at most the announced size: hostile data may contain far more."""
     size = chunk.uncompressed_size
     if size > MAX_RECORD:
-        raise ValueError(f"{size} bytes are more than {MAX_RECORD}")
+        raise DamageError(f"{size} bytes are more than {MAX_RECORD}")
     if chunk.compression == "zstd":
         with zstandard.ZstdDecompressor().stream_reader(BytesIO(chunk.data)) as reader:
             return bytes(reader.read(size))
     if chunk.compression == "lz4":
-        return bytes(lz4.frame.LZ4FrameDecompressor().decompress(chunk.data, max_length=size))
+        return _decompress_lz4(chunk.data, size)
     return bytes(chunk.data)
+
+
+def _decompress_lz4(data: bytes, size: int) -> bytes:
+    try:
+        return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, max_length=size))
+    except RuntimeError as error:  # of lz4 for any damage
+        raise DamageError(str(error)) from None

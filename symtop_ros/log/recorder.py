@@ -51,7 +51,10 @@ class Recorder:
         self._channels: list[Channel] = []
         self._latched: dict[int, bytes] = {}
         self._queue: deque[Queued] = deque()
-        self._held: list[Queued] | None = None
+        # While one channel is put first: its index, and the messages of all others.
+        self._ahead: int | None = None
+        self._held: list[Queued] = []
+        self._file: LogFile | None = None  # the last file that was opened
         self._thread: threading.Thread | None = None
         self._ending = threading.Event()
         self.dropped = 0  # messages that did not fit into the queue since the recording began
@@ -70,19 +73,20 @@ class Recorder:
     @property
     def path(self) -> Path | None:
         """Path of the current file, None if not recording."""
-        return self._file.path if self.running else None
+        return self._file.path if self._file and self.running else None
 
     def start(self, metadata: Mapping[str, str]) -> Path:
         """Begin a recording and return the path of its first file."""
         self.stop()
         latched = dict(self._latched)
-        self._file = self._open(metadata, latched)
+        self._file = file = self._open(metadata, latched)
         self.dropped, self.failure = 0, ""
         self._queue.clear()
         self._ending.clear()
-        self._thread = threading.Thread(target=self._work, args=(metadata, latched), daemon=True)
+        work = (file, metadata, latched)
+        self._thread = threading.Thread(target=self._work, args=work, daemon=True)
         self._thread.start()
-        return self._file.path
+        return file.path
 
     def _open(self, metadata: Mapping[str, str], latched: Mapping[int, bytes]) -> "LogFile":
         # It needs mcap, without which a top moves and is published, but not recorded.
@@ -96,7 +100,7 @@ class Recorder:
             self._latched[channel] = data
         if not self.running:
             return
-        if self._held is None or channel == self._ahead:
+        if self._ahead in (None, channel):
             self._put((channel, stamp, data))
         else:
             self._held.append((channel, stamp, data))
@@ -110,11 +114,11 @@ class Recorder:
     @contextmanager
     def put_first(self, channel: int) -> Iterator[None]:
         """Write messages of one channel before all others that are added in this context."""
-        self._ahead, self._held = channel, []
+        self._ahead = channel
         try:
             yield
         finally:
-            held, self._held = self._held, None
+            held, self._held, self._ahead = self._held, [], None
             for message in held:
                 self._put(message)
 
@@ -127,19 +131,21 @@ class Recorder:
 
     # The following methods run in the thread.
 
-    def _work(self, metadata: Mapping[str, str], latched: dict[int, bytes]) -> None:
+    def _work(
+        self, file: "LogFile", metadata: Mapping[str, str], latched: dict[int, bytes]
+    ) -> None:
         try:
-            while not self._fill(latched):
-                self._file.finish(self._counts())
+            while not self._fill(file, latched):
+                file.finish(self._counts())
                 if not self._await_message():
                     return  # a file without any message would be no log of a run
-                self._file = self._open(metadata, latched)
-            self._file.finish(self._counts())
+                self._file = file = self._open(metadata, latched)
+            file.finish(self._counts())
         except Exception as error:
-            self._file.abandon()
+            file.abandon()
             self._queue.clear()
             # Set last: who reads it may open the file, which must be complete by then.
-            self.failure = f"{self._file.path}: {describe_error(error)}"
+            self.failure = f"{file.path}: {describe_error(error)}"
 
     def _await_message(self) -> bool:
         """Wait for the first message of the next file; return False if the recording ends first."""
@@ -151,22 +157,22 @@ class Recorder:
     def _counts(self) -> dict[str, str]:
         return {"dropped": str(self.dropped)}
 
-    def _fill(self, latched: dict[int, bytes]) -> bool:
+    def _fill(self, file: "LogFile", latched: dict[int, bytes]) -> bool:
         """Write one file; return True if the recording ends, False if a new file is due."""
         flushed = time.monotonic()
-        while not self.limits.are_reached(self._file):
+        while not self.limits.are_reached(file):
             ending = self._ending.wait(WRITE_PERIOD)
-            self._drain(latched)
+            self._drain(file, latched)
             if ending:
                 return True
             if time.monotonic() - flushed > FLUSH_PERIOD - WRITE_PERIOD:
                 flushed = time.monotonic()
-                self._file.flush()
+                file.flush()
         return False
 
-    def _drain(self, latched: dict[int, bytes]) -> None:
+    def _drain(self, file: "LogFile", latched: dict[int, bytes]) -> None:
         for _ in range(len(self._queue)):
             channel, stamp, data = self._queue.popleft()
-            self._file.write(channel, stamp, data)
+            file.write(channel, stamp, data)
             if self._channels[channel].topic.latched:
                 latched[channel] = data

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from symtop_ros.models.formats import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, number, one_line
 

@@ -30,7 +30,8 @@ class NodePublisher:
         try:
             return bool(self._publisher.get_subscription_count())
         except RuntimeError:
-            self._raise_unless_ending()
+            if self._context.ok():
+                raise
             return False
 
     def publish(self, data: bytes) -> None:
@@ -38,11 +39,8 @@ class NodePublisher:
         try:
             self._publisher.publish(data)
         except RuntimeError:
-            self._raise_unless_ending()
-
-    def _raise_unless_ending(self) -> None:
-        if self._context.ok():
-            raise  # noqa: PLE0704 (the error that is being handled)
+            if self._context.ok():
+                raise
 
 
 def _check_depth(profile: QoSProfile) -> SetParametersResult:

@@ -6,7 +6,7 @@ from typing import Any, cast
 
 from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.clock import Clock, ClockChange, JumpThreshold, ROSClock, TimeJump
+from rclpy.clock import Clock, ClockChange, JumpHandle, JumpThreshold, ROSClock, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
@@ -25,7 +25,8 @@ from symtop_ros.physics import describe_engine
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.simulation import JUMP, Simulation
+from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.times import JUMP
 from symtop_ros.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
 from symtop_ros.simulation.validation import RefusedError, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
@@ -79,9 +80,9 @@ class TopNode(Node):
             "ros_distro": distribution_name(),
         }
         scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
-        name = self.get_fully_qualified_name()
+        full_name = self.get_fully_qualified_name()
         clock = SteadyClock() if settings.publish_clock else NodeClock(self)
-        self.session = Session(settings, clock, host, scene, environment, name)
+        self.session = Session(settings, clock, host, scene, environment, full_name)
         warn_of_unused_qos(self)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]
@@ -99,7 +100,8 @@ class TopNode(Node):
         self._clock_is_missing = False
         self.create_timer(CLOCK_WAIT, self._check_clock, clock=steady)
         self._pacer = Pacer(self.simulation.tick, self._fail)
-        self._follow_clock()
+        # kept, because rclpy forgets a callback whose handle is gone
+        self._clock_handle = self._follow_clock()
 
     def _announce_speed(self, settings: Settings) -> None:
         """Report what computes the states, and whether real-time scheduling is granted."""
@@ -144,7 +146,7 @@ class TopNode(Node):
             )
         self._clock_is_missing = missing
 
-    def _follow_clock(self) -> None:
+    def _follow_clock(self) -> JumpHandle:
         """Wake the pacer whenever simulated time is set."""
         threshold = JumpThreshold(
             min_forward=Duration(nanoseconds=1),
@@ -152,7 +154,7 @@ class TopNode(Node):
             on_clock_change=True,
         )
         clock = self.get_clock()
-        self._clock_handle = clock.create_jump_callback(threshold, post_callback=self._clock_set)
+        return clock.create_jump_callback(threshold, post_callback=self._clock_set)
 
     def _clock_set(self, jump: TimeJump) -> None:
         changed = jump.clock_change in CLOCK_CHANGES

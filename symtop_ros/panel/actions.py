@@ -13,8 +13,8 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.panel.source import Argument, Source
 from symtop_ros.physics import Top
+from symtop_ros.simulation.changes.initial import FIELDS
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import FIELDS
 from symtop_ros.simulation.presets import load_scene
 from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.validation import RefusedError, number, reject

@@ -6,6 +6,7 @@ slow page gets fewer messages and not old ones.
 
 import asyncio
 import json
+import sys
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
@@ -108,14 +109,18 @@ class Pages:
         return count
 
     def _act(self, page: str, text: str | bytes) -> dict[str, Any]:
-        """Do what a page asks for; return the answer for this page."""
+        """Do what a page asks for; return the answer for this page.
+
+        An unexpected exception is reported as what it is; it is no refusal.
+        """
         try:
-            message = json.loads(text)
-            if not isinstance(message, dict):
-                raise reject("message", "an object", message)
-            return {"granted": True, **(self._do(page, message) or {})}
-        except (RefusedError, ValueError) as error:
-            return {"refused": one_line(error)}
+            return {"granted": True, **(self._do(page, _read_message(text)) or {})}
+        except RefusedError as refusal:
+            return {"refused": one_line(refusal)}
+        except Exception as error:
+            failure = f"a request failed: {type(error).__name__}: {one_line(error)}"
+            print(f"top_panel: {failure}", file=sys.stderr)
+            return {"said": failure}
 
     def _do(self, page: str, message: Message) -> dict[str, Any] | None:
         actions = self._actions
@@ -163,6 +168,17 @@ class Pages:
         if message.get("layer") not in LAYERS:
             raise reject("layer", f"one of {', '.join(LAYERS)}", message.get("layer"))
         self.show(page, str(message["layer"]), bool(message.get("shown")))
+
+
+def _read_message(text: str | bytes) -> dict[str, Any]:
+    """Return a message of a page; refuse what is no JSON object."""
+    try:
+        message = json.loads(text)
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError):
+        raise reject("message", "JSON", text) from None
+    if not isinstance(message, dict):
+        raise reject("message", "an object", message)
+    return message
 
 
 def _number(message: Message, name: str) -> float:

@@ -28,8 +28,6 @@ from symtop_ros.physics.kicks import (
 )
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.motions import Motions
-from symtop_ros.physics.perry import Direction
-from symtop_ros.physics.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.potential import EffectivePotential
 from symtop_ros.physics.precession import (
     FrameTorques,
@@ -38,10 +36,13 @@ from symtop_ros.physics.precession import (
     theta_acceleration,
     theta_torque,
 )
+from symtop_ros.physics.rule.kick_effect import KickVerdict, Lift, kick_verdict
+from symtop_ros.physics.rule.perry import Direction
+from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
+from symtop_ros.physics.rule.verdict import Verdict, perrys_rule
 from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.verdict import Verdict, kick_verdict, perrys_rule
 
 __all__ = [
     "HOLDS",
@@ -56,7 +57,9 @@ __all__ = [
     "Friction",
     "Hold",
     "HurryEffect",
+    "KickVerdict",
     "Kind",
+    "Lift",
     "Motion",
     "Motions",
     "State",

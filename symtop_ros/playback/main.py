@@ -45,7 +45,7 @@ def add_view_options(parser: argparse.ArgumentParser) -> None:
 
 def view_options(options: argparse.Namespace) -> dict[str, bool]:
     """Return the fields of `ViewOptions` that the options ask for."""
-    drawn = {name: getattr(options, name) for name in ("angles", "torques", "fictitious")}
+    drawn = {name: vars(options)[name] for name in ("angles", "torques", "fictitious")}
     return {"ghost": not options.no_ghost, **drawn}
 
 

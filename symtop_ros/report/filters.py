@@ -25,7 +25,7 @@ from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import invert
 from symtop_ros.report.document import format_table
 from symtop_ros.report.publish import track, write_results
-from symtop_ros.simulation.initial import start_motion
+from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.settings import Settings
 
 RATE, SPAN = 1000, 20  # Hz, s

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from symtop_ros import __version__
 from symtop_ros.log.recorder import Limits, Recorder, describe_error
+from symtop_ros.session.answers import Answer
+from symtop_ros.simulation.changes.outcomes import Record
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.simulation import Host, Simulation
 from symtop_ros.simulation.validation import RefusedError
@@ -58,15 +60,15 @@ class Recording:
         self.report_failure()
         path = self._recorder.path
         if on == bool(path):
-            return f"already recording to {path}" if path else "not recording"
+            return str(Answer("recording", str(path)) if path else Answer("not_recording"))
         if path:
-            self._announce(f"recording to {path} ended")
+            self._simulation.report("record", Record("ended", str(path)))
             self._recorder.stop()
             if self._recorder.failure:
                 self.report_failure()
                 raise RefusedError(f"recording failed: {self._recorder.failure}")
-            return f"recorded to {path}"
-        return self._announce(f"recording to {self.begin()}")
+            return str(Answer("recorded", str(path)))
+        return self._simulation.report("record", Record("begun", str(self.begin())))
 
     @property
     def unreported_failure(self) -> str:
@@ -77,11 +79,8 @@ class Recording:
         """Report once that a recording ended by itself; the motion keeps running."""
         if self.unreported_failure:
             self._failure_reported = True
-            sentence = self._announce(f"recording stopped: {self._recorder.failure}")
-            self._host.report_error(sentence)
-
-    def _announce(self, sentence: str) -> str:
-        return self._simulation.report("record", sentence)
+            outcome = Record("stopped", failure=self._recorder.failure)
+            self._host.report_error(self._simulation.report("record", outcome))
 
     def _metadata(self) -> dict[str, str]:
         values = self._simulation.settings.values

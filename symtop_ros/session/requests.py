@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from symtop_ros.session.answers import Answer
 from symtop_ros.session.summary import summarize_state
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.simulation import Simulation
@@ -18,7 +19,7 @@ Values = Mapping[str, Any]
 class Requests:
     """Requests to a simulation, from plain values: a method for each record of `services`.
 
-    Call them in a turn. Each returns its answer in a sentence and raises RefusedError if it is
+    Call them in a turn. Each returns the text of its answer and raises RefusedError if it is
     refused; the motion is then unchanged.
     """
 
@@ -48,7 +49,7 @@ class Requests:
         """Stop the motion, or continue it."""
         simulation = self._simulation
         if paused != simulation.segment.running:
-            return "already paused" if paused else "already running"
+            return str(Answer("paused" if paused else "running"))
         return simulation.pause(paused)
 
     def step(self, values: Values) -> str:

@@ -12,11 +12,11 @@ from symtop_ros.session.diagnostics import collect_statuses
 from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.recording import Recording, limits_of
 from symtop_ros.session.requests import Requests
-from symtop_ros.session.services import SERVICES
-from symtop_ros.simulation.clocked import ClockedSimulation
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.session.services import SERVICES, Plain, Service, Switch
+from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.simulation import Clock, Simulation
+from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.times import Clock
 from symtop_ros.simulation.validation import RefusedError
 
 Answer = tuple[bool, str]  # success, and the sentence or the reason
@@ -37,10 +37,9 @@ class Session:
         self._host = host
         self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
         self._outputs = Outputs(settings, host, self._recorder, name)
-        simulation = ClockedSimulation if settings.publish_clock else Simulation
-        self.simulation: Simulation = simulation(settings, clock, self._outputs, host)
-        verdict = self.simulation.timeline.verdict
-        self.simulation.report("start", verdict, {"scene": scene})
+        self.simulation = Simulation(settings, clock, self._outputs, host)
+        start = self.simulation.timeline.verdict
+        verdict = self.simulation.report("start", start, {"scene": scene})
         metadata = {"scene": scene, **environment}
         self.recording = Recording(self._recorder, self.simulation, metadata, host)
         self._requests = Requests(self.simulation, self.recording.switch)
@@ -50,10 +49,14 @@ class Session:
 
     def answer(self, service: str, read: Callable[[], Any]) -> Answer:
         """Carry out a request; `read` returns its argument, or raises RefusedError."""
-        act = getattr(self._requests, service)
-        if SERVICES[service].kind == "plain":
-            return self.simulation.answer(service, act)
-        return self.simulation.answer(service, lambda: act(read()))
+        return self.simulation.answer(service, lambda: self._carry_out(SERVICES[service], read))
+
+    def _carry_out(self, service: Service, read: Callable[[], Any]) -> str:
+        if isinstance(service, Plain):
+            return service.act(self._requests)
+        if isinstance(service, Switch):
+            return service.act(self._requests, bool(read()))
+        return service.act(self._requests, read())
 
     def log_torque(self, data: bytes) -> None:
         """Log an applied torque as it was received, whether it is accepted or not."""

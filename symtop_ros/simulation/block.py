@@ -1,7 +1,6 @@
 """Samples of consecutive stamps, computed together: in arrays each costs a fraction."""
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 
 import numpy as np
 
@@ -24,6 +23,7 @@ class Block:
         self._numbers: dict[str, list[list[float]]] = {}
         self._requested: dict[str, None] = {}  # topics in their order
         self._due: list[str] = []  # topics that will be asked for
+        self._samples: Samples | None = None  # once their states are computed
         self.next: Block | None = None
 
     def continue_with(self, segment: Segment, stamps: Sequence[int]) -> "Block":
@@ -44,8 +44,8 @@ class Block:
             self.next = self.continue_with(self.segment, stamps())
         elif not (self.next._due and self.next.length):
             return
-        elif "_samples" not in vars(self.next):
-            _ = self.next._samples
+        elif self.next._samples is None:
+            self.next._compute_states()
         else:
             self.next._compute(self.next._due.pop())
 
@@ -61,12 +61,13 @@ class Block:
         return self._numbers[topic][self._row[stamp]]
 
     def _compute(self, topic: str) -> None:
-        computed = SAMPLE_TOPICS[topic].compute(self._samples)
+        computed = SAMPLE_TOPICS[topic].compute(self._samples or self._compute_states())
         # A paused motion has one state for all stamps, and so has a block of one stamp.
         shape = len(self._stamps), computed.shape[-1]
         self._numbers[topic] = np.broadcast_to(computed, shape).tolist()
 
-    @cached_property
-    def _samples(self) -> Samples:
+    def _compute_states(self) -> Samples:
         # One state as such takes a fifth of the time of an array of one; its bits are the same.
-        return Samples.at(self.segment, self._stamps if self.length > 1 else self.last)
+        stamps = self._stamps if self.length > 1 else self.last
+        self._samples = Samples.at(self.segment, stamps)
+        return self._samples

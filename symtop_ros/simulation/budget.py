@@ -80,6 +80,7 @@ class ComputeBudget:
         self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
         self._prepared = stamp  # ns: end of the last stretch
         self._stretch: tuple[Segment, int] | None = None
+        self._progress, self._spent_before = 0.0, 0.0  # s of the motion and of work, of the stretch
 
     def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> bool:
         """Work for about 1 ms towards a stamp (ns); return True if its state is ready.

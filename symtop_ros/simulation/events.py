@@ -1,30 +1,36 @@
 """Events: every change of a run, with everything that is needed to compute the run again.
 
-Numbers are written in decimals that read back to the same doubles.
+Numbers are written in decimals that read back to the same doubles. The sentence of an event stands
+next to the fields from which it is made; nothing reads the sentence.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeVar
 
 from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, describe
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import OK, Status, decode_statuses, encode_statuses
+from symtop_ros.wire.fields import read_fields, write_fields, write_text
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
 PREFIX = "top: "  # of the name of an event as a diagnostic status
-FORMAT = "2"  # version of the values of an event
+FORMAT = "3"  # version of the values of an event
+# Events of this format have their request in one text, no number and no outcome. Their motions are
+# read; whether they agree with their samples is checked by the version that wrote them.
+WITHOUT_FIELDS, LAST_WITHOUT_FIELDS = "2", "0.2.0"
 # Limits of the numbers in an event that is read. A log may be damaged or hostile; beyond these
 # limits no run of a node can be.
 MAX_STAMP = 2**62  # ns; ROS has 32 bits of seconds
 MAX_ELAPSED = 1e18  # s of the motion
 EXACT = re.compile(r"-?\d{1,400}(/\d{1,400})?")  # a time in ns; doubles need 324 digits
 MIN_FACTOR, MAX_FACTOR = 1e-300, 1e6
-LEFT = re.compile(r"from=(-?\d{1,19});")  # in the request of a jump of the clock
+WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 
 Number = TypeVar("Number", int, float, Fraction)
 
@@ -37,8 +43,8 @@ class Event:
     # start, kick, reset, pause, resume, step, parameters, torque, pace, clock, record,
     # failure
     name: str
-    verdict: str  # the consequence of the change, in a sentence
-    # the request, the state before and after, and the segment that holds from then on
+    verdict: str  # the outcome in a sentence
+    # number, request, outcome, the state before and after, and the segment that holds from then on
     values: Mapping[str, str]
 
     @classmethod
@@ -46,40 +52,44 @@ class Event:
         cls,
         stamp: int,
         name: str,
-        verdict: str,
+        outcome: Outcome | None,
         request: Mapping[str, Any],
         before: State,
         following: Segment,
         top_frame: str = "top",
+        number: int = 1,
     ) -> "Event":
         """Return the event after which the segment `following` holds.
 
         `top_frame` is the child frame of the top on /tf, which is shared by many publishers.
+        `number` counts the events of a run from 1 on.
         """
         after, motion = following.state_at(stamp), following.motion
         values = {
             "format": FORMAT,
+            "number": str(number),
             "top_frame": top_frame,
-            "request": "; ".join(f"{key}={_text(value)}" for key, value in request.items()),
-            "top": _text(motion.top.moments),
-            "friction": _text((motion.friction.axial, motion.friction.transverse)),
-            "applied_torque": _text(motion.applied_torque),
-            "before.orientation": _text(before.orientation.tolist()),
-            "before.angular_velocity": _text(before.angular_velocity.tolist()),
-            "after.orientation": _text(after.orientation.tolist()),
-            "after.angular_velocity": _text(after.angular_velocity.tolist()),
-            "motion.orientation": _text(motion.start.given_orientation.tolist()),
-            "motion.angular_velocity": _text(motion.start.angular_velocity.tolist()),
-            "motion.stamp": _text(following.stamp),
-            "motion.elapsed": _text(following.time_at(following.stamp)),
+            **{f"request.{key}": write_text(value) for key, value in request.items()},
+            **(write_fields("outcome", outcome) if outcome else {}),
+            "top": write_text(motion.top.moments),
+            "friction": write_text((motion.friction.axial, motion.friction.transverse)),
+            "applied_torque": write_text(motion.applied_torque),
+            "before.orientation": write_text(before.orientation.tolist()),
+            "before.angular_velocity": write_text(before.angular_velocity.tolist()),
+            "after.orientation": write_text(after.orientation.tolist()),
+            "after.angular_velocity": write_text(after.angular_velocity.tolist()),
+            "motion.orientation": write_text(motion.start.given_orientation.tolist()),
+            "motion.angular_velocity": write_text(motion.start.angular_velocity.tolist()),
+            "motion.stamp": write_text(following.stamp),
+            "motion.elapsed": write_text(following.time_at(following.stamp)),
             "motion.elapsed_ns": str(following.elapsed),
-            "motion.real_time_factor": _text(following.factor),
-            "motion.running": _text(following.running),
+            "motion.real_time_factor": write_text(following.factor),
+            "motion.running": write_text(following.running),
             **following.rig.to_values(),
             "kind": motion.kind,
             "engine": motion.engine,
         }
-        return cls(stamp, name, verdict, values)
+        return cls(stamp, name, describe(name, outcome) if outcome else "", values)
 
     def encode(self, frame: str) -> bytes:
         """Encode the event as a DiagnosticArray with one status."""
@@ -87,10 +97,38 @@ class Event:
         return encode_statuses(self.stamp, frame, [status])
 
     @property
+    def has_fields(self) -> bool:
+        """False for an event of a log without numbers, requests and outcomes as fields."""
+        return self.values.get("format") != WITHOUT_FIELDS
+
+    @property
+    def number(self) -> int:
+        """Number of the event in its run, from 1 on; 0 if it has none."""
+        text = self.values.get("number", "0")
+        return int(text) if WHOLE.fullmatch(text) else 0
+
+    @property
+    def request(self) -> dict[str, str]:
+        """The fields that were asked for, by their names."""
+        if not self.has_fields:
+            pairs = self.values.get("request", "").split("; ")
+            return {name: text for name, _, text in (pair.partition("=") for pair in pairs) if name}
+        own = (name for name in self.values if name.startswith("request."))
+        return {name.partition(".")[2]: self.values[name] for name in own}
+
+    @property
     def previous_end(self) -> int:
         """Stamp (ns) up to which the segment before held: another one if the clock jumped."""
-        left = LEFT.match(self.values.get("request", "")) if self.name == "clock" else None
-        return int(left[1]) if left else self.stamp
+        left = self.request.get("from", "") if self.name == "clock" else ""
+        is_stamp = WHOLE.fullmatch(left) and abs(int(left)) <= MAX_STAMP
+        return int(left) if is_stamp else self.stamp
+
+    def outcome(self) -> Outcome | None:
+        """Return what the event led to; None in a log without fields."""
+        kind = OUTCOMES.get(self.name)
+        if kind is None or not any(name.startswith("outcome.") for name in self.values):
+            return None
+        return read_fields("outcome", kind, self.values)
 
     def segment(self) -> Segment:
         """Return the segment that holds from the event on.
@@ -126,10 +164,9 @@ class Event:
             _numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])
         )
         factor = "motion.real_time_factor"
-        if values["format"] != FORMAT:
-            raise ValueError(
-                f"format of an event must be {FORMAT}, got {one_line(values['format'], 20)}"
-            )
+        if values["format"] not in (FORMAT, WITHOUT_FIELDS):
+            got = one_line(values["format"], 20)
+            raise ValueError(f"format of an event must be {WITHOUT_FIELDS} or {FORMAT}, got {got}")
         return Segment(
             motion=Motion(
                 Top(*_numbers(values["top"])),
@@ -148,7 +185,7 @@ class Event:
 def start_event(motion: Motion, rig: Rig = NO_RIG) -> Event:
     """Return the event with which a run of a motion starts at the stamp 0."""
     segment = Segment.begin(motion, 0, 1.0, rig)
-    return Event.of(0, "start", "", {}, motion.start, segment)
+    return Event.of(0, "start", None, {}, motion.start, segment)
 
 
 def decode_events(data: bytes) -> list[Event]:
@@ -159,6 +196,7 @@ def decode_events(data: bytes) -> list[Event]:
     ]
     for event in events:
         event.segment()
+        event.outcome()
         event.state()
         event.state_before()
     return events
@@ -170,14 +208,6 @@ def _read_elapsed(text: str) -> Fraction:
     if not EXACT.fullmatch(text):
         raise ValueError(f"{name} must be a whole number of ns or a fraction, got {text[:60]!r}")
     return _limit(-limit, name, Fraction(text), limit)
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, Sequence) and not isinstance(value, str):
-        return " ".join(repr(float(part)) for part in value)
-    return repr(value) if isinstance(value, float) else str(value)
 
 
 def _limit(low: float, name: str, value: Number, high: float) -> Number:

@@ -6,7 +6,7 @@ computed again from any of its files, whatever samples were missed.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -98,8 +98,9 @@ class Imu:
         vector("position", self.position, 3, MAX_DISTANCE, "m, body frame")
         number("rate", self.rate, "Hz", MIN_RATE, MAX_RATE)
         number("seed", self.seed, "", 0, 2**63 - 1)
+        values = asdict(self)
         for name in NOISE:
-            number(name, getattr(self, name), "in SI units", 0.0, MAX_NOISE)
+            number(name, values[name], "in SI units", 0.0, MAX_NOISE)
         _ = self.mount  # refused here if it is no unit quaternion
 
     @property

@@ -14,11 +14,13 @@ from typing import Protocol
 from symtop_ros.physics import State
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
+from symtop_ros.simulation.changes.outcomes import Failure, Outcome, describe
+from symtop_ros.simulation.changes.timeline import Change, Request, Timeline
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.ticker import CATCH_UP, Ticker
-from symtop_ros.simulation.timeline import Change, Request, Timeline
+from symtop_ros.simulation.times import JUMP, Clock, GivenTime, RunTime, Time
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -26,20 +28,7 @@ AHEAD = 0.05  # s of samples that are computed together; a kick makes them usele
 # Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
 # driven motions are shorter, because it takes a block to find that one is too fast.
 MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
-JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
-
-
-class Clock(Protocol):
-    """Source of the stamps."""
-
-    @property
-    def now(self) -> int:
-        """Current time in ns."""
-
-    @property
-    def is_simulated(self) -> bool:
-        """True if the time is set from outside (use_sim_time)."""
 
 
 class Host(Protocol):
@@ -89,14 +78,18 @@ class Simulation:
     """
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
-        self._clock, self._sink, self._host = clock, sink, host
+        self._sink, self._host = sink, host
+        self._time: Time = GivenTime(clock)
+        if settings.publish_clock:
+            self._time = RunTime(clock, settings.real_time_factor)
         self._lock = threading.RLock()
-        self._failures: dict[str, str] = {}  # by the name of the turn
+        self._failures: dict[str, Failure] = {}  # by the name of the turn
+        self._events = 0  # events so far
         self._jumped_to: int | None = None  # ns
         self.ticker = Ticker(settings.publish_rate, self.now)
-        self._last = self.now  # stamp of the last sample
+        self.last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
-        self._budget, self._spent = ComputeBudget(self.stamp), 0.0
+        self.budget, self._spent = ComputeBudget(self.stamp), 0.0
         self._gap_reported, self._unreported = -NANOSECONDS, 0  # ns, samples
         self._block = Block(self.segment, [])
         sink.send_description(self.stamp, settings)
@@ -104,7 +97,7 @@ class Simulation:
     @property
     def now(self) -> int:
         """Current time of the clock in ns."""
-        return self._clock.now
+        return self._time.clock.now
 
     @property
     def stamp(self) -> int:
@@ -124,7 +117,7 @@ class Simulation:
     @property
     def factor(self) -> float:
         """The real-time factor that is kept when the motion runs."""
-        return self.segment.factor
+        return self._time.factor(self.segment)
 
     @property
     def state(self) -> State:
@@ -142,7 +135,7 @@ class Simulation:
         """
         turn = Turn()
         with self._lock:
-            self._settle()
+            self.settle()
             stamp, before = self.stamp, self.timeline
             try:
                 yield turn
@@ -150,13 +143,15 @@ class Simulation:
             except Exception as error:
                 if not self._host.is_open:
                     raise
-                turn.failure = f"{name} failed: {type(error).__name__}: {one_line(error)}"
-                self._report_failure(name, turn.failure, stamp, before)
+                failure = Failure(name, type(error).__name__, one_line(error))
+                turn.failure = describe("failure", failure)
+                self._report_failure(failure, stamp, before)
 
-    def _report_failure(self, name: str, failure: str, stamp: int, before: Timeline) -> None:
+    def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
+        name = failure.action
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
-            self._host.report_error(failure)
+            self._host.report_error(describe("failure", failure))
             change = self.timeline.report("failure", failure, {}, stamp)
             self.apply(replace(change, before=before.segment.state_at(stamp)))
 
@@ -185,35 +180,27 @@ class Simulation:
             self._follow_jump()
             self._release_torque()
             # What is left of the next block is computed now, so that it is ready when it is due.
-            if not (self._publish() and self._work_on_block()):
+            if not (self.publish() and self._work_on_block()):
                 return AT_ONCE
             if not self.segment.motion.is_driven:  # else a block takes some steps of integration
                 self._block.work_ahead(self._list_later_stamps)
-            return self._find_wait()
-
-    def _find_wait(self) -> float | None:
-        """Return the seconds of real time until the next tick; None if it must be woken."""
-        wait = (self.stamp - self.now) / NANOSECONDS
-        return None if self._clock.is_simulated and wait > 0 else wait
+            return self._time.seconds_until(self.stamp)
 
     # Samples
 
-    def _publish(self) -> bool:
+    def publish(self) -> bool:
         """Publish what is due; return False if the motion is not integrated up to there."""
+        self._time.hold(self.stamp)
         ready = self._work_on_block()
         if ready:
-            missed, simulated = self.ticker.missed, self._clock.is_simulated
-            for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, not simulated):
+            missed, is_real = self.ticker.missed, not self._time.clock.is_simulated
+            catch_up = self._time.catch_up
+            for stamp in self.ticker.due(self.now, catch_up, self._block.last, is_real):
                 self._sink.send_sample(stamp, self._block)
-                self._last = stamp
+                self.last = stamp
             if self.ticker.missed > missed:
                 self._report_gap(self.ticker.missed - missed)
         return ready
-
-    @property
-    def _catch_up(self) -> float:
-        """Seconds of samples that are sent late; older ones are dropped."""
-        return JUMP if self._clock.is_simulated else CATCH_UP
 
     def _work_on_block(self) -> bool:
         """Work towards the samples of the next stamps; return True when they are ready."""
@@ -224,11 +211,11 @@ class Simulation:
         stamps = self._list_stamps(self.stamp)
         if not stamps:  # the torque ends with the next turn
             return False
-        ready = self._prepare(stamps[-1])
+        ready = self._time.prepare(self, stamps[-1])
         if ready:
             self._block = self._block.continue_with(self.segment, stamps).compute()
         else:
-            self._check_pace(stamps[0])
+            self._time.check_pace(self, stamps[0])
         return ready
 
     def _list_later_stamps(self) -> list[int]:
@@ -266,46 +253,39 @@ class Simulation:
 
     # The compute budget of driven motions
 
-    def _settle(self) -> None:
+    def settle(self) -> None:
         """Bring the run up to date: the state at the next stamp is ready afterwards."""
         self._release_torque()
-        self._integrate_to(self.stamp)
-
-    def _integrate_to(self, stamp: int) -> bool:
-        """Work until the state at a stamp is ready."""
-        while not self._prepare(stamp):
-            self._check_pace(stamp)
-        return True
-
-    def _prepare(self, stamp: int) -> bool:
-        """Work towards a stamp; return True if its state is ready."""
-        return self._budget.prepare(self.segment, stamp)
-
-    def _check_pace(self, stamp: int) -> None:
-        """Slow the motion down if it cannot be followed."""
-        if self._budget.shortfall:
-            self._host.warn(self.apply(self.timeline.slow_down(stamp, self._budget.shortfall)))
+        self._time.integrate_to(self, self.stamp)
 
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""
-        work, self._spent = self._budget.spent - self._spent, self._budget.spent
+        work, self._spent = self.budget.spent - self._spent, self.budget.spent
         current, factor = self.factor, self.settings.real_time_factor
         if current < factor and work < SHARE / 2:
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
-            self._set_pace(factor)
+            self.apply(self.timeline.set_pace(self.stamp, current, factor))
+            self._time.set_factor(factor)
 
-    def _set_pace(self, factor: float) -> str:
-        return self.apply(self.timeline.set_pace(self.stamp, self.factor, factor))
+    def warn(self, text: str) -> None:
+        """Warn the user."""
+        self._host.warn(text)
 
     # Changes
 
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
-        verdict = change.describe()
+        event = self._number_event(change)
         self.timeline = change.following
-        self._sink.send_event(change.event(verdict))
-        return verdict
+        self._sink.send_event(event)
+        return event.verdict
+
+    def _number_event(self, change: Change) -> Event:
+        """Return the event of a change with the next number; the change may fail."""
+        event = change.event(self._events + 1)
+        self._events += 1
+        return event
 
     def apply_at_once(self, change: Change) -> str:
         """Like `apply`, but publish the first sample before the verdict is computed.
@@ -314,23 +294,23 @@ class Simulation:
         """
         self.timeline = change.following
         with self._sink.put_events_first():
-            self._publish()
-            verdict = change.describe()
-            self._publish()
-            self._sink.send_event(change.event(verdict))
-        return verdict
+            self.publish()
+            event = self._number_event(change)
+            self.publish()
+            self._sink.send_event(event)
+        return event.verdict
 
     def pause(self, paused: bool) -> str:
         """Stop the motion, or continue it."""
-        return self.apply(self.timeline.pause(self.stamp, paused))
+        return self._time.pause(self, paused)
 
     def step(self, duration: float) -> str:
         """Advance a paused motion by a duration in s."""
-        return self.apply(self.timeline.step(self.stamp, duration))
+        return self._time.step(self, duration)
 
-    def report(self, name: str, verdict: str, request: Request | None = None) -> str:
+    def report(self, name: str, outcome: Outcome, request: Request | None = None) -> str:
         """Announce an event that changes nothing of the motion; return the verdict."""
-        return self.apply(self.timeline.report(name, verdict, request or {}, self.stamp))
+        return self.apply(self.timeline.report(name, outcome, request or {}, self.stamp))
 
     def note_jump(self) -> None:
         """Note that the clock jumped to its current time; the next tick follows it.
@@ -342,13 +322,15 @@ class Simulation:
     def _follow_jump(self) -> None:
         """Continue the motion from its current state at the time the clock jumped to."""
         now, self._jumped_to = self._jumped_to, None
+        if not self._time.can_jump:
+            return
         # The system clock can be set back without any notification.
         if self.now < self.stamp - (JUMP + 1 / self.ticker.rate) * NANOSECONDS:
             now = self.now
         if now is not None:
             stamp = self.stamp
-            self._integrate_to(stamp)
-            self._restart_grid(now)
+            self._time.integrate_to(self, stamp)
+            self.restart_grid(now)
             self.apply(self.timeline.move(stamp, now))
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> None:
@@ -358,7 +340,7 @@ class Simulation:
     def _release_torque(self) -> None:
         end = self.timeline.torque_end
         held = any(self.timeline.held_torque) and self.stamp >= end
-        if held and self._integrate_to(end):
+        if held and self._time.integrate_to(self, end):
             self._apply_torque(self.timeline.release_torque(end))
 
     def _apply_torque(self, change: Change) -> None:
@@ -375,9 +357,11 @@ class Simulation:
         if (settings.top, settings.publish_tf) != (old.top, old.publish_tf):
             self._sink.send_description(stamp, settings)
         if settings.publish_rate != old.publish_rate:
-            self._restart_grid(stamp)
+            self.restart_grid(stamp)
+        if settings.real_time_factor != old.real_time_factor:
+            self._time.set_factor(settings.real_time_factor)
 
-    def _restart_grid(self, stamp: int) -> None:
+    def restart_grid(self, stamp: int) -> None:
         """Continue with a grid of stamps that begins at a stamp."""
         self.ticker.restart(self.settings.publish_rate, stamp)
         self._block = Block(self.segment, [])  # its stamps belong to the old grid

@@ -1,35 +1,49 @@
 """The facts of a run that a page writes and plots, ready for JSON."""
 
 import math
-import re
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Literal
 from urllib.parse import urlencode
 
 import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.chart import Chart, frame_potential
-from symtop_ros.physics import EffectivePotential, Motion, State, regular_precession_rates
+from symtop_ros.physics import (
+    EffectivePotential,
+    KickVerdict,
+    Kind,
+    Lift,
+    Motion,
+    State,
+    kick_verdict,
+    regular_precession_rates,
+)
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.web.run import SERIES, Moment, Run
+from symtop_ros.wording import Variant, write
 
 TOP_PARAMETERS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 POINTS = 480  # of a plotted series in the window
 CURVE = 241  # points of a potential
-SAME_ANGLE = 1e-7  # rad: turning angles that differ by less are equal (physics/verdict.py)
 LISTED = 10  # entries of the history
-NUMBER = re.compile(r"-?\d+\.\d+(e[-+]?\d+)?")
 PLOTTED = [0, *(1 + SERIES.index(name) for name in ("theta", "phi_dot", "psi_dot", "ghost theta"))]
 CONSTANTS = {"energy": "J", "L_z": "N m s", "L_z'": "N m s"}
-KINDS = {
-    "regular": "The top precesses steadily, {range}.",
-    "cusps": "The top falls and comes back to rest in cusps, {range}.",
-    "looping": "The top precesses in loops, {range}.",
-    "unidirectional": "The top precesses in a wave, {range}.",
-    "sleeping": "The top sleeps: its axis stays on the vertical.",
-}
+HeadlineKind = Literal["start", "changed", "same", "higher", "lower", "wider", "narrower"]
+
+
+@dataclass(frozen=True, slots=True)
+class Headline:
+    """The consequence of an event: after a kick compared with the motion without it."""
+
+    kind: HeadlineKind
+    subject: Literal["top", "axis"]
+    driven: bool  # True under friction or an applied torque, without which the limits hold
+    motion: Kind
+    turning_angles: tuple[float, float]  # rad
+    most: float  # rad; of the highest and the lowest point the larger rise or fall
 
 
 def describe(run: Run) -> dict[str, Any]:
@@ -40,8 +54,8 @@ def describe(run: Run) -> dict[str, Any]:
     motion = segment.motion
     since = next((each.time for each in reversed(run.moments) if _begins(each)), 0.0)
     return {
-        "headline": write_headline(moment),
-        "why": moment.event.verdict,
+        **_write_sentences(moment, "radians"),
+        "degrees": _write_sentences(moment, "degrees"),
         "running": segment.running,
         "factor": segment.factor,
         "recording": run.is_recording,
@@ -86,40 +100,34 @@ def round_row(row: Real) -> list[float | None]:
     return [round(time, 6), *(None if math.isnan(x) else float(f"{x:.6g}") for x in others)]
 
 
-def write_headline(moment: Moment) -> str:
-    """Return the consequence of a start, a kick or a change, in one sentence."""
+def compare(moment: Moment) -> Headline:
+    """Return the consequence of a start, a kick or a change."""
     motion, event = moment.after.motion, moment.event
+    kind: HeadlineKind = "start" if event.name in RESTARTS else "changed"
+    most = 0.0
     if event.name == "kick" and moment.before is not None:
-        was = Motion(motion.top, event.state_before()).turning_angles
-        return _compare(was, motion.turning_angles, "axis" if motion.top.Mgl < 0 else "top")
-    if event.name in RESTARTS:
-        form = KINDS.get(str(motion.kind), "The motion is {kind}, {range}.")
-        return form.format(kind=motion.kind, range=_write_range(motion.turning_angles))
-    return f"The top has changed: {_write_range(motion.turning_angles)}."
+        outcome = event.outcome()
+        if not isinstance(outcome, KickVerdict):  # a log without fields
+            outcome = kick_verdict(motion, event.state_before(), None)
+        kind = _find_swing(outcome.highest, outcome.lowest)
+        most = max(outcome.highest.amount, outcome.lowest.amount)
+    subject: Literal["top", "axis"] = "axis" if motion.top.Mgl < 0 else "top"
+    return Headline(kind, subject, motion.is_driven, motion.kind, motion.turning_angles, most)
 
 
-def _compare(was: tuple[float, float], now: tuple[float, float], name: str) -> str:
-    """Return what a kick changes at the highest and the lowest point."""
-    highest, lowest = (
-        before - after if abs(before - after) > SAME_ANGLE else 0.0
-        for before, after in zip(was, now, strict=True)
-    )
-    most = max(abs(highest), abs(lowest))
-    if most == 0:
-        return f"The {name} swings as it would without the kick."
-    if min(highest, lowest) >= 0:
-        return f"The {name} rises by {most:.3f} rad: it moves higher than without the kick."
-    if max(highest, lowest) <= 0:
-        return f"The {name} falls by {most:.3f} rad: it moves lower than without the kick."
-    width = "wider" if highest > 0 else "less"
-    return f"The {name} swings {width} than without the kick: {_write_range(now)}."
+def _find_swing(highest: Lift, lowest: Lift) -> HeadlineKind:
+    """Return what a kick changed at the highest and the lowest point together."""
+    kinds = {highest.kind, lowest.kind} - {"unchanged"}
+    if len(kinds) == 2:
+        return "wider" if highest.kind == "higher" else "narrower"
+    return "same" if not kinds else "higher" if "higher" in kinds else "lower"
 
 
-def _write_range(angles: tuple[float, float]) -> str:
-    low, high = (f"{angle:.3f}" for angle in angles)
-    if low == high:
-        return f"its tilt stays at {low} rad"
-    return f"its tilt is between {low} and {high} rad"
+def _write_sentences(moment: Moment, variant: Variant) -> dict[str, str]:
+    """Return the headline and the verdict of an event with angles in a unit."""
+    event, outcome = moment.event, moment.event.outcome()
+    why = write(event.name, outcome, variant) if outcome else event.verdict
+    return {"headline": write("headline", compare(moment), variant), "why": why}
 
 
 def _begins(moment: Moment) -> bool:
@@ -208,16 +216,25 @@ def write_link(run: Run) -> str:
     motion = run.motion
     if motion is None:
         return ""
-    angles, rates = motion.start.euler_angles, motion.start.euler_rates
+    angles = motion.start.euler_angles._asdict()
+    rates = motion.start.euler_rates._asdict()
     values: Mapping[str, float] = {
         **{name.rpartition(".")[2]: value for name, value in top_parameters(motion).items()},
-        **{name: getattr(angles, name) for name in ("theta", "phi", "psi")},
-        **{f"{name}_dot": getattr(rates, name) for name in ("theta", "phi", "psi")},
+        **{name: angles[name] for name in ("theta", "phi", "psi")},
+        **{f"{name}_dot": rates[name] for name in ("theta", "phi", "psi")},
     }
     return urlencode({name: f"{value:.6g}" for name, value in values.items()})
 
 
 def _name(event: Event) -> str:
-    asked = NUMBER.sub(lambda number: f"{float(number[0]):.3g}", event.values.get("request", ""))
+    asked = "; ".join(f"{name}={_shorten(text)}" for name, text in event.request.items())
     words = f"{event.name}: {asked}" if asked else event.name
     return words if len(words) <= 44 else f"{words[:41]}..."
+
+
+def _shorten(text: str) -> str:
+    """Return a number, or each of several, with three digits; other text as it is."""
+    try:
+        return " ".join(f"{float(part):.3g}" for part in text.split())
+    except ValueError:
+        return text

@@ -45,6 +45,7 @@ class LessonStep:
     also: tuple[str, ...] = ()
     layers: tuple[str, ...] = ()
     scene: str = "cusps"
+    plot: str = "tilt"
 
     @property
     def commands(self) -> list[str]:

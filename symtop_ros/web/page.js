@@ -25,11 +25,6 @@
   const angleUnit = () => (inDegrees() ? "\u00b0" : "rad");
   const short = (value, digits = 4) => (value === null || value === undefined || Number.isNaN(value) ? "" : String(Number(value.toPrecision(digits))));
   const fixed = (value) => (Math.abs(value) >= 1e5 ? value.toPrecision(4) : value.toFixed(inDegrees() ? 1 : 3));
-  const inUnit = (text) =>
-    inDegrees()
-      ? text.replace(/(-?[\d.]+)( (?:and|to) (-?[\d.]+))? rad(?!\/)\b/g, (_, first, __, second) =>
-          [first, second].filter(Boolean).map((each) => angle(Number(each)).toFixed(1) + "\u00b0").join(" and "))
-      : text;
 
   // Fields: a value is taken over on Enter or when the field is left, never while it is typed
 
@@ -159,8 +154,9 @@
   };
   const say = (id, text) => { if (find(id).textContent !== text) find(id).textContent = text; };
   const showFacts = () => {
-    say("headline", inUnit(facts.headline));
-    say("why", inUnit(facts.why));
+    const sentences = inDegrees() ? facts.degrees : facts;
+    say("headline", sentences.headline);
+    say("why", sentences.why);
     if (saved) return;
     say("pause", facts.running ? "Pause" : "Run");
     say("record", facts.recording ? "End the recording" : "Record (MCAP)");
@@ -317,7 +313,7 @@
   const EXPLAINED = { energy: "energy E", L_z: "L_z, about the axis of the top", "L_z'": "L_z', about the vertical" };
   const drawConstants = (now) => {
     const cell = (text) => `<td>${text}</td>`;
-    const lines = facts.table.map(([name, text]) => `<tr><th scope="row">${name}</th>${cell(inUnit(text))}</tr>`);
+    const lines = facts.table.map(([name, text]) => `<tr><th scope="row">${name}</th>${cell(text)}</tr>`);
     for (const [name, [value, change, unit]] of Object.entries(now ?? {})) {
       const drift = Math.abs(change) < 1e-12 * Math.abs(value) || change === 0 ? "constant" : `changed by ${short(change, 2)}`;
       lines.push(`<tr><th scope="row">${EXPLAINED[name]}</th>${cell(`${short(value, 6)} ${unit}, ${drift}`)}</tr>`);

@@ -14,6 +14,7 @@ from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import EffectivePotential, Motion, State
 from symtop_ros.session.summary import constants_of_motion
 from symtop_ros.simulation.budget import StepBudget
+from symtop_ros.simulation.changes.outcomes import Record
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 
@@ -129,9 +130,9 @@ class Run:
         self.moments.append(moment)
         self.segment, self.event = after, event
         self.ghost.follow(event.name, before, after)
-        if event.name == "record":
-            ended = event.verdict.endswith("ended")
-            self.is_recording = event.verdict.startswith("recording to ") and not ended
+        outcome = event.outcome() if event.name == "record" else None
+        if isinstance(outcome, Record):
+            self.is_recording = outcome.kind == "begun"
         changed = before is None or not _is_same(before.motion, after.motion)
         if event.name in ANNOUNCED or (event.name == "parameters" and changed):
             self.announced = moment

@@ -56,6 +56,7 @@ class Terminal:
         return status
 
 
+@pytest.mark.wording
 def test_each_key_sends_its_request():
     terminal = Terminal("keys")
     terminal.wait_for("quit")

@@ -26,6 +26,7 @@ def node():
         yield
 
 
+@pytest.mark.wording
 def test_hurry_prints_the_verdict():
     assert ctl("reset").returncode == 0
     result = ctl("hurry")
@@ -34,6 +35,7 @@ def test_hurry_prints_the_verdict():
     assert result.stderr == ""
 
 
+@pytest.mark.wording
 def test_start_kick_and_state_work_together():
     assert ctl("start", "theta=1.0", "psi_dot=150", "precession=slow").returncode == 0
     assert ctl("pause").returncode == 0

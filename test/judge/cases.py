@@ -19,7 +19,7 @@ KICK = 3_123_456_789  # ns
 def make_events():
     """A start, a kick, a pause, and a run in slow motion."""
     segment = Segment.begin(Motion(TOP, START), 0, 1.0)
-    events = [Event.of(0, "start", "", {}, START, segment)]
+    events = [Event.of(0, "start", None, {}, START, segment)]
     for name, stamp, change in (
         ("kick", KICK, lambda s: s.restart(hurry(s.state_at(KICK), 1.4), KICK)),
         ("pause", 5 * SECOND, lambda s: s.pause(5 * SECOND)),
@@ -28,7 +28,7 @@ def make_events():
     ):
         before = segment.state_at(stamp)
         segment = change(segment)
-        events.append(Event.of(stamp, name, "", {}, before, segment))
+        events.append(Event.of(stamp, name, None, {}, before, segment))
     return events
 
 

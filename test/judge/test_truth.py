@@ -23,7 +23,7 @@ STAMPS = np.arange(0, SECOND, SECOND // 200)
 def test_the_mount_of_the_sensor_is_applied_to_its_messages():
     mounted = Imu(position=(0.0, 0.0, 0.02), orientation=(0.5, -0.5, 0.5, 0.5))
     segment = Segment.begin(Motion(TOP, START), 0, 1.0, Rig(imu=mounted))
-    truth = Truth([Event.of(0, "start", "", {}, START, segment)])
+    truth = Truth([Event.of(0, "start", None, {}, START, segment)])
     numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, STAMPS))
     rates = numbers[:, IMU.quantities["angular_velocity"]]
     estimates = Estimates.of(STAMPS, numbers[:, [3, 0, 1, 2]], rates)

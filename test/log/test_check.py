@@ -5,9 +5,10 @@ import pytest
 from log_files import ARTICLE, LAYOUTS, Run
 
 from symtop_ros.log.check import BOUND, check_log
-from symtop_ros.log.reader import McapFile
+from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction, State, Top
+from symtop_ros.playback.main import main
 from symtop_ros.simulation.topics import STATE_TOPICS
 from symtop_ros.wire.messages import decode_messages
 
@@ -140,3 +141,17 @@ def test_a_message_with_another_frame_is_damage(tmp_path):
     log = TopLog(McapFile(run.write(tmp_path)))
     check_log(log)
     assert log.damage == ["torque: 1 messages name vorld, not world"]
+
+
+def test_a_log_without_fields_is_read_and_its_check_is_left_to_the_version_that_wrote_it(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr("symtop_ros.simulation.events.FORMAT", "2")
+    path = Run(seconds=0.2).write(tmp_path)
+    monkeypatch.undo()
+    log = TopLog(McapFile(path))
+    assert sum(len(batch.columns["orientation"].stamps) for batch in log.batches()) > 10
+    with pytest.raises(LogError, match=r"format of events must be 3 for a check, got 2: symtop"):
+        check_log(TopLog(McapFile(path)))
+    assert main([str(path), "--check"]) == 1
+    assert f"symtop_ros test has recorded {path} and checks it" in capsys.readouterr().err

@@ -11,7 +11,7 @@ from symtop_ros.models.formats import FORMATS
 from symtop_ros.models.snippets import format_snippets
 from symtop_ros.models.urdf import MUJOCO_BOUND
 from symtop_ros.physics import Body, Motion, State, Top
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 
 SCENES = ["cusps", "fast_precession", "perry_fails", "disc", "free", "hanging"]

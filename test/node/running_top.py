@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -113,6 +114,13 @@ class RunningTop:
                 )
             )
         )
+
+    @property
+    def last_log(self) -> Path:
+        """The file of the current or the last recording."""
+        file = self.top.session._recorder._file
+        assert file
+        return file.path
 
     def set(self, service: str, **values: Any) -> tuple[bool, str]:
         return self.connection.set(service, values)

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -13,10 +12,15 @@ from node.running_top import LATCHED
 from programs import environment
 
 from symtop_ros.session.outputs import Output, Outputs
+from symtop_ros.simulation.changes.outcomes import Failure, describe
 from symtop_ros.simulation.simulation import Simulation
 
 DOMAIN = claim_domain()
 BUG = "ZeroDivisionError: by a bug"
+
+
+def report_of(action):
+    return describe("failure", Failure(action, "ZeroDivisionError", "by a bug"))
 
 
 def fail(*_):
@@ -46,7 +50,7 @@ def assert_keeps_running(run):
     run.spin_until(lambda: len(samples) > 40)
     granted, answer = run.switch("record", False)
     assert granted, answer
-    assert_exact(Path(answer.removeprefix("recorded to ")))
+    assert_exact(run.last_log)
     assert run.top.failure is None
 
 
@@ -63,7 +67,7 @@ def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
     monkeypatch.setattr(Simulation, "hold_torque", fail)
     push(run)
     run.spin_until(failures)
-    assert failures() == [f"~/applied_torque failed: {BUG}"]
+    assert failures() == [report_of("~/applied_torque")]
     monkeypatch.undo()
     push(run)
     run.spin_until(lambda: run.top.simulation.segment.motion.is_driven)
@@ -90,13 +94,13 @@ def test_one_in_each_of_the_diagnostics_is_reported_once(run, failures, monkeypa
     heard = run.collect(DiagnosticArray, "/diagnostics")
     monkeypatch.undo()
     run.spin_until(lambda: heard)
-    assert failures() == [f"/diagnostics failed: {BUG}"]
+    assert failures() == [report_of("/diagnostics")]
     assert_keeps_running(run)
 
 
 def test_one_in_the_check_of_parameters_refuses_them(run, failures, monkeypatch):
     monkeypatch.setattr("symtop_ros.session.session.Settings.from_values", fail)
-    report = f"a check of parameters failed: {BUG}"
+    report = report_of("a check of parameters")
     values = {"hurry_factor": 1.2}
     assert run.connection.set("set_parameters_atomically", values) == (False, report)
     run.spin_until(failures)
@@ -113,14 +117,14 @@ def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
     run.connection.set("set_parameters_atomically", {"top.Mgl": 0.05})
     run.spin_until(failures)
     monkeypatch.undo()
-    assert failures() == [f"a change of parameters failed: {BUG}"]
+    assert failures() == [report_of("a change of parameters")]
     assert_keeps_running(run)
 
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.simulation.timeline.kick_verdict", fail)
+    monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
     for _ in range(2):
-        assert run.trigger("hurry_precession") == (False, f"~/hurry_precession failed: {BUG}")
+        assert run.trigger("hurry_precession") == (False, report_of("~/hurry_precession"))
     run.spin_until(lambda: len(failures()) == 2)
     monkeypatch.undo()
     assert_keeps_running(run)
@@ -167,7 +171,7 @@ sys.exit(top_node())
     ("module", "name", "method"),
     [
         ("session.outputs", "Outputs", "send_sample"),
-        ("simulation.simulation", "Simulation", "_publish"),
+        ("simulation.simulation", "Simulation", "publish"),
     ],
 )
 def test_one_in_a_tick_ends_the_node_with_a_line_and_a_complete_log(module, name, method, tmp_path):

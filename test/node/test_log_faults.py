@@ -5,7 +5,6 @@ import shutil
 import subprocess
 import sys
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -13,9 +12,11 @@ from domains import claim_domain
 from endings import bound
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
-from node.running_top import LATCHED
+from node.running_top import LATCHED, facts
 from programs import environment
 from sensor_msgs.msg import JointState
+
+from symtop_ros.session.answers import Answer
 
 DOMAIN = claim_domain()
 MS = 1_000_000
@@ -40,16 +41,16 @@ class Recording:
 
     @property
     def errors(self):
-        messages = [each.status[0].message for each in self._events]
-        return [each for each in messages if each.startswith("recording stopped: ")]
+        found = map(facts, self._events)
+        return [each["outcome.failure"] for each in found if each.get("outcome.kind") == "stopped"]
 
     def begin(self):
         granted, answer = self.run.switch("record", True)
-        return Path(answer.removeprefix("recording to ")) if granted else answer
+        return self.run.last_log if granted else answer
 
     def end(self):
         granted, answer = self.run.switch("record", False)
-        return Path(answer.removeprefix("recorded to ")) if granted else answer
+        return self.run.last_log if granted else answer
 
     def wait(self, samples=100):
         seen = len(self._angles)
@@ -104,7 +105,7 @@ def test_a_folder_that_a_file_takes_the_place_of_is_one_error(start_top, tmp_pat
     assert recording.begin() == f"{UNWRITABLE} {str(folder)!r}: File exists"
     folder.unlink()
     recording.assert_works()
-    assert recording.errors == [f"recording stopped: {path}: the file was removed"]
+    assert recording.errors == [f"{path}: the file was removed"]
 
 
 def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_path):
@@ -114,7 +115,7 @@ def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_p
     path.unlink()
     recording.run.spin_until(lambda: recording.errors)
     recording.assert_works()
-    assert recording.errors == [f"recording stopped: {path}: the file was removed"]
+    assert recording.errors == [f"{path}: the file was removed"]
 
 
 def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
@@ -126,11 +127,9 @@ def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
         paths[-1].unlink()
         recording.run.spin_until(lambda: recorder.failure)
     assert not recorder.running
-    assert recording.run.switch("record", False) == (True, "not recording")
+    assert recording.run.switch("record", False) == (True, str(Answer("not_recording")))
     recording.run.spin_until(lambda: len(recording.errors) == 2)
-    assert recording.errors == [
-        (f"recording stopped: {path}: the file was removed") for path in paths
-    ]
+    assert recording.errors == [(f"{path}: the file was removed") for path in paths]
     recording.assert_works()
 
 
@@ -142,7 +141,7 @@ def test_a_recording_whose_end_fails_is_refused_and_one_error(start_top, tmp_pat
     path.unlink()
     assert recording.end() == f"recording failed: {path}: the file was removed"
     recording.assert_works()
-    assert recording.errors == [f"recording stopped: {path}: the file was removed"]
+    assert recording.errors == [f"{path}: the file was removed"]
 
 
 def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_path):
@@ -162,7 +161,7 @@ def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_pat
         assert set(folder.iterdir()) == {path, ballast}
         ballast.unlink()
         recording.assert_works()
-        assert recording.errors == [f"recording stopped: {path}: No space left on device"]
+        assert recording.errors == [f"{path}: No space left on device"]
         recording.run.top.close()
 
 

@@ -5,7 +5,6 @@ Each is answered in one sentence, the samples stay those of the motion, and so d
 
 import json
 import math
-from pathlib import Path
 
 import pytest
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
@@ -20,7 +19,7 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.simulation import initial, kick
+from symtop_ros.simulation.changes import initial, kick
 from symtop_ros.simulation.settings import PARAMETERS
 
 RATE = 200.0  # Hz
@@ -203,7 +202,8 @@ def test_a_node_that_publishes_the_clock_does_not_follow_it(start_top):
 
 def test_the_log_of_all_that_agrees_with_its_events(run):
     run.switch("record", False)
-    path = Path(run.switch("record", True)[1].removeprefix("recording to "))
+    assert run.switch("record", True)[0]
+    path = run.last_log
 
     @deterministic(60)
     @given(call=CALLS)

@@ -218,7 +218,7 @@ def test_another_weight_keeps_the_state_and_changes_what_follows(start_top):
     assert run.connection.set(SET, {"top.Mgl": -0.068})[0]
     run.spin_until(lambda: len(events) == 2)
     values = facts(events[1])
-    assert values["request"] == "top.Mgl=-0.068"
+    assert values["request.top.Mgl"] == "-0.068"
     for name in ("orientation", "angular_velocity"):
         assert values[f"motion.{name}"] == values[f"before.{name}"]
         before, after = (numbers(values[f"{when}.{name}"]) for when in ("before", "after"))
@@ -282,6 +282,7 @@ def test_a_run_starts_from_the_quaternion_of_the_parameters(start_top):
     assert state["euler_rates"]["psi"] != 0
 
 
+@pytest.mark.wording
 def test_another_factor_hurries_by_it(start_top):
     run = start_top(scene="hurry_slow", hurry_factor=2.0)
     assert run.trigger("hurry_precession")[1].startswith("Precession 6.50 -> 12.99 rad/s")

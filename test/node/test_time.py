@@ -4,7 +4,6 @@ import json
 import random
 import time
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from builtin_interfaces.msg import Time
@@ -83,7 +82,7 @@ def test_a_published_clock_and_simulated_time_contradict_each_other(start_top):
 def exact_log_of(run):
     granted, answer = run.switch("record", False)
     assert granted, answer
-    path = Path(answer.removeprefix("recorded to "))
+    path = run.last_log
     assert assert_exact(path) > 20
     return path
 

@@ -125,7 +125,13 @@ def test_angles_are_shown_and_typed_in_degrees(browser, page):
         field = tab.get_by_role("textbox", name="tilt theta (\u00b0)")
         field.fill("30")
         field.press("Enter")
-        tab.locator("#headline").filter(has_text="30.0\u00b0").wait_for()
+        headline = tab.locator("#headline")
+        before = headline.inner_text()
+        for _ in range(100):
+            if headline.inner_text() != before:
+                break
+            tab.wait_for_timeout(50)
+        assert headline.inner_text() == page.pages.facts["degrees"]["headline"]
         assert page.run.motion.start.euler_angles.theta == pytest.approx(np.pi / 6, abs=1e-12)
 
 

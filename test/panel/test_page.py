@@ -22,7 +22,9 @@ from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.physics import regular_precession_rates
+from symtop_ros.web.facts import compare
 from symtop_ros.web.scene import ORANGE
+from symtop_ros.wording import write
 
 TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
 SIZE = {"width": 1100, "height": 560}  # software renders slowly
@@ -181,7 +183,7 @@ def _watched(browser, tmp_path_factory):
             page.actions.request("pause", True)  # software renders a moving top slowly
             watched = Watched(browser, page)
             watched.until(
-                lambda: "theta=0.3" in str(watched.run.event and watched.run.event.values)
+                lambda: watched.run.event and watched.run.event.request.get("theta") == "0.3"
             )
             yield watched
         finally:
@@ -197,7 +199,7 @@ def _as_before(watched):
 
 def test_a_link_that_a_user_types_starts_its_experiment_and_leaves_the_address(watched):
     event = watched.events("start")[1]  # after that of the scene
-    assert event.values["request"] == "theta=0.3; psi_dot=150.0; phi_dot=0.0"
+    assert event.request == {"theta": "0.3", "psi_dot": "150.0", "phi_dot": "0.0"}
     assert event.state().euler_angles.theta == pytest.approx(0.3, abs=1e-15)
     assert watched.tab.url == f"{watched.page.server.url}/"
 
@@ -354,20 +356,19 @@ def test_the_headline_compares_with_the_top_that_was_not_kicked(watched):
     assert headline.locator("..").get_attribute("aria-live") == "polite"
     watched.act(lambda: watched.press("Hurry the precession"), "kick")
     low, high = watched.run.motion.turning_angles
-    watched.until(
-        lambda: (
-            headline.inner_text()
-            == f"The top rises by {0.5 - low:.3f} rad: it moves higher than without the kick."
-        )
-    )
+    shown = compare(watched.run.announced)
+    assert (shown.kind, shown.most) == ("higher", pytest.approx(0.5 - low, abs=1e-12))
+    watched.until(lambda: headline.inner_text() == write("headline", shown))
     # Hurried again near the lower end of the nutation it falls on, and yet both limits rise.
     for _ in range(8):
         watched.act(lambda: watched.press("Step"), "step")
     second = watched.act(lambda: watched.press("Hurry the precession"), "kick")
     after = watched.run.motion.turning_angles
     higher = [now < was - 1e-6 for was, now in zip((low, high), after, strict=True)]
-    words = {(True, True): "higher", (False, False): "lower", (True, False): "wider"}
-    watched.until(lambda: words[tuple(higher)] in headline.inner_text())
+    kinds = {(True, True): "higher", (False, False): "lower", (True, False): "wider"}
+    shown = compare(watched.run.announced)
+    assert shown.kind == kinds[tuple(higher)]
+    watched.until(lambda: headline.inner_text() == write("headline", shown))
     watched.tab.get_by_text("why", exact=True).click()
     assert watched.tab.locator("#why").inner_text() == second.verdict
     watched.tab.get_by_text("why", exact=True).click()
@@ -376,14 +377,15 @@ def test_the_headline_compares_with_the_top_that_was_not_kicked(watched):
 def test_speed_and_torque_leave_the_headline(watched):
     watched.act(lambda: watched.press("Hurry the precession"), "kick")
     headline = watched.tab.locator("#headline")
-    watched.until(lambda: headline.inner_text().startswith("The top rises"))
+    kicked = write("headline", compare(watched.run.announced))
+    watched.until(lambda: headline.inner_text() == kicked)
     watched.act(
         lambda: watched.tab.get_by_label("speed").select_option("1/20 of real time"), "parameters"
     )
     watched.act(lambda: watched.page.actions.hold_torque(1.0), "torque")
     watched.until(lambda: watched.run.event.name == "torque")
     watched.tab.wait_for_timeout(300)
-    assert headline.inner_text().startswith("The top rises")
+    assert headline.inner_text() == kicked
 
 
 def test_the_drawn_attitude_is_that_of_the_state(watched):
@@ -549,7 +551,7 @@ def test_the_ball_on_the_axle_is_pulled(watched):
         mouse.up()
 
     event = watched.act(pull, "kick")
-    assert event.values["request"].startswith("angular_impulse=")
+    assert set(event.request) == {"angular_impulse"}
     gained = watched.run.motion.top.angular_momentum(watched.run.motion.start) - before
     # To the right in the window is along the horizontal axis of the camera, (1.9, 2.2)/2.9 turned
     # by a right angle: axis x pull points down there, for the axle stands nearly upright.
@@ -589,13 +591,13 @@ def test_keys_play_and_do_not_move_the_camera(watched):
     position = client.camera.position.copy()
     for key, factor in (("h", "1.4"), ("d", repr(1 / 1.4))):
         event = watched.act(lambda key=key: keyboard.press(key), "kick")
-        assert event.values["request"] == f"precession_rate_factor={factor}"
+        assert event.request == {"precession_rate_factor": factor}
     for key in ("ArrowUp", "ArrowDown"):
         event = watched.act(lambda key=key: keyboard.press(key), "kick")
-        assert event.values["request"].startswith("angular_impulse=")
+        assert set(event.request) == {"angular_impulse"}
     for key, change in (("ArrowRight", "1.0"), ("ArrowLeft", "-1.0")):
         event = watched.act(lambda key=key: keyboard.press(key), "kick")
-        assert event.values["request"].startswith(f"precession_rate_change={change};")
+        assert event.request["precession_rate_change"] == change
     watched.act(lambda: keyboard.press("Space"), "resume")
     watched.act(lambda: keyboard.press("Space"), "pause")
     watched.act(lambda: keyboard.press("r"), "reset")
@@ -693,8 +695,9 @@ def test_two_pages_play_with_one_top_and_choose_each_what_they_show(watched, bro
         tab.keyboard.press("h")
     watched.until(lambda: len(watched.events("kick")) == kicks + 2)
     assert watched.run.motion.start.euler_rates.phi == pytest.approx(6.4971 * 1.96, rel=1e-4)
+    headline = write("headline", compare(watched.run.announced))
     for tab in (watched.tab, other):
-        watched.until(lambda tab=tab: "rises" in tab.locator("#headline").inner_text())
+        watched.until(lambda tab=tab: tab.locator("#headline").inner_text() == headline)
     sent = []
     for client in watched.page.server.get_clients().values():
         queue = client._websock_connection.queue_message

@@ -9,7 +9,8 @@ from exact_log import assert_exact
 from symtop_ros.log.reader import McapFile
 from symtop_ros.panel import source
 from symtop_ros.panel.source import LONGEST_STEP, LocalTop
-from symtop_ros.simulation.timeline import Change
+from symtop_ros.session.answers import Answer
+from symtop_ros.simulation.changes.timeline import Change
 
 SECOND = 1_000_000_000
 
@@ -48,8 +49,9 @@ def advance(top, clock, seconds):
 def test_a_request_is_answered_as_by_the_node(top):
     granted, answer = top.request("kick", {"precession_rate_factor": 1.4})
     assert granted
-    assert answer.startswith("Precession 6.50 -> 9.10 rad/s. The top rises")
-    assert names(top.batch()) == ["kick"]
+    batch = top.batch()
+    assert names(batch) == ["kick"]
+    assert answer == batch.events[0][1].verdict
 
 
 def test_a_batch_never_ends_between_the_first_sample_of_a_kick_and_its_event(
@@ -57,13 +59,15 @@ def test_a_batch_never_ends_between_the_first_sample_of_a_kick_and_its_event(
 ):
     kicked, collected = threading.Event(), threading.Event()
 
-    def describe(_):
+    describe = Change.event
+
+    def describe_late(change, number):
         """Take time, as a verdict does; the sample has been sent, the event has not."""
         kicked.set()
         collected.wait(0.2)
-        return "the top rises"
+        return describe(change, number)
 
-    monkeypatch.setattr(Change, "describe", describe)
+    monkeypatch.setattr(Change, "event", describe_late)
     kick = threading.Thread(target=top.request, args=("kick", {"precession_rate_factor": 1.4}))
     monkeypatch.setattr(top, "_keep_up", lambda: (kick.start(), kicked.wait(10.0)))
     clock[0] += 0.02
@@ -129,7 +133,7 @@ def test_a_recording_is_a_log_that_agrees_with_its_events_to_the_last_bit(top, c
     advance(top, clock, 0.3)
     granted, answer = top.request("record", False)
     assert granted
-    assert answer == f"recorded to {top.log}"
+    assert answer == str(Answer("recorded", str(top.log)))
     assert assert_exact(top.log) >= 110  # samples: 0.6 s at 200 Hz, less the first frames
 
 

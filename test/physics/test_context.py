@@ -53,7 +53,7 @@ def describe(top, start):
             *(motion.kind, motion.turning_angles, motion.nutation_period, motion.spin_reverses),
             *(motion.mean_precession_rate, motion.mean_spin_rate, motion.precession_per_nutation),
             regular_precession_rates(top, theta=0.5, psi_dot=200.0),
-            str(perrys_rule(top, start)),
+            perrys_rule(top, start),
             EffectivePotential.of(top, start),
         )
     )

@@ -12,10 +12,10 @@ from odd_values import SIZES, VALUES, assert_one_sentence, deterministic, trials
 
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
 from symtop_ros.session.summary import summarize_state
-from symtop_ros.simulation import initial, kick
+from symtop_ros.simulation.changes import initial, kick
+from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.changes.kick import plan_kick
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import initial_state
-from symtop_ros.simulation.kick import plan_kick
 from symtop_ros.simulation.segment import Segment, to_nanoseconds
 from symtop_ros.simulation.sensor import find_body
 from symtop_ros.simulation.settings import PARAMETERS, Settings
@@ -108,14 +108,14 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
                 numbers = numbers[topic.format.quantities["torque"]]  # the force is unknown
             assert np.isfinite(numbers).all()
         json.loads(json.dumps(summarize_state(segment, 0), allow_nan=False))
-        again = Event.of(0, "start", "", asked, start, segment).segment()
+        again = Event.of(0, "start", None, asked, start, segment).segment()
         assert (again.motion.start, again.elapsed) == (motion.start, segment.elapsed)
         try:
             after, hold = plan_kick(motion, state, kicked)
         except RefusedError as refused:
             assert_one_sentence(str(refused))
         else:
-            assert_one_sentence(kick_verdict(after, state, hold))
+            assert_one_sentence(str(kick_verdict(after, state, hold)))
 
     check()
 

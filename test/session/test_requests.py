@@ -5,6 +5,8 @@ import json
 import pytest
 from simulation.runs import Run
 
+from symtop_ros.session.answers import Answer
+from symtop_ros.simulation.changes.outcomes import Pause, Step, describe
 from symtop_ros.simulation.settings import Settings
 
 REFUSALS = {
@@ -47,7 +49,8 @@ def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
     run = Run()
     granted, answer = run.ask("set_initial_conditions", {"precession": "slow", "theta": 0.7})
     assert granted
-    assert answer.startswith("regular: ")
+    assert run.sink.events[-1].outcome().motion == "regular"
+    assert answer == run.sink.events[-1].verdict
     start = run.simulation.timeline.start
     run.advance(0.1)
     assert run.ask("kick", {"precession_rate_factor": 2.0})[0]
@@ -58,12 +61,12 @@ def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
 def test_a_pause_stops_the_motion_and_a_step_advances_it():
     run = Run()
     run.advance(0.5)
-    assert run.ask("pause", True) == (True, "paused at 0.505000 s of the motion")
-    assert run.ask("pause", True) == (True, "already paused")
+    assert run.ask("pause", True) == (True, describe("pause", Pause(0.505)))
+    assert run.ask("pause", True) == (True, str(Answer("paused")))
     run.advance(1.0)
-    assert run.ask("step", {"duration": 0.25}) == (True, "stepped to 0.755000 s of the motion")
-    assert run.ask("pause", False) == (True, "resumed at 0.755000 s of the motion")
-    assert run.ask("pause", False) == (True, "already running")
+    assert run.ask("step", {"duration": 0.25}) == (True, describe("step", Step("stepped", 0.755)))
+    assert run.ask("pause", False) == (True, describe("resume", Pause(0.755)))
+    assert run.ask("pause", False) == (True, str(Answer("running")))
     run.advance(0.1)
     resting = [tuple(numbers) for stamp, numbers in run.sink.samples if stamp >= 505_000_000]
     assert len(set(resting[:200])) == 1  # 1 s of the pause

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from symtop_ros.session.requests import Requests
+from symtop_ros.session.services import SERVICES
 from symtop_ros.simulation.block import Block
-from symtop_ros.simulation.clocked import ClockedSimulation
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
@@ -68,8 +68,7 @@ class Run:
     def __init__(self, scene: str = "cusps", **changes: Any) -> None:
         self.clock, self.sink = HandClock(), ListSink()
         settings = Settings.from_scene(scene, **changes)
-        kind = ClockedSimulation if settings.publish_clock else Simulation
-        self.simulation = kind(settings, self.clock, self.sink, self.sink)
+        self.simulation = Simulation(settings, self.clock, self.sink, self.sink)
         self.simulation.report("start", self.simulation.timeline.verdict)
         self.requests = Requests(self.simulation, lambda on: "not recording")
 
@@ -86,4 +85,5 @@ class Run:
 
     def ask(self, name: str, *values: Any) -> tuple[bool, str]:
         """Carry out a request by its name; return success and the answer."""
-        return self.simulation.answer(name, lambda: getattr(self.requests, name)(*values))
+        act: Callable[..., str] = SERVICES[name].act
+        return self.simulation.answer(name, lambda: act(self.requests, *values))

@@ -14,9 +14,7 @@ INTEGRATED = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))
 
 
 def event_of(segment, stamp=BEGIN):
-    return Event.of(
-        stamp, "kick", "a sentence", {"hold": "spin_rate"}, segment.motion.start, segment
-    )
+    return Event.of(stamp, "kick", None, {"hold": "spin_rate"}, segment.motion.start, segment)
 
 
 @pytest.mark.parametrize("running", [True, False])

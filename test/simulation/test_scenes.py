@@ -7,7 +7,7 @@ import pytest
 from physics.tops import EPS
 
 from symtop_ros.physics import Motion
-from symtop_ros.simulation.initial import initial_state
+from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 
 

@@ -150,7 +150,7 @@ def test_noise_shows_in_the_covariances():
 
 def test_an_event_brings_back_the_sensor_bit_for_bit():
     segment = segment_of(NOISY)
-    again = Event.of(0, "start", "", {}, MOTION.start, segment).segment()
+    again = Event.of(0, "start", None, {}, MOTION.start, segment).segment()
     assert again.rig == segment.rig
     assert (measured("imu", again) == measured("imu", segment)).all()
 
@@ -166,7 +166,7 @@ def test_an_event_brings_back_the_sensor_bit_for_bit():
     ],
 )
 def test_a_damaged_event_is_refused(values):
-    event = Event.of(0, "start", "", {}, MOTION.start, segment_of())
+    event = Event.of(0, "start", None, {}, MOTION.start, segment_of())
     with pytest.raises(ValueError, match=r"must|unpack|values"):
         replace(event, values={**event.values, **values}).segment()
 

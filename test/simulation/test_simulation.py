@@ -6,6 +6,7 @@ from itertools import pairwise
 import pytest
 from simulation.runs import SECOND, Run
 
+from symtop_ros.simulation.changes.outcomes import Failure, describe
 from symtop_ros.simulation.validation import RefusedError
 
 MS = SECOND // 1000
@@ -40,9 +41,12 @@ def test_a_kick_separates_the_samples_at_its_stamp_and_precedes_them_in_the_log(
     run.advance(0.1)
     granted, answer = run.ask("hurry_precession")
     assert granted
-    assert answer.startswith("Precession 6.50 -> 9.10 rad/s. The top rises")
     run.advance(0.1)
     kick = run.sink.events[-1]
+    found = kick.outcome()
+    assert answer == kick.verdict == str(found)
+    assert (found.hold, found.direction, found.factor) == ("spin_rate", "rises", pytest.approx(1.4))
+    assert [event.number for event in run.sink.events] == [1, 2]
     assert (kick.name, kick.stamp) == ("kick", 105 * MS)
     assert run.sink.order.index("kick") == 1 + sum(
         each < kick.stamp for each, _ in run.sink.samples
@@ -124,7 +128,7 @@ def test_other_settings_continue_from_the_current_state():
     with run.simulation.turn("parameters"):
         run.simulation.apply_settings(settings)
     event = run.sink.events[-1]
-    assert event.values["request"] == "top.Mgl=-0.05; real_time_factor=0.5"
+    assert event.request == {"top.Mgl": "-0.05", "real_time_factor": "0.5"}
     assert run.simulation.segment.motion.start == before
     assert run.simulation.segment.factor == 0.5
     assert len(run.sink.descriptions) == 2
@@ -137,8 +141,9 @@ def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running()
     for _ in range(2):
         with run.simulation.turn("a test") as turn:
             raise ZeroDivisionError("by\na bug")
-        assert turn.failure == "a test failed: ZeroDivisionError: by a bug"
-    assert run.sink.errors == ["a test failed: ZeroDivisionError: by a bug"]
+        report = describe("failure", Failure("a test", "ZeroDivisionError", "by a bug"))
+        assert turn.failure == report
+    assert run.sink.errors == [report]
     assert [event.name for event in run.sink.events] == ["start", "failure"]
     with run.simulation.turn("a test"):
         pass

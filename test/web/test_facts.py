@@ -9,7 +9,7 @@ import pytest
 from symtop_ros.panel.actions import Actions
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.simulation.presets import describe_scenes, scene_names
-from symtop_ros.web.facts import describe, thin
+from symtop_ros.web.facts import compare, describe, thin
 from symtop_ros.web.run import Run
 
 
@@ -38,24 +38,21 @@ def headline_after(played, act):
     actions, run, look = played
     act(actions)
     look()
-    return describe(run)["headline"]
+    return compare(run.announced)
 
 
 def test_headlines_compare_both_limits_with_those_without_the_kick(played):
-    assert headline_after(played, lambda actions: actions.kick(1.4)) == (
-        "The top rises by 0.063 rad: it moves higher than without the kick."
-    )
-    assert headline_after(played, lambda actions: actions.kick(1 / 1.4)) == (
-        "The top falls by 0.063 rad: it moves lower than without the kick."
-    )
+    for factor, kind in ((1.4, "higher"), (1 / 1.4, "lower")):
+        headline = headline_after(played, lambda actions, factor=factor: actions.kick(factor))
+        assert (headline.kind, round(headline.most, 3)) == (kind, 0.063)
     # A push of the axle upwards makes steady precession nutate to both sides.
     wider = headline_after(played, lambda actions: actions.push("up"))
-    assert wider.startswith("The top swings wider than without the kick: its tilt is between 0.4")
+    assert wider.kind == "wider"
     _, run, _ = played
     low, high = run.motion.turning_angles
     assert low < 0.5 < high
     back = headline_after(played, lambda actions: actions.push("down"))
-    assert back.startswith("The top swings less than without the kick")
+    assert back.kind == "narrower"
 
 
 def test_a_second_hurry_that_falls_and_yet_lifts_both_limits_is_a_rise(played):
@@ -72,10 +69,9 @@ def test_a_second_hurry_that_falls_and_yet_lifts_both_limits_is_a_rise(played):
     look()
     after = run.motion.turning_angles
     moved = [was - now for was, now in zip(before, after, strict=True)]
-    words = "rises" if min(moved) >= -1e-7 else "falls" if max(moved) <= 1e-7 else "swings"
-    assert words in describe(run)["headline"]
-    assert words != "falls"
-    assert run.announced.event.verdict.startswith("Precession")
+    kind = "higher" if min(moved) >= -1e-7 else "lower" if max(moved) <= 1e-7 else "wider"
+    assert compare(run.announced).kind == kind
+    assert kind != "lower"
 
 
 @pytest.mark.parametrize("name", scene_names())
@@ -85,7 +81,6 @@ def test_every_scene_has_a_headline_and_a_curve_below_its_energy(played, name):
     look()
     facts = describe(run)
     json.dumps(facts, allow_nan=False)  # nothing that a browser cannot read
-    assert facts["headline"].endswith(".")
     potential = facts["potential"]
     low, high = potential["angles"]
     tilts, heights = (np.array(potential[key]) for key in ("theta", "height"))
@@ -110,3 +105,31 @@ def test_a_plot_gets_few_rows_and_the_newest_digits():
     chosen = thin(rows, window=1.0)
     assert 480 <= len(chosen) <= 482
     assert chosen[7][1:] == [0.123457, 0.123457, 0.123457, None]
+
+
+@pytest.mark.wording
+def test_headline_and_verdict_do_not_contradict_each_other_and_are_given_in_degrees(played):
+    actions, run, look = played
+    actions.kick(1.4)
+    look()
+    facts = describe(run)
+    assert facts["headline"] == "The top moves higher than without the kick, by 0.063 rad."
+    assert facts["degrees"]["headline"].endswith("by 3.61°.")
+    assert "between 25.0° and 28.6°" in facts["degrees"]["why"]
+    assert facts["why"] == run.announced.event.verdict
+
+
+@pytest.mark.wording
+def test_a_headline_under_friction_says_that_its_limits_are_without_it(played):
+    actions, run, look = played
+    actions.choose_scene("friction")
+    look()
+    assert "without friction and applied torque" in describe(run)["headline"]
+
+
+def test_the_history_lists_requests_with_three_digits(played):
+    actions, run, look = played
+    actions.kick(1.23456789)
+    look()
+    (entry, *_) = describe(run)["history"]
+    assert entry[1] == "kick: precession_rate_factor=1.23"

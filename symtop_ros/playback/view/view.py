@@ -124,7 +124,7 @@ class View:
         self._send_cones(motion, event.state())
         self._plots.follow(event, previous, self._segment)
         self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
-        asked = event.values.get("request", "")
+        asked = "; ".join(f"{name}={text}" for name, text in event.request.items())
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
         self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
         scales = {

@@ -82,8 +82,7 @@ def test_stability_of_sleeping_is_told_for_either_pole(Mgl, upright, factor, sta
     q = (1.0, 0.0, 0.0, 0.0) if upright else (0.0, 1.0, 0.0, 0.0)
     state = State(q, (0.0, 0.0, factor * ARTICLE.critical_spin))
     assert top.sleeping_is_stable(state) is stable
-    expected = f"where it is {'stable' if stable else 'unstable'}"
-    assert expected in perrys_rule(top, state).reason
+    assert perrys_rule(top, state).reason.kind == ("stable" if stable else "unstable")
 
 
 def test_without_gravity_the_axis_goes_round_the_angular_momentum():

@@ -157,7 +157,7 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
         name: Columns(stamps, SAMPLE_TOPICS[name].compute(samples), 1 + np.arange(50))
         for name in ("orientation", "imu")
     }
-    event = Event.of(0, "start", "", {}, RUN.start, segment)
+    event = Event.of(0, "start", None, {}, RUN.start, segment)
     file = tmp_path / "sensor.rrd"
     recording = rr.RecordingStream("test")
     recording.save(file)

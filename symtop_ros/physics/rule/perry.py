@@ -37,11 +37,74 @@ from symtop_ros.physics.precession import TiltQuadratic
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import EPS
+from symtop_ros.wording import write
 
 Direction = Literal["rises", "falls", "stays"]
-NOTHING = "Perry's rule says nothing"
+Rule = Literal["holds", "fails"]
+# What the words mean: the top, or for Mgl < 0 the axis, apart from the centre of mass.
+Subject = Literal["top", "axis"]
+PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside"]
+# Reasons why the rule says nothing about a change of phi', and about an axis on the vertical.
+Silence = Literal["angular_impulse", "no_precession", "unchanged", "reversed", "no_effect"]
+VerticalCase = Literal["undefined", "stable", "unstable"]
+ReasonKind = Literal["hurried", "delayed", "if_hurried", "if_delayed"] | Silence | VerticalCase
 ROUNDING = 4 * Decimal.from_float(EPS)  # of a sum of two products, relative to its terms
 STATE_ROUNDING = 8 * EPS  # cos(theta) of a quaternion: four squares, each rounded, and its norm
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Place of a precession rate among the rates of regular precession.
+
+    Attributes
+    ----------
+    kind : str
+        "slow" or "fast": it is one of two; "between" or "outside" two; "only": it is the only one;
+        "above" or "below" the only one; "none": no rate is regular.
+    rate : float
+        The rate in rad/s.
+    regular_rates : tuple of float
+        Rates of regular precession in rad/s, the slow one first.
+    """
+
+    kind: PlaceKind
+    rate: float
+    regular_rates: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why Perry's rule holds, fails or says nothing, with its numbers.
+
+    Attributes
+    ----------
+    kind : str
+        "hurried" or "delayed" for a kick, "if_hurried" or "if_delayed" for a kick that a verdict
+        considers. All others are cases in which the rule says nothing.
+    rule : {"holds", "fails"} or None
+        The rule for the axis; None if it says nothing.
+    subject : {"top", "axis"}
+        "axis" for Mgl < 0: the rule is then the opposite for the centre of mass.
+    before, after : float or None
+        phi' without the kick and with it, in rad/s; None on the vertical.
+    theta_ddot_without, theta_ddot : float or None
+        theta'' without the kick and with it, in rad/s^2; None on the vertical.
+    place : Place or None
+        Place of phi' with a kick, or of the present phi' for a verdict; None on the vertical.
+    """
+
+    kind: ReasonKind
+    rule: Rule | None
+    subject: Subject
+    before: float | None = None
+    after: float | None = None
+    theta_ddot_without: float | None = None
+    theta_ddot: float | None = None
+    place: Place | None = None
+
+    def __str__(self) -> str:
+        """Return the sentence on Perry's rule."""
+        return write("reason", self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,23 +146,21 @@ class TiltAcceleration:
             return 0.0
         return float(self.sine_per_moment * self.quadratic.at(phi_dot))
 
-    def describe_place(self, phi_dot: float) -> str:
-        """Describe the place of a rate among the rates of regular precession."""
-        rates, rate = self.quadratic.roots, f"{format_rate(phi_dot)} rad/s"
+    def place(self, phi_dot: float) -> Place:
+        """Return the place of a rate among the rates of regular precession."""
+        rates = self.quadratic.roots
+        return Place(self._find_place(phi_dot, rates), float(phi_dot), rates)
+
+    def _find_place(self, phi_dot: float, rates: tuple[float, ...]) -> PlaceKind:
         if not rates:
-            return "no rate is regular at this tilt and spin"
-        listed = " and ".join(map(format_rate, rates))
+            return "none"
         if self.quadratic.is_balanced(phi_dot):
-            nearest = int(np.argmin([abs(each - phi_dot) for each in rates]))
             if len(rates) == 1:
-                return f"{rate} is the only regular rate"
-            name = ("slow", "fast")[nearest]
-            return f"{rate} is the {name} one of the regular rates {listed} rad/s"
+                return "only"
+            return "slow" if abs(rates[0] - phi_dot) <= abs(rates[1] - phi_dot) else "fast"
         if len(rates) == 1:
-            side = "above" if phi_dot > rates[0] else "below"
-            return f"{rate} lies {side} the only regular rate {listed} rad/s"
-        side = "between" if min(rates) < phi_dot < max(rates) else "outside"
-        return f"{rate} lies {side} the regular rates {listed} rad/s"
+            return "above" if phi_dot > rates[0] else "below"
+        return "between" if min(rates) < phi_dot < max(rates) else "outside"
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,31 +213,34 @@ class PrecessionChange:
         return "rises" if self._change < 0 else "falls"
 
     @property
-    def silence(self) -> str:
-        """Reason why the rule says nothing; empty if it says something."""
+    def silence(self) -> Silence | None:
+        """Reason why the rule says nothing; None if it says something."""
         if self.factor is None:
-            return "the kick is an angular impulse"
+            return "angular_impulse"
         if self.before == 0:
-            return "there is no precession to hurry or to delay"
+            return "no_precession"
         if self.factor == 1:
-            return "the precession rate is unchanged"
+            return "unchanged"
         if self.factor < 0:
-            return "the precession is reversed"
-        return "" if self._change else "theta'' is the same with the kick as without it"
+            return "reversed"
+        return None if self._change else "no_effect"
 
-    def explain(self, link: str, place: str) -> str:
-        """Return the sentence on Perry's rule.
-
-        `link` joins "hurried" and the new theta''; `place` describes one of the rates.
-        """
-        if self.silence:
-            return f"{NOTHING}: {self.silence} ({place})."
-        verb, other = ("holds", "fails") if self.rule_holds else ("fails", "holds")
-        if self.tilt.quadratic.Mgl < 0:
-            verb += f" for the axis and {other} for the centre of mass"
-        action = "hurried" if self._is_hurried else "delayed"
-        now, was = (f"{self.tilt.at(rate):.3g}" for rate in (self.after, self.before))
-        return f"Perry's rule {verb}: {action}{link} {now} instead of {was} rad/s^2 ({place})."
+    def explain(self, is_done: bool) -> Reason:
+        """Return the reason; `is_done` is False for a kick that is only considered."""
+        kind: ReasonKind = "hurried" if self._is_hurried else "delayed"
+        if not is_done:
+            kind = "if_hurried" if self._is_hurried else "if_delayed"
+        holds = self.rule_holds
+        return Reason(
+            self.silence or kind,
+            None if holds is None else "holds" if holds else "fails",
+            name_subject(self.tilt.quadratic.Mgl),
+            self.before,
+            self.after,
+            self.tilt.at(self.before),
+            self.tilt.at(self.after),
+            self.tilt.place(self.after if is_done else self.before),
+        )
 
     @property
     def _is_hurried(self) -> bool:
@@ -212,6 +276,6 @@ def _find_rates(state: State) -> tuple[float, float]:
         return float(phi_dot), float(wz - phi_dot * (upper - lower) / (upper + lower))
 
 
-def format_rate(rate: float) -> str:
-    """Return a rate with two decimals, or with three digits if it is very small or large."""
-    return f"{rate:.2f}" if rate == 0 or 0.1 <= abs(rate) < 1e5 else f"{rate:.3g}"
+def name_subject(Mgl: float) -> Subject:
+    """Return what the words mean for a gravity moment."""
+    return "axis" if Mgl < 0 else "top"

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
@@ -36,7 +37,8 @@ def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, A
         return _from_quaternion(request["orientation"], request["angular_velocity"])
     if not request and defaults.orientation:
         return _from_quaternion(defaults.orientation, defaults.angular_velocity or AT_REST)
-    values = {name: getattr(defaults, name) for name in (*ANGLES, *RATES, "precession")}
+    initial = asdict(defaults)
+    values = {name: initial[name] for name in (*ANGLES, *RATES, "precession")}
     if "phi_dot" in request or "theta_dot" in request:
         values["precession"] = ""  # a requested rate replaces the default of regular precession
     return _from_euler(top, {**values, **request})

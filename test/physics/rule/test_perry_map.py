@@ -13,7 +13,7 @@ from symtop_ros.physics import (
     perrys_rule,
     regular_precession_rates,
 )
-from symtop_ros.physics.perry_map import find_other_turning_angle
+from symtop_ros.physics.rule.perry_map import find_other_turning_angle
 
 pytestmark = pytest.mark.untraced
 TOPS = [ARTICLE, DISC, Top(1e-3, 1e-3, 0.2), Top(2e-4, 1e-4, 0.0)]

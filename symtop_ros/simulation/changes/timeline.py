@@ -6,14 +6,25 @@ has a clock, a lock or a side effect; `simulation` decides at which stamp a chan
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal
 
 from symtop_ros.arrays import Vector
-from symtop_ros.physics import State, kick_verdict, perrys_rule
+from symtop_ros.physics import State, kick_verdict
 from symtop_ros.simulation.budget import Shortfall
+from symtop_ros.simulation.changes.initial import initial_state, start_motion
+from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.outcomes import (
+    ClockJump,
+    Outcome,
+    Pace,
+    Parameters,
+    Pause,
+    Setting,
+    Start,
+    Step,
+    Torque,
+)
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.initial import initial_state, start_motion
-from symtop_ros.simulation.kick import plan_kick
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
 from symtop_ros.simulation.validation import reject, vector
@@ -45,14 +56,13 @@ class Timeline:
         return cls(settings, segment, motion.start, _describe_origin("start", stamp), stamp)
 
     @property
-    def verdict(self) -> str:
-        """Kind of the motion and what follows from its start, in a sentence."""
-        motion = self.segment.motion
-        return f"{motion.kind}: {perrys_rule(motion.top, motion.start)}"
+    def verdict(self) -> Start:
+        """Kind of the motion and what follows from its start."""
+        return Start.of(self.segment.motion)
 
-    def report(self, name: str, verdict: str, request: Request, stamp: int) -> "Change":
+    def report(self, name: str, outcome: Outcome, request: Request, stamp: int) -> "Change":
         """Return a change of nothing: an event that only reports."""
-        return self._follow(name, self.segment, stamp, request, verdict)
+        return self._follow(name, self.segment, stamp, request, outcome)
 
     def restart(self, stamp: int, values: Request | None = None) -> "Change":
         """Restart from named initial conditions, or without them from the last ones."""
@@ -77,19 +87,19 @@ class Timeline:
         """Stop the motion, or continue it from where it stopped."""
         name = "pause" if paused else "resume"
         segment = (self.segment.pause if paused else self.segment.resume)(stamp)
-        return self._follow(name, segment, stamp, {}, f"{name}d at {_seconds(segment)}")
+        return self._follow(name, segment, stamp, {}, Pause(_seconds(segment)))
 
     def step(self, stamp: int, duration: float) -> "Change":
         """Advance a paused motion by a duration in s."""
         segment = self.segment.step(duration, stamp)
-        verdict = f"stepped to {_seconds(segment)}"
-        return self._follow("step", segment, stamp, {"duration": duration}, verdict)
+        outcome = Step("stepped", _seconds(segment))
+        return self._follow("step", segment, stamp, {"duration": duration}, outcome)
 
     def step_clock(self, stamp: int, now: int) -> "Change":
         """Let a paused motion run together with its clock, to the stamp `now`."""
         segment = self.segment.resume(stamp)
-        verdict = f"stepped to {segment.time_at(now):.6f} s of the motion"
-        return self._follow("step", segment, stamp, {"to": now}, verdict)
+        outcome = Step("stepped", segment.time_at(now))
+        return self._follow("step", segment, stamp, {"to": now}, outcome)
 
     def move(self, stamp: int, now: int) -> "Change":
         """Continue the state of a stamp at the time (ns) to which the clock jumped."""
@@ -98,7 +108,7 @@ class Timeline:
             self.segment.move(stamp, now),
             stamp,
             {"from": stamp, "to": now},
-            "the clock jumped",
+            ClockJump(stamp, now),
         )
         moved = replace(change.following, torque_end=self.torque_end + now - stamp)
         return replace(change, following=moved, stamp=now, before=self.segment.state_at(stamp))
@@ -106,19 +116,14 @@ class Timeline:
     def slow_down(self, stamp: int, shortfall: Shortfall) -> "Change":
         """Continue at a real-time factor that can be kept, from the time that was reached."""
         segment = self.segment.slow_down(shortfall.reached, shortfall.factor, stamp)
-        verdict = (
-            "the motion is too fast for the compute budget: real-time factor "
-            f"{self.segment.factor:.3g} -> {shortfall.factor:.3g}"
-        )
-        change = self._follow("pace", segment, stamp, {"reached": shortfall.reached}, verdict)
+        outcome = Pace("slowed", self.segment.factor, shortfall.factor)
+        change = self._follow("pace", segment, stamp, {"reached": shortfall.reached}, outcome)
         return replace(change, before=self.segment.motion.at(shortfall.reached))
 
     def set_pace(self, stamp: int, current: float, factor: float) -> "Change":
         """Continue at another real-time factor than the current one."""
-        verdict = f"real-time factor {current:.3g} -> {factor:.3g}"
-        if factor < current:
-            verdict = f"the motion is too fast for the compute budget: {verdict}"
-        return self._follow("pace", self._set_factor(factor, stamp), stamp, {}, verdict)
+        outcome = Pace("slowed" if factor < current else "changed", current, factor)
+        return self._follow("pace", self._set_factor(factor, stamp), stamp, {}, outcome)
 
     def _set_factor(self, factor: float, stamp: int) -> Segment:
         if self.settings.publish_clock:  # the clock has this factor
@@ -133,20 +138,20 @@ class Timeline:
         x, y, z = vector("applied_torque", torque, 3, MAX_MOMENT, "N m, world frame")
         end = stamp + round(self.settings.applied_torque_timeout * NANOSECONDS)
         held = replace(self, held_torque=(x, y, z), torque_end=end)
-        return held._apply_torque(stamp, "the applied torque changed")
+        return held._apply_torque(stamp, "applied")
 
     def release_torque(self, stamp: int) -> "Change":
         """Continue without the held torque."""
         released = replace(self, held_torque=NO_TORQUE)
-        return released._apply_torque(stamp, "the applied torque timed out")
+        return released._apply_torque(stamp, "released")
 
-    def _apply_torque(self, stamp: int, verdict: str) -> "Change":
+    def _apply_torque(self, stamp: int, kind: Literal["applied", "released", "steady"]) -> "Change":
         a, b, c = self.settings.steady_torque
         x, y, z = self.held_torque
         total, segment = (a + x, b + y, c + z), self.segment
         if total != segment.motion.applied_torque:
             segment = segment.change(stamp, torque=total)
-        return self._follow("torque", segment, stamp, {"torque": total}, verdict)
+        return self._follow("torque", segment, stamp, {"torque": total}, Torque(kind, total))
 
     def change_settings(self, settings: Settings, stamp: int) -> list["Change"]:
         """Continue from the current state with other settings."""
@@ -166,9 +171,9 @@ class Timeline:
         if settings.publish_rate != old.publish_rate:
             segment = segment.equip(settings.rig(self.switched_on))
         following = replace(self, settings=settings, start=start, segment=segment)
-        verdict = "; ".join(f"{name} is now {value}" for name, value in changes.items())
-        first = self._lead_to(following, "parameters", stamp, changes, verdict)
-        torque = first.following._apply_torque(stamp, "the steady torque changed")
+        outcome = Parameters(tuple(Setting(name, str(value)) for name, value in changes.items()))
+        first = self._lead_to(following, "parameters", stamp, changes, outcome)
+        torque = first.following._apply_torque(stamp, "steady")
         return [first, torque] if torque.is_new else [first]
 
     def _follow(
@@ -177,10 +182,10 @@ class Timeline:
         segment: Segment,
         stamp: int,
         request: Request,
-        verdict: str | Callable[[], str],
+        outcome: Outcome | Callable[[], Outcome],
     ) -> "Change":
         """Return the change to another segment."""
-        return self._lead_to(replace(self, segment=segment), name, stamp, request, verdict)
+        return self._lead_to(replace(self, segment=segment), name, stamp, request, outcome)
 
     def _lead_to(
         self,
@@ -188,12 +193,12 @@ class Timeline:
         name: str,
         stamp: int,
         request: Request,
-        verdict: str | Callable[[], str],
+        outcome: Outcome | Callable[[], Outcome],
     ) -> "Change":
         if following.segment.motion is not self.segment.motion:
             following = replace(following, since=_describe_origin(name, stamp))
         is_new = following.segment is not self.segment
-        return Change(following, name, stamp, request, self.segment, is_new, verdict)
+        return Change(following, name, stamp, request, self.segment, is_new, outcome)
 
 
 @dataclass(frozen=True)
@@ -206,24 +211,22 @@ class Change:
     request: Request
     previous: Segment
     is_new: bool  # False if the motion is unchanged
-    verdict: str | Callable[[], str]  # a sentence; computed late, because it takes a millisecond
+    # what it leads to; a verdict is computed late, because it takes a millisecond
+    outcome: Outcome | Callable[[], Outcome]
     before: State | None = None  # the state before the change, if it is not the one at the stamp
 
-    def describe(self) -> str:
-        """Return the consequence of the change, in a sentence."""
-        return self.verdict if isinstance(self.verdict, str) else self.verdict()
-
-    def event(self, verdict: str) -> Event:
-        """Return the event."""
+    def event(self, number: int) -> Event:
+        """Compute the outcome and return the event, with its number in the run."""
         before = self.before or self.previous.state_at(self.stamp)
         return Event.of(
             self.stamp,
             self.name,
-            verdict,
+            self.outcome() if callable(self.outcome) else self.outcome,
             self.request,
             before,
             self.following.segment,
             self.following.settings.top_frame,
+            number,
         )
 
 
@@ -231,5 +234,5 @@ def _describe_origin(name: str, stamp: int) -> str:
     return f"{name} at stamp {stamp / NANOSECONDS:.9f} s"
 
 
-def _seconds(segment: Segment) -> str:
-    return f"{segment.time_at(segment.stamp):.6f} s of the motion"
+def _seconds(segment: Segment) -> float:
+    return float(segment.time_at(segment.stamp))

@@ -191,7 +191,9 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
         run.clock.now += 5 * MS
         run.simulation.tick()
     assert run.simulation.factor < 0.1
-    assert run.sink.warnings[0].startswith("the motion is too fast for the compute budget")
+    slowed = next(event for event in run.sink.events if event.name == "pace")
+    assert slowed.outcome().kind == "slowed"
+    assert run.sink.warnings[0] == slowed.verdict
     assert run.ask("hurry_precession")[1]
     assert run.ask("set_initial_conditions", {"psi_dot": 1.0})[0]
     assert time.monotonic() - begin < 5.0

@@ -1,0 +1,122 @@
+"""What events lead to, as fields that read back to the same records."""
+
+import pytest
+from simulation.runs import Run
+
+from symtop_ros.physics import KickVerdict
+from symtop_ros.simulation.changes.outcomes import (
+    OUTCOMES,
+    Failure,
+    Parameters,
+    Pause,
+    Record,
+    Setting,
+    Start,
+    Step,
+    Torque,
+)
+from symtop_ros.simulation.events import Event, decode_events
+
+
+@pytest.fixture(scope="module", name="run")
+def _run():
+    """A run with an event of every name."""
+    run = Run("cusps", publish_clock=False)
+    simulation = run.simulation
+    run.advance(0.1)
+    run.ask("kick", {"precession_rate_factor": 1.4, "hold": "spin_momentum"})
+    run.ask("kick", {"angular_impulse": (0.0, 0.0, 1e-5)})
+    run.ask("pause", True)
+    run.ask("step", {"duration": 0.01})
+    run.ask("pause", False)
+    run.ask("reset")
+    simulation.hold_torque((0.0, 0.0, 1e-4))
+    run.advance(0.3)
+    values = {**simulation.settings.values, "hurry_factor": 1.5, "top.Mgl": 0.05}
+    simulation.apply_settings(type(simulation.settings).from_values(values))
+    simulation.report("record", Record("begun", "a  b/c; d=e.mcap"))
+    simulation.report("failure", Failure("~/kick", "KeyError", "by a bug"))
+    simulation.apply(simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25))
+    run.clock.now += 10**12
+    simulation.note_jump()
+    run.tick()
+    return run
+
+
+def again(event):
+    (read,) = decode_events(event.encode("world"))
+    return read
+
+
+def test_an_event_of_every_name_reads_back_to_the_same_record_and_sentence(run):
+    assert {event.name for event in run.sink.events} == set(OUTCOMES)
+    for event in run.sink.events:
+        read = again(event)
+        assert read == event
+        assert read.outcome() == event.outcome()
+        assert type(read.outcome()) is OUTCOMES[event.name]
+
+
+def test_events_have_running_numbers(run):
+    numbers = [again(event).number for event in run.sink.events]
+    assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_a_kick_has_factor_hold_rates_and_what_became_of_both_limits(run):
+    kick, push = (event for event in run.sink.events if event.name == "kick")
+    assert kick.request == {"precession_rate_factor": "1.4", "hold": "spin_momentum"}
+    found = again(kick).outcome()
+    assert isinstance(found, KickVerdict)
+    assert found.hold == "spin_momentum"
+    # the kick rounds the angular velocity, of which phi' is a sixtieth
+    assert found.factor == pytest.approx(1.4, rel=1e-13)
+    assert found.after == pytest.approx(1.4 * found.before, rel=1e-13)
+    assert {found.highest.kind, found.lowest.kind} <= {"higher", "lower", "unchanged"}
+    assert push.request == {"angular_impulse": "0.0 0.0 1e-05"}
+    assert (push.outcome().hold, push.outcome().factor) == (None, None)
+
+
+def test_each_outcome_has_the_numbers_of_its_event(run):
+    found = {event.name: again(event).outcome() for event in run.sink.events}
+    assert isinstance(found["start"], Start)
+    assert found["start"].motion == found["reset"].motion == "cusps"
+    assert isinstance(found["pause"], Pause)
+    assert found["step"] == Step("stepped", found["pause"].time + 0.01)
+    assert found["torque"] == Torque("released", (0.0, 0.0, 0.0))
+    changes = (Setting("top.Mgl", "0.05"), Setting("hurry_factor", "1.5"))
+    assert found["parameters"] == Parameters(changes)
+    assert (found["pace"].before, found["pace"].after) == (1.0, 0.25)
+    assert found["clock"].after - found["clock"].before > 9e11
+    assert found["record"].path == "a  b/c; d=e.mcap"
+
+
+def test_a_jump_of_the_clock_ends_the_segment_before_where_it_left(run):
+    (jump,) = (event for event in run.sink.events if event.name == "clock")
+    assert again(jump).previous_end == jump.outcome().before
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("outcome.direction", "sinks"),
+        ("outcome.turning_angles", "0.1 0.2 0.3"),
+        ("outcome.turning_angles", "a b"),
+        ("outcome.driven", "maybe"),
+        ("outcome.reason.place.rate", ""),
+    ],
+)
+def test_a_field_that_is_not_of_its_type_is_refused(run, name, text):
+    kick = next(event for event in run.sink.events if event.name == "kick")
+    values = {**kick.values, name: text}
+    with pytest.raises(ValueError, match=r"\S"):
+        decode_events(Event(kick.stamp, "kick", "", values).encode("world"))
+
+
+def test_an_event_without_fields_has_its_request_and_no_outcome():
+    run = Run("cusps")
+    values = {"format": "2", "request": "from=5; to=7"}
+    old = {name: text for name, text in run.sink.events[0].values.items() if "." in name}
+    event = Event(7, "clock", "the clock jumped", {**old, **values})
+    assert not event.has_fields
+    assert (event.number, event.previous_end) == (0, 5)
+    assert event.request == {"from": "5", "to": "7"}

@@ -1,0 +1,146 @@
+"""Sentences from records, and templates that fit them."""
+
+import json
+import math
+import re
+import typing
+from dataclasses import fields, is_dataclass
+from itertools import chain
+
+import pytest
+
+from symtop_ros.physics import (
+    Friction,
+    KickVerdict,
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    hurry,
+    kick_verdict,
+    perrys_rule,
+    regular_precession_rates,
+)
+from symtop_ros.physics.rule.perry import Place, Reason
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Parameters, Setting, describe
+from symtop_ros.wording import templates, write
+from symtop_ros.wording.templates import FILE, PLACEHOLDER, TEMPLATES
+
+pytestmark = pytest.mark.wording
+
+ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+DISC = Top(Ix=0.000228, Iz=0.000456, Mgl=-0.068)
+
+
+def start(phi_dot, psi_dot=200.0, theta=0.5):
+    return State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
+
+
+def words_of(hint):
+    """The words that a type hint allows."""
+    if typing.get_origin(hint) is typing.Literal:
+        return set(typing.get_args(hint))
+    return set(chain.from_iterable(map(words_of, typing.get_args(hint))))
+
+
+@pytest.mark.parametrize(
+    ("record", "field", "form"),
+    [(Reason, "kind", "reason"), (Place, "kind", "place"), (KickVerdict, "axis", "change"),
+     (KickVerdict, "direction", "does"), (KickVerdict, "subject", "subject")],
+)  # fmt: skip
+def test_every_word_of_a_record_has_a_template(record, field, form):
+    for word in words_of(typing.get_type_hints(record)[field]):
+        assert f"{form}.{word}" in TEMPLATES
+
+
+def test_every_event_and_kind_of_outcome_has_a_template():
+    for name, record in OUTCOMES.items():
+        kinds = words_of(typing.get_type_hints(record).get("kind", None))
+        for key in {f"{name}.{kind}" for kind in kinds} or {name}:
+            assert key in TEMPLATES
+
+
+def test_every_template_names_fields_of_its_record():
+    records = {name: {each.name for each in fields(record)} for name, record in OUTCOMES.items()}
+    for key, template in TEMPLATES.items():
+        known = records.get(key.partition(".")[0])
+        if known:
+            assert {name for name, _ in PLACEHOLDER.findall(template)} <= known
+
+
+def test_the_file_has_each_key_once_and_plain_placeholders():
+    pairs = json.loads(FILE.read_text(encoding="utf-8"), object_pairs_hook=list)
+    keys = [key for key, _ in pairs]
+    assert len(keys) == len(set(keys))
+    for _, template in pairs:
+        assert not re.search(r"[{}]", PLACEHOLDER.sub("", template))
+
+
+def test_a_verdict_states_range_rule_and_average():
+    assert str(perrys_rule(ARTICLE, start(9.0))) == (
+        "The top rises: theta will stay between 0.439 and 0.500 rad. Perry's rule holds: hurried "
+        "from 9.00 to 12.60 rad/s, theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies "
+        "between the regular rates 6.50 and 69.82 rad/s). On average phi' is 6.42 rad/s, 0.157 "
+        "turns in a nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s)."
+    )
+
+
+def test_angles_that_read_the_same_are_written_once():
+    slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
+    assert "theta will stay at 0.500 rad." in str(perrys_rule(ARTICLE, start(slow)))
+
+
+def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
+    before = start(5.0, psi_dot=-120.0)
+    kicked = kick_verdict(Motion(DISC, hurry(before)), before, "spin_rate")
+    for text in (str(perrys_rule(DISC, before)), str(kicked)):
+        assert "The axis falls (and the centre of mass rises)" in text
+        assert "for the axis and" in text
+
+
+def test_a_driven_motion_has_turning_angles_without_friction():
+    before = start(9.0)
+    motion = Motion(ARTICLE, hurry(before), Friction(axial=2e-6))
+    text = str(kick_verdict(motion, before, "spin_rate"))
+    assert "without friction and applied torque theta will stay between" in text
+    assert text.endswith("lower.") or "On average" not in text
+
+
+def test_facts_against_the_rule_are_joined():
+    before = start(30.0)
+    text = str(kick_verdict(Motion(ARTICLE, hurry(before)), before, "spin_rate"))
+    assert "Although Perry's rule holds, the highest point is lower. On average" in text
+
+
+def test_an_impulse_on_the_vertical_has_an_answer():
+    before = State((1, 0, 0, 0), (0.0, 0.0, 200.0))
+    after = apply_impulse(ARTICLE, before, (1e-4, 0.0, 0.0))
+    text = str(kick_verdict(Motion(ARTICLE, after), before, None))
+    assert text.startswith("Kick on the vertical (motion: through the pole). The top falls: theta ")
+    assert "Perry's rule says nothing: the precession rate is undefined on the vertical." in text
+
+
+def test_angles_are_written_in_degrees_on_request():
+    before = start(9.0)
+    kicked = kick_verdict(Motion(ARTICLE, hurry(before)), before, "spin_rate")
+    text = write("kick", kicked, "degrees")
+    low, high = map(math.degrees, kicked.turning_angles)
+    assert f"theta will stay between {low:.1f}° and {high:.1f}°" in text
+    assert " rad " not in text
+    assert "rad/s" in text
+
+
+def test_parameters_are_listed():
+    changes = Parameters((Setting("top.Mgl", "-0.05"), Setting("hurry_factor", "1.5")))
+    assert describe("parameters", changes) == "top.Mgl is now -0.05; hurry_factor is now 1.5"
+
+
+def test_a_text_is_written_as_it_is():
+    record = {"kind": "ended", "path": "a {path}  with {0:3f}", "failure": ""}
+    assert write("record", record) == "recording to a {path}  with {0:3f} ended"
+
+
+def test_with_keys_for_templates_a_record_is_written_by_its_key(monkeypatch):
+    monkeypatch.setattr(templates, "TEMPLATES", {key: key for key in TEMPLATES})
+    assert str(perrys_rule(ARTICLE, start(9.0))) == "verdict"
+    assert is_dataclass(KickVerdict)
