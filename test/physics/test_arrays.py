@@ -10,6 +10,7 @@ from symtop_ros.physics import (
     Top,
     apply_impulse,
     hurry,
+    perrys_rule,
     regular_precession_rates,
     set_precession_rate,
 )
@@ -89,6 +90,34 @@ def test_impulses_on_many_tops_are_those_on_each():
 def test_an_impulse_beyond_all_rates_is_refused():
     with refused("impulse", "so small that no rate changes by more than 1e+100 rad/s", "1e+305"):
         apply_impulse(ARTICLE, CUSPS, (1e305, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("hold", HOLDS)
+def test_verdicts_on_arrays_are_those_on_each(hold):
+    tops = Top(0.000228, 0.0000572, RNG.normal(size=COUNT) * 0.1)
+    states, factors = (
+        State.from_euler(theta=ANGLES["theta"], phi_dot=9.0, psi_dot=150.0),
+        RNG.uniform(-1, 3, COUNT),
+    )
+    many = perrys_rule(tops, states, factors, hold)
+    for n in range(COUNT):
+        top = Top(0.000228, 0.0000572, float(tops.Mgl[n]))
+        one = perrys_rule(top, states[n], float(factors[n]), hold)
+        assert many.direction[n] == one.direction
+        assert tuple(angles[n] for angles in many.turning_angles) == one.turning_angles
+        found = [rates[n] for rates in many.regular_rates if not np.isnan(rates[n])]
+        assert found == list(one.regular_rates)
+        holds = many.rule_holds[n] if many.rule_applies[n] else None
+        assert holds == one.rule_holds
+    assert {True, False} <= set(many.rule_holds.tolist())
+
+
+def test_one_state_has_verdicts_for_many_factors():
+    verdicts = perrys_rule(ARTICLE, CUSPS, [[0.5], [1.4]])
+    assert verdicts.direction.shape == verdicts.turning_angles[0].shape == (2, 1)
+    assert not verdicts.rule_applies.any()  # there is no precession to hurry
+    with refused("top, state and factor", "of shapes that fit together"):
+        perrys_rule(Top(1.0, 1.0, [1.0, 2.0]), CUSPS, [1.0, 2.0, 3.0])
 
 
 def test_regular_rates_of_arrays_are_those_of_each():

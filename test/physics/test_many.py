@@ -20,7 +20,6 @@ from symtop_ros.physics import (
     balance,
     compare_hurried,
     kick_verdict,
-    perrys_rule,
 )
 
 PROPERTIES = (
@@ -236,7 +235,6 @@ def test_an_empty_array_of_motions_has_empty_states():
 
 
 ONE_TOP = {
-    "perrys_rule": perrys_rule,
     "EffectivePotential": EffectivePotential.of,
     "Body": lambda top, _: Body.of(top),
     "sleeping_is_stable": lambda top, state: top.sleeping_is_stable(state),

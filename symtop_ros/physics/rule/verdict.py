@@ -1,11 +1,15 @@
 """The consequences of a state: direction, turning angles and Perry's rule, as a record."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from functools import partial
+from typing import Literal, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from symtop_ros.arrays import Real
 from symtop_ros.physics.kicks import Hold, validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.rule.perry import (
@@ -18,8 +22,9 @@ from symtop_ros.physics.rule.perry import (
     find_precession,
     name_subject,
 )
+from symtop_ros.physics.rule.verdicts import Verdicts, are_many, judge_each
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top, validate_one
+from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     START_ROUNDING,
@@ -104,18 +109,38 @@ class Verdict:
         return write("verdict", self)
 
 
-def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_rate") -> Verdict:
+@overload
+def perrys_rule(
+    top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_rate"
+) -> Verdict: ...
+
+
+@overload
+def perrys_rule(
+    top: Top, state: State, factor: Sequence[float] | Real, hold: Hold = "spin_rate"
+) -> Verdicts: ...
+
+
+def perrys_rule(
+    top: Top, state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate"
+) -> Verdict | Verdicts:
     """Return the motion that follows from a state, and Perry's rule for a kick at this state.
 
     Parameters
     ----------
     top : Top
+        One top, or many of shape (...).
     state : State
-        One state, before the kick.
-    factor : float
-        The kick multiplies phi' by it.
+        One state before the kick, or many of shape (...).
+    factor : float or array_like (...)
+        The kick multiplies phi' by it. Tops, states and factors are broadcast together.
     hold : {"spin_rate", "spin_momentum"}
         The quantity that the kick holds, as in `set_precession_rate`.
+
+    Returns
+    -------
+    Verdict or Verdicts
+        A record; if an argument is an array, a record of arrays (...), without a sentence.
 
     Raises
     ------
@@ -134,8 +159,13 @@ def perrys_rule(top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_
     True
     False
     """
-    validate_one(top)
-    factor, hold = validate_number("factor", factor), validate_hold(hold)
+    hold = validate_hold(hold)
+    if are_many(top, state, factor):
+        return judge_each(top, state, factor, partial(_judge, hold))
+    return _judge(hold, top, state, validate_number("factor", factor))
+
+
+def _judge(hold: Hold, top: Top, state: State, factor: float) -> Verdict:
     motion = Motion(top, state)
     if state.is_vertical:
         reason = Reason(classify_vertical(top, state), None, name_subject(top.Mgl))
