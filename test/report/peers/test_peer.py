@@ -18,7 +18,7 @@ STEP = 1e-4  # s
 def test_the_body_rates_are_those_of_the_motion(theta, friction):
     task = task_of(theta, friction)
     moving = Motion(task.top, task.start, friction)
-    ahead, behind = (np.concatenate(list(moving.at(t))) for t in (STEP, -STEP))
+    ahead, behind = (np.concatenate(moving.at(t).parts) for t in (STEP, -STEP))
     slopes = body_rates(task, 0.0, np.array(initial_values(task)))
     # central difference: h^2/6 times a third derivative of order 50^3, times angular velocity
     np.testing.assert_allclose((ahead - behind) / (2 * STEP), slopes, atol=STEP**2 * 50**4)
