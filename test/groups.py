@@ -42,7 +42,7 @@ EXAMPLES = ("--doctest-modules", "--ignore-glob=*/*_peer.py")
 
 COUNT = re.compile(r"(\d+) (passed|failed|skipped|errors?)\b")
 FAILURE = re.compile(r"^(?:FAILED|ERROR) (\S+?(?:\[.*?\])?)(?= - |$)", re.MULTILINE)
-PERCENT = re.compile(r"\[ *(\d+)%\]$", re.MULTILINE)
+DOTS = re.compile(r"^([.FEsxX]+)(?: +\[ *\d+%\])?$", re.MULTILINE)
 DETAILS = re.compile(r"^=+ (?:FAILURES|ERRORS) =+$", re.MULTILINE)
 
 
@@ -177,14 +177,14 @@ def report_progress(
         if outcome.failures:
             print(find_details(file_of(names[each]).read_text(errors="replace")), flush=True)
     if not done:
-        shares = [f"{names[each]} {share_of(names[each])}" for each in left if each.running()]
+        shares = [f"{names[each]} {progress_of(names[each])}" for each in left if each.running()]
         print(f"{seconds:4.0f} s  {', '.join(sorted(shares))}", flush=True)
 
 
-def share_of(name: str) -> str:
-    """Return which part of the present command of a group is done."""
-    found = PERCENT.findall(file_of(name).read_text(errors="replace"))
-    return f"{found[-1]} %" if found else "started"
+def progress_of(name: str) -> str:
+    """Return how many tests of a group have ended, by the letters that pytest prints."""
+    lines = DOTS.findall(file_of(name).read_text(errors="replace"))
+    return f"{sum(map(len, lines))} done"
 
 
 def find_details(text: str) -> str:

@@ -26,7 +26,7 @@ def settings() -> dict[str, str]:
     own = {"XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder / "data")}
     environment = {**os.environ, **own}
     if not (folder / "rerun" / "analytics.json").exists():
-        command = [PROGRAM, "analytics", "disable"]
+        command = [str(PROGRAM), "analytics", "disable"]
         subprocess.run(command, env=environment, capture_output=True, check=False)
     return environment
 
