@@ -46,7 +46,7 @@ def format_document(results: Results, motion: ReferenceMotion, environment: Envi
 
 
 def format_chapters(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
-    """Return the report without its title."""
+    """Return the report without its title; what is not measured yet is left out."""
     parts = [
         _format_environment(environment),
         _format_work(results, motion, environment.limit),
@@ -99,6 +99,8 @@ def _format_environment(environment: Environment) -> str:
 
 def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str:
     curves = [curve for curve in results.curves if curve.motion == motion.name]
+    if not curves:
+        return ""
     ours = results.find_curve(CLOSED_FORM, motion.name).best
     costs = {each.peer: each for each in results.states}
     head = [*BEST, "us a state, array", "to build, ms", "sweep ended at", "model"]
@@ -169,6 +171,8 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
 
 def _format_friction(results: Results) -> str:
     curves = [curve for curve in results.curves if curve.motion == FRICTION]
+    if not curves:
+        return ""
     ours = results.find_curve(TAYLOR, FRICTION).best
     rows = [[curve.peer, *_format_best(curve, ours.seconds)] for curve in curves]
     return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(BEST, rows)}"
@@ -202,6 +206,8 @@ def _format_driven(cases: list[DrivenCase]) -> str:
 
 
 def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
+    if not results.growth:
+        return ""
     times = [t for t in motion.times if t >= SPAN]
     rows = []
     for each in results.growth:
@@ -219,6 +225,8 @@ def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
 
 
 def _format_arrays(results: Results) -> str:
+    if not results.states:
+        return ""
     numbers = results.states[0].numbers
     rows = [
         [
@@ -272,6 +280,8 @@ def _format_ahead(results: Results) -> str:
 
 
 def _format_hard_cases(cases: list[HardCase]) -> str:
+    if not cases:
+        return ""
     peers = list(dict.fromkeys(name for case in cases for name in case.peers))
     rows = []
     for family in dict.fromkeys(case.family for case in cases):
