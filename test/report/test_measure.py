@@ -96,10 +96,14 @@ def test_a_plot_is_a_picture(folder, name):
 
 
 def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(report, "_run", lambda *_: Results(checks={"a peer": 0.5}))
+    def list_one(_, __, results):
+        yield "a peer: model", lambda: results.checks.update({"a peer": 0.5})
+
+    monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
     assert measure(tmp_path, SMALL, "top_report") == 1
     assert capsys.readouterr().err.splitlines() == [
+        "1 of 1: a peer: model",
         "top_report: above the limit: a peer: the model is a different top",
     ]
 
