@@ -38,7 +38,7 @@ RECORDED = "recorded to "
 
 
 class DemoError(Exception):
-    """The demonstration cannot go on; the text says why."""
+    """The demonstration failed; the text says why."""
 
 
 def main() -> int:

@@ -56,7 +56,7 @@ class Command:
 
 @dataclass
 class Outcome:
-    """What a group of tests has given."""
+    """Counts and failures of a group of tests."""
 
     passed: int = 0
     skipped: int = 0

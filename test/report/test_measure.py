@@ -12,7 +12,6 @@ from symtop_ros.report.benchmarks import (
     LARGEST_ERROR,
     LARGEST_TAYLOR_ERROR,
     SMALL,
-    Results,
 )
 from symtop_ros.report.main import main
 from symtop_ros.report.measure import measure
