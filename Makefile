@@ -6,6 +6,7 @@ SOURCES := setup.py $(wildcard symtop_ros/physics/kernel/*.?pp symtop_ros/physic
 NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
+TOOLS := pytest hypothesis mpmath rosbags coverage
 GROUPS := nodes rest plain physics without-ros examples lint realtime
 # A line every ten seconds, for as long as the shell of a recipe runs: pip may be silent for minutes.
 TICK = ( n=0; while sleep 10 > /dev/null && kill -0 $$$$ 2> /dev/null; do n=$$((n + 10)); echo "  ... at work for $$n s"; done ) & \
@@ -31,7 +32,7 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## a page in the browser to play with a top; needs no ROS
 	@$(BIN)/top_panel
 
-test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types and all tests (8 minutes; 2.6 GB, once)
+test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)

@@ -15,7 +15,8 @@ ACTIVATE = ".venv/bin/activate"  # the target that makes the environment
 
 def make(folder, *words, **variables):
     """Run make in a folder without any environment; return the process, which has ended."""
-    environment = {name: os.environ[name] for name in os.environ.keys() - {"MAKEFLAGS", "MFLAGS"}}
+    outer = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL"}  # of the make that runs the tests
+    environment = {name: os.environ[name] for name in os.environ.keys() - outer}
     return subprocess.run(
         ["make", "-f", MAKEFILE, *words, *(f"{name}={value}" for name, value in variables.items())],
         cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=300,
@@ -86,3 +87,12 @@ def test_the_tests_run_without_the_variables_of_the_machine(tmp_path):
     assert first == "test"
     assert {"HOME", "PATH", "PIP_NO_INPUT"} <= names
     assert not names & {"PYTHONUNBUFFERED", "ROS_DOMAIN_ID"}
+
+
+def test_every_variable_of_the_makefile_has_a_value():
+    """Of a variable without a definition make takes the empty text, and says so when asked."""
+    undefined = make(
+        ROOT, "--warn-undefined-variables", "-nB", "test", "test-kilted", "docs"
+    ).stderr
+    ours = [line for line in undefined.splitlines() if "undefined variable" in line]
+    assert [line for line in ours if not re.search("'(ROS_LOG_DIR|MPLCONFIGDIR)'", line)] == []
