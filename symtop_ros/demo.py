@@ -2,49 +2,127 @@
 
 import json
 import os
+import secrets
+import shlex
+import signal
+import socket
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.distribution import use_profile
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import accelerated, describe_engine
 from symtop_ros.playback import viewer
 from symtop_ros.playback.replay import replay
+from symtop_ros.programs import INTERRUPTED
+from symtop_ros.shutdown import describe_failure
 
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"
 NODE = "import sys; from symtop_ros.programs import top_node; sys.exit(top_node())"
 PATIENCE = 5.0  # s
 SAMPLES = 300  # before and after the kick: 1.5 s, nine nutations of this scene
+DOMAINS = range(60, 90)
+FIRST_PORT, PORTS = 7400, 250  # of domain 0, and of each domain
+USED = 60  # ports of a domain that 25 participants use
+LOCAL_HOST = "127.0.0.1"
+TIMEOUT = 20.0  # s
+
+
+class DemoError(Exception):
+    """The demonstration failed; the text says why."""
 
 
 def main() -> int:
     """Run the demonstration; return the exit status."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    os.environ.setdefault("ROS_LOG_DIR", str(Path("logs", "ros").absolute()))  # not in the home
     # The discovery range alone leaves ports open to hosts that name this one as a peer.
     use_profile(PROFILE)
-    # A separate domain, so that the demonstration does not reach a top that is already running.
-    os.environ["ROS_DOMAIN_ID"] = str(60 + os.getpid() % 30)
-    print(f"starting top_node with the scene {SCENE!r} ...", flush=True)
-    options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "--log-level", "warn"]
-    node = subprocess.Popen([sys.executable, "-c", NODE, "--ros-args", *options])
-    rclpy.init()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that the node is ended too
     try:
-        log = _show(Connection(rclpy.create_node("demo"), timeout=20.0))
-    except UnreachableError as error:
+        # A separate domain, so that the demonstration does not reach a top that is already running.
+        domain, claim = claim_domain()
+        os.environ["ROS_DOMAIN_ID"] = str(domain)
+        with claim:
+            log = _run(domain)
+        return _replay(log)
+    except (DemoError, UnreachableError, LogError) as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return INTERRUPTED
+
+
+def claim_domain() -> tuple[int, socket.socket]:
+    """Return a ROS domain without any program on this machine, and the socket that claims it.
+
+    Until the socket is closed no other demonstration takes the domain: each binds a TCP port of
+    it, and Fast DDS uses UDP ports only.
+    """
+    for domain in DOMAINS:
+        claim = socket.socket()
+        with suppress(OSError):
+            claim.bind((LOCAL_HOST, FIRST_PORT + PORTS * domain))
+            _bind_all(domain)
+            return domain, claim
+        claim.close()
+    raise DemoError(
+        f"one of the ROS domains {DOMAINS[0]} to {DOMAINS[-1]} must be free, got none on this "
+        "machine"
+    )
+
+
+def _bind_all(domain: int) -> None:
+    """Raise OSError if a ROS program of this machine uses the domain."""
+    for port in range(FIRST_PORT + PORTS * domain, FIRST_PORT + PORTS * domain + USED):
+        with socket.socket(type=socket.SOCK_DGRAM) as probe:
+            probe.bind(("", port))
+
+
+def _run(domain: int) -> Path:
+    """Start a node, show it and end it; return the log.
+
+    Its namespace is a random one, so that no other node can answer in its place.
+    """
+    space = f"/demo_{secrets.token_hex(4)}"
+    _say(f"starting top_node with the scene {SCENE!r} in the ROS domain {domain} ...")
+    if not accelerated:
+        _say(f"states are computed by {describe_engine()}")
+    options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "-r", f"__ns:={space}"]
+    command = [sys.executable, "-c", NODE, "--ros-args", *options, "--log-level", "warn"]
+    node = subprocess.Popen(command)
+    try:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        top = Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)
+        top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
+        if node.poll() is not None:
+            raise DemoError(f"top_node ended with status {node.returncode}")
+        return _show(top)
+    except RuntimeError as error:
+        raise DemoError(describe_failure(error)) from None
     finally:
         rclpy.try_shutdown()
         node.terminate()
         node.wait(timeout=10)
-    return _replay(log)
+
+
+def _is_known(top: Connection) -> bool:
+    return top.name in top.node.get_fully_qualified_node_names()
+
+
+def _say(text: str) -> None:
+    """Print a line at once, also into a pipe: the demonstration takes some seconds."""
+    print(text, flush=True)
 
 
 def _show(top: Connection) -> Path:
@@ -59,40 +137,53 @@ def _show(top: Connection) -> Path:
     top.subscribe(JointState, "euler_angles", lambda message: thetas.append(message.position[1]))
     top.switch("pause", True)
     top.trigger("reset")
-    print(f"let go at rest:       {_watch(top, thetas)}")
+    _say(f"let go at rest:       {_watch(top, thetas)}")
     top.trigger("reset")
     state = json.loads(top.trigger("get_state")[1])
     top.set("step", {"duration": state["nutation_period"] / 2})
-    print("at its lowest point:  ~/hurry_precession multiplies phi' by 1.4")
+    _say("at its lowest point:  ~/hurry_precession multiplies phi' by 1.4")
     _, answer = top.trigger("hurry_precession")
-    print(f"the answer:           {answer}")
-    print(f"the motion after it:  {_watch(top, thetas)}")
-    top.switch("record", False)
+    _say(f"the answer:           {answer}")
+    _say(f"the motion after it:  {_watch(top, thetas)}")
+    return _end_log(top, logs)
+
+
+def _end_log(top: Connection, logs: list[str]) -> Path:
+    """End the recording and return its path; DemoError if the disk is full, for example."""
+    _, answer = top.switch("record", False)
     if not top.spin_until(lambda: bool(logs), PATIENCE):
-        raise UnreachableError(f"no event of {top.name} within {PATIENCE:g} s: the log is unknown")
+        raise DemoError(f"the log must be complete, got: {answer} (top_node has reported why)")
     return Path(logs[-1])
 
 
 def _list_logs(message: DiagnosticArray) -> list[str]:
-    """Return the files of the recordings that ended."""
+    """Return the files of the recordings that were ended by request."""
     fields = [{each.key: each.value for each in status.values} for status in message.status]
     return [each["outcome.path"] for each in fields if each.get("outcome.kind") == "ended"]
 
 
 def _replay(log: Path) -> int:
+    """Write the replay, say how to open it and the log, and show it on a screen."""
     recording = log.with_suffix(".rrd")
-    try:
-        replay(TopLog(McapFile(log)), recording)
-    except LogError as error:
-        print(f"demo: {error}", file=sys.stderr)
-        return 1
-    print(f"the log:              {log}")
-    print(f"the replay:           {recording}")
+    replay(TopLog(McapFile(log)), recording)
+    _say(f"the log:              {log}")
+    _say(f"the replay:           {recording}")
+    _say(f"to open the log:      {_command('top_replay', log)}")
+    _say(f"  without a screen:   {_command('top_replay', log, '--web')}")
+    _say(f"to check it:          {_command('top_replay', log, '--check')}")
+    _say(f"to open the replay:   {_command('rerun', recording)}")
+    _say(f"  without a screen:   {_command('rerun', recording, '--serve-web')}")
     if viewer.has_screen():
-        print("the viewer is open; closing it ends the demonstration", flush=True)
+        _say("the viewer is open; closing it ends the demonstration")
         viewer.show(recording, web=False)
-    print("stopped; nothing is left running")
+    _say("stopped; nothing is left running")
     return 0
+
+
+def _command(program: str, file: Path, *options: str) -> str:
+    """Return the command line of an installed program, as it can be typed here."""
+    path = Path(sys.executable).with_name(program)
+    return shlex.join([os.path.relpath(path), os.path.relpath(file), *options])
 
 
 def _watch(top: Connection, thetas: list[float]) -> str:

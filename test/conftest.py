@@ -1,5 +1,7 @@
 import contextlib
 import os
+import sys
+from pathlib import Path
 
 import pytest
 from coverage import Coverage
@@ -12,6 +14,17 @@ with contextlib.suppress(ModuleNotFoundError):  # the matrix has no Hypothesis
         "untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow]
     )
     settings.load_profile("untimed")
+
+# What programs write for themselves stays in the environment of Python: the home of the user is
+# unchanged.
+for variable, folder in {
+    "ROS_LOG_DIR": "ros_log",
+    "MPLCONFIGDIR": "matplotlib",
+    "XDG_CONFIG_HOME": "config",
+    "XDG_DATA_HOME": "data",
+    "XDG_CACHE_HOME": "cache",
+}.items():
+    os.environ[variable] = str(Path(sys.prefix, folder))
 
 TRACED = "COVERAGE_PROCESS_CONFIG"  # by which coverage reaches programs that tests start
 

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import rerun_cli
 from endings import bound
 from PIL import Image
 from rerun.experimental import ViewerClient
@@ -42,7 +41,7 @@ def _environment() -> dict[str, str]:
     manifest.write_text(json.dumps({"ICD": icd, "file_format_version": "1.0.0"}))
     folders = [str(Path(libraries[0]).parent), os.environ.get("LD_LIBRARY_PATH", "")]
     return {
-        **os.environ,
+        **viewer.settings(),
         "VK_ICD_FILENAMES": str(manifest),
         "LD_LIBRARY_PATH": os.pathsep.join(filter(None, folders)),
     }
@@ -52,10 +51,9 @@ def _environment() -> dict[str, str]:
 def running_viewer(*files: Path, port: int | None = None) -> Iterator[tuple[ViewerClient, int]]:
     """A viewer of files, and the port it listens on; it has ended afterwards."""
     port = port or viewer.free_port()
-    program = Path(rerun_cli.__file__).parent / "rerun"
     options = ["--bind", viewer.HOST, "--port", str(port), "--headless", "--window-size", SIZE]
     process = subprocess.Popen(
-        bound([str(program), *options, *map(str, files)]),
+        bound([str(viewer.PROGRAM), *options, *map(str, files)]),
         env=_environment(),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

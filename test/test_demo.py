@@ -1,45 +1,76 @@
+import contextlib
+import os
 import re
+import shlex
+import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 from endings import bound
 from listening import udp_addresses
 from log_files import Run
+from programs import running_node
 
 from symtop_ros import demo
-from symtop_ros.client.connection import Connection
+from symtop_ros.demo import FIRST_PORT, PORTS
 from symtop_ros.distribution import VARIABLES
 from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
 
+# All that a user must have set; the home cannot be written to.
+BARE = {"HOME": "/dev/null", "PATH": os.defpath}
 
-@pytest.mark.wording
-def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(
-    tmp_path, monkeypatch
-):
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    for name in VARIABLES:
-        monkeypatch.delenv(name, raising=False)
-    demo = subprocess.Popen(
+
+@contextlib.contextmanager
+def running_demo(folder, **variables):
+    """The demonstration in a folder, with its output in a pipe, and its first lines of output."""
+    with subprocess.Popen(
         bound([sys.executable, "-m", "symtop_ros.demo"]),
-        cwd=tmp_path,
+        cwd=folder,
+        env={**BARE, **variables},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-    )
-    heard = [demo.stdout.readline() for _ in range(2)]  # the second when samples have come
-    first = 7400 + 250 * (60 + demo.pid % 30)  # of its domain
-    listening = udp_addresses(range(first, first + 250))
-    printed, errors = demo.communicate(timeout=120)
-    assert demo.returncode == 0, (heard, errors)
+    ) as process:
+        try:
+            yield process, process.stdout.readline()
+        finally:
+            process.terminate()
+
+
+def domain_of(line):
+    return int(re.search(r"in the ROS domain (\d+) \.\.\.", line)[1])
+
+
+@pytest.mark.wording
+def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(tmp_path):
+    with running_demo(tmp_path) as (process, line):
+        process.stdout.readline()  # as soon as samples have come, and not at the end
+        assert process.poll() is None
+        first = FIRST_PORT + PORTS * domain_of(line)
+        listening = udp_addresses(range(first, first + PORTS))
+        printed, errors = process.communicate(timeout=120)
+    assert (process.returncode, errors) == (0, "")
     assert len(listening) >= 4
     assert {address for address, _ in listening} == {"127.0.0.1"}
-    answer, after, log, recording, ended = printed.splitlines()[-5:]
+    answer, after, log, recording, *commands, ended = printed.splitlines()[-10:]
+    assert_rises(answer, after)
+    assert ended == "stopped; nothing is left running"
+    path, replay = tmp_path / Path(log.split()[-1]), tmp_path / Path(recording.split()[-1])
+    assert all(each.largest == 0.0 for each in check_log(TopLog(McapFile(path))).values())
+    assert replay.stat().st_size > 100_000
+    assert sorted(tmp_path.iterdir()) == [tmp_path / "logs"]
+    assert_commands(commands, path, replay)
+
+
+def assert_rises(answer, after):
+    """The numbers of the answer are those of the article's top, and are seen in the samples."""
     assert (
         "Precession 11.89 -> 16.64 rad/s. The top rises: theta will stay between 0.354 and"
         in answer
@@ -48,10 +79,62 @@ def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(
     seen = re.search(r"theta (\S+) to (\S+) rad", after).groups()
     # samples are 5 ms apart: at the highest point theta'' = 250 rad/s^2 moves it by 1e-3 rad
     assert [float(each) for each in seen] == pytest.approx([float(low), float(high)], abs=1.5e-3)
-    assert ended == "stopped; nothing is left running"
-    path = tmp_path / Path(log.split()[-1])
-    assert all(each.largest == 0.0 for each in check_log(TopLog(McapFile(path))).values())
-    assert (tmp_path / Path(recording.split()[-1])).stat().st_size > 100_000
+
+
+def assert_commands(lines, log, replay):
+    """Each line names a program that is installed, and the log or the replay; the check runs."""
+    words = [shlex.split(line.split(":", 1)[1]) for line in lines]
+    for program, *rest in words:
+        assert os.access(log.parents[1] / program, os.X_OK)
+        assert {log.parents[1] / each for each in rest} & {log, replay}
+    (check,) = [each for each in words if "--check" in each]
+    subprocess.run(check, cwd=log.parents[1], check=True, capture_output=True, timeout=60)
+
+
+def test_two_demonstrations_choose_different_domains_and_print_the_same(tmp_path):
+    with running_demo(tmp_path) as (one, line), running_demo(tmp_path) as (other, second):
+        assert domain_of(line) != domain_of(second)
+        printed = [each.communicate(timeout=120)[0] for each in (one, other)]
+    numbers = [[line for line in each.splitlines() if "theta" in line] for each in printed]
+    assert numbers[0] == numbers[1] != []
+
+
+def test_a_domain_with_a_node_of_someone_else_is_not_chosen(monkeypatch):
+    free, claim = demo.claim_domain()
+    claim.close()
+    monkeypatch.setattr(demo, "DOMAINS", range(free, free + 1))
+    first = FIRST_PORT + PORTS * free
+    with running_node(free) as node:
+        while not udp_addresses(range(first, first + PORTS)):
+            assert node.poll() is None
+            time.sleep(0.02)
+        with pytest.raises(demo.DemoError, match=f"domains {free} to {free} must be free, got no"):
+            demo.claim_domain()
+
+
+@pytest.mark.wording
+def test_another_top_in_the_domain_does_not_answer_in_the_place_of_its_own(tmp_path):
+    """A user may start one there while the demonstration runs."""
+    with running_demo(tmp_path) as (process, line), running_node(domain_of(line), "scene:=looping"):
+        printed, errors = process.communicate(timeout=120)
+    assert process.returncode == 0, errors
+    assert_rises(*[each for each in printed.splitlines() if "answer:" in each or "after" in each])
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
+    with running_demo(tmp_path) as (process, line):
+        process.stdout.readline()
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=60)
+    assert (process.returncode, errors) == (130, "")
+    first = FIRST_PORT + PORTS * domain_of(line)
+    assert udp_addresses(range(first, first + PORTS)) == set()
+
+
+def test_states_of_python_alone_are_reported(tmp_path):
+    with running_demo(tmp_path, SYMTOP_PURE="1") as (process, _):
+        assert process.stdout.readline() == "states are computed by Python (SYMTOP_PURE is set)\n"
 
 
 @pytest.fixture
@@ -59,21 +142,50 @@ def here(tmp_path, monkeypatch):
     """A folder, and an environment that the demonstration may change."""
     for name in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_DOMAIN_ID", *VARIABLES):
         monkeypatch.setenv(name, "LOCALHOST" if name.endswith("RANGE") else "")
+    handler = signal.getsignal(signal.SIGTERM)
     monkeypatch.chdir(tmp_path)
-    return tmp_path
+    yield tmp_path
+    signal.signal(signal.SIGTERM, handler)
 
 
 @pytest.mark.usefixtures("here")
 def test_a_node_that_does_not_start_is_reported(monkeypatch, capsys):
     monkeypatch.setattr(demo, "NODE", "pass")
-    monkeypatch.setattr(demo, "Connection", lambda node, timeout: Connection(node, timeout=0.1))
     assert demo.main() == 1
-    assert capsys.readouterr().err.startswith("demo: no answer from /top within 0.1 s")
+    assert capsys.readouterr().err == "demo: top_node ended with status 0\n"
 
 
-def test_a_log_that_cannot_be_replayed_is_reported(here, capsys):
-    assert demo._replay(here / "none.mcap") == 1
+def test_a_log_that_cannot_be_replayed_is_reported(here, monkeypatch, capsys):
+    monkeypatch.setattr(demo, "_run", lambda _: here / "none.mcap")
+    assert demo.main() == 1
     assert capsys.readouterr().err.endswith("none.mcap: No such file or directory\n")
+
+
+class Full:
+    """A top whose recording has ended by itself."""
+
+    def switch(self, service, on):
+        assert (service, on) == ("record", False)
+        return True, "not recording"
+
+    def spin_until(self, condition, seconds):
+        return condition()
+
+
+def test_a_log_that_a_full_disk_has_ended_is_reported():
+    with pytest.raises(demo.DemoError, match="the log must be complete, got: not recording"):
+        demo._end_log(Full(), [])
+
+
+def test_a_disk_that_has_no_place_for_the_replay_is_reported(here, monkeypatch, capsys):
+    log = Run(seconds=0.5).write(here)
+    usage = shutil.disk_usage(here)._replace(free=log.stat().st_size)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
+    monkeypatch.setattr(demo, "_run", lambda _: log)
+    assert demo.main() == 1
+    assert capsys.readouterr().err == (
+        f"demo: cannot write {log.with_suffix('.rrd')}: No space left on device\n"
+    )
 
 
 def test_on_a_screen_the_replay_is_shown(here, monkeypatch, capsys):

@@ -1,5 +1,8 @@
 """Conversion of a log into a Rerun recording."""
 
+import errno
+import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -12,11 +15,13 @@ from symtop_ros.playback.view.view import DEFAULT_OPTIONS, View, ViewOptions
 APPLICATION = "symtop_ros"
 MIN_SIZE_FOR_BAR = 20 * 2**20  # bytes; smaller files take less than a second
 BAR_LENGTH = 40  # characters
+GROWTH = 8  # a recording has five times the size of its log
 
 
 def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) -> None:
     """Write a log as a Rerun recording; problems of the log are listed with its events."""
     try:
+        _require_space(target, GROWTH * log.file.size)
         recording = create_recording(target, log.file.path.stem)
     except (OSError, RuntimeError) as error:
         raise LogError(
@@ -30,6 +35,12 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
         view.log_text(problem)
     recording.flush()
     recording.disconnect()
+
+
+def _require_space(target: Path, size: int) -> None:
+    """Raise OSError if the disk has fewer bytes left: on a full disk Rerun waits for ever."""
+    if shutil.disk_usage(target.parent).free < size:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def create_recording(file: Path, name: str) -> rr.RecordingStream:

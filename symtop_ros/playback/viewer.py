@@ -11,6 +11,25 @@ import rerun_cli
 
 from symtop_ros.playback.web import HOST, serve_page
 
+PROGRAM = Path(rerun_cli.__file__).parent / "rerun"
+
+
+def settings() -> dict[str, str]:
+    """Return the environment variables of a viewer.
+
+    In a venv its settings are in the venv, and not in the home of the user, and its usage
+    statistics are switched off.
+    """
+    if sys.prefix == sys.base_prefix:
+        return {**os.environ}
+    folder = Path(sys.prefix, "rerun")
+    own = {"XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder / "data")}
+    environment = {**os.environ, **own}
+    if not (folder / "rerun" / "analytics.json").exists():
+        command = [str(PROGRAM), "analytics", "disable"]
+        subprocess.run(command, env=environment, capture_output=True, check=False)
+    return environment
+
 
 def has_screen() -> bool:
     """Return True if a window can be opened."""
@@ -33,13 +52,12 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
         source = f"rerun%2Bhttp%3A%2F%2F{HOST}%3A{port}%2Fproxy"
         address = f"http://{HOST}:{serve_page(page, port)}/?url={source}"
         print(f"open {address} in a browser; Ctrl-C ends it", flush=True)
-    program = Path(rerun_cli.__file__).parent / "rerun"
     if sys.platform != "win32":  # a closed terminal ends the caller, which ends the viewer
         signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     return subprocess.Popen(
-        [program, *options, *files],
+        [PROGRAM, *options, *files],
         stdout=subprocess.DEVNULL,
-        env={"RUST_LOG": "warn", **os.environ},
+        env={"RUST_LOG": "warn", **settings()},
         start_new_session=True,
     )
 

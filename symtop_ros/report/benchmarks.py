@@ -40,7 +40,7 @@ class Scope:
     states: tuple[int, ...]  # numbers of states in an array
     hard_peers: tuple[str, ...]  # peers that try the hard cases
     driven: int = 1  # 1 to try all motions with friction and torques, n to try each n-th
-    many: int = 100_000  # number of different motions
+    many: int = 10_000  # number of different motions, for each program
 
     def includes(self, peer: Peer, number: int) -> bool:
         """Return True if a peer integrates the article's motion of this number."""
@@ -50,7 +50,7 @@ class Scope:
 FIRST = "first motion"
 QUICK = Scope(False, 9, 4.0, 1.0, tuple(10**k for k in range(8)), HARD_PEERS[1:])
 FULL = Scope(True, 9, 60.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
-SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9, 8)  # for tests
+SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9, 2)  # for tests
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,10 @@
 """The text of the report, in Markdown."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from statistics import median
 
+from symtop_ros.report.ahead import FRICTION, list_ahead
 from symtop_ros.report.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
 from symtop_ros.report.footprint import Footprint
 from symtop_ros.report.many import ManyCost
@@ -12,7 +13,6 @@ from symtop_ros.report.reference import EPS, ReferenceMotion
 from symtop_ros.report.sweep import Curve
 
 LEVELS = (1e-6, 1e-9, 1e-12)
-FRICTION = "cusps with friction"
 SUMMARY = (
     CLOSED_FORM,
     CLOSED_FORM + ALONE,
@@ -46,7 +46,7 @@ def format_document(results: Results, motion: ReferenceMotion, environment: Envi
 
 
 def format_chapters(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
-    """Return the report without its title."""
+    """Return the report without its title; what is not measured yet is left out."""
     parts = [
         _format_environment(environment),
         _format_work(results, motion, environment.limit),
@@ -99,6 +99,8 @@ def _format_environment(environment: Environment) -> str:
 
 def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str:
     curves = [curve for curve in results.curves if curve.motion == motion.name]
+    if not curves:
+        return ""
     ours = results.find_curve(CLOSED_FORM, motion.name).best
     costs = {each.peer: each for each in results.states}
     head = [*BEST, "us a state, array", "to build, ms", "sweep ended at", "model"]
@@ -169,6 +171,8 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
 
 def _format_friction(results: Results) -> str:
     curves = [curve for curve in results.curves if curve.motion == FRICTION]
+    if not curves:
+        return ""
     ours = results.find_curve(TAYLOR, FRICTION).best
     rows = [[curve.peer, *_format_best(curve, ours.seconds)] for curve in curves]
     return f"## Cusps with friction, {SPAN:g} s\n\n{format_table(BEST, rows)}"
@@ -202,6 +206,8 @@ def _format_driven(cases: list[DrivenCase]) -> str:
 
 
 def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
+    if not results.growth:
+        return ""
     times = [t for t in motion.times if t >= SPAN]
     rows = []
     for each in results.growth:
@@ -219,6 +225,8 @@ def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
 
 
 def _format_arrays(results: Results) -> str:
+    if not results.states:
+        return ""
     numbers = results.states[0].numbers
     rows = [
         [
@@ -239,12 +247,15 @@ def _format_arrays(results: Results) -> str:
 def _format_many(costs: list[ManyCost]) -> str:
     if not costs:
         return ""
+    first = costs[0]
     rows = [[each.peer, f"{each.error:.0e}", f"{each.seconds * 1e6:.3g}"] for each in costs]
     return (
-        f"## Many different motions\n\nThe article's top with other weights, spins and tilts: "
-        f"{costs[0].motions:g} motions, one state each after {SPAN:g} s. heyoka is compiled once, "
-        "with parameters for what differs, and integrates several motions at a time in batches."
-        f"\n\n{format_table(['', 'largest error', 'us a motion'], rows)}"
+        f"## Many different motions\n\nThe article's top with other weights, spins and tilts: the "
+        f"same {first.motions:g} motions for each program, one state each after {SPAN:g} s. The "
+        f"errors are those of the first {first.compared} motions, the times medians of "
+        f"{first.runs} runs. heyoka is compiled once, with parameters for what differs, and "
+        "integrates several motions at a time in batches.\n\n"
+        f"{format_table(['', 'largest error', 'us a motion'], rows)}"
     )
 
 
@@ -261,42 +272,16 @@ def _format_footprint(footprint: Footprint | None) -> str:
 
 def _format_ahead(results: Results) -> str:
     """Return every case of this report in which a peer is faster, or more exact."""
-    lines = [line for curve in results.curves for line in _list_ahead(results, curve)]
-    ours = next(each for each in results.states if each.peer == CLOSED_FORM)
-    for each in results.states:
-        if each.peer.startswith(CLOSED_FORM):
-            continue
-        numbers = [
-            f"{n:g}"
-            for n, own, other in zip(ours.numbers, ours.seconds, each.seconds, strict=True)
-            if other < own
-        ]
-        if numbers:
-            lines.append(f"- Arrays of {', '.join(numbers)} states: {each.peer} is faster.")
-    text = "\n".join(lines) or "- None."
-    return f"## Where a peer is ahead\n\nEvery case of this report.\n\n{text}"
-
-
-def _list_ahead(results: Results, curve: Curve) -> Iterator[str]:
-    own = TAYLOR if curve.motion == FRICTION else CLOSED_FORM
-    ours = results.find_curve(own, curve.motion).best
-    if curve.peer.startswith(own):
-        return
-    faster = [point for point in curve.points if point.seconds < ours.seconds]
-    if faster:
-        best = min(faster, key=lambda point: point.error)
-        yield (
-            f"- {curve.motion}: {curve.peer} reaches {best.error:.1e} rad in {_ms(best.seconds)} "
-            f"ms, {own.removeprefix('symtop_ros, ')} {ours.error:.1e} in {_ms(ours.seconds)} ms."
-        )
-    if curve.best.error < ours.error and curve.best not in faster:
-        yield (
-            f"- {curve.motion}: {curve.peer} is more exact, {curve.best.error:.1e} against "
-            f"{ours.error:.1e} rad, in {_ms(curve.best.seconds)} ms."
-        )
+    text = "\n".join(f"- {line}" for line in list_ahead(results)) or "- None."
+    return (
+        "## Where a peer is ahead\n\nEvery case of this report: each table above is compared "
+        f"row by row.\n\n{text}"
+    )
 
 
 def _format_hard_cases(cases: list[HardCase]) -> str:
+    if not cases:
+        return ""
     peers = list(dict.fromkeys(name for case in cases for name in case.peers))
     rows = []
     for family in dict.fromkeys(case.family for case in cases):

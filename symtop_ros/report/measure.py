@@ -2,7 +2,6 @@
 
 import platform
 import sys
-from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -10,7 +9,6 @@ from symtop_ros.physics import describe_engine
 from symtop_ros.report.benchmarks import Results, Scope, list_steps
 from symtop_ros.report.document import Environment, format_document
 from symtop_ros.report.peers import find_peers
-from symtop_ros.report.peers.peer import Peer
 from symtop_ros.report.plots import write_plots
 from symtop_ros.report.publish import collect_facts, publish, track, write_results
 from symtop_ros.report.reference import Reference
@@ -28,7 +26,10 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
     environment = Environment(
         command, find_machine(), _find_versions(), missing, scope.limit, describe_engine()
     )
-    results = _run(scope, peers)
+    results = Results()
+    for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
+        work()
+        _write_tables(folder, results, environment)  # what is measured can be read at once
     _write(folder, results, environment)
     if docs:
         publish(folder, docs)
@@ -39,18 +40,16 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
     return 1 if failures else 0
 
 
-def _run(scope: Scope, peers: Sequence[Peer]) -> Results:
-    results = Results()
-    for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
-        work()
-    return results
+def _write_tables(folder: Path, results: Results, environment: Environment) -> str:
+    text = format_document(results, Reference.read().article[0], environment)
+    (folder / "report.md").write_text(text + "\n", encoding="utf-8")
+    return text
 
 
 def _write(folder: Path, results: Results, environment: Environment) -> None:
-    motion = Reference.read().article[0]
-    text = format_document(results, motion, environment)
+    text = _write_tables(folder, results, environment)
     write_results("report", collect_facts(results, environment), text, folder)
-    write_plots(results, motion, folder)
+    write_plots(results, Reference.read().article[0], folder)
 
 
 def find_machine() -> str:

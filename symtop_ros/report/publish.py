@@ -6,6 +6,7 @@ A table stands between two comments that name it, `<!-- figures: NAME -->` and
 
 import json
 import shutil
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -74,8 +75,13 @@ def write_results(
 
 
 def track(work: Sequence[Work], describe: Callable[[Work], str]) -> Iterator[Work]:
-    """Yield pieces of work, with a progress bar on a terminal."""
-    with tqdm(work, unit="", leave=False, disable=None) as progress:
+    """Yield pieces of work, with a progress bar on a terminal and a line for each elsewhere."""
+    if not sys.stderr.isatty():
+        for number, each in enumerate(work, 1):
+            print(f"{number} of {len(work)}: {describe(each)}", file=sys.stderr, flush=True)
+            yield each
+        return
+    with tqdm(work, unit="", leave=False) as progress:
         for each in progress:
             progress.set_description(f"{describe(each):60.60}")
             yield each

@@ -1,10 +1,14 @@
-"""Programs that end with the process that starts them, also if that one is killed."""
+"""Programs that end with the process that starts them, also if that one is killed.
+
+They heed SIGHUP, also when the tests themselves ignore it, under nohup.
+"""
 
 from __future__ import annotations
 
 import shutil
 from collections.abc import Sequence
 
+ENV = shutil.which("env")
 SETPRIV = shutil.which("setpriv")  # of util-linux; it becomes the program, with the same id
 
 
@@ -13,4 +17,6 @@ def bound(command: Sequence[str]) -> list[str]:
 
     SIGTERM, and not SIGKILL, so that a program can end what it has started itself.
     """
-    return [SETPRIV, "--pdeathsig", "TERM", *command] if SETPRIV else list(command)
+    if not (SETPRIV and ENV):
+        return list(command)
+    return [ENV, "--default-signal=HUP", SETPRIV, "--pdeathsig", "TERM", *command]

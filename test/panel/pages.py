@@ -39,6 +39,7 @@ class Pages:
 
     def __init__(self, url: str, count: int) -> None:
         self.counts = [0] * count
+        self.open = 0  # connections that the server has accepted: two for each page
         self.bytes = [0] * count
         self.ages: list[float] = []  # s between a frame's sending and its arrival
         self._address = urlsplit(url).netloc
@@ -84,6 +85,7 @@ class Pages:
     async def _watch_scene(self, k: int) -> None:
         protocol = websockets.Subprotocol(f"viser-v{viser.__version__}")
         async with self._open(f"scene/{k}", subprotocols=[protocol]) as connection:
+            self.open += 1
             await connection.send(msgspec.msgpack.encode(CAMERA.as_serializable_dict([])))
             try:
                 async for message in connection:
@@ -95,6 +97,7 @@ class Pages:
 
     async def _watch_charts(self, k: int) -> None:
         async with self._open(f"controls/{k}") as connection:
+            self.open += 1
             try:
                 async for message in connection:
                     self.bytes[k] += len(message)
@@ -132,7 +135,8 @@ def running_panel(*words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
 def open_pages(url: str, count: int = 1, least: int = 3) -> Iterator[Pages]:
     """Pages that are open in this context, and have received at least some messages.
 
-    The server may still be starting.
+    The server may still be starting. All connections are open, because a server that ends refuses
+    those that come later with status 503.
     """
     deadline = time.monotonic() + TIMEOUT
     address = urlsplit(url)
@@ -141,7 +145,7 @@ def open_pages(url: str, count: int = 1, least: int = 3) -> Iterator[Pages]:
         time.sleep(0.05)
     pages = Pages(url, count)
     try:
-        while min(pages.counts) < least:
+        while min(pages.counts) < least or pages.open < 2 * count:
             assert time.monotonic() < deadline, f"only {pages.counts} messages"
             time.sleep(0.02)
         yield pages

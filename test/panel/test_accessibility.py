@@ -2,6 +2,7 @@
 
 import contextlib
 import re
+import time
 from itertools import combinations
 
 import numpy as np
@@ -44,6 +45,14 @@ def opened(browser, page, size=SIZES[0], **options):
     tab.wait_for_selector("#headline:not(:empty)")
     yield tab
     tab.close()
+
+
+def until(tab, condition):
+    """Wait, while the browser works, until a condition holds."""
+    deadline = time.monotonic() + TIMEOUT
+    while not condition():
+        assert time.monotonic() < deadline
+        tab.wait_for_timeout(20)
 
 
 @pytest.mark.parametrize("scheme", [pytest.param("light", marks=pytest.mark.long), "dark"])
@@ -109,12 +118,10 @@ def test_a_keyboard_reaches_the_scenes_and_the_tabs(browser, page):
         tab.keyboard.press("ArrowLeft")
         tab.get_by_role("combobox", name="scene").select_option("A slow top falls")
         tab.locator("#story").filter(has_text="little spin").wait_for()
-        tab.wait_for_timeout(500)
-        assert page.run.motion.start.euler_rates.psi == pytest.approx(60.0)
+        until(tab, lambda: page.run.motion.start.euler_rates.psi == pytest.approx(60.0))
         tab.get_by_role("button", name="Reset").focus()
         tab.keyboard.press("Space")  # presses the button that has the focus
-        tab.wait_for_timeout(300)
-        assert page.run.segment.running
+        until(tab, lambda: page.run.segment.running)
 
 
 def test_angles_are_shown_and_typed_in_degrees(browser, page):

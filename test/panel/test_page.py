@@ -91,6 +91,11 @@ class Watched:
         return self.page.run
 
     @property
+    def shown_time(self):
+        """Time of the run, in s, that the page shows."""
+        return float(self.tab.locator("body").get_attribute("data-time"))
+
+    @property
     def refusal(self):
         return self.tab.locator("#refusal").inner_text()
 
@@ -232,7 +237,8 @@ def test_a_link_of_another_site_is_offered_and_starts_nothing(watched, browser, 
         offer = tab.locator("#offer")
         offer.wait_for()
         assert "theta = 1.2" in offer.inner_text()
-        watched.tab.wait_for_timeout(500)  # in which a start would have been carried out
+        # requests of one page keep their order: a start would have come before the step
+        watched.act(lambda: tab.get_by_role("button", name="Step", exact=True).click(), "step")
         assert len(watched.events("start")) == starts
         watched.act(lambda: tab.get_by_role("button", name="Start it").click(), "start")
         assert watched.run.motion.start.euler_angles.theta == pytest.approx(1.2, abs=1e-15)
@@ -384,8 +390,10 @@ def test_speed_and_torque_leave_the_headline(watched):
     )
     watched.act(lambda: watched.page.actions.hold_torque(1.0), "torque")
     watched.until(lambda: watched.run.event.name == "torque")
-    watched.tab.wait_for_timeout(300)
-    assert headline.inner_text() == kicked
+    before = watched.shown_time
+    watched.act(watched.page.actions.step, "step")
+    watched.until(lambda: watched.shown_time > before)  # the page has what came before it, too
+    assert headline.inner_text().startswith("The top rises")
 
 
 def test_the_drawn_attitude_is_that_of_the_state(watched):
@@ -463,17 +471,21 @@ def test_the_potential_is_below_the_energy_where_the_motion_is_allowed(watched):
 def test_the_whole_top_and_its_arrows_are_in_the_picture(watched):
     watched.act(lambda: watched.page.actions.choose_scene("perry_fails"), "start")
     watched.until(lambda: watched.run.stamp >= watched.run.event.stamp)
-    watched.tab.wait_for_timeout(500)
     box = watched.tab.frame_locator("iframe").locator("canvas").first.bounding_box()
     corners = np.array([*itertools.product((-0.75, 0.75), (-0.75, 0.75), (-0.75, 1.0))])
-    for point in corners:
-        x, y = watched.place(point)
-        assert box["x"] < x < box["x"] + box["width"]
-        assert box["y"] < y < box["y"] + box["height"]
     (client,) = watched.page.server.get_clients().values()
     momentum = watched.run.motion.top.angular_momentum(watched.run.state)
-    # L points down, on the far side of the rotor from above: the camera is below.
-    assert momentum[2] * (client.camera.position - client.camera.look_at)[2] > 0
+
+    def shows_all():
+        places = [watched.place(point) for point in corners]
+        inside = all(
+            box["x"] < x < box["x"] + box["width"] and box["y"] < y < box["y"] + box["height"]
+            for x, y in places
+        )
+        # L points down, on the far side of the rotor from above: the camera is below.
+        return inside and momentum[2] * (client.camera.position - client.camera.look_at)[2] > 0
+
+    watched.until(shows_all)  # the browser moves its camera, and reports where it is
 
 
 def test_labels_stand_at_the_ends_of_their_arrows(watched):
@@ -614,8 +626,9 @@ def test_a_key_that_is_typed_into_a_field_does_nothing_else(watched):
     for key in ("h", "Space", "ArrowLeft", "r"):
         field.press(key)
     field.press("Escape")
-    watched.tab.wait_for_timeout(300)
-    assert len(watched.page.seen) == before
+    # requests of one page keep their order: what the keys ask for would come before the step
+    watched.act(lambda: watched.press("Step"), "step")
+    assert [event.name for event in watched.page.seen[before:]] == ["step"]
 
 
 @pytest.mark.long

@@ -1,6 +1,12 @@
-from symtop_ros.report.benchmarks import ArrayCost, Results
+from dataclasses import fields
+
+import pytest
+
+from symtop_ros.report.ahead import TABLES, list_ahead
+from symtop_ros.report.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
 from symtop_ros.report.document import _format_ahead, _format_other_motions, format_table
-from symtop_ros.report.peers import CLOSED_FORM
+from symtop_ros.report.many import ManyCost
+from symtop_ros.report.peers import CLOSED_FORM, TAYLOR
 from symtop_ros.report.reference import Reference
 from symtop_ros.report.sweep import Curve, Measurement
 
@@ -49,5 +55,48 @@ def test_every_case_in_which_a_peer_is_ahead_is_named():
     assert lines == [
         "- cusps: fast reaches 1.0e-09 rad in 0.1 ms, closed form 1.0e-15 in 0.3 ms.",
         "- cusps: exact is more exact, 1.0e-17 against 1.0e-15 rad, in 1e+03 ms.",
+        "- cusps, mean error: exact is more exact, 1.0e-17 against 1.0e-15 rad.",
         "- Arrays of 10 states: dense is faster.",
+    ]
+
+
+def results_of(ours, peer):
+    """Results in which the package and a peer each have one number for all errors and times."""
+    pairs = {CLOSED_FORM: ours, "peer": peer}
+    driven = {TAYLOR: ours, "peer": peer}
+    return Results(
+        checks=pairs,
+        curves=[
+            Curve(name, "cusps", 10.0, (Measurement(1.0, n, n, 9, n, n),), "finest")
+            for name, n in pairs.items()
+        ],
+        growth=[Growth(name, 0.0, (10.0,), (n,), (n,)) for name, n in pairs.items()],
+        states=[ArrayCost(name, (1,), (n,), n) for name, n in pairs.items()],
+        many=[ManyCost(name, 9, n, n, 9, 5) for name, n in pairs.items()],
+        hard=[HardCase("tilt", 0.1, 1.0, ours, {"peer": peer})],
+        driven=[DrivenCase("plain", driven, driven)],
+    )
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_peer_that_is_ahead_in_a_table_is_named(name):
+    lines = [*TABLES[name](results_of(2e-3, 1e-3))]
+    assert lines
+    assert all("peer" in line for line in lines)
+
+
+def test_every_table_is_looked_at():
+    assert {each.name for each in fields(Results)} == {*TABLES, "footprint"}
+
+
+def test_a_peer_that_is_nowhere_ahead_is_not_named():
+    assert _format_ahead(results_of(1e-3, 2e-3)).endswith("- None.")
+
+
+def test_a_peer_that_is_faster_in_a_family_of_driven_motions_is_named():
+    """Its errors are larger: only the median time is ahead."""
+    errors, seconds = {TAYLOR: 1e-16, "peer": 1e-12}, {TAYLOR: 2e-3, "peer": 1e-3}
+    results = Results(driven=[DrivenCase("rods", errors, seconds)] * 3)
+    assert [*list_ahead(results)] == [
+        "Friction and torques, rods, median: peer is faster, 1 against 2 ms."
     ]

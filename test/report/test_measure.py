@@ -12,7 +12,6 @@ from symtop_ros.report.benchmarks import (
     LARGEST_ERROR,
     LARGEST_TAYLOR_ERROR,
     SMALL,
-    Results,
 )
 from symtop_ros.report.main import main
 from symtop_ros.report.measure import measure
@@ -96,10 +95,14 @@ def test_a_plot_is_a_picture(folder, name):
 
 
 def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(report, "_run", lambda *_: Results(checks={"a peer": 0.5}))
+    def list_one(_, __, results):
+        yield "a peer: model", lambda: results.checks.update({"a peer": 0.5})
+
+    monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
     assert measure(tmp_path, SMALL, "top_report") == 1
     assert capsys.readouterr().err.splitlines() == [
+        "1 of 1: a peer: model",
         "top_report: above the limit: a peer: the model is a different top",
     ]
 
@@ -109,3 +112,28 @@ def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys
     assert main(["speed", str(tmp_path / "file")]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line == f"top_report: {tmp_path / 'file'}: File exists"
+
+
+def test_progress_is_printed_and_each_table_is_written_as_soon_as_it_is_measured(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr("symtop_ros.report.peers.peer.RECORDED", 16)
+    seen = []
+
+    def list_some(scope, peers, results):
+        for name, work in report_steps(scope, peers, results):
+            if name in ("footprint", *(f"{CLOSED_FORM}: {each}" for each in ("model", "cusps"))):
+                yield name, work
+        yield "the end", lambda: seen.append((tmp_path / "report.md").read_text())
+        yield "no more", lambda: pytest.fail("as if it were interrupted")
+
+    report_steps = report.list_steps
+    monkeypatch.setattr(report, "list_steps", list_some)
+    with pytest.raises(pytest.fail.Exception):
+        measure(tmp_path, SMALL, "top_report")
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "1 of 5: footprint"
+    assert lines[-1] == "5 of 5: no more"
+    (text,) = seen
+    assert f"| {CLOSED_FORM} |" in text
+    assert "## Long times" not in text

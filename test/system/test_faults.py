@@ -17,11 +17,18 @@ from node.running_top import facts
 from programs import PATIENT, command, environment, run, running_node
 from sensor_msgs.msg import JointState
 
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
+
 pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 
 DOMAIN = claim_domain()
 MS = 1_000_000
 DUPLICATE = "another node has the name /top, and a request reaches any of them: rename this one"
+SEVERAL = (
+    "top_ctl: 2 nodes have the name /top, and one of them has answered (a killed node is listed "
+    "for 20 s)\n"
+)
 
 
 def pace_of(message):
@@ -54,7 +61,9 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
     assert not (gaps % MS).any()
     assert gaps.min() == MS
     # The stamp of the diagnostics is that of the next tick: all before it were published or missed.
-    begin, until = stamps_of(path, "/events")[0], stamp.sec * 1000 * MS + stamp.nanosec
+    # The start's own stamp: that of the first tick, which a slow start may have missed.
+    begin = next(TopLog(McapFile(path)).events()).stamp
+    until = stamp.sec * 1000 * MS + stamp.nanosec
     assert missed == (until - begin) // MS - sum(each < until for each in stamps) > 800
     assert abs(stamps[-1] - asked) < 5_000 * MS  # where the clock is
     assert_exact(path)
@@ -85,5 +94,7 @@ def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
         rest = [node.communicate(timeout=60)[1] for node in nodes]
     assert all("--ros-args -r __node:=NAME or -r __ns:=/NAME" in line for line in lines)
     assert not any(DUPLICATE in each for each in rest)
-    assert (result.returncode, result.stderr) == (0, "")
+    assert result.returncode == 0
+    # The client may have answered before it knows of both.
+    assert result.stderr in ("", SEVERAL)
     assert len(result.stdout.splitlines()) == 1

@@ -1,0 +1,26 @@
+"""The Rerun viewer: it leaves the home of the user as it is."""
+
+import subprocess
+import sys
+
+from symtop_ros.playback import viewer
+
+
+def test_in_a_venv_its_settings_are_there_without_statistics(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / "venv"))
+    for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    environment = viewer.settings()
+    config = subprocess.run(
+        [viewer.PROGRAM, "analytics", "config"],
+        env=environment, capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+    assert '"analytics_enabled": false' in config
+    assert not (tmp_path / "home").exists()
+
+
+def test_without_a_venv_its_environment_is_that_of_the_user(monkeypatch):
+    monkeypatch.setattr(sys, "prefix", sys.base_prefix)
+    monkeypatch.setenv("XDG_CONFIG_HOME", "/of/the/user")
+    assert viewer.settings()["XDG_CONFIG_HOME"] == "/of/the/user"

@@ -1,0 +1,92 @@
+"""The groups of `make test`: all of them run, and the summary says what failed."""
+
+import shlex
+import subprocess
+import sys
+
+import groups
+import pytest
+
+TESTS = """
+import pytest
+
+@pytest.mark.parametrize("text", ["a - b [c]", "d"])
+def test_one(text):
+    assert text == "d", "no - [d]"
+
+def test_two():
+    pytest.skip("not here")
+"""
+
+
+@pytest.fixture(name="folder", autouse=True)
+def _folder(tmp_path, monkeypatch):
+    """A folder for output, in which the groups run."""
+    for name in ("OUTPUT", "ROOT"):
+        monkeypatch.setattr(groups, name, tmp_path)
+    return tmp_path
+
+
+def script(text):
+    """A check that a line of Python makes."""
+    return groups.Command((sys.executable, "-c", text), ())
+
+
+def run(monkeypatch, commands, *words):
+    monkeypatch.setattr(groups, "list_groups", lambda _: commands)
+    monkeypatch.setattr(sys, "argv", ["groups.py", *words])
+    return groups.main()
+
+
+def test_every_group_runs_and_failures_are_summed_up_at_the_end(monkeypatch, capsys, folder):
+    failing, good = script("import sys; print('oh'); sys.exit(3)"), script("print('fine')")
+    commands = {
+        "first": [failing, good],
+        **{name: [good] for name in ("second", "third", "fourth", "realtime")},
+    }
+    assert run(monkeypatch, commands) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == "5 passed, 1 failed"
+    assert [line for line in lines if line.endswith("# exit status 3")] == [
+        f"  {shlex.join(failing.words)}  # exit status 3"
+    ]
+    assert (folder / "first.txt").read_text() == "oh\nfine\n"
+
+
+def test_without_a_failure_the_status_is_zero(monkeypatch, capsys):
+    commands = {name: [script("")] for name in ("one", "realtime")}
+    assert run(monkeypatch, commands) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "2 passed, 0 failed"
+
+
+def test_the_tests_of_real_time_run_alone_after_all_others(monkeypatch, folder):
+    slow = script("import time, pathlib; time.sleep(0.3); pathlib.Path('done').touch()")
+    late = script("import sys, pathlib; sys.exit(not pathlib.Path('done').exists())")
+    assert run(monkeypatch, {"realtime": [late], "slow": [slow]}) == 0
+    assert (folder / "done").exists()
+
+
+def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypatch, capsys, folder):
+    (folder / "test_some.py").write_text(TESTS)
+    tests = groups.pytest("test_some.py", options=("-p", "no:cacheprovider"))
+    assert run(monkeypatch, {"some": [tests]}) == 1
+    printed = capsys.readouterr().out
+    assert printed.splitlines()[-1] == "1 passed, 1 failed, 1 skipped"
+    (again,) = [shlex.split(line) for line in printed.splitlines() if "::" in line and "-m" in line]
+    assert again[-1] == "test_some.py::test_one[a - b [c]]"
+    alone = [sys.executable, *again[1:]]
+    result = subprocess.run(alone, cwd=folder, capture_output=True, text=True, check=False)
+    assert "1 failed in" in result.stdout
+
+
+def test_a_run_of_tests_that_crashes_is_a_failure(monkeypatch, capsys, folder):
+    (folder / "test_some.py").write_text("import os\ndef test_one():\n    os.abort()\n")
+    assert run(monkeypatch, {"some": [groups.pytest("test_some.py")]}) == 1
+    assert capsys.readouterr().out.splitlines()[-1] == "0 passed, 1 failed"
+
+
+def test_a_group_that_is_unknown_is_refused(monkeypatch, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        run(monkeypatch, {"one": [script("")]}, "two")
+    assert stopped.value.code == 2
+    assert "GROUP must be one of one, got two" in capsys.readouterr().err

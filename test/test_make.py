@@ -1,0 +1,98 @@
+"""The first hour: what make says and does before anything is installed."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+MAKEFILE = ROOT / "Makefile"
+ACTIVATE = ".venv/bin/activate"  # the target that makes the environment
+
+
+def make(folder, *words, **variables):
+    """Run make in a folder without any environment; return the process, which has ended."""
+    outer = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL"}  # of the make that runs the tests
+    environment = {name: os.environ[name] for name in os.environ.keys() - outer}
+    return subprocess.run(
+        ["make", "-f", MAKEFILE, *words, *(f"{name}={value}" for name, value in variables.items())],
+        cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=300,
+    )  # fmt: skip
+
+
+def test_help_lists_every_target(tmp_path):
+    phony = re.search(r"^\.PHONY: (.*)$", make(tmp_path, "-pn", "help").stdout, re.MULTILINE)[1]
+    listed = make(tmp_path, "help").stdout
+    assert set(re.findall(r"^(\S+) ", listed, re.MULTILINE)) == set(phony.split()) - {"FORCE"}
+
+
+@pytest.mark.parametrize("present", ["nothing", "python without pip"])
+def test_an_environment_that_was_not_completed_is_made_again(tmp_path, present):
+    if present != "nothing":
+        interpreter = tmp_path / ".venv/bin/python"
+        interpreter.parent.mkdir(parents=True)
+        interpreter.symlink_to(sys.executable)
+    made = make(tmp_path, ACTIVATE, PYTHON=sys.executable)
+    assert made.returncode == 0, made.stderr
+    pip = [tmp_path / ".venv/bin/python", "-m", "pip", "--version"]
+    assert str(tmp_path) in subprocess.run(pip, capture_output=True, text=True, check=True).stdout
+
+
+def test_a_python_that_cannot_make_an_environment_leaves_none_and_names_the_package(tmp_path):
+    """As on Debian without python3-venv, where venv fails after it has written the interpreter."""
+    python = tmp_path / "python3"
+    python.write_text(
+        '#!/bin/sh\n[ "$2" = venv ] || exit 0\nmkdir -p .venv/bin\ntouch .venv/bin/python\nexit 1\n'
+    )
+    python.chmod(0o755)
+    for _ in range(2):  # the advice is the same the second time
+        made = make(tmp_path, ACTIVATE, PYTHON=python)
+        assert made.returncode == 2
+        assert "apt install python3-venv" in made.stdout
+
+
+def test_a_python_that_is_missing_is_named(tmp_path):
+    made = make(tmp_path, ACTIVATE, PYTHON="nonexistent")
+    assert made.returncode == 2
+    assert "PYTHON must be a Python 3.11 or later, got nonexistent: not found" in made.stdout
+
+
+def test_a_compiler_that_is_installed_later_is_noticed(tmp_path):
+    (tmp_path / ".venv/bin").mkdir(parents=True)
+    (tmp_path / ".venv/bin/python").symlink_to(sys.executable)
+    (tmp_path / ACTIVATE).touch()
+    file = tmp_path / ".venv/compiler"
+    ages = []
+    for compiler in ("no-such-compiler", "no-such-compiler", "sh"):
+        assert make(tmp_path, ".venv/compiler", CXX=compiler).returncode == 0
+        ages.append(file.stat().st_mtime_ns)
+    assert ages[0] == ages[1] < ages[2]
+
+
+def test_the_tests_run_without_the_variables_of_the_machine(tmp_path):
+    fake = tmp_path / "make"
+    fake.write_text("#!/bin/sh\necho $*\nenv\n")
+    fake.chmod(0o755)
+    variables = {"PYTHONUNBUFFERED": "1", "ROS_DOMAIN_ID": "7", "PIP_NO_INPUT": "1"}
+    path = os.pathsep.join([str(tmp_path), os.environ["PATH"]])
+    printed = subprocess.run(
+        ROOT / ".ci/run", env={**os.environ, **variables, "PATH": path},
+        capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+    first, *rest = printed.splitlines()
+    names = {line.partition("=")[0] for line in rest}
+    assert first == "test"
+    assert {"HOME", "PATH", "PIP_NO_INPUT"} <= names
+    assert not names & {"PYTHONUNBUFFERED", "ROS_DOMAIN_ID"}
+
+
+def test_every_variable_of_the_makefile_has_a_value():
+    """Of a variable without a definition make takes the empty text, and says so when asked."""
+    undefined = make(
+        ROOT, "--warn-undefined-variables", "-nB", "test", "test-kilted", "docs"
+    ).stderr
+    ours = [line for line in undefined.splitlines() if "undefined variable" in line]
+    assert [line for line in ours if not re.search("'(ROS_LOG_DIR|MPLCONFIGDIR)'", line)] == []
