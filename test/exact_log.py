@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from symtop_ros.log.check import check_log
+from symtop_ros.check.run import check_run
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 
@@ -17,7 +17,9 @@ def assert_exact(path: Path) -> int:
     The last sample of a log that was not finished may be incomplete.
     """
     log = TopLog(McapFile(path))
-    deviations = check_log(log)
+    found = check_run(log)
+    assert (found.mismatches, found.foreign, found.damage) == ([], 0, [])
+    deviations = found.deviations
     assert set(deviations) == set(STATES)
     for each in deviations.values():
         assert (each.largest, each.unchecked, each.unreached) == (0.0, 0, 0)

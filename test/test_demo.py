@@ -16,9 +16,9 @@ from log_files import Run
 from programs import running_node
 
 from symtop_ros import demo
+from symtop_ros.check.samples import check_log
 from symtop_ros.demo import FIRST_PORT, PORTS
 from symtop_ros.distribution import VARIABLES
-from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer

@@ -80,32 +80,32 @@ class SeveralFiles:
 
     def __init__(self, path: Path, sources: Sequence[MessageSource]) -> None:
         self.path = path
-        self._sources = sorted(sources, key=_begin)
+        self.sources = sorted(sources, key=_begin)
         self.schemas: dict[int, Schema] = {}
         self.channels: dict[int, Channel] = {}
         self._numbers: dict[tuple[int, int], int] = {}
         self.size = sum(source.size for source in sources)
-        for place, source in enumerate(self._sources):
+        for place, source in enumerate(self.sources):
             self._describe(place, source)
 
     @property
     def offset(self) -> int:
         """Bytes that were read."""
-        return sum(source.offset for source in self._sources)
+        return sum(source.offset for source in self.sources)
 
     @property
     def metadata(self) -> Mapping[str, Mapping[str, str]]:
         """Metadata records by name; of several the first."""
-        return {k: v for each in reversed(self._sources) for k, v in each.metadata.items()}
+        return {k: v for each in reversed(self.sources) for k, v in each.metadata.items()}
 
     @property
     def problems(self) -> list[str]:
         """Everything that is missing or damaged, with the name of its file."""
-        return [f"{each.path.name}: {text}" for each in self._sources for text in each.problems]
+        return [f"{each.path.name}: {text}" for each in self.sources for text in each.problems]
 
     def chunks(self) -> Iterator[list[Message]]:
         """Yield messages, those of a chunk together; numbers of channels are those of this run."""
-        for place, source in enumerate(self._sources):
+        for place, source in enumerate(self.sources):
             for messages in source.chunks():
                 self._describe(place, source)
                 yield [

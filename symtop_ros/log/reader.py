@@ -172,11 +172,11 @@ class McapFile:
         """Read the header, and the index at the end if there is one."""
         with suppress(*DAMAGE):
             for header in islice(self._records_at(file, len(MAGIC), Opcode.HEADER), 1):
-                self.profile = Header.read(_stream(header.data)).profile
+                self.profile = Header.read(open_stream(header.data)).profile
         with suppress(*DAMAGE):
             place = max(len(MAGIC), self.size - FOOTER_SIZE)
             for footer in islice(self._records_at(file, place, Opcode.FOOTER), 1):
-                self._read_index(file, Footer.read(_stream(footer.data)).summary_start)
+                self._read_index(file, Footer.read(open_stream(footer.data)).summary_start)
         self._chunk_offsets.sort()
 
     def _read_index(self, file: BinaryIO, start: int) -> None:
@@ -184,7 +184,7 @@ class McapFile:
         if 0 < start < self.size:
             for record in self._records_at(file, start, *SUMMARY):
                 if record.opcode == Opcode.CHUNK_INDEX:
-                    index = ChunkIndex.read(_stream(record.data))
+                    index = ChunkIndex.read(open_stream(record.data))
                     self._chunk_offsets.append(index.chunk_start_offset)
                 else:
                     self._describe(_contents(record).descriptions)
@@ -284,7 +284,8 @@ class McapFile:
             )
 
 
-def _stream(data: bytes) -> ReadDataStream:
+def open_stream(data: bytes) -> ReadDataStream:
+    """Return the content of a record, as the records of mcap read it."""
     return ReadDataStream(BytesIO(data))
 
 
@@ -304,7 +305,7 @@ def _chunk_of(record: Record) -> list[Chunk]:
     """Return the chunk in a list, for its times, or an empty list for another record."""
     with suppress(*DAMAGE):
         if record.opcode == Opcode.CHUNK:
-            return [Chunk.read(_stream(record.data))]
+            return [Chunk.read(open_stream(record.data))]
     return []
 
 
@@ -312,13 +313,18 @@ def _contents(record: Record) -> Contents:
     """Return the contents of a record that is sound as a whole."""
     if record.opcode != Opcode.CHUNK:
         return _parse(record.data, [(record.opcode, 0, len(record.data))], PARSED)
-    chunk = Chunk.read(_stream(record.data))
+    data = unpack_chunk(Chunk.read(open_stream(record.data)))
+    return _parse(data, Places(data), PARSED_IN_CHUNK)
+
+
+def unpack_chunk(chunk: Chunk) -> bytes:
+    """Return the records of a chunk; DamageError if they are not those that were written."""
     data = _decompress(chunk)
     if len(data) != chunk.uncompressed_size:
         raise DamageError("the size differs from the announced one")
     if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
         raise DamageError("CRC")
-    return _parse(data, Places(data), PARSED_IN_CHUNK)
+    return data
 
 
 @dataclass(frozen=True, slots=True)
@@ -343,7 +349,7 @@ def _parse(data: bytes, places: Iterable[Place], parsed: Mapping[int, Parse]) ->
     descriptions = []
     for opcode, begin, end in places:
         if opcode in parsed:
-            descriptions.append(parsed[opcode](_stream(data[begin:end])))
+            descriptions.append(parsed[opcode](open_stream(data[begin:end])))
         if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
             raise DamageError("not a message")
     return Contents(descriptions, _messages(data, places))

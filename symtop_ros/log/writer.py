@@ -39,7 +39,7 @@ class LogFile:
         self._head = dict(sorted(head.items()))
         self._first: int | None = None
         self._last = 0
-        self._writer = Writer(self._file, CHUNK_SIZE, CompressionType.ZSTD)
+        self._writer = Writer(self._file, CHUNK_SIZE, CompressionType.ZSTD, enable_data_crcs=True)
         try:
             self._writer.start(Profile.ROS2, f"symtop_ros {__version__}")
             self._writer.add_metadata(METADATA, dict(metadata))

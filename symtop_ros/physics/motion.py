@@ -301,7 +301,8 @@ class Motion(Setting):
         Returns
         -------
         float
-            Time up to which `at` now answers without integrating: t, or nearer to the start.
+            Time up to which `at` now answers without integrating: t, or nearer to the start. A
+            driven motion that becomes too fast for doubles is reached up to there only.
 
         Examples
         --------

@@ -5,11 +5,14 @@ import sys
 import tempfile
 from pathlib import Path
 
+from symtop_ros.check.mismatch import Mismatch
+from symtop_ros.check.run import check_run
+from symtop_ros.check.samples import Deviation
 from symtop_ros.log.bag import open_run
-from symtop_ros.log.check import Deviation, check_log
 from symtop_ros.log.reader import LogError, McapFile, list_problems
 from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.simulation.topics import EVENTS
 from symtop_ros.simulation.validation import one_line
 
 
@@ -99,23 +102,34 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _check(log: TopLog) -> int:
-    deviations = check_log(log)
-    _print_problems(log.problems)
-    for name, deviation in deviations.items():
+    found = check_run(log)
+    _print_problems(log.problems + found.damage)
+    for name, deviation in found.deviations.items():
         print(_row(log.topics[name], deviation))
-    unreached = sum(each.unreached for each in deviations.values())
+    unreached = sum(each.unreached for each in found.deviations.values())
     if unreached:
         raise LogError(
             f"{unreached} samples cannot be checked: "
             "the motion is too fast or too long to integrate"
         )
-    if not any(each.samples for each in deviations.values()):
+    if not any(each.samples for each in found.deviations.values()):
         raise LogError("nothing can be checked: no sample follows an event")
-    good = all(each.is_rounding for each in deviations.values())
-    print(f"the samples {'agree' if good else 'DO NOT agree'} with the events")
-    if good and log.damage:
+    _print_problems([_describe(log, each) for each in found.mismatches])
+    print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
+    if found.mismatches:
+        print("events or what is said of the motion DO NOT agree with what is computed")
+    if found.foreign:
+        print(f"{found.foreign} events are of another version or engine: only it can compute them")
+    is_whole = not log.damage and not found.damage
+    if found.samples_agree and not is_whole:
         print("the log is damaged or incomplete")
-    return 0 if good and not log.damage else 1
+    return 0 if found.samples_agree and not found.mismatches and is_whole else 1
+
+
+def _describe(log: TopLog, mismatch: Mismatch) -> str:
+    topic = EVENTS.resolve(log.node or "") if mismatch.topic == EVENTS.name else mismatch.topic
+    right, got = one_line(mismatch.expected, 100), one_line(mismatch.got, 100)
+    return f"{topic} at {mismatch.stamp} ns: {mismatch.field} must be {right}, got {got}"
 
 
 def _row(topic: str, deviation: Deviation) -> str:

@@ -17,14 +17,15 @@ def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]
     """Return the statuses of a simulation at its next stamp."""
     segment, stamp = simulation.segment, simulation.stamp
     return [
-        _motion_status(segment, stamp),
+        motion_status(segment, stamp),
         _pace_status(simulation),
         _log_status(recorder),
-        _balance_status(segment, stamp),
+        balance_status(segment, stamp),
     ]
 
 
-def _motion_status(segment: Segment, stamp: int) -> Status:
+def motion_status(segment: Segment, stamp: int) -> Status:
+    """Return the state of the motion in numbers and words."""
     motion, state = segment.motion, segment.state_at(stamp)
     now = constants_of_motion(motion.top, state)
     start = constants_of_motion(motion.top, motion.start)
@@ -39,7 +40,7 @@ def _motion_status(segment: Segment, stamp: int) -> Status:
     return make_status("motion", OK, str(verdict), facts)
 
 
-def _balance_status(segment: Segment, stamp: int) -> Status:
+def balance_status(segment: Segment, stamp: int) -> Status:
     """Return how exactly energy and angular momentum change by what acts on the top."""
     motion, state = segment.motion, segment.state_at(stamp)
     t = segment.time_at(stamp)

@@ -8,9 +8,10 @@ from typing import Protocol
 
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.models.urdf import robot_description
+from symtop_ros.physics import Body
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.sensor import ALONG, find_body
+from symtop_ros.simulation.sensor import ALONG, Imu, find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
@@ -151,7 +152,8 @@ class Outputs:
         )
         self._description.send(stamp, encode_string(urdf))
         if self._fixed_frames:
-            transforms = list_fixed_frames(settings)
+            body = settings.odometry and find_body(settings.top, settings.gravity)
+            transforms = list_fixed_frames(settings.top_frame, settings.imu, body or None)
             self._fixed_frames.send(stamp, messages.encode_transforms(stamp, transforms))
 
     @property
@@ -171,14 +173,12 @@ class Outputs:
         return self._recorder.put_first(self._events.channel)
 
 
-def list_fixed_frames(settings: Settings) -> list[Transform]:
+def list_fixed_frames(frame: str, imu: Imu | None, body: Body | None) -> list[Transform]:
     """Return the frames on the body: that of the sensor, and that in the centre of mass."""
-    frame, transforms = settings.top_frame, []
-    if settings.imu:
-        imu = settings.imu
+    transforms = []
+    if imu:
         transforms.append(Transform(frame, imu_frame(frame), imu.position, imu.orientation))
-    body = find_body(settings.top, settings.gravity)
-    if settings.odometry and body:
+    if body:
         place = (0.0, 0.0, body.arm)
         transforms.append(Transform(frame, centre_frame(frame), place, ALONG))
     return transforms

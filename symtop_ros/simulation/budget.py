@@ -37,18 +37,6 @@ class StepBudget:
 
         `free` steps are not counted. Work that would exceed the budget by far is not begun.
         """
-        try:
-            return self._reach(motion, t, free)
-        except ValueError:  # the motion is too fast for doubles
-            return False
-
-    def reach_stamps(self, segment: Segment, stamps: Stamps) -> bool:
-        """Integrate the motion of samples at stamps (ns) that a node has published."""
-        free = FREE_STEPS + STEPS_PER_SAMPLE * len(stamps)
-        ends = stamps.min(), stamps.max()
-        return all(self.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
-
-    def _reach(self, motion: Motion, t: float, free: int) -> bool:
         before = motion.reach(t, 0)
         while free + self._spare > 0:
             count = min(STEPS_OF_A_CHECK, free + self._spare)
@@ -62,6 +50,12 @@ class StepBudget:
                 return False
             before = reached
         return before == t
+
+    def reach_stamps(self, segment: Segment, stamps: Stamps) -> bool:
+        """Integrate the motion of samples at stamps (ns) that a node has published."""
+        free = FREE_STEPS + STEPS_PER_SAMPLE * len(stamps)
+        ends = stamps.min(), stamps.max()
+        return all(self.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
 
 
 class Shortfall(NamedTuple):
@@ -77,6 +71,8 @@ class ComputeBudget:
     def __init__(self, stamp: int, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
         self.spent = 0.0  # work so far in s
+        # set by the last call if the motion becomes too fast for doubles: its last time in s
+        self.end: float | None = None
         self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
         self._prepared = stamp  # ns: end of the last stretch
         self._stretch: tuple[Segment, int] | None = None
@@ -87,7 +83,7 @@ class ComputeBudget:
 
         `factor` is the pace of the stamps: seconds of them per second of real time.
         """
-        self.shortfall = None
+        self.shortfall = self.end = None
         if not segment.motion.is_driven:
             self._prepared, self._stretch = stamp, None
             return True
@@ -104,6 +100,8 @@ class ComputeBudget:
         work = self.spent - self._spent_before
         if reached == end:
             self._prepared, self._stretch = stamp, None
+        elif reached == start:
+            self.end = reached
         elif work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
             self.shortfall = Shortfall(reached, SHARE * self._progress / work)
         return bool(reached == end)

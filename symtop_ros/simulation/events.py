@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros import __version__
+from symtop_ros.physics import Friction, Motion, State, Top, describe_engine
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, describe
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
@@ -88,6 +89,8 @@ class Event:
             **following.rig.to_values(),
             "kind": motion.kind,
             "engine": motion.engine,
+            "computed_by": describe_engine(),
+            "version": __version__,
         }
         return cls(stamp, name, describe(name, outcome) if outcome else "", values)
 

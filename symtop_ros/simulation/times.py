@@ -109,6 +109,11 @@ class Time(Protocol):
         """Advance a paused motion by a duration in s; return the verdict."""
 
 
+def warn_of_end(run: Paced, change: Change) -> None:
+    """Pause a motion that cannot go on."""
+    run.warn(f"the motion becomes too fast for doubles: {run.apply(change)}")
+
+
 class GivenTime:
     """The time of a clock that is not the run's own; see `Time` for the methods."""
 
@@ -139,7 +144,10 @@ class GivenTime:
 
     def prepare(self, run: Paced, stamp: int) -> bool:
         """Work towards a stamp; return True if its state is ready."""
-        return run.budget.prepare(run.segment, stamp)
+        ready = run.budget.prepare(run.segment, stamp)
+        if run.budget.end is not None:
+            warn_of_end(run, run.timeline.stop(run.stamp, run.budget.end))
+        return ready
 
     def integrate_to(self, run: Paced, stamp: int) -> bool:
         """Work until the state at a stamp is ready."""
@@ -236,7 +244,23 @@ class RunTime:
 
     def prepare(self, run: Paced, stamp: int) -> bool:
         """Work towards a stamp; return True if its state is ready."""
-        return run.budget.prepare(run.segment, stamp, self.clock.factor)
+        ready = run.budget.prepare(run.segment, stamp, self.clock.factor)
+        if run.budget.end is not None:
+            self._end(run, run.budget.end)
+        return ready
+
+    def _end(self, run: Paced, reached: float) -> None:
+        """Bring a motion that cannot go on to its last time in s, and pause it there."""
+        before = run.stamp
+        self._bring_forward(run, reached)
+        if run.stamp == before:
+            self._stop(run)
+            warn_of_end(run, run.timeline.stop(run.stamp, reached))
+
+    def _stop(self, run: Paced) -> None:
+        """Let the time stand still: what is changed from now on acts 1 ns after the last sample."""
+        self.clock.stop(max(run.last, run.segment.stamp - 1))
+        run.restart_grid(self.clock.now + 1)
 
     def integrate_to(self, run: Paced, stamp: int) -> bool:
         """Work for some ms until the state at a stamp is ready; else a nearer stamp is the next."""
@@ -271,9 +295,7 @@ class RunTime:
     def pause(self, run: Paced, paused: bool) -> str:
         """Stop the motion and its time, or continue both."""
         if paused:
-            # No sample has a later stamp: what is changed in the pause acts 1 ns after it.
-            self.clock.stop(max(run.last, run.segment.stamp - 1))
-            run.restart_grid(self.clock.now + 1)
+            self._stop(run)
         verdict = run.apply(run.timeline.pause(run.stamp, paused))
         if not paused:
             run.restart_grid(self.clock.now + round(NANOSECONDS / run.ticker.rate))

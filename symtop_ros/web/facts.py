@@ -112,7 +112,9 @@ def compare(moment: Moment) -> Headline:
         kind = _find_swing(outcome.highest, outcome.lowest)
         most = max(outcome.highest.amount, outcome.lowest.amount)
     subject: Literal["top", "axis"] = "axis" if motion.top.Mgl < 0 else "top"
-    return Headline(kind, subject, motion.is_driven, motion.kind, motion.turning_angles, most)
+    # What it would do without friction and torque, which is what the headline then says.
+    free = Motion(motion.top, motion.start) if motion.is_driven else motion
+    return Headline(kind, subject, motion.is_driven, free.kind, free.turning_angles, most)
 
 
 def _find_swing(highest: Lift, lowest: Lift) -> HeadlineKind:

@@ -11,8 +11,8 @@ from log_files import Run, topic
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.bag import open_run
-from symtop_ros.log.check import check_log
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS

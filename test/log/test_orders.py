@@ -6,8 +6,8 @@ import pytest
 from log.test_bag import STORAGES, TYPES, write
 from rosbags.rosbag2 import StoragePlugin
 
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.bag import open_run
-from symtop_ros.log.check import check_log
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import main as module
 from symtop_ros.session.session import Session

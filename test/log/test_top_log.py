@@ -5,7 +5,7 @@ import pytest
 from log_files import Run, topic
 from mcap.writer import Writer
 
-from symtop_ros.log.check import check_log
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS

@@ -16,7 +16,7 @@ from odd_values import CONTROL, NUMBERS, SIZES, assert_one_sentence, determinist
 from rcl_interfaces.msg import Parameter, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
-from symtop_ros.log.check import check_log
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.changes import initial, kick

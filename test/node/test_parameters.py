@@ -14,7 +14,7 @@ from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomic
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
-from symtop_ros.log.check import check_log
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.presets import scene_names

@@ -15,7 +15,7 @@ from log_files import LAYOUTS, Run
 from mcap.writer import Writer
 from odd_values import CONTROL, assert_one_sentence, deterministic, trials
 
-from symtop_ros.log.check import check_log
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import MAGIC, MAX_RECORD, LogError, McapFile, list_problems
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction

@@ -15,7 +15,7 @@ from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import EXACT, Imu, Rig, random_walks
+from symtop_ros.simulation.sensor import EXACT, Imu, Rig, find_body, random_walks
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 from symtop_ros.simulation.validation import RefusedError
@@ -189,7 +189,9 @@ def test_a_bad_parameter_is_refused(name, value, reason):
 
 def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     run = Run(**{"imu.enabled": True, "imu.position": list(PLACE), "odometry.enabled": True})
-    frames = list_fixed_frames(run.sink.descriptions[0])
+    settings = run.sink.descriptions[0]
+    body = find_body(settings.top, settings.gravity)
+    frames = list_fixed_frames(settings.top_frame, settings.imu, body)
     assert [each.child for each in frames] == ["top_imu", "top_centre_of_mass"]
     assert frames[0].translation == PLACE
     assert run.simulation.segment.rig.imu.position == PLACE
@@ -197,4 +199,4 @@ def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     run.simulation.apply_settings(Settings.from_values(changed))
     assert run.simulation.segment.rig.imu.rate == 50.0
     assert run.simulation.segment.motion.top.Mgl == 0.05
-    assert list_fixed_frames(Run().simulation.settings) == []
+    assert list_fixed_frames("top", Run().simulation.settings.imu, None) == []

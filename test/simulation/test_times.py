@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from simulation.runs import SECOND, Run
 
+from symtop_ros.check.events import find_mismatches
 from symtop_ros.simulation.validation import RefusedError
 
 MS = SECOND // 1000
@@ -200,3 +201,21 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
     assert min(np.diff(stamps_of(run))) > 0
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
     assert_recomputed(run)
+
+
+@pytest.mark.parametrize("publish_clock", [True, False])
+def test_a_motion_that_becomes_too_fast_for_doubles_is_paused_there(publish_clock):
+    rod = {"top__Ix": 1.0, "top__Iz": 1e-22, "top__Mgl": 1.0}
+    run = Run("cusps", publish_clock=publish_clock, steady_torque=[1.0, 1.0, 1.0], **rod)
+    run.clock.is_simulated = not publish_clock
+    run.advance(0.1)
+    (paused,) = [event for event in run.sink.events if event.name == "pause"]
+    end = paused.outcome().time
+    # half the spin angle is then 1e15 rad: t^2 = 4e15 Iz/0.398 N m
+    assert end == pytest.approx(1.0023e-3, rel=1e-4)
+    assert run.sink.warnings == [f"the motion becomes too fast for doubles: {paused.verdict}"]
+    assert paused.state_before() == paused.segment().motion.at(end)
+    assert run.ask("reset")[0]
+    assert run.simulation.state == run.simulation.timeline.start
+    assert_recomputed(run)
+    assert list(find_mismatches(run.sink.events)) == []

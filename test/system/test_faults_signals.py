@@ -15,7 +15,7 @@ from domains import claim_domain
 from log_files import Run
 from programs import command, environment
 
-from symtop_ros.log.check import check_log
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer

@@ -66,7 +66,7 @@ class DrivenEquations:
         ratio = Iz / Ix
         share = round(float(ratio) * 2**SHARE_BITS) / 2**SHARE_BITS
         self.ratio = float(ratio)  # Iz/Ix
-        self._half_rest = (1 - share) / 2
+        self.half_rest = (1 - share) / 2
         # The derivative of variable k is the sum of parts[n, k, i, j] times variables i and j, over
         # i, j and n: the terms of the free top, of friction, and of the torques. In another unit of
         # time part n has the n-th power of the unit as a factor.
@@ -106,7 +106,7 @@ class DrivenEquations:
     def read(self, values: Extended) -> tuple[Extended, Extended]:
         """Return the orientations (n, 4) and body angular velocities (n, 3) of variables (n, 9)."""
         w, x, y, z, omega_x, omega_y, omega_z, _, spin = values.T
-        half = self._half_rest * spin
+        half = self.half_rest * spin
         c, s = np.cos(half), np.sin(half)
         orientation = w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s
         c, s = c * c - s * s, 2 * c * s

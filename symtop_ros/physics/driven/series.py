@@ -51,6 +51,7 @@ LONGEST = 16.0  # in units of about 1/rate; so the powers of a step stay in rang
 # rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum, and
 # rounding with them.
 LARGEST_TURN = 3.5
+LARGEST_SPIN = 1e15  # rad of half the spin angle; far beyond, no digit of it is left
 LENGTH_BITS = 10  # a length has so few bits that the sum of lengths, the time, is exact
 
 ORDERS = np.arange(1.0, TERMS + 1)[:, np.newaxis]
@@ -75,6 +76,7 @@ class Piece(NamedTuple):
     # coefficients of the lowest powers of the time, from the highest of them to the first
     low: Extended
     high: Real  # coefficients of the higher powers, from the highest on
+    following: Knot  # at the end
 
     def at(self, times: Extended) -> Extended:
         """Return the variables at times (n,) in s of the piece, (n, 9).
@@ -94,18 +96,6 @@ class Piece(NamedTuple):
         gain += np.add.reduce(high[:, :, np.newaxis] * self.high[:, np.newaxis, :], axis=0)
         gain[:, RATES] /= self.unit
         return np.asarray(gain + self.start.values)
-
-    def find_end(self) -> Knot:
-        """Return the knot at the end."""
-        u = (self.end - self.start.t) / self.unit
-        gain = np.dot(u**LOW_POWERS, self.low)
-        gain += np.dot(u**HIGH_POWERS, self.high)
-        gain[RATES] /= self.unit
-        gain += self.start.values
-        q = gain[QUATERNION]
-        # One Newton step towards norm 1: rounding leaves so little that its square is nothing.
-        q *= 1.5 - 0.5 * np.dot(q, q)
-        return Knot(self.end, gain)
 
 
 class Stepper:
@@ -163,7 +153,8 @@ class Stepper:
     def step(self, knot: Knot, direction: int) -> Piece:
         """Return the series about a knot, for times after it (1) or before it (-1).
 
-        If the motion has become too fast for doubles, the piece ends at its start.
+        If the motion has become too fast for doubles, or for a digit of the spin angle, the
+        piece ends at its start.
         """
         rate = self._equations.estimate_rate(knot.values)
         if not rate < LARGEST_ANGULAR_VELOCITY:
@@ -175,8 +166,25 @@ class Stepper:
         if not self._low[1].any():
             return _stop(knot, direction * math.inf)  # it is at rest, for ever
         self._compute_high_orders()
-        end = knot.t + direction * self._find_length() * self._unit
-        return Piece(knot, end, self._unit, *self._copy_series())
+        length = direction * self._find_length() * self._unit
+        piece = self._join(knot, length, *self._copy_series())
+        while abs(piece.following.values[SPIN] * self._equations.half_rest) > LARGEST_SPIN:
+            length /= 2  # until the piece has no length
+            piece = self._join(knot, length, piece.low, piece.high)
+        return piece
+
+    def _join(self, knot: Knot, length: float, low: Extended, high: Real) -> Piece:
+        """Return the piece of a length in s from a knot on, and the knot at its end."""
+        end = knot.t + length
+        u = (end - knot.t) / self._unit
+        gain = np.dot(u**LOW_POWERS, low)
+        gain += np.dot(u**HIGH_POWERS, high)
+        gain[RATES] /= self._unit
+        gain += knot.values
+        q = gain[QUATERNION]
+        # One Newton step towards norm 1: rounding leaves so little that its square is nothing.
+        q *= 1.5 - 0.5 * np.dot(q, q)
+        return Piece(knot, end, self._unit, low, high, Knot(end, gain))
 
     def _set_unit(self, unit: float) -> None:
         if unit == self._unit:
@@ -257,4 +265,4 @@ def _compute(orders: list[Order], products: NDArray[Any]) -> None:
 def _stop(knot: Knot, end: float) -> Piece:
     """Return the piece of a constant state."""
     low = np.zeros((EXTENDED_TERMS, SPIN + 1), np.longdouble)
-    return Piece(knot, end, math.inf, low, np.zeros((len(HIGH_POWERS), SPIN + 1)))
+    return Piece(knot, end, math.inf, low, np.zeros((len(HIGH_POWERS), SPIN + 1)), knot)

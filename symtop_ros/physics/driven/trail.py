@@ -23,7 +23,6 @@ BLOCK = 1024  # times whose variables are held at once
 MOST_DECAYS = 1e5  # decay times in one call: some seconds
 # Steps in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 STEPS = 256.0
-LOST = 1e-9  # squared norm of a quaternion; rounding leaves 1e-15
 RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
 
 
@@ -67,7 +66,6 @@ class DrivenMotion:
             trail = self._find_trail(t)
             self._refuse_stiff(trail, t)
             orientation, omega = trail.compute_states(np.array([t]), np.zeros(1))
-        _refuse_lost(t, orientation)
         return np.asarray(orientation[0], np.float64), np.asarray(omega[0], np.float64)
 
     def fill(self, times: Real, rests: Real, orientation: Real, angular_velocity: Real) -> None:
@@ -85,7 +83,6 @@ class DrivenMotion:
                     trail = self._find_trail(last)
                     self._refuse_stiff(trail, last)
                     states = trail.compute_states(times[places], rests[places])
-                _refuse_lost(last, states[0])
                 orientation[places], angular_velocity[places] = states
         orientation[times == 0] = self._start.orientation  # bit for bit
 
@@ -107,14 +104,6 @@ class DrivenMotion:
         """Integrate towards t in a limited number of steps; return the time reached."""
         with self._lock:
             return self._find_trail(t).reach(t, steps)
-
-
-def _refuse_lost(t: float, orientations: Extended | Real) -> None:
-    """Refuse states that have no digits: a rod of which Iz is 1e-20 of Ix, spun up by a torque."""
-    norms = (orientations * orientations).sum(axis=1)
-    if not (np.abs(norms - 1.0) < LOST).all():
-        condition = "so near to the start that a digit is left (the body turns too fast)"
-        raise refuse("t", condition, t)
 
 
 def refuse_too_fast(t: float, end: float) -> ValueError:
@@ -144,13 +133,11 @@ class CompiledTrail:
         return orientation, omega
 
     def reach(self, t: float, steps: float) -> float:
-        """Integrate towards a time in a limited number of steps."""
+        """Integrate towards a time in a limited number of steps, or to where it is too fast."""
         while True:
             reached, is_stuck = self._trail.reach(t, min(steps, STEPS))
             steps -= STEPS
-            if is_stuck:
-                raise refuse_too_fast(t, reached)
-            if reached == t or steps <= 0:
+            if is_stuck or reached == t or steps <= 0:
                 return float(reached)
 
 
@@ -178,7 +165,10 @@ class Trail:
         """Yield the variables at times (n,) in s, sorted from the start on, piece by piece."""
         distances, first = np.abs(times), 0
         while first < len(times):
-            self.reach(float(times[first]), math.inf)
+            t = float(times[first])
+            reached = self.reach(t, math.inf)
+            if reached != t:
+                raise refuse_too_fast(t, reached)
             piece = self._recent[-1]
             after = int(np.searchsorted(distances, abs(piece.end), side="right"))
             after = max(after, first + 1)  # its double is the end, and it is a little further on
@@ -186,24 +176,24 @@ class Trail:
             first = after
 
     def reach(self, t: float, steps: float) -> float:
-        """Integrate towards a time in a limited number of steps."""
+        """Integrate towards a time in a limited number of steps, or to where it is too fast."""
         self._go_back(t)
-        while steps > 0 and abs(self._recent[-1].end) < abs(t):
-            self._step(t)
-            steps -= 1
-        return min(t, self._recent[-1].end, key=abs)
-
-    def _step(self, t: float) -> None:
         piece = self._recent[-1]
-        if piece.end == piece.start.t:
-            raise refuse_too_fast(t, piece.end)
+        while steps > 0 and abs(piece.end) < abs(t) and piece.end != piece.start.t:
+            piece = self._step(piece)
+            steps -= 1
+        return min(t, piece.end, key=abs)
+
+    def _step(self, piece: Piece) -> Piece:
+        """Return the piece after the present one."""
         self._count += 1
-        knot = piece.find_end()
+        knot = piece.following
         if self._count == len(self._kept) * self._spacing:
             self._kept.append(knot)
         if len(self._kept) > KEPT:
             self._kept, self._spacing = self._kept[::2], 2 * self._spacing
         self._append_piece(knot)
+        return self._recent[-1]
 
     def _go_back(self, t: float) -> None:
         """Go back to a piece that begins nearer to the start than a time in s."""

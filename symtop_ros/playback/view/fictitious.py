@@ -9,6 +9,7 @@ from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import GOLD, RED, SKY, WHITE
 from symtop_ros.playback.view.quantities import find_step
 from symtop_ros.playback.view.stream import Stream
+from symtop_ros.simulation.validation import MAX_RATE
 
 RATE = 60.0  # arrows per s of the clock
 GAP, RAISED = 0.3, 0.05  # of labels: beyond the tip, and up; the viewer draws them below a point
@@ -36,8 +37,10 @@ class FictitiousView:
         if self._top is None:
             return
         step = find_step(euler.stamps, RATE)
-        stamps = euler.stamps[::step]
-        phi, theta, _, phi_dot, _, psi_dot = euler.numbers[::step].T
+        stamps, numbers = euler.stamps[::step], euler.numbers[::step]
+        sound = (np.abs(numbers) <= MAX_RATE).all(axis=1)  # others are of no node
+        stamps = stamps[sound]
+        phi, theta, _, phi_dot, _, psi_dot = numbers[sound].T
         torques = precessing_frame_torques(self._top, theta, phi_dot, psi_dot)
         for name, (origins, vectors) in place_arrows(torques, phi, self._scale).items():
             # The label of an arrow without length has no place: it would be read as a torque.

@@ -89,6 +89,13 @@ class Timeline:
         segment = (self.segment.pause if paused else self.segment.resume)(stamp)
         return self._follow(name, segment, stamp, {}, Pause(_seconds(segment)))
 
+    def stop(self, stamp: int, reached: float) -> "Change":
+        """Pause a motion that cannot go on, at the time in s that it has reached."""
+        segment = self.segment.slow_down(reached, self.segment.factor, stamp).pause(stamp)
+        outcome = Pause(_seconds(segment))
+        change = self._follow("pause", segment, stamp, {"reached": reached}, outcome)
+        return replace(change, before=segment.state_at(stamp))
+
     def step(self, stamp: int, duration: float) -> "Change":
         """Advance a paused motion by a duration in s."""
         segment = self.segment.step(duration, stamp)

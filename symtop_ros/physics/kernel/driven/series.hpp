@@ -11,6 +11,7 @@ const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 8;
 const double LAST = 1e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
 const int LENGTH_BITS = 10;
+const double LARGEST_SPIN = 1e15;
 
 // 1/n
 const Double2 INVERSES[EXTENDED_TERMS + 1] = {
@@ -26,7 +27,7 @@ struct Knot {
 };
 
 struct Piece {
-  Knot start;
+  Knot start, following;
   double end, unit;
   Double2 low[EXTENDED_TERMS + 1][VARIABLES];  // coefficients of the first powers
   double high[DRIVEN_TERMS + 1][VARIABLES];    // and of the others
@@ -49,15 +50,13 @@ struct Piece {
     return scale(sum_of(t, -start.t) + Double2{rest, 0.0}, 1 / unit);
   }
 
-  Knot find_end() const {
-    Knot knot;
-    knot.t = end;
-    evaluate(locate(end, 0.0), knot.values);
+  void find_end() {  // Stepper._join
+    following.t = end;
+    evaluate(locate(end, 0.0), following.values);
     Double2 norm = {0.0, 0.0};
-    for (int k = W; k <= Z; k++) norm = norm + knot.values[k] * knot.values[k];
+    for (int k = W; k <= Z; k++) norm = norm + following.values[k] * following.values[k];
     const Double2 factor = Double2{1.5, 0.0} - scale(norm, 0.5);
-    for (int k = W; k <= Z; k++) knot.values[k] = knot.values[k] * factor;
-    return knot;
+    for (int k = W; k <= Z; k++) following.values[k] = following.values[k] * factor;
   }
 };
 
@@ -78,9 +77,16 @@ class Stepper {
     bool is_moving = false;
     for (int k = 0; k < FACTORS; k++) is_moving |= low_[1][k].high != 0;
     if (!is_moving) return stop(piece, direction * INFINITY);
-    piece.end = knot.t + direction * find_length() * unit_;
     piece.unit = unit_;
     copy_series(piece);
+    double length = direction * find_length() * unit_;
+    piece.end = knot.t + length;
+    piece.find_end();
+    while (std::fabs(piece.following.values[SPIN].high * equations.half_rest) > LARGEST_SPIN) {
+      length /= 2;
+      piece.end = knot.t + length;
+      piece.find_end();
+    }
   }
 
  private:

@@ -120,7 +120,7 @@ class Trail {
   }
 
   void step() {
-    const Knot knot = present().find_end();
+    const Knot knot = present().following;
     count_++;
     if (count_ == kept_count_ * spacing_) kept_[kept_count_++] = knot;
     if (kept_count_ > KEPT) {

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from log_files import ARTICLE, LAYOUTS, Run
 
-from symtop_ros.log.check import BOUND, check_log
+from symtop_ros.check.samples import BOUND, check_log
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction, State, Top

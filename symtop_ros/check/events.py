@@ -1,0 +1,209 @@
+"""Events, each compared with what it makes of the segment that the event before it began.
+
+What a request leaves open is taken from the event itself: initial conditions that come from
+parameters, new values of parameters, the paths of logs, and factors of real time.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from symtop_ros import __version__
+from symtop_ros.check.mismatch import Mismatch, compare_fields
+from symtop_ros.physics import State, describe_engine, kick_verdict
+from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
+from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.outcomes import (
+    ClockJump,
+    Outcome,
+    Pause,
+    Start,
+    Step,
+    Torque,
+)
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.topics import EVENTS
+
+BEFORE = ("before.orientation", "before.angular_velocity")
+VECTORS = ("angular_impulse",)  # of the request for a kick; "hold" is a word
+
+
+def is_of_this_version(event: Event) -> bool:
+    """Return True if the version that reported an event has the wording of this one."""
+    return event.values.get("version") == __version__
+
+
+def is_own(event: Event) -> bool:
+    """Return True if an event can be computed here to the last letter.
+
+    The last bits of driven motions differ between the kernel and Python.
+    """
+    same_engine = event.values.get("computed_by") == describe_engine()
+    return is_of_this_version(event) and (same_engine or not event.segment().motion.is_driven)
+
+
+def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:
+    """Yield the fields of events that are not as computed."""
+    budget = StepBudget(SPARE_STEPS)
+    for previous, event in pairwise([None, *events]):
+        if event is None or not is_own(event):
+            continue
+        follows = previous is not None and previous.number == event.number - 1
+        known = previous if follows and previous is not None and is_own(previous) else None
+        yield from _judge(known, event, budget)
+
+
+def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator[Mismatch]:
+    """Yield the fields of one event; nothing is known before it if `previous` is None."""
+    got = {**event.values, "name": event.name, "message": event.verdict}
+    if event.name not in FOLLOW:
+        yield Mismatch(EVENTS.name, event.stamp, "name", ", ".join(FOLLOW), event.name)
+        return
+    try:
+        expected = _compute(previous.segment() if previous else None, event, budget)
+    except (ValueError, ArithmeticError) as error:  # a request that no node grants
+        yield Mismatch(EVENTS.name, event.stamp, "request", str(error), str(event.request))
+        return
+    right = {**expected.values, "name": expected.name, "message": expected.verdict}
+    yield from compare_fields(EVENTS.name, event.stamp, right, got)
+
+
+def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
+    """Return the event as a node reports it."""
+    following, before = event.segment(), event.state_before()
+    outcome = event.outcome()
+    if previous and (state := _state_before(previous, event, budget)):
+        known = Known(previous, event, state, following)
+        before, (following, outcome) = state, FOLLOW[event.name](known)
+    frame = event.values.get("top_frame", "")
+    found = Event.of(
+        event.stamp, event.name, outcome, event.request, before, following, frame, event.number
+    )
+    own = {name: event.values.get(name, "") for name in BEFORE}
+    return found if previous else replace(found, values={**found.values, **own})
+
+
+def _state_before(previous: Segment, event: Event, budget: StepBudget) -> State | None:
+    """Return the state before an event; None if it takes too long to compute."""
+    if "reached" in event.request:  # a motion that was slowed down, or that could not go on
+        reached = float(event.request["reached"])
+        is_near = budget.reach(previous.motion, reached, FREE_STEPS)
+        return previous.motion.at(reached) if is_near else None
+    stamp = event.previous_end
+    is_near = budget.reach_stamps(previous, np.array([stamp]))
+    return previous.state_at(stamp) if is_near else None
+
+
+class Known(NamedTuple):
+    """What is known of an event before it is computed."""
+
+    previous: Segment
+    event: Event
+    before: State
+    given: Segment  # the one of the event
+
+
+Following = tuple[Segment, Outcome | None]  # the segment that follows, and what is said of it
+
+
+def _restart(known: Known) -> Following:
+    following = known.previous.restart(known.given.motion.start, known.event.stamp)
+    return following, Start.of(following.motion)
+
+
+def _kick(known: Known) -> Following:
+    motion, hold = plan_kick(known.previous.motion, known.before, _read_kick(known.event.request))
+    following = known.previous.replace_motion(motion, known.event.stamp)
+    return following, kick_verdict(motion, known.before, hold)
+
+
+def _pause(known: Known) -> Following:
+    following, request = known.previous, known.event.request
+    if "reached" in request:
+        reached = float(request["reached"])
+        following = following.slow_down(reached, following.factor, known.event.stamp)
+    following = following.pause(known.event.stamp)
+    return following, Pause(_seconds(following))
+
+
+def _resume(known: Known) -> Following:
+    following = known.previous.resume(known.event.stamp)
+    return following, Pause(_seconds(following))
+
+
+def _step(known: Known) -> Following:
+    previous, event = known.previous, known.event
+    if "to" in event.request:  # the motion runs together with its clock
+        following = previous.resume(event.stamp)
+        return following, Step("stepped", float(following.time_at(int(event.request["to"]))))
+    if not event.request:
+        return previous, Step("none")
+    following = previous.step(float(event.request["duration"]), event.stamp)
+    return following, Step("stepped", _seconds(following))
+
+
+def _move_clock(known: Known) -> Following:
+    before, after = known.event.previous_end, known.event.stamp
+    return known.previous.move(before, after), ClockJump(before, after)
+
+
+def _change_pace(known: Known) -> Following:
+    previous, event, factor = known.previous, known.event, known.given.factor
+    if "reached" in event.request:
+        reached = float(event.request["reached"])
+        return previous.slow_down(reached, factor, event.stamp), event.outcome()
+    if factor != previous.factor:
+        previous = previous.set_factor(factor, event.stamp)
+    return previous, event.outcome()
+
+
+def _change_torque(known: Known) -> Following:
+    previous, outcome = known.previous, known.event.outcome()
+    x, y, z = _numbers(known.event.request.get("torque", ""))
+    if (x, y, z) != previous.motion.applied_torque:
+        previous = previous.change(known.event.stamp, torque=(x, y, z))
+    return previous, replace(outcome, torque=(x, y, z)) if isinstance(outcome, Torque) else None
+
+
+def _change_parameters(known: Known) -> Following:
+    return known.given, known.event.outcome()
+
+
+def _change_nothing(known: Known) -> Following:
+    return known.previous, known.event.outcome()
+
+
+FOLLOW: dict[str, Callable[[Known], Following]] = {
+    "start": _restart,
+    "reset": _restart,
+    "kick": _kick,
+    "pause": _pause,
+    "resume": _resume,
+    "step": _step,
+    "clock": _move_clock,
+    "pace": _change_pace,
+    "torque": _change_torque,
+    "parameters": _change_parameters,
+    "record": _change_nothing,
+    "failure": _change_nothing,
+}
+
+
+def _seconds(segment: Segment) -> float:
+    return float(segment.time_at(segment.stamp))
+
+
+def _read_kick(request: dict[str, str]) -> dict[str, object]:
+    """Return the request for a kick as it was given."""
+    return {
+        name: text if name == "hold" else _numbers(text) if name in VECTORS else float(text)
+        for name, text in request.items()
+    }
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    return tuple(map(float, text.split()))
