@@ -19,7 +19,7 @@ ARROWS = {
     "wording": (set(), set()),  # text from records of any kind, so it is below them
     "physics": ({"wording"}, {"numpy"}),
     "wire": (set(), {"numpy"}),
-    "simulation": ({"physics", "wire", "wording"}, {*NUMERICAL, "yaml"}),
+    "simulation": ({"__init__", "physics", "wire", "wording"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
     # what pages show, live and saved; viser
@@ -27,7 +27,12 @@ ARROWS = {
         {"drawing", "log", "physics", "session", "simulation", "wording"},
         {"numpy", "viser", "yaml"},
     ),
-    "playback": ({"drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
+    # of session what it says of a motion
+    "check": (
+        {"__init__", "log", "models", "physics", "session", "simulation", "wire"},
+        {"numpy", "mcap"},
+    ),
+    "playback": ({"check", "drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
     "session": (
         {"__init__", "log", "models", "physics", "simulation", "wire", "wording"},
         set(),

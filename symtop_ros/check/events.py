@@ -1,9 +1,10 @@
 """Events, each compared with what it makes of the segment that the event before it began.
 
 What a request leaves open is taken from the event itself: initial conditions that come from
-parameters, new values of parameters, the paths of logs, and factors of real time.
+parameters, the paths of logs, and factors of real time.
 """
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -13,22 +14,25 @@ import numpy as np
 
 from symtop_ros import __version__
 from symtop_ros.check.mismatch import Mismatch, compare_fields
-from symtop_ros.physics import State, describe_engine, kick_verdict
+from symtop_ros.physics import Friction, State, Top, describe_engine, kick_verdict
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.kick import plan_kick
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
+    Parameters,
     Pause,
+    Setting,
     Start,
     Step,
     Torque,
 )
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
 
 BEFORE = ("before.orientation", "before.angular_velocity")
+MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 VECTORS = ("angular_impulse",)  # of the request for a kick; "hold" is a word
 
 
@@ -74,17 +78,22 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator
 
 def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
     """Return the event as a node reports it."""
-    following, before = event.segment(), event.state_before()
-    outcome = event.outcome()
-    if previous and (state := _state_before(previous, event, budget)):
-        known = Known(previous, event, state, following)
-        before, (following, outcome) = state, FOLLOW[event.name](known)
+    following = event.segment()
+    outcome = Start.of(following.motion) if event.name in RESTARTS else event.outcome()
+    before = _state_before(previous, event, budget) if previous else None
+    if previous and before:
+        following, outcome = FOLLOW[event.name](Known(previous, event, before, following))
+    elif event.number == 1:
+        before = following.state_at(event.stamp)
     frame = event.values.get("top_frame", "")
+    state = before or event.state_before()
+    # A jump of the clock takes effect at the time that the clock has then.
+    request = event.request | ({"to": str(event.stamp)} if event.name == "clock" else {})
     found = Event.of(
-        event.stamp, event.name, outcome, event.request, before, following, frame, event.number
+        event.stamp, event.name, outcome, request, state, following, frame, event.number
     )
-    own = {name: event.values.get(name, "") for name in BEFORE}
-    return found if previous else replace(found, values={**found.values, **own})
+    own = {} if before else {name: event.values[name] for name in BEFORE}
+    return replace(found, values={**found.values, **own})
 
 
 def _state_before(previous: Segment, event: Event, budget: StepBudget) -> State | None:
@@ -170,7 +179,45 @@ def _change_torque(known: Known) -> Following:
 
 
 def _change_parameters(known: Known) -> Following:
-    return known.given, known.event.outcome()
+    previous, given, stamp = known.previous, known.given, known.event.stamp
+    request = known.event.request
+    numbers = {name: _numbers(text) for name, text in request.items() if name in MOMENTS}
+    following = previous
+    if numbers:
+        before = (*previous.motion.top.moments, *_coefficients(previous.motion.friction))
+        after = [*zip(MOMENTS, before, strict=True)]
+        Ix, Iz, Mgl, axial, transverse = (numbers.get(name, (each,))[0] for name, each in after)
+        following = previous.change(stamp, Top(Ix, Iz, Mgl), Friction(axial, transverse))
+    if "real_time_factor" in request and given.factor != previous.factor:
+        # With a published clock the factor stays 1, whatever is asked.
+        following = following.set_factor(float(request["real_time_factor"]), stamp)
+    if "publish_rate" in request and previous.rig.imu:
+        imu = replace(previous.rig.imu, rate=float(request["publish_rate"]))
+        following = following.equip(replace(previous.rig, imu=imu))
+    return following, _list_changes(known.event)
+
+
+def _list_changes(event: Event) -> Outcome | None:
+    """Return the outcome of changed parameters; lists and flags are written in two ways."""
+    given = event.outcome()
+    if not isinstance(given, Parameters):
+        return given
+    pairs = zip(event.request.items(), given.changes, strict=True)
+    numbers = [
+        Setting(name, text if _is_number(text) else each.value) for (name, text), each in pairs
+    ]
+    return Parameters(tuple(numbers))
+
+
+def _coefficients(friction: Friction) -> tuple[float, float]:
+    return friction.axial, friction.transverse
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
 
 
 def _change_nothing(known: Known) -> Following:

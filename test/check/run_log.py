@@ -1,0 +1,83 @@
+"""A log of a session with every kind of event, and its messages in memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from session.test_outputs import Program, advance, start
+
+from symtop_ros.log.reader import McapFile
+
+WRENCH = (1e-4, 0.0, 2e-4)  # N m
+
+
+def write_log(folder: Path, **changes: object) -> Path:
+    """Write the log of a run with all services, settings, a torque, a jump and diagnostics."""
+    host = Program(publishes=False)
+    sensors = {"imu__enabled": True, "imu__position": [0.0, 0.0, 0.02], "odometry__enabled": True}
+    session, clock = start(host, record__directory=str(folder), **{**sensors, **changes})
+
+    def ask(service: str, value: object = None) -> None:
+        granted, text = session.answer(service, lambda: value)
+        assert granted, text
+        advance(session, clock, 0.02)
+
+    ask("record", True)
+    session.keep_up()
+    ask("hurry_precession")
+    ask("kick", {"angular_impulse": [1e-5, 0.0, -2e-5]})
+    ask("kick", {"precession_rate": 9.0, "hold": "spin_momentum"})
+    session.keep_up()
+    ask("pause", True)
+    ask("step", {"duration": 0.0125})
+    ask("pause", False)
+    ask("set_initial_conditions", {"theta": 0.7, "psi_dot": 150.0, "precession": "slow"})
+    ask("reset")
+    session.hold_torque(WRENCH)
+    advance(session, clock, 0.05)
+    session.keep_up()
+    advance(session, clock, 0.3)  # it has ended
+    assert not session.apply_settings({"top.Mgl": 0.05, "friction.axial": 1e-6})
+    assert not session.apply_settings({"real_time_factor": 0.5, "publish_rate": 100.0})
+    advance(session, clock, 0.05)
+    session.keep_up()
+    clock.now += 5_000_000_000
+    session.simulation.note_jump()
+    advance(session, clock, 0.05)
+    session.close()
+    (path,) = folder.glob("*.mcap")
+    return path
+
+
+@dataclass
+class Memory:
+    """A `MessageSource` of which the messages can be changed."""
+
+    path: Path
+    schemas: dict = field(default_factory=dict)
+    channels: dict = field(default_factory=dict)
+    metadata: dict = field(default_factory=dict)
+    problems: list = field(default_factory=list)
+    messages: list = field(default_factory=list)
+    size = offset = 0
+
+    @classmethod
+    def read(cls, path: Path) -> Memory:
+        """Read a log."""
+        file = McapFile(path)
+        messages = [message for chunk in file.chunks() for message in chunk]
+        assert not file.problems
+        return cls(path, file.schemas, file.channels, file.metadata, messages=messages)
+
+    def chunks(self):
+        """Yield the messages."""
+        yield list(self.messages)
+
+    def places(self, topic: str) -> list[int]:
+        """Places of the messages of a topic."""
+        return [
+            place
+            for place, message in enumerate(self.messages)
+            if self.channels[message.channel_id].topic == topic
+        ]

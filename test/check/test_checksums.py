@@ -1,0 +1,108 @@
+"""Bytes of a file that no reader of messages looks at are verified: indexes and checksums."""
+
+import random
+import struct
+
+import pytest
+from check.run_log import write_log
+from log_files import Run
+from mcap.opcode import Opcode
+from mcap.writer import CompressionType, Writer
+from physics.tops import seeds
+
+from symtop_ros.check.checksums import find_damage
+from symtop_ros.check.run import check_run
+from symtop_ros.log.reader import MAGIC, McapFile
+from symtop_ros.log.top_log import TopLog
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    return write_log(tmp_path_factory.mktemp("run")).read_bytes()
+
+
+def flip(data, place, bit):
+    """The bytes with one bit flipped."""
+    return data[:place] + bytes([data[place] ^ 1 << bit]) + data[place + 1 :]
+
+
+def list_records(data):
+    """Opcode, beginning and end of the content of each record of a file."""
+    place = len(MAGIC)
+    while place < len(data) - len(MAGIC):
+        opcode, length = struct.unpack_from("<BQ", data, place)
+        yield opcode, place + 9, place + 9 + length
+        place += 9 + length
+
+
+def find_all(path):
+    """All that reading and verifying a file finds."""
+    file = McapFile(path)
+    for _ in file.chunks():
+        pass
+    return file.problems + find_damage(path)
+
+
+def test_a_whole_log_has_no_damage(tmp_path):
+    assert find_damage(Run().write(tmp_path)) == []
+
+
+@pytest.mark.parametrize("seed", seeds(3, 30))
+def test_a_flipped_bit_anywhere_is_found(log, tmp_path, seed):
+    rng, path = random.Random(seed), tmp_path / "run.mcap"
+    for _ in range(20):
+        place, bit = rng.randrange(len(log)), rng.randrange(8)
+        path.write_bytes(flip(log, place, bit))
+        assert find_all(path), (place, bit)
+
+
+@pytest.mark.parametrize(
+    "opcode", [Opcode.MESSAGE_INDEX, Opcode.DATA_END, Opcode.FOOTER, Opcode.STATISTICS]
+)
+def test_a_flipped_bit_in_each_kind_of_record_is_found(log, tmp_path, opcode):
+    rng, path = random.Random(4), tmp_path / "run.mcap"
+    records = [(begin, end) for kind, begin, end in list_records(log) if kind == opcode]
+    assert records
+    for _ in range(20):
+        place = rng.randrange(*rng.choice(records))
+        path.write_bytes(flip(log, place, rng.randrange(8)))
+        assert find_damage(path), place
+
+
+def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
+    path = tmp_path / "run.mcap"
+    ((begin, end),) = ((b, e) for kind, b, e in list_records(log) if kind == Opcode.DATA_END)
+    unsigned = log[:begin] + bytes(end - begin) + log[end:]
+    path.write_bytes(unsigned)
+    assert find_damage(path) == []
+    first = next(b for kind, b, _ in list_records(log) if kind == Opcode.MESSAGE_INDEX)
+    path.write_bytes(flip(unsigned, first + 6, 3))
+    (problem,) = find_damage(path)
+    assert problem.startswith("the index of messages before byte ")
+
+
+@pytest.mark.parametrize("compression", list(CompressionType))
+def test_files_of_another_writer_are_whole(tmp_path, compression):
+    path = tmp_path / "other.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file, chunk_size=100, compression=compression, enable_data_crcs=True)
+        writer.start()
+        schema = writer.register_schema("s", "ros2msg", b"")
+        channel = writer.register_channel("/c", "cdr", schema)
+        for time in range(50):
+            writer.add_message(channel, time, b"0123456789", time)
+        writer.finish()
+    assert find_damage(path) == []
+
+
+def test_a_check_of_a_run_names_the_damage(log, tmp_path):
+    path = tmp_path / "run.mcap"
+    begin = next(b for kind, b, _ in list_records(log) if kind == Opcode.MESSAGE_INDEX)
+    path.write_bytes(flip(log, begin + 6, 3))
+    findings = check_run(TopLog(McapFile(path)))
+    assert findings.samples_agree
+    assert findings.mismatches == []
+    assert findings.foreign == 0
+    first, second = findings.damage
+    assert first.startswith("the index of messages before byte ")
+    assert second == "the checksum of the data is not that of its bytes"

@@ -1,0 +1,118 @@
+"""Descriptions, fixed frames and diagnostics of a log are those that its events give."""
+
+import random
+import re
+from dataclasses import replace
+
+import pytest
+from check.run_log import Memory, write_log
+from physics.tops import seeds
+
+from symtop_ros import __version__
+from symtop_ros.check.mismatch import Mismatch
+from symtop_ros.check.texts import find_mismatches
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.wire.cdr import Reader
+from symtop_ros.wire.diagnostics import decode_statuses
+
+STATUS = "top: motion"
+
+
+@pytest.fixture(scope="module")
+def memory(tmp_path_factory):
+    return Memory.read(write_log(tmp_path_factory.mktemp("run")))
+
+
+@pytest.fixture
+def changed(memory):
+    """The messages, of which those of one test can be changed."""
+    return replace(memory, messages=list(memory.messages))
+
+
+def mismatches(memory):
+    log = TopLog(memory)
+    return list(find_mismatches(log, list(log.events())))
+
+
+def swap(memory, place, data):
+    memory.messages[place].data, old = data, memory.messages[place].data
+    found = mismatches(memory)
+    memory.messages[place].data = old
+    return found
+
+
+def places_of(text, data):
+    """Where a text stands in a message."""
+    return [match.start() for match in re.finditer(re.escape(text.encode()), data)]
+
+
+def test_a_run_with_all_events_agrees(memory):
+    for topic in ("/robot_description", "/tf_static", "/diagnostics"):
+        assert memory.places(topic), topic
+    assert mismatches(memory) == []
+
+
+@pytest.mark.parametrize("seed", seeds(1, 5))
+def test_an_altered_digit_of_a_description_is_found(changed, seed):
+    rng = random.Random(seed)
+    for place in changed.places("/robot_description"):
+        data = changed.messages[place].data
+        digits = [k for k in range(4, len(data)) if chr(data[k]).isdigit()]
+        for k in rng.sample(digits, 10):
+            digit = rng.choice([each for each in b"0123456789" if each != data[k]])
+            (found,) = swap(changed, place, data[:k] + bytes([digit]) + data[k + 1 :])
+            assert (found.topic, found.field) == ("/robot_description", "text")
+
+
+def test_an_altered_number_of_a_fixed_frame_is_found(changed):
+    for place in changed.places("/tf_static"):
+        data = changed.messages[place].data
+        assert swap(changed, place, data[:-1] + bytes([data[-1] ^ 1]))
+
+
+@pytest.mark.parametrize("seed", seeds(1, 5))
+def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(changed, seed):
+    rng = random.Random(seed)
+    for place in changed.places("/diagnostics"):
+        data = changed.messages[place].data
+        status = next(each for each in decode_statuses(data) if each.name == STATUS)
+        texts = [text for text in status.values.values() if any(map(str.isdigit, text))]
+        text = rng.choice(texts)
+        (k, *_) = places_of(text, data)  # the first with this text: its value or an equal one
+        k += rng.choice([number for number, letter in enumerate(text) if letter.isdigit()])
+        digit = rng.choice([each for each in b"0123456789" if each != data[k]])
+        assert swap(changed, place, data[:k] + bytes([digit]) + data[k + 1 :]), text
+
+
+def test_a_message_that_cannot_be_read_is_named(changed):
+    (place, *_) = changed.places("/diagnostics")
+    (found,) = swap(changed, place, changed.messages[place].data[:-2])
+    assert (found.topic, found.field, found.expected) == ("/diagnostics", "message", "readable")
+
+
+def test_diagnostics_name_the_topic_the_time_and_the_field(changed):
+    place = changed.places("/diagnostics")[-1]
+    message = changed.messages[place]
+    (status,) = (each for each in decode_statuses(message.data) if each.name == STATUS)
+    text = status.values["kind"]
+    (k, *_) = places_of(text, message.data)
+    data = message.data[:k] + message.data[k:].replace(text.encode(), text[::-1].encode(), 1)
+    assert swap(changed, place, data) == [
+        Mismatch("/diagnostics", status.stamp, "kind", text, text[::-1])
+    ]
+
+
+def test_descriptions_of_a_run_of_another_version_are_not_judged(changed):
+    (place, *_) = changed.places("/robot_description")
+    text = Reader(changed.messages[place].data).string()
+    other = changed.messages[place].data.replace(b"robot", b"tobor", 1)
+    assert "robot" in text
+    assert swap(changed, place, other)
+    version = b"0" * len(__version__)
+    for place_of_event in changed.places("/top/events"):
+        event = changed.messages[place_of_event]
+        assert __version__.encode() in event.data
+        changed.messages[place_of_event] = replace(
+            event, data=event.data.replace(__version__.encode(), version)
+        )
+    assert swap(changed, place, other) == []
