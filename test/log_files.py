@@ -9,7 +9,9 @@ import numpy as np
 
 from symtop_ros.log.writer import Channel, LogFile
 from symtop_ros.models.urdf import robot_description
-from symtop_ros.physics import Friction, Motion, State, Top, hurry
+from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict
+from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.outcomes import Outcome, Start
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples
@@ -46,19 +48,31 @@ class Run:
     def __post_init__(self) -> None:
         motion = Motion(self.top, self.start, self.friction, self.torque)
         segment = Segment.begin(motion, BEGIN, 1.0)
-        self._announce("start", self.start, segment, BEGIN)
+        self._announce("start", BEGIN, Start.of(motion), {}, segment.state_at(BEGIN), segment)
         count = int(self.seconds * self.rate)
         stamps = [BEGIN + round(k * 1e9 / self.rate) for k in range(count)]
         half = count // 2 if self.hurried else count
         self._samples(segment, stamps[:half])
         if self.hurried:
-            before = segment.state_at(stamps[half])
-            segment = segment.restart(hurry(before, factor=1.4), stamps[half])
-            self._announce("kick", before, segment, stamps[half])
+            stamp, request = stamps[half], {"precession_rate_factor": 1.4}
+            before = segment.state_at(stamp)
+            kicked, hold = plan_kick(segment.motion, before, request)
+            segment = segment.replace_motion(kicked, stamp)
+            outcome = kick_verdict(kicked, before, hold)
+            self._announce("kick", stamp, outcome, request, before, segment)
             self._samples(segment, stamps[half:])
 
-    def _announce(self, name: str, before: State, segment: Segment, stamp: int) -> None:
-        event = Event.of(stamp, name, None, {}, before, segment, self.frame)
+    def _announce(
+        self,
+        name: str,
+        stamp: int,
+        outcome: Outcome,
+        request: dict[str, object],
+        before: State,
+        segment: Segment,
+    ) -> None:
+        number = 1 + sum(topic == "events" for topic, *_ in self.messages)
+        event = Event.of(stamp, name, outcome, request, before, segment, self.frame, number)
         self.messages.append(("events", stamp, event.encode("world")))
 
     def _samples(self, segment: Segment, stamps: list[int]) -> None:
