@@ -21,7 +21,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).with_name("load")))
-from endings import bound
+from workshop.load.endings import bound
 
 ROOT = Path(__file__).parents[1]
 BIN = Path(sys.executable).parent

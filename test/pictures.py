@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from endings import bound
 from PIL import Image
 from rerun.experimental import ViewerClient
 
 from symtop_ros.playback import viewer
+from workshop.load.endings import bound
 
 DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one
 TIMEOUT = 60.0

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from endings import bound
+from workshop.load.endings import bound
 
 RESOURCE = Path(__file__).parents[1] / "resource"
 # Options of top_ctl: a node that is starting on a loaded machine may take longer than 5 s.

@@ -1,7 +1,6 @@
 """Invalid command lines: status 1 and a line, or status 2 and the usage; no traceback."""
 
 import pytest
-from domains import claim_domain
 from odd_values import CONTROL, assert_one_sentence
 from programs import run as run_program
 
@@ -12,7 +11,8 @@ from symtop_ros.live import main as live
 from symtop_ros.models import main as models
 from symtop_ros.panel import main as panel
 from symtop_ros.playback import main as playback
-from symtop_ros.report import main as report
+from workshop.load.domains import claim_domain
+from workshop.speed import main as report
 
 DOMAIN = claim_domain()
 LONG = "x" * 100_000

@@ -10,7 +10,6 @@ import time
 from pathlib import Path
 
 import pytest
-from endings import bound
 from listening import udp_addresses
 from log_files import Run
 from programs import running_node
@@ -22,6 +21,7 @@ from symtop_ros.distribution import VARIABLES
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
+from workshop.load.endings import bound
 
 # All that a user must have set; the home cannot be written to.
 BARE = {"HOME": "/dev/null", "PATH": os.defpath}

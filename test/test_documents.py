@@ -13,7 +13,6 @@ import pytest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from documents import LINK, PAGES, PATH, ROOT, anchors, blocks, commands, names, rows, same
-from domains import claim_domain
 from geometry_msgs.msg import WrenchStamped
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
@@ -24,6 +23,7 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 
 from symtop_ros.judge.main import main as judge_main
 from symtop_ros.testset.score import read_problems, read_trajectory
+from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()

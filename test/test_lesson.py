@@ -10,20 +10,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rclpy
-from domains import claim_domain
 from PIL import Image
 from programs import running_node
 from write_lesson import PAGE, write_page
 
-from symtop_ros.article.lesson import DRAWS, picture_of, run_step, write_lesson
 from symtop_ros.client import main as client
 from symtop_ros.client.arguments import parse_values
 from symtop_ros.client.connection import Connection
 from symtop_ros.live import main as live
 from symtop_ros.panel import main as panel
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.report import main as report
 from symtop_ros.web.lesson import read_lesson
+from workshop.article.lesson import DRAWS, picture_of, run_step, write_lesson
+from workshop.load.domains import claim_domain
+from workshop.speed import main as report
 
 ROOT = Path(__file__).parents[1]
 LESSON = PAGE.read_text(encoding="utf-8")
@@ -127,7 +127,7 @@ def test_a_picture_is_what_the_command_draws(number, tmp_path):
 
 
 def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
-    monkeypatch.setattr("symtop_ros.article.lesson.picture_of", lambda step: b"picture")
+    monkeypatch.setattr("workshop.article.lesson.picture_of", lambda step: b"picture")
     assert write_lesson(tmp_path, sheets=True) == 0
     worksheet, teacher = (
         html.unescape((tmp_path / f"{name}.html").read_text()) for name in ("worksheet", "teacher")

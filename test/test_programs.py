@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from symtop_ros import programs
-from symtop_ros.report import main as report
+from workshop.speed import main as report
 
 
 @pytest.fixture(autouse=True)

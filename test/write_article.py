@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from symtop_ros.article.figures import FIGURES
-from symtop_ros.article.lesson import pack_figure
+from workshop.article.figures import FIGURES
+from workshop.article.lesson import pack_figure
 
 FOLDER = Path(__file__).parents[1] / "docs/article"
 

@@ -20,13 +20,13 @@ from log_files import ARTICLE, CUSPS  # noqa: E402
 from pictures import pause_at, picture, running_viewer, views  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from symtop_ros.article.recordings import sample, six_rates, write_scene  # noqa: E402
 from symtop_ros.physics import Motion, hurry, kick_verdict  # noqa: E402
 from symtop_ros.playback.replay import create_recording  # noqa: E402
 from symtop_ros.playback.view import entities  # noqa: E402
 from symtop_ros.playback.view.view import View  # noqa: E402
 from symtop_ros.simulation.changes.outcomes import Start  # noqa: E402
 from symtop_ros.simulation.segment import Segment  # noqa: E402
+from workshop.article.recordings import sample, six_rates, write_scene  # noqa: E402
 
 KICK, END = 1_520_000_000, 3_000_000_000  # ns
 PERIOD = 2_000_000  # ns between samples

@@ -1,7 +1,7 @@
 """Events, each compared with what it makes of the segment that the event before it began.
 
 What a request leaves open is taken from the event itself: initial conditions that come from
-parameters, the paths of logs, and factors of real time.
+parameters, the paths of logs, factors of real time, and what a bug of the node left.
 """
 
 import math
@@ -224,6 +224,11 @@ def _change_nothing(known: Known) -> Following:
     return known.previous, known.event.outcome()
 
 
+def _fail(known: Known) -> Following:
+    # A request with a bug may have taken effect before it failed.
+    return known.given, known.event.outcome()
+
+
 FOLLOW: dict[str, Callable[[Known], Following]] = {
     "start": _restart,
     "reset": _restart,
@@ -236,7 +241,7 @@ FOLLOW: dict[str, Callable[[Known], Following]] = {
     "torque": _change_torque,
     "parameters": _change_parameters,
     "record": _change_nothing,
-    "failure": _change_nothing,
+    "failure": _fail,
 }
 
 

@@ -48,6 +48,8 @@ class Page:
         self._view = self._scene.view
         self._pull: tuple[int, Real] | None = None  # who pulls the axle, and where to
         self._scene.handle.on_drag(self._drag)
+        # Two threads place a camera: one greets a page, the other follows the scene.
+        self._placing = threading.Lock()
         self._sizes: dict[int, tuple[int, int]] = {}  # of the scene on each page, in pixels
         self._shown: dict[str, dict[str, bool]] = {}  # what each page has chosen, by layers
         self._outdated = True  # True if the pages have not got the facts
@@ -77,11 +79,12 @@ class Page:
     def _fit(self, camera: CameraHandle) -> None:
         """Show the whole scene, however narrow the page is."""
         page, size = camera.client.client_id, (camera.image_width, max(camera.image_height, 1))
-        if self._sizes.get(page) == size:
-            return
-        before, self._sizes[page] = self._sizes.get(page), size
-        if before is None or abs(size[0] / before[0] - 1) > RESIZED:
-            self._place(camera, size)
+        with self._placing:
+            before, self._sizes[page] = self._sizes.get(page), size
+            is_resized = before is None or abs(size[0] / before[0] - 1) > RESIZED
+            # A page that has just opened may go back to its first camera after it was placed.
+            if is_resized or np.allclose(camera.position, EYES[0]):
+                self._place(camera, size)
 
     def _place(self, camera: CameraHandle, size: tuple[int, int]) -> None:
         eye, target = (np.array(each[self._scene.view]) for each in (EYES, TARGETS))
@@ -137,10 +140,11 @@ class Page:
         self.frames += 1
 
     def _move_cameras(self) -> None:
-        self._view = self._scene.view
-        for client in self.server.get_clients().values():
-            if client.client_id in self._sizes:
-                self._place(client.camera, self._sizes[client.client_id])
+        with self._placing:
+            self._view = self._scene.view
+            for client in self.server.get_clients().values():
+                if client.client_id in self._sizes:
+                    self._place(client.camera, self._sizes[client.client_id])
 
     def _follow(self) -> list[Event]:
         """Take over what happened to the top; return the events."""

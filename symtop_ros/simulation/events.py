@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from symtop_ros import __version__
 from symtop_ros.physics import Friction, Motion, State, Top, describe_engine
-from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, describe
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start, describe
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
 from symtop_ros.simulation.validation import one_line
@@ -188,7 +188,7 @@ class Event:
 def start_event(motion: Motion, rig: Rig = NO_RIG) -> Event:
     """Return the event with which a run of a motion starts at the stamp 0."""
     segment = Segment.begin(motion, 0, 1.0, rig)
-    return Event.of(0, "start", None, {}, motion.start, segment)
+    return Event.of(0, "start", Start.of(motion), {}, segment.state_at(0), segment, number=1)
 
 
 def decode_events(data: bytes) -> list[Event]:

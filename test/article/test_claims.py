@@ -1,4 +1,4 @@
-from symtop_ros.article.claims import Claim, markdown, summarize, table
+from workshop.article.claims import Claim, markdown, summarize, table
 
 TWO = [
     Claim("It is so.", "1 | 2 L_z'", holds=True, equation="a * b = c", tolerance="1e-9: it is so"),

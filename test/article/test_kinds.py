@@ -1,8 +1,8 @@
 import pytest
 
-from symtop_ros.article import kinds
-from symtop_ros.article.motions import HANGING_DISC, THETA, TOP
 from symtop_ros.physics import Top
+from workshop.article import kinds
+from workshop.article.motions import HANGING_DISC, THETA, TOP
 
 
 def test_for_a_heavier_top_the_six_rates_have_other_kinds():

@@ -10,7 +10,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.article.maps import (
+from symtop_ros.physics import HurryEffect, Motion, State, hurry, regular_precession_rates
+from workshop.article.maps import (
     FACTOR,
     OUTCOMES,
     PSI_DOT,
@@ -23,8 +24,7 @@ from symtop_ros.article.maps import (
     map_tilt,
     write_maps,
 )
-from symtop_ros.physics import HurryEffect, Motion, State, hurry, regular_precession_rates
-from symtop_ros.report import main as report
+from workshop.speed import main as report
 
 SIDES = ("highest", "lowest")
 FILES = {"perry.rrd"} | {

@@ -1,8 +1,8 @@
 import pytest
 
-from symtop_ros.article import momentum
-from symtop_ros.article.motions import TOP, cusps, start
 from symtop_ros.physics import Friction, Motion, State
+from workshop.article import momentum
+from workshop.article.motions import TOP, cusps, start
 
 RUBBING = Motion(TOP, start(0.0), Friction(axial=2e-6, transverse=1e-5))
 

@@ -1,6 +1,7 @@
 import numpy as np
 
-from symtop_ros.article.motions import (
+from symtop_ros.physics import State, theta_torque
+from workshop.article.motions import (
     FAST,
     RATES,
     SLOW,
@@ -11,7 +12,6 @@ from symtop_ros.article.motions import (
     seven_motions,
     slope,
 )
-from symtop_ros.physics import State, theta_torque
 
 
 def test_a_slope_is_as_good_as_it_says():

@@ -1,8 +1,8 @@
 import numpy as np
 
-from symtop_ros.article import nutation
-from symtop_ros.article.motions import TOP, cusps, regular, seven_motions, start
 from symtop_ros.physics import Motion, State, Top
+from workshop.article import nutation
+from workshop.article.motions import TOP, cusps, regular, seven_motions, start
 
 WEIGHTLESS = Top(TOP.Ix, TOP.Iz, 0.0)
 

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from symtop_ros.article.figures import FIGURES
-from symtop_ros.article.lesson import pack_figure
-from symtop_ros.article.retell import check_claims
 from symtop_ros.panel.actions import Actions
 from symtop_ros.panel.main import _parser
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.web.lesson import read_lesson
 from symtop_ros.web.run import Run
+from workshop.article.figures import FIGURES
+from workshop.article.lesson import pack_figure
+from workshop.article.retell import check_claims
 
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "article.md").read_text(encoding="utf-8")

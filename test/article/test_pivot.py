@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from symtop_ros.article import pivot
-from symtop_ros.article.motions import TOP, cusps, regular
 from symtop_ros.physics import Body, Top
+from workshop.article import pivot
+from workshop.article.motions import TOP, cusps, regular
 
 
 def test_another_body_would_need_another_force(monkeypatch):

@@ -1,9 +1,9 @@
 import pytest
 
-from symtop_ros.article import rates
-from symtop_ros.article.motions import FAST, RATES, SLOW, TOP, Rate, start
-from symtop_ros.article.rates import Departure, claims_on_rates, rate_decides
 from symtop_ros.physics import Motion, Top
+from workshop.article import rates
+from workshop.article.motions import FAST, RATES, SLOW, TOP, Rate, start
+from workshop.article.rates import Departure, claims_on_rates, rate_decides
 
 HEAVIER = Top(TOP.Ix, TOP.Iz, 1.01 * TOP.Mgl)
 

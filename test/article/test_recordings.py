@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from pictures import pause_at, picture, running_viewer, view_named, views
 
-from symtop_ros.article.motions import RATES
-from symtop_ros.article.recordings import (
+from symtop_ros.physics import perrys_rule
+from symtop_ros.playback.view import entities
+from workshop.article.motions import RATES
+from workshop.article.recordings import (
     KICK,
     MOTIONS,
     SCENES,
@@ -13,8 +15,6 @@ from symtop_ros.article.recordings import (
     six_rates,
     write_recordings,
 )
-from symtop_ros.physics import perrys_rule
-from symtop_ros.playback.view import entities
 
 TIMES = np.linspace(0.0, 2.0, 2001)
 

@@ -6,14 +6,14 @@ import pytest
 from PIL import Image
 from rerun.chunk import RrdReader
 
-from symtop_ros.article import retell as article
-from symtop_ros.article.claims import Claim
-from symtop_ros.article.figures import FIGURES, LOOKS
-from symtop_ros.article.recordings import MOTIONS, RATE, SCENES, SPAN
-from symtop_ros.article.retell import check_claims, retell
 from symtop_ros.drawing.style import BLUE, GOLD, INK, RED
 from symtop_ros.playback.view import entities
-from symtop_ros.report import main as report
+from workshop.article import retell as article
+from workshop.article.claims import Claim
+from workshop.article.figures import FIGURES, LOOKS
+from workshop.article.recordings import MOTIONS, RATE, SCENES, SPAN
+from workshop.article.retell import check_claims, retell
+from workshop.speed import main as report
 
 
 @pytest.fixture(scope="module")

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from symtop_ros.article import torque
-from symtop_ros.article.motions import TOP, cusps, regular, start
 from symtop_ros.physics import Friction, Motion, Top
+from workshop.article import torque
+from workshop.article.motions import TOP, cusps, regular, start
 
 DISC = Top(1.0, 1.9, 0.5)
 

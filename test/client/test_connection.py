@@ -1,9 +1,9 @@
 import pytest
 import rclpy
-from domains import claim_domain
 from std_srvs.srv import Trigger
 
 from symtop_ros.client.connection import Connection, UnreachableError
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 

@@ -8,8 +8,9 @@ import subprocess
 import time
 
 import pytest
-from domains import claim_domain
 from programs import PATIENT, command, environment, run, running_node
+
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 TIMEOUT = 60.0

@@ -7,11 +7,11 @@ import subprocess
 import time
 
 import pytest
-from domains import claim_domain
 from node.listener import Listener
 from programs import PATIENT, command, environment, run, running_node
 
 from symtop_ros.programs import BROKEN_PIPE
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 

@@ -1,7 +1,8 @@
 """`top_judge --live` beside a running node."""
 
-from domains import claim_domain
 from programs import run, running_node
+
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 

@@ -1,8 +1,9 @@
 """Times of top_ctl, in a small form: that calls are answered is asserted, never a time."""
 
-import calls
 import pytest
-from calls import HEAD, format_row
+
+from workshop.load import calls
+from workshop.load.calls import HEAD, format_row
 
 pytestmark = pytest.mark.untraced
 

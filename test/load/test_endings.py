@@ -8,8 +8,9 @@ import time
 from pathlib import Path
 
 import pytest
-from domains import claim_domain
-from endings import SETPRIV
+
+from workshop.load.domains import claim_domain
+from workshop.load.endings import SETPRIV
 
 DOMAIN = claim_domain()
 TEST = Path(__file__).parents[1]

@@ -1,9 +1,10 @@
 import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from follower import Follower
 from geometry_msgs.msg import QuaternionStamped
-from processes import domain
+
+from workshop.load.follower import Follower
+from workshop.load.processes import domain
 
 RATE = 100.0  # Hz
 

@@ -1,12 +1,12 @@
 import json
 from pathlib import Path
 
-import node_cost
 import numpy as np
 import pytest
-from listener import Traffic
 
-from symtop_ros.report.publish import FIGURES, find_section
+from workshop.load import node_cost
+from workshop.load.listener import Traffic
+from workshop.speed.publish import FIGURES, find_section
 
 pytestmark = pytest.mark.untraced
 

@@ -1,11 +1,10 @@
 import subprocess
 import time
 
-import processes
 import pytest
-import usage
 
 from symtop_ros.client.connection import UnreachableError
+from workshop.load import processes, usage
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "nan", "inf", "1e7", "soon"])

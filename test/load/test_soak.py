@@ -3,8 +3,9 @@
 import subprocess
 
 import pytest
-import soak
-from processes import script
+
+from workshop.load import soak
+from workshop.load.processes import script
 
 pytestmark = [pytest.mark.realtime, pytest.mark.untraced]
 SECONDS = 6

@@ -1,8 +1,9 @@
 """The node under loads, in a small form: what is lost is asserted, never a rate."""
 
 import pytest
-import stress
-from stress import HEAD, Outcome, format_row
+
+from workshop.load import stress
+from workshop.load.stress import HEAD, Outcome, format_row
 
 pytestmark = [pytest.mark.realtime, pytest.mark.untraced]
 

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
-from domains import claim_domain, release_domain
 from rclpy.clock_type import ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
@@ -22,6 +21,7 @@ from symtop_ros.client.connection import Connection
 from symtop_ros.node.top_node import TopNode
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
+from workshop.load.domains import claim_domain, release_domain
 
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 TIMEOUT = 60.0  # s of real time; ends a test that hangs, and is never waited for

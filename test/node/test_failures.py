@@ -5,7 +5,6 @@ import sys
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from domains import claim_domain
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.running_top import LATCHED
@@ -14,6 +13,7 @@ from programs import environment
 from symtop_ros.session.outputs import Output, Outputs
 from symtop_ros.simulation.changes.outcomes import Failure, describe
 from symtop_ros.simulation.simulation import Simulation
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 BUG = "ZeroDivisionError: by a bug"

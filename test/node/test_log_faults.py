@@ -8,8 +8,6 @@ from itertools import pairwise
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from domains import claim_domain
-from endings import bound
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import LATCHED, facts
@@ -17,6 +15,8 @@ from programs import environment
 from sensor_msgs.msg import JointState
 
 from symtop_ros.session.answers import Answer
+from workshop.load.domains import claim_domain
+from workshop.load.endings import bound
 
 DOMAIN = claim_domain()
 MS = 1_000_000

@@ -5,8 +5,9 @@ import subprocess
 import sys
 
 import pytest
-from domains import claim_domain
 from programs import PATIENT, command, environment, run
+
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 

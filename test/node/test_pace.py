@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from domains import claim_domain
 from node.listener import Listener
 from node.running_top import facts, stamp_of
 from programs import running_node
 from rclpy.serialization import deserialize_message
 
 from symtop_ros.simulation.topics import STATE_TOPICS
+from workshop.load.domains import claim_domain
 
 pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 DOMAIN = claim_domain()

@@ -7,7 +7,6 @@ import signal
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from domains import claim_domain
 from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
 from node.running_top import (
@@ -19,6 +18,8 @@ from node.running_top import (
     status_of,
 )
 from programs import running_node
+
+from workshop.load.domains import claim_domain
 
 pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 # a nutation of 5e6 rad/s a hundred times as fast: ten million steps for each second

@@ -5,11 +5,11 @@ import subprocess
 import sys
 
 import pytest
-from domains import claim_domain
 from programs import LOSSY_PROFILES
 
 from symtop_ros.distribution import VARIABLES, distribution_name
 from symtop_ros.simulation.presets import config_folder
+from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()

@@ -11,7 +11,6 @@ from itertools import pairwise
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from domains import claim_domain
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from nav_msgs.msg import Odometry
@@ -29,6 +28,7 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.session.answers import Answer
 from symtop_ros.simulation.validation import RefusedError
+from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 STATES = ("orientation", "angular_velocity", "angular_momentum", "torque", "euler_angles")

@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from domains import claim_domain
-from endings import bound
 from programs import command, environment
 
 from symtop_ros.log.definitions import load_definition
+from workshop.load.domains import claim_domain
+from workshop.load.endings import bound
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()

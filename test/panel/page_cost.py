@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from panel.pages import open_pages, running_panel
 from panel.slow_line import slow_line
-from usage import cpu_seconds, memory
+
+from workshop.load.usage import cpu_seconds, memory
 
 SETTLE = 1.5  # s, after which the replay of the scene to new pages is over
 

@@ -5,12 +5,12 @@ import time
 import pytest
 from panel.page_cost import SLOW, measure, measure_age
 from panel.pages import open_pages, running_panel
-from usage import memory
 
 from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.web.scene import CHUNKS
+from workshop.load.usage import memory
 
 pytestmark = pytest.mark.untraced
 HALF_AN_HOUR = 1800.0  # s

@@ -6,7 +6,6 @@ import time
 
 import pytest
 import rclpy
-from domains import claim_domain
 from node.running_top import RunningTop
 from panel.pages import open_pages, running_panel
 
@@ -15,6 +14,7 @@ from symtop_ros.panel.node_source import SILENCE, NodeTop
 from symtop_ros.panel.source import LocalTop
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.web.run import Run
+from workshop.load.domains import claim_domain
 
 TIMEOUT = 60.0
 # When an event took effect depends on the clock; what happened does not.

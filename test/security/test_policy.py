@@ -5,7 +5,6 @@ import socket
 import subprocess
 
 import pytest
-from domains import claim_domain
 from node.listener import Listener
 from node.running_top import RunningTop
 from panel.pages import open_pages
@@ -15,6 +14,7 @@ from security.policy import Uses, allowed, used
 
 from symtop_ros.playback import viewer
 from symtop_ros.simulation.topics import STATE_TOPICS
+from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()

@@ -5,7 +5,6 @@ import subprocess
 import time
 
 import pytest
-from domains import claim_domain
 from listening import tcp_addresses
 from log_files import Run
 from node.running_top import RunningTop
@@ -13,6 +12,7 @@ from programs import command, environment, run
 from rclpy.parameter import Parameter
 
 from symtop_ros.playback import viewer
+from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()

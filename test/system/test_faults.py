@@ -10,7 +10,6 @@ import time
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from domains import claim_domain
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import facts
@@ -19,6 +18,7 @@ from sensor_msgs.msg import JointState
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
+from workshop.load.domains import claim_domain
 
 pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 

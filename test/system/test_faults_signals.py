@@ -11,7 +11,6 @@ import time
 from pathlib import Path
 
 import pytest
-from domains import claim_domain
 from log_files import Run
 from programs import command, environment
 
@@ -19,6 +18,7 @@ from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
+from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 

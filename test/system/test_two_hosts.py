@@ -9,11 +9,11 @@ import time
 from pathlib import Path
 
 import pytest
-from endings import bound
 from programs import LOSSY_PROFILES, command
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 
 from symtop_ros.distribution import VARIABLES, distribution_name
+from workshop.load.endings import bound
 
 pytestmark = [
     pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}"),

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from symtop_ros.article.motions import FAST, SLOW, TOP
 from symtop_ros.physics import Body, State, Top
+from workshop.article.motions import FAST, SLOW, TOP
 
 UNIT = Top(1.0, 0.5, 1.0)
 DISC = Top(0.0002, 0.00035, 0.05)

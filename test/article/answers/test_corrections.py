@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from symtop_ros.article.answers import corrections
-from symtop_ros.article.motions import TOP, accelerations, cusps, regular
 from symtop_ros.physics import Top
+from workshop.article.answers import corrections
+from workshop.article.motions import TOP, accelerations, cusps, regular
 
 
 def test_all_claims_hold():

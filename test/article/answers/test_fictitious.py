@@ -2,13 +2,13 @@
 
 import pytest
 
-from symtop_ros.article.answers import fictitious
-from symtop_ros.article.answers.fictitious import (
+from symtop_ros.physics import FrameTorques, Top, precessing_frame_torques
+from workshop.article.answers import fictitious
+from workshop.article.answers.fictitious import (
     claims_on_fictitious_forces,
     point_masses,
 )
-from symtop_ros.article.motions import HANGING_DISC, PSI_DOT, THETA, TOP
-from symtop_ros.physics import FrameTorques, Top, precessing_frame_torques
+from workshop.article.motions import HANGING_DISC, PSI_DOT, THETA, TOP
 
 # gravity, Coriolis, centrifugal in N m at the article's rates; computed by hand to five decimals
 TABLE = {

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from symtop_ros.article.answers import release
-from symtop_ros.article.motions import TOP, cusps
 from symtop_ros.physics import Top
+from workshop.article.answers import release
+from workshop.article.motions import TOP, cusps
 
 HEAVIER = Top(TOP.Ix, TOP.Iz, 1.001 * TOP.Mgl)
 

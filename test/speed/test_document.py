@@ -1,0 +1,102 @@
+from dataclasses import fields
+
+import pytest
+
+from workshop.speed.ahead import TABLES, list_ahead
+from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
+from workshop.speed.document import _format_ahead, _format_other_motions, format_table
+from workshop.speed.many import ManyCost
+from workshop.speed.peers import CLOSED_FORM, TAYLOR
+from workshop.speed.reference import Reference
+from workshop.speed.sweep import Curve, Measurement
+
+
+def curve(peer, motion):
+    return Curve(peer, motion, 10.0, (Measurement(0.0, 1e-9, 1e-9, 9, 1e-3, 0.0),), "finest")
+
+
+def test_a_table_has_as_many_cells_in_each_row():
+    lines = format_table(["", "a"], [["b", "1"], ["c", "2"]]).splitlines()
+    assert lines == ["|  | a |", "| --- | --: |", "| b | 1 |", "| c | 2 |"]
+
+
+def test_the_table_of_other_motions_has_a_row_for_each_peer():
+    problem = Reference.read().article[0]
+    curves = [curve(peer, name) for name in ("looping", "sleeping") for peer in ("a", "b")]
+    text = _format_other_motions(Results(curves=[curve("a", problem.name), *curves]), problem)
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert rows[0] == "|  | looping | sleeping |"
+    assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
+
+
+def test_every_case_in_which_a_peer_is_ahead_is_named():
+    def swept(peer, *points):
+        return Curve(
+            peer,
+            "cusps",
+            10.0,
+            tuple(Measurement(1.0, e, e, 9, s, 0.0) for e, s in points),
+            "finest",
+        )
+
+    results = Results(
+        curves=[
+            swept(CLOSED_FORM, (1e-15, 3e-4)),
+            swept("fast", (1e-3, 1e-5), (1e-9, 1e-4), (1e-12, 1e-3)),
+            swept("exact", (1e-17, 1.0)),
+            swept("behind", (1e-12, 1.0)),
+        ],
+        states=[
+            ArrayCost(CLOSED_FORM, (1, 10), (1.0, 2.0), 1e-15),
+            ArrayCost("dense", (1, 10), (2.0, 1.0), 1e-14),
+        ],
+    )
+    lines = [line for line in _format_ahead(results).splitlines() if line.startswith("-")]
+    assert lines == [
+        "- cusps: fast reaches 1.0e-09 rad in 0.1 ms, closed form 1.0e-15 in 0.3 ms.",
+        "- cusps: exact is more exact, 1.0e-17 against 1.0e-15 rad, in 1e+03 ms.",
+        "- cusps, mean error: exact is more exact, 1.0e-17 against 1.0e-15 rad.",
+        "- Arrays of 10 states: dense is faster.",
+    ]
+
+
+def results_of(ours, peer):
+    """Results in which the package and a peer each have one number for all errors and times."""
+    pairs = {CLOSED_FORM: ours, "peer": peer}
+    driven = {TAYLOR: ours, "peer": peer}
+    return Results(
+        checks=pairs,
+        curves=[
+            Curve(name, "cusps", 10.0, (Measurement(1.0, n, n, 9, n, n),), "finest")
+            for name, n in pairs.items()
+        ],
+        growth=[Growth(name, 0.0, (10.0,), (n,), (n,)) for name, n in pairs.items()],
+        states=[ArrayCost(name, (1,), (n,), n) for name, n in pairs.items()],
+        many=[ManyCost(name, 9, n, n, 9, 5) for name, n in pairs.items()],
+        hard=[HardCase("tilt", 0.1, 1.0, ours, {"peer": peer})],
+        driven=[DrivenCase("plain", driven, driven)],
+    )
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_peer_that_is_ahead_in_a_table_is_named(name):
+    lines = [*TABLES[name](results_of(2e-3, 1e-3))]
+    assert lines
+    assert all("peer" in line for line in lines)
+
+
+def test_every_table_is_looked_at():
+    assert {each.name for each in fields(Results)} == {*TABLES, "footprint"}
+
+
+def test_a_peer_that_is_nowhere_ahead_is_not_named():
+    assert _format_ahead(results_of(1e-3, 2e-3)).endswith("- None.")
+
+
+def test_a_peer_that_is_faster_in_a_family_of_driven_motions_is_named():
+    """Its errors are larger: only the median time is ahead."""
+    errors, seconds = {TAYLOR: 1e-16, "peer": 1e-12}, {TAYLOR: 2e-3, "peer": 1e-3}
+    results = Results(driven=[DrivenCase("rods", errors, seconds)] * 3)
+    assert [*list_ahead(results)] == [
+        "Friction and torques, rods, median: peer is faster, 1 against 2 ms."
+    ]

@@ -1,0 +1,1 @@
+"""Programs of a checkout that measure, retell and load the package; not installed."""

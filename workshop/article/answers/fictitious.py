@@ -1,0 +1,168 @@
+"""Claims on fictitious forces: what an observer who turns with the precession, or the top, adds.
+
+A body of point masses stands for the top: each of its four rings of four masses has its place and
+its velocity, and the forces on them know nothing of moments of inertia.
+"""
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from symtop_ros.arrays import Real
+from symtop_ros.drawing.style import BLUE, GREY, INK, RED, new_figure
+from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
+from workshop.article.claims import Claim
+from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
+
+PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
+CORNERS = np.arange(4) * math.pi / 2  # rad
+SUMMED = 4e-15  # of the largest torque; sums of 16 products of four factors. Measured: 1e-15
+SHOWN = np.linspace(0.0, 85.0, 200)  # rad/s
+SWEEP = np.linspace(0.0, 2 * math.pi, 200)  # rad
+
+
+def claims_on_fictitious_forces(top: Top) -> list[Claim]:
+    """Return the claims on what a turning observer adds."""
+    return [three_torques_raise_or_lower(top), masses_feel_the_same(top), body_frame_has_one(top)]
+
+
+def three_torques_raise_or_lower(top: Top) -> Claim:
+    """Check that the three torques are Ix theta'' of the closed form, with the signs of Perry's."""
+    rates = np.array(PHI_DOTS)
+    torques = precessing_frame_torques(top, THETA, rates, PSI_DOT)
+    expected = top.Ix * theta_acceleration(top, THETA, rates, PSI_DOT)
+    off = float(np.abs(torques.total - expected).max() / np.abs(torques.coriolis).max())
+    balanced = np.abs(torques.total[[0, 2]]).max() / np.abs(torques.coriolis).max()
+    signs = torques.total[1] < 0 < torques.total[3]
+    listed = "; ".join(
+        f"{rate:.3f} rad/s: {a:+.5f} {b:+.5f} {c:+.5f} = {a + b + c:+.5f} N m"
+        for rate, a, b, c in zip(rates, *torques, strict=True)
+    )
+    return Claim(
+        "For an observer who precesses with the top three torques act about the line of nodes: "
+        "gravity's lowers the axis, Coriolis' raises it and grows with phi', and the centrifugal "
+        "one lowers it and grows with phi'^2. They balance at the two roots.",
+        f"gravity, Coriolis, centrifugal at {listed}",
+        bool(off < SUMMED and balanced < SUMMED and signs),
+        "Ix theta'' = Mgl sin(theta) - Iz psi' phi' sin(theta) "
+        "+ (Ix - Iz) phi'^2 sin(theta) cos(theta)",
+        f"{SUMMED:g}: sums of rounded products",
+    )
+
+
+def masses_feel_the_same(top: Top) -> Claim:
+    """Check the Coriolis and the centrifugal torque as sums over mass elements."""
+    masses, places = point_masses(top)
+    largest = 0.0
+    for phi_dot in PHI_DOTS:
+        state = start(phi_dot)
+        frame = state.to_body(np.array([0.0, 0.0, phi_dot]))  # omega of the precessing frame
+        node = state.to_body(np.array([1.0, 0.0, 0.0]))  # of nodes: phi = 0
+        moving = np.cross([0.0, 0.0, PSI_DOT], places)  # velocities in that frame
+        forces = (-2 * np.cross(frame, moving), -np.cross(frame, np.cross(frame, places)))
+        summed = [float(masses @ (np.cross(places, force) @ node)) for force in forces]
+        torques = precessing_frame_torques(top, THETA, phi_dot, PSI_DOT)
+        expected = float(torques.coriolis), float(torques.centrifugal)
+        scale = max(map(abs, expected))
+        largest = max(largest, *(abs(a - b) / scale for a, b in zip(summed, expected, strict=True)))
+    return Claim(
+        "The Coriolis and the centrifugal torque are sums over the mass elements of the top.",
+        f"{len(masses)} masses with the same Ix and Iz, at {len(PHI_DOTS)} rates: equal within "
+        f"{largest:.0e}",
+        largest < SUMMED,
+        "dF = -2 dm Omega x v' - dm Omega x (Omega x r), Omega = phi' z'",
+        f"{SUMMED:g}: sums of rounded products",
+    )
+
+
+def body_frame_has_one(top: Top) -> Claim:
+    """Check that in the body frame nothing moves, and the centrifugal torque is -omega x L."""
+    masses, places = point_masses(top)
+    state = Motion(top, start(9.0)).at(0.02)
+    omega = state.angular_velocity
+    summed = masses @ np.cross(places, -np.cross(omega, np.cross(omega, places)))
+    expected = -np.cross(omega, top.body_angular_momentum(state))
+    off = float(np.abs(summed - expected).max() / np.abs(expected).max())
+    return Claim(
+        "In the frame of the body the Coriolis torque is zero, since nothing moves there, and the "
+        "centrifugal torque is the term -omega x L of Euler's equations.",
+        f"at phi' = 9 rad/s after 0.02 s: |omega x L| = {np.linalg.norm(expected):.4g} N m, equal "
+        f"to the sum over {len(masses)} masses within {off:.0e}",
+        off < SUMMED,
+        "dL/dt in the body frame = torque - omega x L",
+        f"{SUMMED:g}: sums of rounded products",
+    )
+
+
+def point_masses(top: Top) -> tuple[Real, Real]:
+    """Return masses (n,) in kg and places (n, 3) in m with the moments of inertia of a top.
+
+    Rings of four masses at a height z have Iz = m a^2 and Ix = m (a^2/2 + z^2); two rings above and
+    two below the pivot, of different sizes, together have those of the top.
+    """
+    rings = [(radius, sign) for radius in (0.02, 0.05) for sign in (1.0, -1.0)]
+    spread = top.Ix / top.Iz - 0.5  # of z^2 to a^2
+    masses, places = [], []
+    for radius, sign in rings:
+        height = sign * radius * math.sqrt(spread)
+        for corner in CORNERS:
+            masses.append(top.Iz / len(rings) / len(CORNERS) / radius**2)
+            places.append((radius * math.cos(corner), radius * math.sin(corner), height))
+    return np.array(masses), np.array(places)
+
+
+def draw_fictitious_torques() -> Figure:
+    """Draw the three torques and their sum against the precession rate."""
+    figure = new_figure(3.9)
+    axes = figure.subplots()
+    plot_torques(axes)
+    axes.plot([SLOW, FAST], [0.0, 0.0], "o", color=INK, ms=7, zorder=3)
+    axes.set_title(f"dots: the roots, {SLOW:.2f} and {FAST:.1f} rad/s", loc="right")
+    axes.legend(loc="upper left")
+    return figure
+
+
+def plot_torques(axes: Axes) -> None:
+    """Plot the three torques and their sum against the precession rate."""
+    torques = precessing_frame_torques(TOP, THETA, SHOWN, PSI_DOT)
+    axes.axhline(0.0, color=INK, lw=0.9)
+    axes.plot(SHOWN, torques.gravity, color=GREY, ls=":", label="gravity: lowers")
+    coriolis, centrifugal = (
+        r"Coriolis: raises, as $\dot\phi$",
+        r"centrifugal: lowers, as $\dot\phi^2$",
+    )
+    axes.plot(SHOWN, torques.coriolis, color=BLUE, ls="--", label=coriolis)
+    axes.plot(SHOWN, torques.centrifugal, color=RED, ls="-.", label=centrifugal)
+    axes.plot(SHOWN, torques.total, color=INK, label=r"sum, $I_x \ddot\theta$")
+    axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel="torque about the line of nodes (N m)", xmargin=0)
+
+
+def draw_four_masses() -> Figure:
+    """Draw Barker's four masses: the Coriolis forces on a ring that spins and precesses.
+
+    The ring is seen from the end of the axle, the line of nodes to the right. In the precessing
+    frame a mass moves along the ring; the part of Omega across the axis, upwards here, makes a
+    force along the axis in proportion to its velocity along the line of nodes.
+    """
+    figure = new_figure(3.6)
+    axes = figure.subplots()
+    axes.plot(np.cos(SWEEP), np.sin(SWEEP), color=GREY, lw=1.5)
+    axes.axhline(0.0, color=INK, lw=0.9, ls=":")
+    axes.text(1.95, 0.06, "line of nodes", ha="right")
+    axes.annotate("", (0, 0.62), (0, 0), arrowprops={"arrowstyle": "->", "color": INK})
+    axes.text(0.06, 0.4, r"$\dot\phi \sin\theta$")
+    for x, y in zip(np.cos(CORNERS), np.sin(CORNERS), strict=True):
+        axes.annotate(
+            "", (x - 0.5 * y, y + 0.5 * x), (x, y), arrowprops={"arrowstyle": "->", "color": BLUE}
+        )
+        axes.plot(x, y, "o", color=INK, ms=9)
+        if abs(y) > abs(x):  # it moves along the line of nodes
+            mark = r"$\otimes$ to the pivot" if y > 0 else r"$\odot$ away from the pivot"
+            axes.text(x + 0.12, y + 0.1 * np.sign(y), mark, color=RED, va="center")
+    words = "blue: velocity\nred: Coriolis force\ntogether: the axis rises"
+    axes.text(-1.95, 1.25, words, va="top")
+    axes.set(xlim=(-2, 2), ylim=(-1.3, 1.3), aspect="equal")
+    axes.axis("off")
+    return figure

@@ -1,0 +1,280 @@
+"""The pictures of the lesson: what each step shows, computed from the acts of the step.
+
+A start begins a run; a hurry kicks the last run. Regular precession is the only motion that is
+hurried, so that the time of the kick is free.
+"""
+
+import io
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from PIL import Image
+
+from symtop_ros.drawing.fictitious import torques_of
+from symtop_ros.drawing.style import BLUE, GREY, INK, RED, SETTINGS, new_figure
+from symtop_ros.physics import (
+    EffectivePotential,
+    Motion,
+    hurry,
+    regular_precession_rates,
+    theta_acceleration,
+)
+from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.web.lesson import LessonStep, read_lesson
+from symtop_ros.web.sheets import write_teacher_sheet, write_worksheet
+from workshop.article.answers.fictitious import plot_torques
+from workshop.article.figures import DEPTH
+from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
+
+KICK = 0.4  # s
+TRACE, TURNS = 1.0, 2.0  # s, and turns of the precession: whichever is shorter is drawn
+SHORT = 0.08  # s in which the fast precession makes most of a turn
+SPAN = 0.8  # s of the plots
+RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
+LOOKS = ((BLUE, "-"), (RED, "--"), (INK, ":"))
+CHAIN, SHORTEST = (GREY, BLUE, RED, INK), 0.01  # colours as over phi'; of the largest torque
+Runs = dict[str, KickedMotion]
+
+
+def run_step(step: LessonStep) -> Runs:
+    """Return the runs of a step by their labels."""
+    settings, runs = Settings.from_scene(step.scene), Runs()
+    for act in step.acts:
+        if act.hurry is not None:
+            _, run = runs.popitem()
+            runs["hurried"] = run.kick(KICK, partial(hurry, factor=act.hurry))
+            runs["not kicked"] = run
+        else:
+            start = initial_state(settings.top, settings.initial, act.start or {})
+            rates = start.euler_rates
+            label = f"$\\dot\\phi$ = {rates.phi:.3g}, $\\dot\\psi$ = {rates.psi:.4g} rad/s"
+            runs[label] = KickedMotion.of(Motion(settings.top, start))
+    return runs
+
+
+def draw_step(step: LessonStep) -> Figure:
+    """Draw a step: the end of the axis from above, and the quantity that the step explains."""
+    figure = new_figure(2.9)
+    left, right = figure.subplots(1, 2, width_ratios=[2, 3])
+    runs = run_step(step)
+    draw = DRAWS[step.plot]
+    LEFT.get(draw, _draw_from_above)(left, runs)
+    draw(right, runs)
+    right.margins(x=0)
+    return figure
+
+
+def _draw_turned(axes: Axes, runs: Runs) -> None:
+    """Draw how far the axis turns in a short time, with L and the torque that turns it."""
+    (run,) = runs.values()
+    motion = run.pieces[0][1]
+    ends = motion.at(np.linspace(0.0, SHORT, 401)).to_world([0.0, 0.0, 1.0])
+    around = np.linspace(0.0, 2 * np.pi, 181)
+    axes.plot(*(np.sin(THETA) * np.array([np.cos(around), np.sin(around)])), color=GREY, lw=0.7)
+    axes.plot(ends[:, 0], ends[:, 1], color=BLUE, lw=2.4)
+    axes.plot(*ends[0, :2], "o", color=BLUE)
+    L = motion.top.angular_momentum(motion.start)
+    axes.plot(0, 0, "+", color=INK)
+    # both start at the centre; each has its own scale, the same in both pictures
+    for vector, size, color, name in (
+        (L, 80.0, INK, "L"),
+        (motion.top.gravity_torque(motion.start), 8.0, RED, "torque"),
+    ):
+        x, y = size * vector[:2]
+        arrow = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+        axes.annotate("", (x, y), (0, 0), arrowprops=arrow)
+        axes.annotate(name, (x, y), (4, 4), textcoords="offset points", color=color)
+    axes.set(aspect="equal", title=f"from above, {SHORT} s")
+    axes.set_axis_off()
+
+
+def _draw_chains(axes: Axes, runs: Runs) -> None:
+    """Draw the torques of an observer who precesses, head to tail, and their sum below."""
+    for row, run in enumerate(runs.values()):
+        motion = run.pieces[0][1]
+        torques = torques_of(motion.top, motion.start)
+        largest = max(abs(float(torque)) for torque in torques)
+        ends = np.cumsum([0.0, *torques]) / largest
+        arrows = [*pairwise(ends), (0.0, ends[-1])]
+        for k, ((tail, tip), color) in enumerate(zip(arrows, CHAIN, strict=True)):
+            y = -row - 0.14 * k
+            if abs(tip - tail) > SHORTEST:
+                arrow = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+                axes.annotate("", (tip, y), (tail, y), arrowprops=arrow)
+        rate = float(motion.start.euler_rates.phi)
+        axes.text(-1.05, -row - 0.2, f"{rate:.3g} rad/s", ha="right", va="center", fontsize=8)
+    axes.axvline(0.0, color=GREY, lw=0.7, ls=":")
+    axes.set(xlim=(-1.9, 1.15), ylim=(-len(runs) + 0.3, 0.25))
+    axes.set_title("at the start, rows not to one scale", fontsize=8)
+    axes.set_axis_off()
+
+
+def draw_fictitious(axes: Axes, runs: Runs) -> None:
+    """Draw the torques over phi', with the rates of the runs."""
+    plot_torques(axes)
+    for run in runs.values():
+        motion = run.pieces[0][1]
+        total = float(torques_of(motion.top, motion.start).total)
+        axes.plot(float(motion.start.euler_rates.phi), total, "o", color=INK, ms=5, zorder=3)
+    axes.set_ylabel("torque (N m)")
+    axes.legend(loc="upper left", fontsize=8)
+
+
+def _draw_from_above(axes: Axes, runs: Runs) -> None:
+    around = np.linspace(0.0, 2 * np.pi, 181)
+    for (color, dash), run in zip(LOOKS, runs.values(), strict=False):
+        begin, motion = run.pieces[-1]
+        for angle in motion.turning_angles:
+            rim = np.sin(angle)
+            axes.plot(rim * np.cos(around), rim * np.sin(around), color=GREY, lw=0.7, ls=":")
+        times = np.linspace(begin, begin + min(TRACE, TURNS * precession_period(motion)), 3001)
+        ends = run.at(times).to_world([0.0, 0.0, 1.0])
+        axes.plot(ends[:, 0], ends[:, 1], color=color, ls=dash, lw=1.4)
+    axes.plot(0, 0, "+", color=INK)
+    axes.set(aspect="equal", title="end of the axis, from above")
+    axes.set_axis_off()
+
+
+def draw_tilt(axes: Axes, runs: Runs) -> None:
+    """Draw theta against time."""
+    times = np.linspace(0.0, SPAN, 1601)
+    for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
+        axes.plot(times, run.at(times).euler_angles.theta, color=color, ls=dash, label=label)
+    if "hurried" in runs:
+        axes.axvline(KICK, color=GREY, lw=0.9, ls=":")
+    low, high = axes.get_ylim()
+    room = max(high - low, 0.003)  # regular precession is a line, not rounding
+    axes.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)")
+    axes.set_ylim(low - 0.05 * room, low + 1.45 * room)
+    axes.set_title(r"smaller $\theta$: higher", loc="right")
+    axes.legend(loc="upper left")
+
+
+def draw_momentum(axes: Axes, runs: Runs) -> None:
+    """Draw the components of L in the world frame, and the one along the axis."""
+    times = np.linspace(0.0, SPAN, 1601)
+    (run,) = runs.values()
+    top, states = run.pieces[0][1].top, run.at(times)
+    L = 1e3 * top.angular_momentum(states)
+    curves = {
+        "$L_{x'}$": (L[:, 0], RED, "--"),
+        "$L_{y'}$": (L[:, 1], BLUE, "--"),
+        "$L_{z'}$": (L[:, 2], INK, "-"),
+        "$L_z$": (1e3 * top.axial_momentum(states), BLUE, "-"),
+    }
+    for label, (values, color, dash) in curves.items():
+        axes.plot(times, values, color=color, ls=dash, label=label)
+    axes.set(xlabel="$t$ (s)", ylabel="$L$ ($10^{-3}$ N m s)", ylim=(-8.5, 17.5))
+    axes.legend(loc="upper center", ncols=4, columnspacing=1.0, handlelength=1.6)
+
+
+def draw_potential(axes: Axes, runs: Runs) -> None:
+    """Draw the effective potentials, from which the turning angles can be read."""
+    for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
+        motion = run.pieces[0][1]
+        potential = EffectivePotential.of(motion.top, motion.start)
+        theta = np.linspace(0.35, 1.25, 600)
+        depth = 1e3 * (potential.at(theta) - potential.energy)
+        axes.plot(theta, depth, color=color, ls=dash, label=label)
+        axes.plot(motion.turning_angles, [0, 0], "o", color=color, ms=5)
+    axes.axhline(0.0, color=INK, lw=0.9)
+    axes.set(xlabel=r"$\theta$ (rad)", ylabel=DEPTH, ylim=(-6.0, 11.0))
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
+
+
+def draw_parabola(axes: Axes, runs: Runs) -> None:
+    """Draw theta'' against phi', with the roots of regular precession and the run's place."""
+    rates = np.linspace(-10.0, 88.0, 400)
+    axes.axhline(0.0, color=INK, lw=0.9)
+    axes.plot(rates, theta_acceleration(TOP, THETA, rates, PSI_DOT), color=INK)
+    roots = regular_precession_rates(TOP, THETA, PSI_DOT)
+    axes.plot(roots, [0, 0], "o", color="white", mec=INK, ms=7)
+    for (color, _), run in zip(LOOKS, runs.values(), strict=False):
+        axes.plot(run.pieces[0][1].start.euler_rates.phi, 0, "o", color=color, ms=7, zorder=3)
+    for x, y, word, side in (
+        (38, -260, "the top rises", "center"),
+        (80, 330, "falls", "right"),
+        (-4, 300, "falls", "left"),
+    ):
+        axes.text(x, y, word, ha=side, style="italic")
+    axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ (rad/s$^2$)")
+
+
+def draw_turning(axes: Axes, runs: Runs) -> None:
+    """Draw L and the axis in their vertical plane, which the torque turns; theta'' in an inset."""
+    (run,) = runs.values()
+    motion = run.pieces[0][1]
+    L = 1e3 * motion.top.angular_momentum(motion.start)
+    flat, rate = float(np.hypot(L[0], L[1])), float(motion.start.euler_rates.phi)
+    torque = 1e3 * float(np.linalg.norm(motion.top.gravity_torque(motion.start)))
+    reach = 20.0 * np.array([np.sin(THETA), np.cos(THETA)])
+    axes.plot(*zip((0, 0), reach, strict=True), color=BLUE, ls="--", label="axis")
+    arrow = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "lw": 2.2}
+    axes.annotate("", (flat, L[2]), (0, 0), arrowprops=arrow)
+    axes.plot([flat, flat], [0, L[2]], color=GREY, lw=0.9, ls=":")
+    axes.plot([0, flat], [0.15, 0.15], color=RED, lw=3, label="horizontal part of $L$")
+    text = f"torque / horizontal part of $L$\n= {torque:.3g} / {flat:.3g} = {rate:.3g} rad/s"
+    axes.set_title(text, fontsize=9)
+    axes.text(flat + 0.3, L[2], "$L$")
+    axes.set(xlim=(-0.5, 20), ylim=(0, 20), xlabel="horizontal ($10^{-3}$ N m s)")
+    axes.set_ylabel("vertical")
+    axes.legend(loc="lower right", fontsize=8)
+    inset = axes.inset_axes((0.58, 0.45, 0.42, 0.47))
+    draw_parabola(inset, runs)
+    inset.tick_params(labelsize=7)
+    inset.set(xlabel="", ylabel="")
+    inset.set_title(r"$\ddot\theta$ over $\dot\phi$", fontsize=8)
+    for text_in_inset in inset.texts:
+        text_in_inset.set_visible(False)
+
+
+DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a step
+    "tilt": draw_tilt,
+    "momentum": draw_momentum,
+    "potential": draw_potential,
+    "turning": draw_turning,
+    "fictitious": draw_fictitious,
+}
+# What is drawn left of these; all others: the end of the axis from above.
+LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {
+    draw_turning: _draw_turned,
+    draw_fictitious: _draw_chains,
+}
+
+
+def write_lesson(folder: Path, sheets: bool = False) -> int:
+    """Write the pictures step_01.png, step_02.png ..., or the sheets; return the exit status."""
+    folder.mkdir(parents=True, exist_ok=True)
+    steps = read_lesson()
+    if sheets:
+        pictures = [picture_of(step) for step in steps]
+        (folder / "worksheet.html").write_text(write_worksheet(steps), encoding="utf-8")
+        (folder / "teacher.html").write_text(write_teacher_sheet(steps, pictures), encoding="utf-8")
+        print(f"wrote worksheet.html and teacher.html to {folder}; print them from a browser")
+        return 0
+    for number, step in enumerate(steps, start=1):
+        (folder / f"step_{number:02}.png").write_bytes(picture_of(step))
+    print(f"wrote {len(steps)} pictures to {folder}")
+    return 0
+
+
+def picture_of(step: LessonStep) -> bytes:
+    """Return the picture of a step as a PNG."""
+    return pack_figure(lambda: draw_step(step))
+
+
+def pack_figure(draw: Callable[[], Figure]) -> bytes:
+    """Return the picture of a figure as a PNG with a palette, which has a third of the size."""
+    drawn, packed = io.BytesIO(), io.BytesIO()
+    with rc_context(SETTINGS):
+        draw().savefig(drawn, dpi=RESOLUTION)
+    with Image.open(drawn) as picture:
+        picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
+    return packed.getvalue()

@@ -1,0 +1,217 @@
+"""Perry's map: where hurrying the precession raises the top, over whole ranges of tops.
+
+Two maps of the article's top, precession rate against spin rate and against tilt, as pictures, as
+Parquet tables, and as one Rerun recording.
+"""
+
+import io
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import rerun as rr
+import rerun.blueprint as rrb
+from matplotlib import colormaps
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+
+from symtop_ros.arrays import Real
+from symtop_ros.physics import HurryEffect, compare_hurried, theta_torque
+from workshop.article.motions import PSI_DOT, THETA, TOP
+from workshop.article.rates import FACTOR
+
+PHI_DOTS = (-60.0, 120.0)  # rad/s
+PSI_DOTS = (-400.0, 400.0)  # rad/s
+THETAS = (0.02, np.pi - 0.02)  # rad; on the vertical itself phi' is undefined
+RELIEF_POINTS = 250  # along a side of a relief, at most
+# What becomes of the height. The tilt of the kick is a turning point before and after it, as
+# theta' = 0: so the motion cannot become higher at one end and lower at the other.
+OUTCOMES = {"higher": "#4f8fca", "lower": "#d9634c", "as before": "#ffffff"}
+HIGHER, LOWER, SAME = range(len(OUTCOMES))
+SAME_ANGLE = 1e-7  # rad: turning angles that differ by less are equal (physics/rule/kick_effect.py)
+COLOR_LIMIT = 0.3  # rad at which the colours end
+
+
+@dataclass(frozen=True, eq=False)
+class PerryMap:
+    """One map: a grid of n precession rates and m spin rates or tilts."""
+
+    name: str  # "spin" or "tilt", in the names of its files
+    title: str  # the quantity that is held
+    label: str  # of the horizontal axis
+    across: Real  # values along the horizontal axis: psi' in rad/s, or theta in rad
+    phi_dot: Real  # precession rates before the kick, along the vertical axis, in rad/s
+    effect: HurryEffect  # effect of the kick, (n, m)
+    # Ix theta''/sin(theta) before the kick in N m: zero on the curves of regular precession
+    torque: Real
+
+
+def map_spin(points: int) -> PerryMap:
+    """Return the map of points x points over psi' and phi', at the article's tilt."""
+    psi_dot = np.linspace(*PSI_DOTS, points)
+    names = "spin", f"theta = {THETA:g} rad", "spin rate psi' (rad/s)"
+    return _map(names, psi_dot, THETA, psi_dot)
+
+
+def map_tilt(points: int) -> PerryMap:
+    """Return the map of points x points over theta and phi', at the article's spin."""
+    theta = np.linspace(*THETAS, points)
+    names = "tilt", f"psi' = {PSI_DOT:g} rad/s", "tilt theta (rad)"
+    return _map(names, theta, theta, PSI_DOT)
+
+
+def _map(names: tuple[str, str, str], across: Real, theta: Any, psi_dot: Any) -> PerryMap:
+    phi_dot = np.linspace(*PHI_DOTS, len(across))
+    grid = theta, phi_dot[:, np.newaxis], psi_dot
+    effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
+    return PerryMap(*names, across, phi_dot, effect, torque)
+
+
+def write_maps(folder: Path, points: int) -> int:
+    """Write both maps of points x points into a folder; return the exit status."""
+    folder.mkdir(parents=True, exist_ok=True)
+    maps = [_write_map(make, folder, points) for make in (map_spin, map_tilt)]
+    write_recording(maps, folder / "perry.rrd")
+    print(f"in Rerun: rerun {folder / 'perry.rrd'}")
+    return 0
+
+
+def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> PerryMap:
+    began = time.perf_counter()
+    perry_map = make(points)
+    seconds = time.perf_counter() - began
+    stem = folder / f"perry_{perry_map.name}"
+    for suffix in ("png", "svg"):
+        draw_map(perry_map, stem.with_suffix(f".{suffix}"))
+    write_table(perry_map, stem.with_suffix(".parquet"))
+    effect = perry_map.effect
+    misled = effect.rule_holds & (find_outcome(effect) == LOWER)
+    print(
+        f"{perry_map.title}: {points} x {points} points in {seconds:.2f} s; the rule holds on "
+        f"{effect.rule_holds.mean():.1%} of them (theta'' at the kick), though on "
+        f"{misled.mean():.1%} the top is lower in the end: {stem}.png, .svg, .parquet",
+        flush=True,
+    )
+    return perry_map
+
+
+def draw_map(perry_map: PerryMap, target: Path | BinaryIO) -> None:
+    """Draw the changes of the turning points and the outcome; PNG, or the format of a suffix."""
+    figure = Figure(figsize=(15, 5), layout="constrained")
+    left, right, end = figure.subplots(1, 3, sharey=True)
+    effect = perry_map.effect
+    _draw_panel(left, perry_map, effect.rise, "highest point")
+    image = _draw_panel(right, perry_map, -effect.fall, "lowest point")
+    left.set_ylabel("precession rate phi' before (rad/s)")
+    _draw_outcome(end, perry_map)
+    figure.colorbar(image, ax=[left, right], label="raised by (rad)", extend="both")
+    figure.suptitle(f"The precession hurried by {FACTOR:g}, {perry_map.title}")
+    left.legend(loc="lower left", fontsize="small")
+    figure.savefig(target, dpi=150)
+
+
+def _extent(perry_map: PerryMap) -> tuple[float, float, float, float]:
+    across, phi_dot = perry_map.across, perry_map.phi_dot
+    return (float(across[0]), float(across[-1]), float(phi_dot[0]), float(phi_dot[-1]))
+
+
+def _draw_panel(axes: Any, perry_map: PerryMap, raised: Real, title: str) -> Any:
+    across, phi_dot = perry_map.across, perry_map.phi_dot
+    extent = _extent(perry_map)
+    limits = {"vmin": -COLOR_LIMIT, "vmax": COLOR_LIMIT}
+    image = axes.imshow(raised, origin="lower", extent=extent, aspect="auto", cmap="RdBu", **limits)
+    fails = np.where(perry_map.effect.rule_holds, np.nan, 1.0)
+    axes.contourf(across, phi_dot, fails, levels=[0.5, 1.5], colors="none", hatches=["..."])
+    axes.fill_between(
+        [], [], facecolor="none", hatch="...", label="rule fails at the kick: theta'' is not lower"
+    )
+    axes.contour(across, phi_dot, perry_map.torque, levels=[0.0], colors="k", linewidths=1.5)
+    axes.plot([], [], "k", linewidth=1.5, label="regular precession")
+    axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=perry_map.label, title=title)
+    return image
+
+
+def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
+    """Draw what becomes of the height in the end, whatever theta'' is at the kick."""
+    effect, extent = perry_map.effect, _extent(perry_map)
+    colors = ListedColormap(list(OUTCOMES.values()))
+    image = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
+    axes.imshow(find_outcome(effect), cmap=colors, vmin=-0.5, vmax=len(OUTCOMES) - 0.5, **image)
+    for name, color in OUTCOMES.items():
+        axes.fill_between([], [], facecolor=color, edgecolor="k", linewidth=0.3, label=name)
+    misled = effect.rule_holds & (find_outcome(effect) == LOWER)
+    title = f"in the end (rule holds, yet lower: {misled.mean():.1%})"
+    axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=perry_map.label)
+    axes.set_title(title, fontsize="medium")
+    axes.legend(loc="lower left", fontsize="small")
+
+
+def find_outcome(effect: HurryEffect) -> Any:
+    """Return the place of each point among the `OUTCOMES`."""
+    lifts = np.stack([effect.rise, -effect.fall])
+    up, down = (lifts > SAME_ANGLE).any(axis=0), (lifts < -SAME_ANGLE).any(axis=0)
+    return np.where(up, HIGHER, np.where(down, LOWER, SAME))
+
+
+def write_table(perry_map: PerryMap, file: Path) -> None:
+    """Write a Parquet table with one row per point; angles in rad, rates in rad/s."""
+    phi_dot, across = np.meshgrid(perry_map.phi_dot, perry_map.across, indexing="ij")
+    effect = perry_map.effect
+    columns = {
+        "phi_dot": phi_dot,
+        "theta" if perry_map.name == "tilt" else "psi_dot": across,
+        "highest_before": effect.before[0],
+        "highest_after": effect.after[0],
+        "lowest_before": effect.before[1],
+        "lowest_after": effect.after[1],
+        "rule_holds": effect.rule_holds,
+        "outcome": np.array(list(OUTCOMES))[find_outcome(effect)],
+    }
+    table = pa.table({name: values.ravel() for name, values in columns.items()})
+    pq.write_table(table, file, compression="zstd")
+
+
+def write_recording(maps: list[PerryMap], file: Path) -> None:
+    """Write the maps as a Rerun recording: pictures, and the change of the highest point in 3D."""
+    with rr.RecordingStream("symtop_ros_perry") as recording:
+        recording.save(file, default_blueprint=_blueprint(maps))
+        for each in maps:
+            picture = io.BytesIO()
+            draw_map(each, picture)
+            image = rr.EncodedImage(contents=picture.getvalue(), media_type="image/png")
+            recording.log(f"{each.name}/map", image, static=True)
+            recording.log(f"{each.name}/relief", _relief(each), static=True)
+
+
+def _blueprint(maps: list[PerryMap]) -> rrb.Blueprint:
+    """Return the layout: the pictures on the left, the reliefs on the right."""
+    rows = [
+        rrb.Horizontal(
+            rrb.Spatial2DView(origin=f"{each.name}/map", name=each.title),
+            rrb.Spatial3DView(origin=f"{each.name}/relief", name="rise of the highest point"),
+            column_shares=[3, 2],
+        )
+        for each in maps
+    ]
+    return rrb.Blueprint(rrb.Vertical(*rows), collapse_panels=True)
+
+
+def _relief(perry_map: PerryMap) -> Any:
+    """Return a square surface of side 2 whose height is the rise of the highest point in rad."""
+    step = -(-len(perry_map.phi_dot) // RELIEF_POINTS)
+    rise = np.clip(perry_map.effect.rise[::step, ::step], -1, 1)
+    y, x = (np.linspace(-1, 1, size) for size in rise.shape)
+    grid = np.stack([*np.meshgrid(x, y), rise], axis=-1).reshape(-1, 3)
+    colors = colormaps["RdBu"]((rise.ravel() / COLOR_LIMIT + 1) / 2)
+    corner = np.arange(rise.size).reshape(rise.shape)
+    # Each cell of the grid, with the corners a b above c d, is two triangles.
+    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, :-1], corner[1:, 1:]
+    triangles = np.concatenate(
+        [np.stack(each, axis=-1).reshape(-1, 3) for each in ((a, b, c), (b, d, c))]
+    )
+    return rr.Mesh3D(vertex_positions=grid, triangle_indices=triangles, vertex_colors=colors)

@@ -1,0 +1,262 @@
+"""Claims on precession rates: the two roots, the six rates, the parabola, Perry's rule."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from symtop_ros.physics import (
+    Direction,
+    Hold,
+    Motion,
+    State,
+    Top,
+    hurry,
+    perrys_rule,
+    regular_precession_rates,
+    theta_acceleration,
+)
+from workshop.article.claims import Claim
+from workshop.article.motions import (
+    DISC_HURRIED,
+    FAST_ROOT_HURRIED,
+    HANGING_DISC,
+    PRINTED_ROOTS,
+    PSI_DOT,
+    RATES,
+    SLOW_ROOT_HURRIED,
+    THETA,
+    HurryCase,
+    Rate,
+    measure_acceleration,
+    start,
+)
+
+STILL = 1e-3  # rad; a root printed with three digits moves the top by less
+FITTED = 1e-9  # of the largest theta''; differences and the fit are good to 1e-11
+SMALL, INSTANT = 1.02, 1e-5  # a small hurry, and the s after which the motion is looked at
+TRIED, SEED = 120, 1890  # random tops, the same every time
+Root = Literal["slow", "fast"]
+# The leading coefficient of the quadratic for theta'' by what a kick holds, over cos(theta)
+LEADING: dict[Hold, Callable[[Top], float]] = {
+    "spin_rate": lambda top: top.Ix - top.Iz,
+    "spin_momentum": lambda top: top.Ix,
+}
+FACTOR = 1.4  # by which the precession is hurried
+PARABOLA = np.linspace(-10.0, 90.0, 41)  # rad/s
+SHORT = 0.02  # of a nutation period
+ACCELERATION = "theta'' = sin(theta)/Ix ((Ix - Iz) phi'^2 cos(theta) - Iz phi' psi' + Mgl)"
+ROUNDING = 1e-12  # rad, or relative to the largest term of the equation for theta''
+SIGNS = f"none: signs; below {ROUNDING:g} of the largest term, or {ROUNDING:g} rad, is rounding"
+
+
+def claims_on_rates(top: Top) -> list[Claim]:
+    """Return the claims on regular precession, rising and falling, and Perry's rule."""
+    return [
+        roots_are_as_printed(top),
+        printed_roots_keep_the_tilt(top),
+        *(rate_decides(top, rate) for rate in RATES),
+        acceleration_is_a_parabola(top),
+        hurrying_decides(top, SLOW_ROOT_HURRIED),
+        hurrying_decides(top, FAST_ROOT_HURRIED),
+        hurrying_decides(HANGING_DISC, DISC_HURRIED),
+        sign_decides("slow", top),
+        sign_decides("fast", top),
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class Departure:
+    """The direction in which a top leaves a start with theta' = 0, found in three ways."""
+
+    acceleration: float  # theta'' at the start in rad/s^2, by the article's equation
+    rounding: float  # largest |theta''| in rad/s^2 that rounding can make of zero
+    after: float  # a fiftieth of the nutation period in s
+    moved: float  # change of theta in that time in rad, by the motion
+    turning: tuple[float, float]  # smallest and largest theta minus theta at the start, in rad
+
+    @classmethod
+    def of(cls, motion: Motion) -> "Departure":
+        """Measure a motion that starts with theta' = 0."""
+        top, theta, rates = motion.top, motion.start.euler_angles.theta, motion.start.euler_rates
+        after = SHORT * motion.nutation_period
+        low, high = motion.turning_angles
+        terms = abs(top.Iz * rates.phi * rates.psi) + abs(top.Mgl)
+        return cls(
+            acceleration=float(theta_acceleration(top, theta, rates.phi, rates.psi)),
+            rounding=ROUNDING * float(np.sin(theta)) / top.Ix * terms,
+            after=after,
+            moved=float(motion.at(after).euler_angles.theta) - theta,
+            turning=(low - theta, high - theta),
+        )
+
+    @property
+    def directions(self) -> tuple[Direction, Direction, Direction]:
+        """Return the direction by the equation, by the motion and by the turning angles."""
+        low, high = self.turning
+        farther = low if abs(low) > abs(high) else high
+        return (
+            _direction(self.acceleration, self.rounding),
+            _direction(self.moved, ROUNDING),
+            _direction(farther, ROUNDING),
+        )
+
+    def __str__(self) -> str:
+        """Return the three answers with their numbers."""
+        low, high = self.turning
+        return (
+            f"theta'' = {self.acceleration:.3g} rad/s^2 by the equation; theta changes by "
+            f"{self.moved:.3g} rad in {self.after * 1e3:.1f} ms, and altogether from {low:+.3g} "
+            f"to {high:+.3g} rad"
+        )
+
+
+def _direction(change: float, rounding: float) -> Direction:
+    """Return the direction of the axis, which rises if theta decreases."""
+    if abs(change) <= rounding:
+        return "stays"
+    return "rises" if change < 0 else "falls"
+
+
+def roots_are_as_printed(top: Top) -> Claim:
+    """Check the rates of regular precession to the digits that the article prints."""
+    roots = _roots(top)
+    digits = [len(printed.partition(".")[2]) for printed in PRINTED_ROOTS]
+    rounded = [f"{root:.{n}f}" for root, n in zip(roots, digits, strict=False)]
+    return Claim(
+        f"At theta = {THETA} rad and psi' = {PSI_DOT:g} rad/s regular precession has phi' = "
+        f"{PRINTED_ROOTS[0]} and {PRINTED_ROOTS[1]} rad/s.",
+        f"roots {' and '.join(f'{root:.6f}' for root in roots) or 'not real'} rad/s",
+        rounded == list(PRINTED_ROOTS),
+        "(Ix - Iz) cos(theta) phi'^2 - Iz psi' phi' + Mgl = 0",
+        "none: the digits that the article prints",
+    )
+
+
+def printed_roots_keep_the_tilt(top: Top) -> Claim:
+    """Check that the article's digits are enough to see no nutation."""
+    widths = []
+    for printed in PRINTED_ROOTS:
+        low, high = Motion(top, start(float(printed))).turning_angles
+        widths.append(high - low)
+    return Claim(
+        "Started with just these digits, the top precesses regularly as far as can be seen.",
+        f"theta changes by {widths[0]:.1e} and {widths[1]:.1e} rad in all (limit: {STILL:g})",
+        max(widths) < STILL,
+        "theta'' = 0",
+        f"{STILL:g} rad: three digits of a root move the top by less",
+    )
+
+
+def rate_decides(top: Top, rate: Rate) -> Claim:
+    """Check the article's statement on one of the six rates, by the equation and by the motion."""
+    departure = Departure.of(Motion(top, start(rate.phi_dot)))
+    return Claim(
+        f"With phi'(0) = {rate.phi_dot:.4g} rad/s, {rate.place}, the top {rate.direction}.",
+        str(departure),
+        departure.directions == (rate.direction,) * 3,
+        ACCELERATION,
+        SIGNS,
+    )
+
+
+def acceleration_is_a_parabola(top: Top) -> Claim:
+    """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots."""
+    measured = np.array(
+        [measure_acceleration(Motion(top, start(rate))) for rate in PARABOLA.tolist()]
+    )
+    parabola = np.polynomial.Polynomial.fit(PARABOLA, measured, 2)
+    off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
+    zeros, roots = np.sort(parabola.roots().real), _roots(top)
+    missed = np.abs(zeros - roots).max() if len(roots) == len(zeros) else np.inf
+    return Claim(
+        "theta'' of the motion, at theta' = 0 against phi', is a parabola through zero at both "
+        "roots.",
+        f"{len(PARABOLA)} motions lie within {off:.0e} of their largest theta'' from a parabola; "
+        f"its zeros {' and '.join(f'{zero:.6f}' for zero in zeros)} rad/s are the roots within "
+        f"{missed:.0e}",
+        bool(off < FITTED and missed < FITTED * PARABOLA[-1]),
+        ACCELERATION,
+        f"{FITTED:g}: differences and the fit are good to 1e-11",
+    )
+
+
+def hurrying_decides(top: Top, case: HurryCase) -> Claim:
+    """Check what a hurried regular precession does, and that `perrys_rule` agrees."""
+    holds = case.direction == "rises"
+    moved = "top" if top.Mgl > 0 else "axis"
+    sentence = (
+        f'Perry\'s rule "hurry on the precession, and the body rises" '
+        f"{'holds' if holds else 'fails'} for the {moved} {case.place}: the hurried {moved} "
+        f"{case.direction}"
+        + ("." if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises.")
+    )
+    roots = _roots(top, case.psi_dot)
+    if not roots:
+        return Claim(sentence, "no regular precession", holds=False)
+    before = start(roots[case.root], case.psi_dot)
+    departure = Departure.of(Motion(top, hurry(before, FACTOR)))
+    return Claim(
+        sentence,
+        f"phi' {roots[case.root]:.4g} -> {FACTOR * roots[case.root]:.4g} rad/s: {departure}",
+        departure.directions == (case.direction,) * 3
+        and perrys_rule(top, before, FACTOR).rule_holds is holds,
+        ACCELERATION,
+        SIGNS,
+    )
+
+
+def sign_decides(root: Root, top: Top) -> Claim:
+    """Check the exact rule for a small hurry, on random tops of both signs and on this one.
+
+    From the slow root s the kick by k makes Ix theta''/sin(theta) of zero
+    (k - 1) Mgl (k s/f - 1), from the fast root f it makes (k - 1) a f^2 (k - s/f), and |s| < |f|.
+    The height of the centre of mass accelerates like -Mgl theta''.
+    """
+    counts = {hold: _count_risen(root, hold, top) for hold in LEADING}
+    rule = (
+        "raises the centre of mass of every top, and lowers the axis exactly if Mgl < 0"
+        if root == "slow"
+        else "raises the centre of mass exactly if Mgl (Ix - Iz) cos(theta) < 0, and exactly if "
+        "Mgl cos(theta) < 0 if it holds the spin momentum"
+    )
+    words = [
+        f"{good} of {tried} with the {hold.replace('_', ' ')} held"
+        for hold, (good, tried) in counts.items()
+    ]
+    listed = " and ".join(words)
+    return Claim(
+        f"A small hurry on the {root} root (two distinct roots, first instant) {rule}.",
+        f"kick by {SMALL:g}; the motion after {INSTANT * 1e6:g} us agrees for {listed}",
+        all(good == tried > 0 for good, tried in counts.values()),
+        "Ix theta''/sin(theta) = (k - 1) Mgl (k s/f - 1) on the slow root s, "
+        "(k - 1) a f^2 (k - s/f) on the fast root f; a = (Ix - Iz) cos(theta), or Ix cos(theta)",
+        "none: signs",
+    )
+
+
+def _count_risen(root: Root, hold: Hold, top: Top) -> tuple[int, int]:
+    """Return how many tops move as the rule says, and how many were tried."""
+    random, good, tried = np.random.default_rng(SEED), 0, 0
+    for _ in range(TRIED):
+        Iz, weight = random.uniform(0.1, 1.9), random.uniform(20.0, 200.0) * random.choice([-1, 1])
+        each = Top(top.Ix, Iz * top.Ix, weight * top.Ix) if tried else top
+        theta, spin = random.uniform(0.2, 2.9), random.choice([-1, 1]) * random.uniform(30.0, 200.0)
+        a = LEADING[hold](each) * np.cos(theta)
+        roots = np.roots([a, -each.Iz * spin, each.Mgl])
+        slow, fast = sorted(roots.tolist(), key=abs)
+        if isinstance(slow, complex) or abs(slow) > 0.9 * abs(fast):
+            continue
+        rate = slow if root == "slow" else fast
+        psi_dot = spin if hold == "spin_rate" else spin - rate * float(np.cos(theta))
+        before = State.from_euler(theta=theta, phi_dot=rate, psi_dot=psi_dot)
+        motion = Motion(each, hurry(before, SMALL, hold))
+        fell = float(motion.at(INSTANT).euler_angles.theta) - theta
+        expected = each.Mgl > 0 if root == "slow" else a < 0
+        good, tried = good + ((fell < 0) == expected), tried + 1
+    return good, tried
+
+
+def _roots(top: Top, psi_dot: float = PSI_DOT) -> tuple[float, ...]:
+    return regular_precession_rates(top, THETA, psi_dot)

@@ -1,0 +1,231 @@
+"""The article's motions in 3D: each as `top_replay` draws it from a log, and two scenes of many.
+
+In a scene each top stands at a place with its trace and its turning circles; the plots below
+compare theta of the tops in a column of the scene.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from symtop_ros.arrays import Stamps
+from symtop_ros.drawing.mesh import create_body, draw_parallel
+from symtop_ros.log.batch import Batch, Columns
+from symtop_ros.physics import Motion, State, Top, hurry, regular_precession_rates
+from symtop_ros.playback.replay import create_recording
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
+from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
+from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
+from symtop_ros.playback.view.view import View, ViewOptions
+from symtop_ros.simulation.changes.outcomes import Outcome, Start
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.topics import STATE_TOPICS, Samples
+from workshop.article.motions import (
+    DISC_HURRIED,
+    FAST,
+    FAST_ROOT_HURRIED,
+    HANGING_DISC,
+    RATES,
+    SLOW_ROOT_HURRIED,
+    THETA,
+    TOP,
+    KickedMotion,
+    cusps,
+    regular,
+    start,
+)
+from workshop.article.rates import FACTOR
+
+RATE, SPAN = 500, 3.0  # Hz, s
+KICK = 0.5  # s; time at which the kicked tops are kicked
+TRACE = 1.0  # s of the trace that stay visible: a turn of the slow precession
+SPREAD, DEPTH = 2.7, 1.5  # of columns and rows, in scene units
+COLORS = {"rises": BLUE, "stays": WHITE, "falls": ORANGE}
+PALE = (150, 156, 168)  # of the turning circles: no colour of a direction
+EYE, TARGET = (0.0, -4.7, 3.2), (0.0, -0.15, 0.38)
+ANGLES, TORQUES = ViewOptions(angles=True), ViewOptions(torques=True)
+MOTIONS: dict[str, tuple[State, ViewOptions]] = {
+    "below_slow_root": (start(3.0), ANGLES),
+    "regular_precession": (regular().start, ANGLES),
+    "above_slow_root": (start(9.0), ANGLES),
+    "below_fast_root": (start(67.0), ANGLES),
+    "fast_precession": (start(FAST), ANGLES),
+    "above_fast_root": (start(73.0), ANGLES),
+    "cusps": (cusps().start, ANGLES),
+    "torque_of_regular_precession": (regular().start, TORQUES),
+    "torque_of_cusps": (cusps().start, TORQUES),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Exhibit:
+    """One top of the scene."""
+
+    name: str  # of its entities: letters, digits and underscores
+    label: str  # shown above it, and for its curve
+    group: str  # of the plot that its curve is in; a name of an entity too
+    place: tuple[float, float]  # x and y of its pivot in scene units
+    color: tuple[int, int, int]  # of its trace and its curve
+    run: KickedMotion
+
+    @property
+    def root(self) -> str:
+        """Path of the entity above all entities of the top."""
+        return f"/tops/{self.name}"
+
+
+def six_rates(top: Top = TOP) -> list[Exhibit]:
+    """Return the six rates: three about the slow root in front, three about the fast one behind."""
+    return [
+        Exhibit(
+            name=f"rate_{k + 1}",
+            label=f"{rate.phi_dot:.3g} rad/s: {rate.direction}",
+            group="fast_root" if k > 2 else "slow_root",
+            place=((k % 3 - 1) * SPREAD, DEPTH if k > 2 else -DEPTH),
+            color=COLORS[rate.direction],
+            run=KickedMotion.of(Motion(top, start(rate.phi_dot))),
+        )
+        for k, rate in enumerate(RATES)
+    ]
+
+
+def kicked_and_not_kicked() -> list[Exhibit]:
+    """Return three regular precessions twice: hurried after half a second, and not."""
+    cases = {
+        "slow_root": (TOP, SLOW_ROOT_HURRIED),
+        "fast_root": (TOP, FAST_ROOT_HURRIED),
+        "disc": (HANGING_DISC, DISC_HURRIED),
+    }
+    exhibits = []
+    for k, (name, (top, case)) in enumerate(cases.items()):
+        rate = regular_precession_rates(top, THETA, case.psi_dot)[case.root]
+        steady = KickedMotion.of(Motion(top, start(rate, case.psi_dot)))
+        hurried = steady.kick(KICK, lambda state: hurry(state, FACTOR))
+        x = (k - 1) * SPREAD
+        words = f"{_title(name)}, hurried: {case.direction}"
+        color = COLORS[case.direction]
+        exhibits += [
+            Exhibit(f"{name}_steady", "not kicked", name, (x, DEPTH), WHITE, steady),
+            Exhibit(f"{name}_hurried", words, name, (x, -DEPTH), color, hurried),
+        ]
+    return exhibits
+
+
+def write_scene(exhibits: Sequence[Exhibit], file: Path) -> None:
+    """Write a scene as a Rerun recording."""
+    recording = create_recording(file, file.stem)
+    recording.send_blueprint(_lay_out(exhibits))
+    stream = Stream(recording)
+    stream.origin = 0
+    for exhibit in exhibits:
+        _send(stream, exhibit)
+    recording.flush()
+    recording.disconnect()
+
+
+def _send(stream: Stream, exhibit: Exhibit) -> None:
+    root, top = exhibit.root, exhibit.run.pieces[0][1].top
+    stream.log(root, rr.Transform3D(translation=(*exhibit.place, 0.0)), static=True)
+    stream.log_mesh(f"{root}/top", create_body(top), static=True)
+    if top.Mgl > 0:
+        stream.log_mesh(f"{root}/stand", create_stand(), static=True)
+    grid = [draw_parallel(angle) for angle in np.radians([15, 30, 45, 60, 75, 90])]
+    stream.log(f"{root}/sphere", rr.LineStrips3D(grid, colors=[GREY], radii=[0.003]), static=True)
+    label = rr.Points3D(
+        [(0.0, 0.0, 1.45)],
+        labels=[exhibit.label],
+        colors=[entities.lighten(exhibit.color)],
+        radii=[0.001],
+    )
+    stream.log(f"{root}/label", label, static=True)
+    for begin, motion in exhibit.run.pieces:
+        stream.set_time(round(begin * 1e9))
+        stream.log(f"{root}/circles", turning_circles(motion.turning_angles, PALE))
+    _send_motion(stream, exhibit)
+
+
+def _send_motion(stream: Stream, exhibit: Exhibit) -> None:
+    root = exhibit.root
+    stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
+    states = exhibit.run.at(np.asarray(stamps * 1e-9))
+    stream.send_turns(f"{root}/top", stamps, states.orientation[:, [1, 2, 3, 0]])
+    trace = Trace()
+    trace.length = TRACE
+    stream.style_lines(f"{root}/trace", exhibit.color, 0.012)
+    stream.send_lines(f"{root}/trace", *trace.strips(stamps, states.to_world([0.0, 0.0, 1.0])))
+    curve = f"/{exhibit.group}/{exhibit.name}"
+    line = rr.SeriesLines(names=[exhibit.label], colors=[exhibit.color], widths=[2.0])
+    stream.log(curve, line, static=True)
+    stream.send_scalars(curve, stamps, np.asarray(states.euler_angles.theta)[:, None])
+
+
+def _title(group: str) -> str:
+    return group.replace("_", " ")
+
+
+def _lay_out(exhibits: Sequence[Exhibit]) -> rrb.Blueprint:
+    visible = around_cursor(-TRACE, 0.0)
+    scene = rrb.Spatial3DView(
+        origin="/tops",
+        name="side by side",
+        background=entities.BACKGROUND,
+        line_grid=False,
+        eye_controls=rrb.EyeControls3D(position=EYE, look_target=TARGET, eye_up=(0, 0, 1)),
+        overrides={f"{exhibit.root}/trace": visible for exhibit in exhibits},
+    )
+    groups = dict.fromkeys(exhibit.group for exhibit in exhibits)
+    plots = [
+        rrb.TimeSeriesView(
+            origin=f"/{group}",
+            name=f"theta, {_title(group)} (rad)",
+            plot_legend=rrb.Corner2D.RightTop,
+            background=PLOT_BACKGROUND,
+        )
+        for group in groups
+    ]
+    return rrb.Blueprint(
+        rrb.Vertical(scene, rrb.Horizontal(*plots), row_shares=[5, 2]),
+        rrb.TimePanel(timeline=entities.TIMELINE, state="collapsed", play_state="playing"),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+    )
+
+
+SCENES = {"six_rates": six_rates, "kicked": kicked_and_not_kicked}
+
+
+def write_recordings(folder: Path) -> None:
+    """Write each of the `MOTIONS` and the `SCENES` as a Rerun recording NAME.rrd."""
+    top = regular().top
+    for name, (state, options) in MOTIONS.items():
+        _record(Motion(top, state), options, folder / f"{name}.rrd")
+    for name, exhibits in SCENES.items():
+        write_scene(exhibits(), folder / f"{name}.rrd")
+
+
+def _record(motion: Motion, options: ViewOptions, file: Path) -> None:
+    """Write the scene of a motion as `top_replay` draws it from a log."""
+    recording = create_recording(file, file.stem)
+    segment = Segment.begin(motion, 0, 1.0)
+    stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
+    start = sample("start", Start.of(motion), motion.start, segment, stamps)
+    View(recording, options=options).send(start)
+    recording.flush()
+    recording.disconnect()
+
+
+def sample(name: str, outcome: Outcome, before: State, segment: Segment, stamps: Stamps) -> Batch:
+    """Return an event and the samples that follow it, as `TopLog` reads them from a log."""
+    samples, places = Samples.at(segment, stamps), 1 + np.arange(len(stamps))
+    columns = {
+        topic: Columns(stamps, each.compute(samples), places)
+        for topic, each in STATE_TOPICS.items()
+    }
+    return Batch(columns, [(0, Event.of(int(stamps[0]), name, outcome, {}, before, segment))])

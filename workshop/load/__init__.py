@@ -1,0 +1,1 @@
+"""Load on a real node: stress, soak, cost; and the processes, clients and listeners for it."""

@@ -1,0 +1,198 @@
+"""Cost and steadiness of top_node, compared with bare rclpy nodes with the same messages.
+
+
+`make node-cost`, or `python -m workshop.load.node_cost --seconds 5 --runs 3`. With `--docs docs`
+the figures are written into the documentation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from workshop.load.bare import TOPICS
+from workshop.load.listener import Listener, Traffic
+from workshop.load.processes import domain, run_program, running, script, top_node
+from workshop.speed.measure import find_machine
+from workshop.speed.publish import publish_facts
+
+COST_RATES = (200.0, 1000.0)  # Hz
+RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
+LATE = 1e-3  # fraction of late samples below which a rate counts as reached
+KICKS = 100
+PAUSE = 0.0137  # s between kicks; no multiple of a period
+TOP, RECORDING, BARE, PREPARED = "top_node", "top_node, recording", "bare rclpy", "prepared bytes"
+TOP_FIFO, BARE_FIFO = "top_node, SCHED_FIFO", "bare rclpy, SCHED_FIFO"
+PRIORITY = 50
+CPU, LATE_SAMPLES, JITTER = "CPU, % (one core)", "late samples, %", "jitter p99, ms"
+KICK, SLOW_KICK = "kick to first sample, ms", "kick to first sample p99, ms"
+HIGHEST = f"highest rate with < {LATE:.1%} late, Hz"
+
+Command = Callable[[float], list[str]]  # command line for a rate in Hz
+Runs = dict[str, dict[str, list[float]]]  # values of each run, by the row and the node
+
+
+def list_commands(folder: str) -> dict[str, Command]:
+    """Return the command line of each node as a function of the rate; logs go to a folder."""
+
+    def top(rate: float, recording: bool = False, priority: int = 0) -> list[str]:
+        return top_node(
+            *(f"publish_rate:={rate}", f"record.enabled:={recording}".lower()),
+            f"scheduling_priority:={priority}",
+            *(f"record.directory:={folder}", "hurry_factor:=1.0"),
+        )
+
+    commands: dict[str, Command] = {
+        TOP: top,
+        RECORDING: lambda rate: top(rate, recording=True),
+        BARE: lambda rate: script("bare.py", rate),
+        PREPARED: lambda rate: script("bare.py", rate, "--prepared"),
+    }
+    if _may_use_real_time():
+        chrt = ["chrt", "--fifo", str(PRIORITY)]
+        commands[TOP_FIFO] = lambda rate: top(rate, priority=PRIORITY)
+        commands[BARE_FIFO] = lambda rate: [*chrt, *script("bare.py", rate)]
+    return commands
+
+
+def _may_use_real_time() -> bool:
+    """Return True if this machine grants real-time scheduling."""
+    command = ["chrt", "--fifo", str(PRIORITY), "true"]
+    try:
+        return subprocess.run(command, capture_output=True, check=False).returncode == 0
+    except FileNotFoundError:
+        return False
+
+
+def measure(command: Command, rate: float, seconds: float) -> dict[str, float]:
+    """Return the figures of a node at a rate (Hz) in some seconds."""
+    with _listening(command(rate)) as (listener, pid):
+        return summarize(listener.listen(pid, rate, seconds), rate, seconds)
+
+
+def summarize(traffic: Traffic, rate: float, seconds: float) -> dict[str, float]:
+    """Return the figures of the traffic of some seconds at a rate (Hz).
+
+    A sample is late if it comes more than a period after its time, and lost ones are late.
+    """
+    period, gaps = 1 / rate, np.diff(traffic.sent)
+    late = max(float((gaps > 2 * period).mean()), 1 - traffic.arrived)
+    return {
+        CPU: 100 * traffic.cpu / seconds,
+        LATE_SAMPLES: 100 * late,
+        JITTER: 1e3 * float(np.percentile(np.abs(gaps - period), 99)),
+    }
+
+
+def measure_kicks(command: Command, rate: float) -> tuple[float, float]:
+    """Return p50 and p99, in ms, of the time from a request to the first sample after it."""
+    with _listening(command(rate)) as (listener, _):
+        latencies = [listener.kick(PAUSE) * 1e3 for _ in range(KICKS)]
+    p50, p99 = np.percentile(latencies, [50, 99])
+    return float(p50), float(p99)
+
+
+def find_highest_rate(command: Command, seconds: float) -> float:
+    """Return the highest of `RATES` (Hz) with less than `LATE` of the samples late, or 0."""
+    reached = [rate for rate in RATES if measure(command, rate, seconds)[LATE_SAMPLES] < 100 * LATE]
+    return max(reached, default=0.0)
+
+
+def compare(seconds: float, runs: int, report: Callable[[str], object]) -> Runs:
+    """Measure every node several times, in turn, and report each figure when it is there."""
+    values: Runs = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for run in range(1, runs + 1):
+            for node, command in list_commands(folder).items():
+                for row, value in _measure_all(node, command, seconds):
+                    values.setdefault(row, {}).setdefault(node, []).append(value)
+                    report(f"run {run}: {node}: {row}: {value:.3g}")
+    return values
+
+
+def _measure_all(node: str, command: Command, seconds: float) -> Iterator[tuple[str, float]]:
+    # At 1000 Hz a bare node with SCHED_FIFO takes both processors, and no other program runs.
+    is_real_time = node in (TOP_FIFO, BARE_FIFO)
+    rates = COST_RATES[:1] if is_real_time else COST_RATES
+    for rate in rates:
+        for row, value in measure(command, rate, seconds).items():
+            yield f"{rate:.0f} Hz: {row}", value
+    if node != RECORDING:
+        for row, value in zip((KICK, SLOW_KICK), measure_kicks(command, rates[-1]), strict=True):
+            yield f"{rates[-1]:.0f} Hz: {row}", value
+    if not (node == RECORDING or is_real_time):
+        yield HIGHEST, find_highest_rate(command, seconds / 2)
+
+
+def format_sections(facts: dict[str, Any]) -> dict[str, str]:
+    """Return the table of docs/reliability.md by its name."""
+    runs: Runs = facts["runs"]
+    source = f"`make node-cost` on {facts['machine']}"
+    spread = f"medians of {facts['count']} runs (lowest to highest), {len(TOPICS)} topics"
+    table = _format_table(runs, tuple(dict.fromkeys(node for row in runs.values() for node in row)))
+    return {"node cost": f"{source}: {spread} with one subscriber each.\n\n{table}"}
+
+
+def _format_table(runs: Runs, nodes: tuple[str, ...]) -> str:
+    lines = [f"| | {' | '.join(nodes)} |", f"|---{'|--:' * len(nodes)}|"]
+    for row, values in runs.items():
+        cells = [_format_cell(values.get(node)) for node in nodes]
+        lines.append(f"| {row} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def _format_cell(values: list[float] | None) -> str:
+    if not values:
+        return ""
+    return f"{median(values):.3g} ({min(values):.3g} to {max(values):.3g})"
+
+
+@contextlib.contextmanager
+def _listening(command: list[str]) -> Iterator[tuple[Listener, int]]:
+    """Run a node, and listen to it."""
+    with running(command) as node:
+        listener = Listener(domain())
+        try:
+            yield listener, node.pid
+        finally:
+            listener.close()
+
+
+def _runs(text: str) -> int:
+    if not (text.isdecimal() and int(text) > 0):
+        msg = f"must be a whole number above 0, got {text!r:.40}"
+        raise argparse.ArgumentTypeError(msg)
+    return int(text)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Print the comparison; return the exit status."""
+
+    def add_options(parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("--runs", type=_runs, default=3, help="default: %(default)d")
+        parser.add_argument("--docs", type=Path, help="folder of the documentation to update")
+
+    def run(options: argparse.Namespace) -> bool:
+        runs = compare(options.seconds, options.runs, lambda line: print(line, flush=True))
+        facts = {"machine": find_machine(), "count": options.runs, "runs": runs}
+        sections = format_sections(facts)
+        print(sections["node cost"])
+        if options.docs:
+            publish_facts({"node": facts}, sections, options.docs)
+        return True
+
+    description = "CPU, jitter and kick latency of top_node, compared with bare rclpy nodes."
+    return run_program("node_cost.py", description, 5.0, run, args, add_options)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,198 @@
+"""top_node under load: many clients, many subscribers, slow and late ones, many nodes.
+
+`make stress`, or `python -m workshop.load.stress --seconds 10`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+
+import numpy as np
+from geometry_msgs.msg import QuaternionStamped
+
+from workshop.load.clients import SUBSCRIBED_RATE, client_node
+from workshop.load.follower import DEPTH, TIMEOUT, Follower
+from workshop.load.processes import domain, run_program, running, script, top_node
+from workshop.load.usage import cpu_seconds, memory
+
+FAST, USUAL = 1000.0, SUBSCRIBED_RATE  # Hz
+CLIENTS, SUBSCRIBERS, JOINERS, TOPS = 4, 50, 200, 8
+EVENTS = 20  # latched kicks that every late joiner must receive, after the start
+SETTLING = 1.5  # s; diagnostics come once a second
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The effect of one load.
+
+    Attributes
+    ----------
+    load : str
+        Description of the load.
+    rate : float
+        Rate of the samples that were received, in Hz.
+    lost, missed : int
+        Samples that were published and not received, and those that the node reports as missed.
+    cpu : float
+        CPU of all nodes, as a fraction of one core.
+    growth : float
+        Growth of the memory of all nodes in MB.
+    unanswered : int
+        Requests without an answer, or late joiners that did not get every event.
+    figures : str
+        Further figures.
+    """
+
+    load: str
+    rate: float
+    lost: int
+    missed: int
+    cpu: float
+    growth: float
+    unanswered: int = 0
+    figures: str = ""
+
+    @property
+    def good(self) -> bool:
+        """True if nothing was lost and every request was answered."""
+        return not (self.lost or self.unanswered)
+
+
+HEAD = f"{'':42}{'Hz':>7}{'lost':>6}{'missed':>8}{'unanswered':>12}{'CPU':>7}{'MB more':>9}"
+
+
+def format_row(outcome: Outcome) -> str:
+    """Return an outcome as a line below `HEAD`; CPU is in % of one core."""
+    o = outcome
+    return (
+        f"{o.load:42}{o.rate:7.1f}{o.lost:6}{o.missed:8}{o.unanswered:12}{o.cpu:7.0%}"
+        f"{o.growth:9.2f}   {o.figures}"
+    )
+
+
+def stress(seconds: float) -> Iterator[Outcome]:
+    """Yield the outcome of each load, of some seconds each."""
+    for load in (_clients, _subscribers, _idle_subscriber, _late_joiners, _many_tops):
+        yield load(seconds)
+
+
+@contextmanager
+def _top(rate: float, name: str = "/top") -> Iterator[tuple[Follower, int]]:
+    """Run a node; give a follower of it, and its process id."""
+    namespace = name.removesuffix("/top")
+    renamed = ["-r", f"__ns:={namespace}"] if namespace else []
+    with running([*top_node(f"publish_rate:={rate}", "scene:=hurry_slow"), *renamed]) as node:
+        follower = Follower(rate, name)
+        try:
+            follower.begin()
+            follower.spin(SETTLING)
+            yield follower, node.pid
+        finally:
+            follower.close()
+
+
+def _measure(load: str, tops: list[tuple[Follower, int]], seconds: float) -> Outcome:
+    """Follow nodes for some seconds, while the load runs in other processes."""
+    cpu = sum(cpu_seconds(pid) for _, pid in tops)
+    before = sum(memory(pid) for _, pid in tops)
+    for follower, _ in tops:
+        follower.begin()
+    began = time.monotonic()
+    while time.monotonic() - began < seconds:
+        for follower, _ in tops:
+            follower.spin(0.02)
+    passed = time.monotonic() - began
+    cpu = (sum(cpu_seconds(pid) for _, pid in tops) - cpu) / passed
+    rate = min(follower.samples for follower, _ in tops) / passed
+    for follower, _ in tops:
+        follower.spin(SETTLING)
+    growth = sum(memory(pid) for _, pid in tops) - before
+    lost, missed = (sum(each) for each in zip(*((f.lost, f.missed) for f, _ in tops), strict=True))
+    return Outcome(load, rate, lost, missed, cpu, growth)
+
+
+def _clients(seconds: float) -> Outcome:
+    """Clients in separate processes, each with one request after the other."""
+    with _top(FAST) as top:
+        clients = [_start("call", seconds) for _ in range(CLIENTS)]
+        outcome = _measure(f"{CLIENTS} clients, {FAST:g} Hz", [top], seconds + SETTLING)
+        answers = [json.loads(client.communicate(timeout=2 * TIMEOUT)[0]) for client in clients]
+    latencies = np.concatenate([each["seconds"] for each in answers]) * 1e3
+    p50, p99, longest = np.percentile(latencies, [50, 99, 100])
+    return replace(
+        outcome,
+        unanswered=sum(each["unanswered"] for each in answers),
+        figures=f"{len(latencies) / seconds:.0f} calls/s; ms to an answer: "
+        f"{p50:.1f} (p50), {p99:.1f} (p99), {longest:.0f} (longest)",
+    )
+
+
+def _subscribers(seconds: float) -> Outcome:
+    """Many subscriptions to one topic, in one process."""
+    with _top(USUAL) as top:
+        others = _start("subscribe", SUBSCRIBERS, seconds + SETTLING)
+        outcome = _measure(f"{SUBSCRIBERS} subscribers, {USUAL:g} Hz", [top], seconds + SETTLING)
+        gaps = json.loads(others.communicate(timeout=2 * TIMEOUT)[0])
+    figures = f"gaps in all of them together: {sum(gaps)}"
+    return replace(outcome, lost=outcome.lost + sum(gaps), figures=figures)
+
+
+def _idle_subscriber(seconds: float) -> Outcome:
+    """A subscriber that is never spun, so that its queue fills up."""
+    with _top(FAST) as top, client_node(domain()) as node:
+        node.create_subscription(QuaternionStamped, "/top/orientation", lambda _: None, DEPTH)
+        return _measure(f"a subscriber that is never spun, {FAST:g} Hz", [top], seconds)
+
+
+def _late_joiners(seconds: float) -> Outcome:
+    """Subscribers that come after the events, one after the other."""
+    with _top(FAST) as top:
+        for _ in range(EVENTS):
+            top[0].connection.trigger("hurry_precession")
+        joining = _start("join", JOINERS, EVENTS + 1)
+        outcome = _measure(f"{JOINERS} late joiners, {FAST:g} Hz", [top], seconds)
+        times = json.loads(joining.communicate(timeout=JOINERS * TIMEOUT)[0])
+    figures = f"ms to all {EVENTS + 1} events: {np.median(times) * 1e3:.0f} (p50), "
+    figures += f"{max(times) * 1e3:.0f} (longest)"
+    return replace(outcome, unanswered=JOINERS - len(times), figures=figures)
+
+
+def _many_tops(seconds: float) -> Outcome:
+    """Tops in separate namespaces."""
+    with ExitStack() as stack:
+        tops = [stack.enter_context(_top(USUAL, f"/top{k}/top")) for k in range(TOPS)]
+        return _measure(f"{TOPS} tops in {TOPS} namespaces, {USUAL:g} Hz", tops, seconds)
+
+
+def _start(client: str, *numbers: float) -> subprocess.Popen[bytes]:
+    command = script("clients.py", client, domain(), *numbers)
+    return subprocess.Popen(command, stdout=subprocess.PIPE)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Print a line for each load; return the exit status."""
+
+    def run(options: argparse.Namespace) -> bool:
+        print(HEAD)
+        good = True
+        for outcome in stress(options.seconds):
+            print(format_row(outcome), flush=True)
+            good = good and outcome.good
+        return good
+
+    description = (
+        "top_node under five loads, of some seconds each. CPU is in % of one core. "
+        "Exit status 1 if a sample was lost or a request was not answered."
+    )
+    return run_program("stress.py", description, 10.0, run, args)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,156 @@
+"""Attitude filters fed with the noisy sensor of the top: which of them survive a fast spin.
+
+The filters are those of the package `ahrs`, as their authors made them, with default gains. They
+start from the exact attitude, so that nothing but the motion and the noise is judged.
+"""
+
+import math
+import shutil
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.arrays import Real
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
+from symtop_ros.imu import CONSUMER, record_imu
+from symtop_ros.judge.compare import NONE, Errors, compare
+from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.truth import Truth
+from symtop_ros.quaternions import invert
+from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.settings import Settings
+from workshop.speed.document import format_table
+from workshop.speed.publish import track, write_results
+
+RATE, SPAN = 1000, 20  # Hz, s
+SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
+MOUNTS = {  # m, in the body frame
+    "in the pivot": (0.0, 0.0, 0.0),
+    "1 cm along the axis": (0.0, 0.0, 0.01),
+    "1 cm beside the axis": (0.01, 0.0, 0.0),
+}
+FILTERS = ("AngularRate", "Complementary", "Madgwick", "Mahony", "AQUA", "EKF", "UKF")
+SHOWN = ("Madgwick", "Mahony", "EKF", "AngularRate")  # in the plot
+PLOTTED = ("cusps", "in the pivot")
+NAME = "filters"  # of the files, and of the section in the documentation
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Errors of a filter on a scene, with the sensor at one place."""
+
+    filter: str
+    scene: str
+    mount: str
+    # root mean squares of the errors in the second half of the run, in rad
+    tilt: float
+    attitude: float
+
+
+@dataclass(frozen=True, eq=False)
+class SensorRecord:
+    """Measurements of a sensor on a top, and the exact motion of the sensor."""
+
+    stamps: NDArray[np.int64]  # in ns
+    orientations: Real  # exact attitudes (n, 4): w, x, y, z, sensor to world
+    rates: Real  # measured angular velocities in rad/s, in the frame of the sensor, (n, 3)
+    forces: Real  # measured specific forces in m/s^2, in the frame of the sensor, (n, 3)
+    truth: Truth
+
+
+def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> SensorRecord:
+    """Return what a sensor measures at a place (m, body frame) on the top of a scene."""
+    imu = replace(CONSUMER, position=place, seed=seed, rate=float(RATE))
+    found = record_imu(start_motion(Settings.from_scene(scene)), imu, SPAN)
+    rates, forces = found.measured[:, :3], found.measured[:, 3:]
+    return SensorRecord(found.stamps, found.orientations, rates, forces, Truth([found.event]))
+
+
+def run_filter(name: str, recording: SensorRecord) -> Errors:
+    """Return the errors of a filter.
+
+    The authors of filters do not agree whether a quaternion turns the sensor or the world. Both
+    are tried, and the better one counts.
+    """
+    found = [_run(name, recording, turn) for turn in (lambda q: q, invert)]
+    return min(found, key=lambda errors: float(np.median(errors.total)))
+
+
+def _run(name: str, recording: SensorRecord, turn: Callable[[Real], Real]) -> Errors:
+    import ahrs
+
+    options: dict[str, Any] = {"gyr": recording.rates, "frequency": float(RATE)}
+    if name != "AngularRate":
+        options["acc"] = recording.forces
+    if name == "Complementary":
+        turn_at_start = Rotation.from_quat(recording.orientations[0][[1, 2, 3, 0]])
+        options["w0"] = turn_at_start.as_euler("ZYX")[::-1]  # roll, pitch and yaw
+    else:
+        options["q0"] = turn(recording.orientations[0])
+    with np.errstate(all="ignore"):
+        q = np.asarray(getattr(ahrs.filters, name)(**options).Q, dtype=float)
+    q = np.nan_to_num(turn(q))
+    q[np.linalg.norm(q, axis=1) < 0.5] = (1.0, 0.0, 0.0, 0.0)  # a filter that has broken down
+    return compare(Estimates.of(recording.stamps, q), recording.truth, NONE)
+
+
+def judge_filters(folder: Path, docs: Path | None = None) -> int:
+    """Write filters.md, filters.json and a plot; return the exit status.
+
+    It needs the package `ahrs`, of the extra `peers`.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    trials: list[Trial] = []
+    curves: dict[str, Errors] = {}
+    work = [(scene, mount) for mount in MOUNTS for scene in SCENES]
+    for scene, mount in track(work, ", ".join):
+        recording = record(scene, MOUNTS[mount])
+        for name in FILTERS:
+            errors = run_filter(name, recording)
+            half = len(errors.total) // 2
+            parts = errors.tilt[half:], errors.total[half:]
+            trials.append(Trial(name, scene, mount, *(math.sqrt((x**2).mean()) for x in parts)))
+            if (scene, mount) == PLOTTED and name in SHOWN:
+                curves[name] = errors
+    facts = {"trials": [asdict(trial) for trial in trials]}
+    write_results(NAME, facts, format_trials(facts), folder, docs)
+    write_figures({NAME: lambda: draw_tilt_errors(curves)}, folder)
+    if docs:
+        shutil.copy(folder / f"{NAME}.svg", docs)
+    print(f"{folder / 'filters.md'}, filters.json and a plot")
+    return 0
+
+
+def format_trials(facts: dict[str, Any]) -> str:
+    """Return a table for each place of the sensor."""
+    trials = [Trial(**each) for each in facts["trials"]]
+    parts = []
+    for mount in dict.fromkeys(trial.mount for trial in trials):
+        own = {(t.filter, t.scene): t for t in trials if t.mount == mount}
+        scenes = list(dict.fromkeys(scene for _, scene in own))
+        table = [
+            [name, *(f"{own[name, s].tilt:.1g} / {own[name, s].attitude:.1g}" for s in scenes)]
+            for name in dict.fromkeys(name for name, _ in own)
+        ]
+        head = ["tilt / attitude, rad", *scenes]
+        parts.append(f"Sensor {mount}:\n\n{format_table(head, table)}")
+    return "\n\n".join(parts)
+
+
+def draw_tilt_errors(curves: dict[str, Errors]) -> Figure:
+    """Draw the tilt error of some filters against time."""
+    figure = new_figure(3.2)
+    (axes,) = rows(figure, 1)
+    for color, (name, errors) in zip((INK, BLUE, RED, GOLD, GREY), curves.items(), strict=False):
+        step = max(1, len(errors.tilt) // 2000)
+        t = errors.seconds[::step]
+        axes.plot(t, np.maximum(errors.tilt[::step], 1e-6), color=color, label=name, linewidth=1.0)
+    axes.set(yscale="log", ylabel="tilt error (rad)")
+    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    return figure

@@ -1,0 +1,116 @@
+"""Entry point of `top_report`: its commands, and an import for the one that is chosen."""
+
+import argparse
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from symtop_ros.simulation.validation import one_line
+
+LARGEST_MAP = 4000  # points along a side
+LARGEST_LIMIT = 3600  # s
+DESCRIPTION = """Measures speed against error, compared with the integrators that are installed,
+retells the article with its numbers, and draws the lesson and the maps of Perry's rule."""
+COMMANDS = {
+    "speed": "speed against error: tables, plots and JSON (some minutes)",
+    "testset": "scores of programs in the test set (20 minutes)",
+    "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
+    "article": "the article's figures, its motions in 3D, and its claims",
+    "lesson": "the pictures of docs/lesson.md, or sheets to print",
+    "maps": "where hurrying the precession raises the top",
+}
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run a command; return 0 (good), 1 (failed) or 2 (usage)."""
+    options = _parser().parse_args(args)
+    try:
+        return _run(options)
+    except OSError as error:
+        file = error.filename or options.folder
+        print(f"top_report: {file}: {error.strerror or error}", file=sys.stderr)
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="top_report", description=DESCRIPTION)
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    of = {name: commands.add_parser(name, help=text) for name, text in COMMANDS.items()}
+    for command in of.values():
+        command.add_argument(
+            "folder", type=Path, nargs="?", default=Path("report"), help="./report"
+        )
+    for name in ("speed", "testset", "filters"):
+        of[name].add_argument("--docs", type=_docs, help="write tables and plots here, too")
+    of["speed"].add_argument(
+        "--full",
+        action="store_true",
+        help="every peer, every motion, long times: hours instead of minutes",
+    )
+    for name, default in (("speed", "4 s (--full: 60)"), ("testset", "0.2 s")):
+        text = f"largest time of one run, {default}"
+        of[name].add_argument("--limit", type=_seconds, metavar="S", help=text)
+    text = "the worksheet and the teacher's sheet (HTML, to print) instead of the pictures"
+    of["lesson"].add_argument("--sheets", action="store_true", help=text)
+    of["maps"].add_argument("--points", type=_points, default=1000, help="along each side")
+    return parser
+
+
+def _points(text: str) -> int:
+    # isdecimal comes first: int() refuses very long numbers with an error of a different kind.
+    if not text.isdecimal() or len(text) > 9 or not 2 <= int(text) <= LARGEST_MAP:
+        raise argparse.ArgumentTypeError(f"must be 2 to {LARGEST_MAP}, got {one_line(text)}")
+    return int(text)
+
+
+def _docs(text: str) -> Path:
+    path = Path(text)
+    # refused before the minutes of measuring, not after them
+    if not (path.is_dir() and (path.parent / "README.md").is_file()):
+        raise argparse.ArgumentTypeError(f"must be a folder next to a README.md, got {text}")
+    return path
+
+
+def _seconds(text: str) -> float:
+    try:
+        limit = float(text)
+    except ValueError:
+        limit = math.nan
+    if not 0 < limit <= LARGEST_LIMIT:
+        raise argparse.ArgumentTypeError(
+            f"must be above 0 and at most {LARGEST_LIMIT} s, got {one_line(text)}"
+        )
+    return limit
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Import and run one part, so that a part works without the packages that others need."""
+    if options.command == "maps":
+        from workshop.article.maps import write_maps
+
+        return write_maps(options.folder, options.points)
+    if options.command == "article":
+        from workshop.article.retell import retell
+
+        return retell(options.folder)
+    if options.command == "lesson":
+        from workshop.article.lesson import write_lesson
+
+        return write_lesson(options.folder, options.sheets)
+    if options.command == "testset":
+        from workshop.speed.testset import LIMIT, score_testset
+
+        return score_testset(options.folder, options.docs, options.limit or LIMIT)
+    if options.command == "filters":
+        from workshop.speed.filters import judge_filters
+
+        return judge_filters(options.folder, options.docs)
+    from workshop.speed.benchmarks import FULL, QUICK
+    from workshop.speed.measure import measure
+
+    scope = FULL if options.full else QUICK
+    command = "top_report speed --full" if options.full else "top_report speed"
+    if options.limit:
+        scope, command = replace(scope, limit=options.limit), f"{command} --limit {options.limit:g}"
+    return measure(options.folder, scope, command, options.docs)

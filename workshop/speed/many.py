@@ -1,0 +1,102 @@
+"""Time for many different motions: the package, and heyoka with parameters and batches."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from importlib.util import find_spec
+from statistics import median
+from timeit import repeat
+
+import numpy as np
+
+from symtop_ros.arrays import Real
+from symtop_ros.physics import Motion, State, Top, accelerated
+from symtop_ros.testset.score import measure_angles
+from workshop.speed.peers import ALONE, CLOSED_FORM
+from workshop.speed.peers.peer import Task
+from workshop.speed.taylor import TaylorMotion
+
+SEED = 1
+COMPARED = 32  # motions of which the errors are taken; the exact ones take 2 s each
+RUNS = 5  # of which the median counts
+TOLERANCES = 1e-9, 2.0**-52
+
+
+@dataclass(frozen=True)
+class ManyCost:
+    """Seconds for each of many motions, and the largest error in rad."""
+
+    peer: str
+    motions: int
+    seconds: float  # the median of some runs
+    error: float  # of the first `compared` motions
+    compared: int
+    runs: int
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Tops with other weights, and starts with other spins and tilts."""
+
+    top: Top
+    start: State
+
+    @classmethod
+    def draw(cls, count: int) -> "Motions":
+        """Return random motions about the article's cusps."""
+        rng = np.random.default_rng(SEED)
+        top = Top(0.000228, 0.0000572, 0.068 * rng.uniform(0.8, 1.2, count))
+        tilt, spin = rng.uniform(0.2, 1.0, count), rng.uniform(150.0, 250.0, count)
+        zero = np.zeros(count)
+        q = np.stack([np.cos(tilt / 2), np.sin(tilt / 2), zero, zero], axis=1)
+        return cls(top, State(q, np.stack([zero, zero, spin], axis=1)))
+
+    def task(self, number: int) -> Task:
+        """Return one of the motions."""
+        Ix, Iz, Mgl = (float(np.asarray(each)[number]) for each in self.top.moments)
+        q, omega = self.start.given_orientation[number], self.start.angular_velocity[number]
+        return Task(Top(Ix, Iz, Mgl), State(q, omega))
+
+
+Program = Callable[[Motions, float], Real]  # the orientations (n, 4) at a time in s
+
+
+def find_programs() -> list[tuple[str, Program]]:
+    """Return the programs that can be measured, by name."""
+    programs: list[tuple[str, Program]] = [(CLOSED_FORM, partial(compute, False))]
+    if accelerated:
+        programs.append((CLOSED_FORM + ALONE, partial(compute, True)))
+    if find_spec("heyoka"):
+        from workshop.speed.peers.heyoka_peer import prepare_batches
+
+        for tolerance in TOLERANCES:
+            name = f"heyoka, two constants, batches, tolerance {tolerance:.0e}"
+            programs.append((name, prepare_batches(tolerance)))
+    return programs
+
+
+def compute(pure: bool, motions: Motions, t: float) -> Real:
+    """Return the orientations from the package."""
+    return Motion(motions.top, motions.start, pure=pure).at(t).orientation
+
+
+@cache
+def compute_exact(count: int, t: float) -> tuple[Real, Real]:
+    """Return the exact orientations of the first of `count` motions, as sums of two doubles.
+
+    They come from a Taylor integration with 32 digits, which shares no formula with the package.
+    """
+    motions = Motions.draw(count)
+    tasks = [motions.task(number) for number in range(min(COMPARED, count))]
+    high, low = zip(*(TaylorMotion(task).at([t]) for task in tasks), strict=True)
+    return np.concatenate(high), np.concatenate(low)
+
+
+def measure_many(name: str, program: Program, count: int, t: float) -> ManyCost:
+    """Measure a program with a number of motions, which are the same for all programs."""
+    motions, exact = Motions.draw(count), compute_exact(count, t)
+    found = program(motions, t)  # a first time, of which what is done only once is a part
+    seconds = median(repeat(partial(program, motions, t), number=1, repeat=RUNS))
+    compared = len(exact[0])
+    error = float(measure_angles(found[:compared], *exact).max())
+    return ManyCost(name, count, seconds / count, error, compared, RUNS)

@@ -1,0 +1,72 @@
+"""The measurement behind `top_report`: runs the benchmarks, and writes tables and plots."""
+
+import platform
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from symtop_ros.physics import describe_engine
+from workshop.speed.benchmarks import Results, Scope, list_steps
+from workshop.speed.document import Environment, format_document
+from workshop.speed.peers import find_peers
+from workshop.speed.plots import write_plots
+from workshop.speed.publish import collect_facts, publish, track, write_results
+from workshop.speed.reference import Reference
+
+PACKAGES = (
+    *("numpy", "scipy", "heyoka", "CyRK", "mujoco", "drake", "pin", "exudyn", "diffrax", "jax"),
+    "symtop_ros",
+)
+
+
+def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
+    """Write report.md, report.json and the plots; return the exit status."""
+    folder.mkdir(parents=True, exist_ok=True)
+    peers, missing = find_peers()
+    environment = Environment(
+        command, find_machine(), _find_versions(), missing, scope.limit, describe_engine()
+    )
+    results = Results()
+    for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
+        work()
+        _write_tables(folder, results, environment)  # what is measured can be read at once
+    _write(folder, results, environment)
+    if docs:
+        publish(folder, docs)
+    print(f"{folder / 'report.md'}, report.json and plots")
+    failures = results.list_failures()
+    for failure in failures:
+        print(f"top_report: above the limit: {failure}", file=sys.stderr)
+    return 1 if failures else 0
+
+
+def _write_tables(folder: Path, results: Results, environment: Environment) -> str:
+    text = format_document(results, Reference.read().article[0], environment)
+    (folder / "report.md").write_text(text + "\n", encoding="utf-8")
+    return text
+
+
+def _write(folder: Path, results: Results, environment: Environment) -> None:
+    text = _write_tables(folder, results, environment)
+    write_results("report", collect_facts(results, environment), text, folder)
+    write_plots(results, Reference.read().article[0], folder)
+
+
+def find_machine() -> str:
+    """Return the name of the processor, and the system."""
+    names = [platform.processor(), platform.machine()]
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.is_file():
+        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
+        names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return f"{next(filter(None, names), 'an unnamed processor')}, {platform.system()}"
+
+
+def _find_versions() -> dict[str, str]:
+    versions = {"Python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            versions[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return versions

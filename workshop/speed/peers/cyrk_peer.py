@@ -1,0 +1,87 @@
+"""CyRK: the Runge-Kutta methods of SciPy in C++, with compiled equations of motion."""
+
+from collections.abc import Callable
+from functools import partial
+from math import cos, sin
+from typing import Any, Literal
+
+import numpy as np
+from CyRK import nb_diffeq_addr, nbsolve2_ivp
+
+from symtop_ros.arrays import Real
+from workshop.speed.peers.peer import (
+    Equations,
+    Peer,
+    Solution,
+    Task,
+    on_euler_angles,
+    on_quaternion,
+)
+
+METHOD = "DOP853"  # the most exact of its methods here; Vern7 and Vern8 were tried as well
+SETTINGS = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14, 1e-15, 2.0**-52)
+Rates = Callable[..., None]
+
+
+def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
+    """Return rates for quaternion and angular velocity that CyRK compiles, and the equations."""
+    Ix, Iz, Mgl = task.top.moments
+    axial, transverse = task.friction.axial, task.friction.transverse
+
+    # CyRK compiles this function. A subset of Python, it cannot call `body_rates`.
+    def rates(slopes: Any, _t: float, y: Any, _arguments: Any) -> None:
+        gx, gy = 2 * (y[1] * y[3] - y[0] * y[2]), 2 * (y[2] * y[3] + y[0] * y[1])
+        slopes[0] = (-y[1] * y[4] - y[2] * y[5] - y[3] * y[6]) / 2
+        slopes[1] = (y[0] * y[4] + y[2] * y[6] - y[3] * y[5]) / 2
+        slopes[2] = (y[0] * y[5] - y[1] * y[6] + y[3] * y[4]) / 2
+        slopes[3] = (y[0] * y[6] + y[1] * y[5] - y[2] * y[4]) / 2
+        slopes[4] = ((Ix - Iz) * y[5] * y[6] + Mgl * gy - transverse * y[4]) / Ix
+        slopes[5] = ((Iz - Ix) * y[6] * y[4] - Mgl * gx - transverse * y[5]) / Ix
+        slopes[6] = -axial * y[6] / Iz
+
+    return rates, on_quaternion(task)
+
+
+def compile_euler_angles(task: Task) -> tuple[Rates, Equations]:
+    """Return rates for Euler angles and their rates that CyRK compiles, and the equations."""
+    Ix, Iz, Mgl = task.top.moments
+
+    def rates(slopes: Any, _t: float, y: Any, _arguments: Any) -> None:
+        c, s = cos(y[1]), sin(y[1])
+        gyration = Iz * y[5] + (Iz - 2 * Ix) * y[3] * c
+        slopes[0], slopes[1], slopes[2] = y[3], y[4], y[5]
+        slopes[3] = y[4] / (Ix * s) * gyration
+        slopes[4] = s / Ix * ((Ix - Iz) * y[3] * y[3] * c - Iz * y[3] * y[5] + Mgl)
+        slopes[5] = y[4] * y[3] * s - slopes[3] * c
+
+    return rates, on_euler_angles(task)
+
+
+def prepare(
+    form: Callable[[Task], tuple[Rates, Equations]], task: Task, tolerance: float
+) -> Solution:
+    """Compile; each solution starts anew."""
+    rates, equations = form(task)
+    address, start = nb_diffeq_addr(rates), np.array(equations.start)
+
+    def run(t: float) -> tuple[Real, Real]:
+        """Return the times (n,) and the variables (n, k) of all steps."""
+        found = nbsolve2_ivp(
+            address, (0.0, t), start, method=METHOD, rtol=tolerance, atol=tolerance
+        )
+        times, states = np.array(found.t), np.array(found.y).T
+        found.free()  # the result is not freed with its Python object
+        return times, states
+
+    run(1e-3)  # compiles the solver itself, once
+    return Solution.of_steps(lambda t: run(t)[1][-1:], run, equations.read)
+
+
+FORMS: tuple[tuple[str, Callable[..., Any], Literal["no", "also"]], ...] = (
+    ("quaternion", compile_quaternion, "also"),
+    ("Euler angles", compile_euler_angles, "no"),
+)
+PEERS = [
+    Peer(f"CyRK {METHOD}, {name}", SETTINGS, partial(prepare, form), friction, quick="every motion")
+    for name, form, friction in FORMS
+]

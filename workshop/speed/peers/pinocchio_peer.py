@@ -1,0 +1,73 @@
+"""Pinocchio: forward dynamics of a spherical joint, in RK4 steps on the group in Python."""
+
+import numpy as np
+import pinocchio
+
+from symtop_ros.arrays import Real
+from symtop_ros.models.formats import format_urdf
+from symtop_ros.physics import Body
+from workshop.speed.peers.peer import (
+    Peer,
+    Solution,
+    Task,
+    initial_values,
+    list_strides,
+    time_strides,
+)
+
+SETTINGS = tuple(2.0**-k for k in range(7, 19))  # s
+
+
+def prepare(task: Task, step: float) -> Solution:
+    """Build the model; each solution starts anew."""
+    model = _build_model(task)
+    data = model.createData()
+    w, x, y, z, *omega = initial_values(task)
+    still = np.zeros(3)
+
+    def acceleration(q: Real, v: Real) -> Real:
+        return np.array(pinocchio.aba(model, data, q, v, still))
+
+    def advance(q: Real, v: Real) -> tuple[Real, Real]:
+        """Advance by one Runge-Kutta-Munthe-Kaas step of order 4.
+
+        Each slope is carried back to the start of the step by the series of dexp^-1.
+        """
+        u1, a1 = v * step, acceleration(q, v) * step
+        u2, a2 = _slope(q, v, u1 / 2, a1 / 2)
+        u3, a3 = _slope(q, v, u2 / 2, a2 / 2)
+        u4, a4 = _slope(q, v, u3, a3)
+        turn = (u1 + 2 * u2 + 2 * u3 + u4) / 6
+        return pinocchio.integrate(model, q, turn), v + (a1 + 2 * a2 + 2 * a3 + a4) / 6
+
+    def _slope(q: Real, v: Real, u: Real, a: Real) -> tuple[Real, Real]:
+        turned, faster = pinocchio.integrate(model, q, u), v + a
+        w = faster * step
+        bent = w + np.cross(u, w) / 2 + np.cross(u, np.cross(u, w)) / 12
+        return bent, acceleration(turned, faster) * step
+
+    def run(t: float) -> list[Real]:
+        """Return the orientations that are recorded: with a loop in Python this costs nothing."""
+        q, v = np.array([x, y, z, w]), np.array(omega)
+        orientations = []
+        for stride in list_strides(t, step):
+            for _ in range(stride):
+                q, v = advance(q, v)
+            orientations.append(q[[3, 0, 1, 2]])
+        return orientations
+
+    return Solution(lambda t: run(t)[-1], lambda t: (time_strides(t, step), np.array(run(t))))
+
+
+def _build_model(task: Task) -> pinocchio.Model:
+    """Return the body of the URDF of `top_model`, on a spherical joint for its three joints."""
+    chain = pinocchio.buildModelFromXML(format_urdf(task.top, task.start, Body.of(task.top)))
+    model = pinocchio.Model()
+    model.gravity.linear = chain.gravity.linear
+    fixed = pinocchio.SE3.Identity()
+    joint = model.addJoint(0, pinocchio.JointModelSpherical(), fixed, "pivot")
+    model.appendBodyToJoint(joint, chain.inertias[chain.njoints - 1], fixed)
+    return model
+
+
+PEERS = [Peer("Pinocchio, RK4 in Python", SETTINGS, prepare)]

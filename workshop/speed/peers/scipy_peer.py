@@ -1,0 +1,76 @@
+"""SciPy's solve_ivp, on the quaternion with Euler's equations and on Euler angles."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Literal
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from symtop_ros.arrays import Real
+from workshop.speed.peers.peer import (
+    TOLERANCES,
+    Arrays,
+    Equations,
+    Peer,
+    Solution,
+    Task,
+    on_euler_angles,
+    on_quaternion,
+)
+
+Method = Literal["DOP853", "LSODA", "Radau"]
+Quick = Literal["every motion", "first motion", "no"]
+METHODS: tuple[Method, ...] = ("DOP853", "LSODA", "Radau")
+
+
+def integrate(
+    method: Method,
+    equations: Equations,
+    tolerance: float,
+    t: float,
+    times: Real | list[float] | None = None,
+) -> tuple[Real, Real]:
+    """Return the times (n,) asked for, or those of all steps, and the variables (n, k)."""
+    solution = solve_ivp(
+        *(equations.rates, (0.0, t), equations.start),
+        method=method,
+        rtol=tolerance,
+        atol=tolerance,
+        t_eval=times,
+    )
+    return np.asarray(solution.t), np.asarray(solution.y.T)
+
+
+def prepare(
+    method: Method, make: Callable[[Task], Equations], task: Task, tolerance: float
+) -> Solution:
+    """Return a solution by a method at a tolerance; `make` returns the equations of a task."""
+    equations = make(task)
+    run = partial(integrate, method, equations, tolerance)
+    return Solution.of_steps(lambda t: run(t, [t])[1], run, equations.read)
+
+
+def prepare_arrays(task: Task) -> Arrays:
+    """Return states at many times, from the dense output of DOP853 at its best tolerance."""
+    equations = on_quaternion(task)
+    run = partial(integrate, "DOP853", equations, TOLERANCES[-1])
+    return lambda times: equations.read(run(float(times[-1]), times)[1])
+
+
+def _make_peers() -> list[Peer]:
+    peers = []
+    for method in METHODS:
+        name, arrays = f"SciPy {method}", prepare_arrays if method == "DOP853" else None
+        quaternion, angles = (partial(prepare, method, f) for f in (on_quaternion, on_euler_angles))
+        dop853: Quick = "first motion" if method == "DOP853" else "no"
+        # LSODA is better in Euler angles. Radau is for stiff equations, which these are not.
+        quick: Quick = "no" if method == "Radau" else "first motion"
+        peers += [
+            Peer(f"{name}, quaternion", TOLERANCES, quaternion, "also", arrays, dop853),
+            Peer(f"{name}, Euler angles", TOLERANCES, angles, quick=quick),
+        ]
+    return peers
+
+
+PEERS = _make_peers()

@@ -1,0 +1,113 @@
+"""Motions to more than 20 digits, computed by other means than the package's, and errors.
+
+The error of an attitude is the angle of the rotation that would correct it, in rad: for small
+errors 2 |q - q_exact|, with the sign of q that makes it smaller.
+"""
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from symtop_ros.arrays import Real, Vector
+from symtop_ros.physics import Friction, State, Top
+from symtop_ros.testset.score import measure_angles, read_problems, split_decimals
+from workshop.speed.peers.peer import NO_FRICTION, NO_TORQUE, Task
+from workshop.speed.taylor import TaylorMotion
+
+FILE = Path(__file__).with_name("reference.json")
+FRICTION = Friction(axial=2e-6, transverse=1e-5)  # of the article's top with friction, N m s
+EPS = 2.0**-52
+PARTS = "article", "hard", "driven"
+
+
+@dataclass(frozen=True, eq=False)
+class ReferenceMotion:
+    """A motion to compute, and its exact orientations."""
+
+    name: str  # the motion, the family of a hard case, or the problem of the test set
+    task: Task  # top, start and friction; the numbers are taken as exact
+    # times in s, up to very long ones, at which the exact orientations are stored
+    times: tuple[float, ...]
+    # Exact quaternions as sums of two doubles, each (n, 4). Rounded to one double they would
+    # themselves be off by as much as the smallest of the errors that are measured.
+    exact: tuple[Real, Real]
+    # change of the attitude in rad at these times if every input changes by half an ulp;
+    # empty under friction
+    limits: tuple[float, ...]
+    small: float | None = None  # distance of a hard case from the singular one
+    level: int = 0  # of a problem of the test set
+
+    @classmethod
+    def read(cls, facts: dict[str, Any]) -> "ReferenceMotion":
+        """Return the motion of an entry in reference.json."""
+        friction, torque = Friction(*facts["friction"]), tuple(facts.get("torque", NO_TORQUE))
+        # stored as distances of quaternions
+        limits = tuple(2 * each for each in facts["limit"] or ())
+        task, exact = _read_task(facts, friction, torque), split_decimals(facts["exact"])
+        return cls(facts["name"], task, tuple(facts["t"]), exact, limits, facts.get("small"))
+
+    def error(self, t: float, orientation: ArrayLike) -> float:
+        """Return the error in rad at one of the stored times."""
+        high, low = (part[self.times.index(t)] for part in self.exact)
+        return float(measure_angles(np.asarray(orientation, dtype=float), high, low))
+
+    def errors(self, times: ArrayLike, orientations: ArrayLike) -> Real:
+        """Return the errors (n,) in rad at any times (n,) in s, which are taken as exact.
+
+        The exact motion comes from `TaylorMotion`. It is computed as far as is asked for, at a
+        third of a second for a second of the article's top, and kept.
+        """
+        exact = self._motion.at(np.asarray(times, dtype=float))
+        return measure_angles(np.asarray(orientations, dtype=float), *exact)
+
+    @cached_property
+    def _motion(self) -> TaylorMotion:
+        return TaylorMotion(self.task)
+
+    def limit(self, t: float) -> float:
+        """Return the limit in rad at one of the times; 0 if it is unknown."""
+        return dict(zip(self.times, self.limits, strict=False)).get(t, 0.0)
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The reference motions that the package ships."""
+
+    # the article's seven motions, two next to a pole, and its cusps with friction
+    article: list[ReferenceMotion]
+    hard: list[ReferenceMotion]  # the hard cases
+    # motions with friction or an applied torque, in 14 families; the name is the family
+    driven: list[ReferenceMotion]
+
+    @classmethod
+    def read(cls) -> "Reference":
+        """Read the file that is shipped with the package."""
+        data = json.loads(FILE.read_text(encoding="utf-8"))
+        return cls(**{part: [ReferenceMotion.read(each) for each in data[part]] for part in PARTS})
+
+
+def read_testset() -> list[ReferenceMotion]:
+    """Return the problems of the test set, in their order."""
+    return [
+        ReferenceMotion(
+            each.facts["name"],
+            _read_task(each.facts),
+            tuple(each.facts["times"]),
+            split_decimals(each.facts["orientations"]),
+            tuple(each.facts["orientation_limits"]),
+            level=each.facts["level"],
+        )
+        for each in read_problems().values()
+    ]
+
+
+def _read_task(
+    facts: dict[str, Any], friction: Friction = NO_FRICTION, torque: Vector = NO_TORQUE
+) -> Task:
+    top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
+    return Task(top, State(facts["orientation"], facts["angular_velocity"]), friction, torque)
