@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report stress soak node-cost clean FORCE
+.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores filters article lesson maps pictures stress soak node-cost clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -79,21 +79,42 @@ docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warni
 	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
 	@echo "wrote site/README.html"
 
-report: $(VENV)/report  ## speed against error on this machine (some minutes); plots in report/
-	@XDG_CACHE_HOME=$(CURDIR)/$(VENV)/cache $(BIN)/top_report speed
+# The workshop: what is written goes to report/, and ARGS=--help lists the options of a target.
+WORKSHOP = @XDG_CACHE_HOME=$(CURDIR)/$(VENV)/cache $(BIN)/python -m workshop
+
+report: $(VENV)/peers  ## speed against error on this machine (some minutes; 2 GB, once)
+	$(WORKSHOP) speed $(ARGS)
+
+scores: $(VENV)/peers  ## scores of these programs in the test set (20 minutes)
+	$(WORKSHOP) testset $(ARGS)
+
+filters: $(VENV)/peers  ## attitude filters fed with the top's noisy sensor (4 minutes)
+	$(WORKSHOP) filters $(ARGS)
+
+article: $(VENV)/report  ## the article's figures, its motions in 3D, and its claims
+	$(WORKSHOP) article $(ARGS)
+
+lesson: $(VENV)/report  ## the pictures of the lesson; ARGS=--sheets: sheets to print
+	$(WORKSHOP) lesson $(ARGS)
+
+maps: $(VENV)/report  ## where hurrying the precession raises the top
+	$(WORKSHOP) maps $(ARGS)
+
+pictures: $(VENV)/report $(VENV)/vulkan  ## all pictures in docs/, and the steps of docs/lesson.md
+	$(WORKSHOP) pictures $(ARGS)
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
-	@$(BIN)/python test/load/stress.py
+	@$(BIN)/python -m workshop.load.stress $(ARGS)
 
 soak: $(VENV)/report  ## the node for an hour with requests at random, its logs checked
-	@$(BIN)/python test/load/soak.py
+	@$(BIN)/python -m workshop.load.soak $(ARGS)
 
 node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9 minutes)
-	@$(BIN)/python test/load/node_cost.py
+	@$(BIN)/python -m workshop.load.node_cost $(ARGS)
 
 clean:  ## remove the environment and all that was built; logs/ and report/ stay
 	rm -rf $(VENV) site build install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
-	find symtop_ros test docs -name __pycache__ -prune -exec rm -rf {} +
+	find symtop_ros test workshop docs -name __pycache__ -prune -exec rm -rf {} +
 	find symtop_ros -name '*.so' -delete
 
 $(VENV)/ros: $(SOURCES) $(VENV)/compiler
@@ -107,6 +128,11 @@ $(VENV)/panel: $(SOURCES) $(VENV)/compiler
 	@touch $@
 
 $(VENV)/report: setup.py $(VENV)/ros
+	@echo "Setting up .venv: plots (once) ..."
+	$(INSTALL) '.[ros,playback,report]'
+	@touch $@
+
+$(VENV)/peers: setup.py $(VENV)/ros
 	@echo "Setting up .venv: plots, and the programs to compare with (about 2 GB, once) ..."
 	$(INSTALL) '.[ros,playback,report,peers]'
 	@touch $@

@@ -39,14 +39,14 @@ PANEL = [
     "mcap>=1.5",
     "viser>=1.1",  # 3D and controls in the browser; 1.1 has panels that can be docked
 ]
-# Figures and tables of top_report.
+# Figures and tables: of top_judge, and of the workshop in a checkout.
 REPORT = [
     "matplotlib>=3.8",
     "pyarrow>=14",  # Parquet tables
     "rerun-sdk>=0.41",
     "tqdm>=4.60",  # progress bars
 ]
-# Programs that top_report compares with, if they are installed.
+# Programs that `make report` compares with, if they are installed.
 PEERS = [
     "heyoka>=7",
     "cyrk>=0.20",
@@ -117,7 +117,6 @@ setup(
             "web/*.html",
             "web/*.yaml",
             "wording/en.json",
-            "report/reference.json",
         ],
         f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],
     },
@@ -156,7 +155,6 @@ setup(
             f"top_replay = {NAME}.programs:top_replay",
             f"top_live = {NAME}.programs:top_live",
             f"top_panel = {NAME}.programs:top_panel",
-            f"top_report = {NAME}.programs:top_report",
             f"top_judge = {NAME}.programs:top_judge",
             f"top_model = {NAME}.programs:top_model",
             f"top_imu = {NAME}.programs:top_imu",

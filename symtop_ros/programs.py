@@ -22,48 +22,43 @@ EXTRAS = {
 
 def top_node() -> int:
     """Run the node (needs ROS)."""
-    return _run("top_node", "symtop_ros.node.main")
+    return run("top_node", "symtop_ros.node.main")
 
 
 def top_ctl() -> int:
     """Call the services of a running node (needs ROS); it ends the process."""
     _use_udp_only()
-    return _leave(_run("top_ctl", "symtop_ros.client.main"))
+    return _leave(run("top_ctl", "symtop_ros.client.main"))
 
 
 def top_replay() -> int:
     """Play, check or repair a log (needs Rerun only to play)."""
-    return _run("top_replay", "symtop_ros.playback.main", interruptible=True)
+    return run("top_replay", "symtop_ros.playback.main", interruptible=True)
 
 
 def top_live() -> int:
     """Show a running node in Rerun (needs ROS and Rerun)."""
-    return _run("top_live", "symtop_ros.live.main")
+    return run("top_live", "symtop_ros.live.main")
 
 
 def top_panel() -> int:
     """Serve a page to play with a top (needs viser, and ROS only for a running node)."""
-    return _run("top_panel", "symtop_ros.panel.main")
-
-
-def top_report() -> int:
-    """Measure speed against error, and draw the figures of the article."""
-    return _run("top_report", "symtop_ros.report.main", interruptible=True)
+    return run("top_panel", "symtop_ros.panel.main")
 
 
 def top_model() -> int:
     """Write a top as a model for other engines."""
-    return _run("top_model", "symtop_ros.models.main")
+    return run("top_model", "symtop_ros.models.main")
 
 
 def top_imu() -> int:
     """Write a record of an inertial sensor on a top."""
-    return _run("top_imu", "symtop_ros.imu.main", interruptible=True)
+    return run("top_imu", "symtop_ros.imu.main", interruptible=True)
 
 
 def top_judge() -> int:
     """Compare estimates with the exact motion; score trajectories of the test set."""
-    return _run("top_judge", "symtop_ros.judge.main", interruptible=True)
+    return run("top_judge", "symtop_ros.judge.main", interruptible=True)
 
 
 def _use_udp_only() -> None:
@@ -87,7 +82,7 @@ def _leave(status: int) -> NoReturn:
     os._exit(status)
 
 
-def _run(name: str, module: str, interruptible: bool = False) -> int:
+def run(name: str, module: str, interruptible: bool = False) -> int:
     """Run a program. A signal before or after it ends the process without a traceback.
 
     Both signals raise KeyboardInterrupt in an interruptible program, so that it removes incomplete

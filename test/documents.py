@@ -16,7 +16,9 @@ PAGES = [
 BLOCK = re.compile(r"^ *```(\w+)\n(.*?)^ *```$(?:\n+```text\n(.*?)^```$)?", re.M | re.S)
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]+))?\)")
-PATH = re.compile(r"(?<![\w/])((?:test|symtop_ros|config|docs)/[\w./]+\.(?:py|yaml|xml|md|json))")
+PATH = re.compile(
+    r"(?<![\w/])((?:test|symtop_ros|workshop|examples|design|config|docs)/[\w./]+\.(?:py|yaml|xml|md|json))"
+)
 
 
 def blocks(page: Path, language: str) -> list[tuple[str, str]]:

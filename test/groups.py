@@ -20,7 +20,7 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).with_name("load")))
+sys.path.append(str(Path(__file__).parents[1]))
 from workshop.load.endings import bound
 
 ROOT = Path(__file__).parents[1]
@@ -32,7 +32,7 @@ PERIOD = 15.0  # s between two lines of progress
 NUMPY1 = Path(sys.prefix, "numpy1", "bin", "python")
 WITH_NUMPY1 = ("test/client", "test/node/test_services.py", "test/node/test_recording.py")
 NODES = ("test/node", "test/system", "test/load")
-PLAIN = ("test/report", "test/wire", "test/models", "test/testset")
+PLAIN = ("test/speed", "test/wire", "test/models", "test/testset")
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_node_source.py")

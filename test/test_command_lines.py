@@ -11,8 +11,8 @@ from symtop_ros.live import main as live
 from symtop_ros.models import main as models
 from symtop_ros.panel import main as panel
 from symtop_ros.playback import main as playback
+from workshop import main as workshop_main
 from workshop.load.domains import claim_domain
-from workshop.speed import main as report
 
 DOMAIN = claim_domain()
 LONG = "x" * 100_000
@@ -23,7 +23,7 @@ MAINS = {
     "top_live": live.main,
     "top_panel": panel.main,
     "top_replay": playback.main,
-    "top_report": report.main,
+    "workshop": workshop_main.main,
     "top_model": models.main,
     "top_judge": judge.main,
     "top_imu": imu.main,
@@ -98,10 +98,10 @@ UNREADABLE = [
     ("top_panel", "--node", "/top", "--no-such-option"),
     ("top_replay",),
     ("top_replay", "a", "--save"),
-    ("top_report",),
-    ("top_report", CONTROL),
-    ("top_report", "maps", "--points", "1000000"),
-    ("top_report", "maps", "--points", CONTROL),
+    ("workshop",),
+    ("workshop", CONTROL),
+    ("workshop", "maps", "--points", "1000000"),
+    ("workshop", "maps", "--points", CONTROL),
     ("top_model",),
     ("top_judge",),
     ("top_judge", "a", "--topic", "b", "--max-error", "nan"),

@@ -21,6 +21,7 @@ from node.running_top import RunningTop
 from programs import PATIENT, run, running_node
 from rcl_interfaces.msg import Parameter as ParameterMessage
 
+import workshop.main
 from symtop_ros.judge.main import main as judge_main
 from symtop_ros.testset.score import read_problems, read_trajectory
 from workshop.load.domains import claim_domain
@@ -30,7 +31,7 @@ DOMAIN = claim_domain()
 ROS_PAGE = ROOT / "docs/ros.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
 # The modules of programs whose options are parsed here; test/MODULE runs them.
-PARSED = {"top_report": "report", "top_panel": "panel", "top_live": "live"}
+PARSED = {"top_panel": "panel", "top_live": "live"}
 MODULES = {**PARSED, "top_ctl": "client", "top_judge": "judge", "top_replay": "playback"}
 # These need a network, a shell, or a ROS 2 with security.
 NOT_RUN = (
@@ -147,7 +148,14 @@ def find_runner(program, words):
 
 
 def check_target(_, words):
-    assert re.search(rf"^{words[0]}:", (ROOT / "Makefile").read_text(), re.MULTILINE)
+    """Find a target, and let the workshop read its options."""
+    rule = rf"^{words[0]}:.*\n(?:\t\$\(WORKSHOP\) (\w+) )?"
+    found = re.search(rule, (ROOT / "Makefile").read_text(), re.MULTILINE)
+    assert found
+    if words[1:]:
+        options = " ".join(words[1:]).removeprefix("ARGS=").split()
+        with contextlib.chdir(ROOT):
+            workshop.main._parser().parse_args([found[1], *options])
 
 
 def check_extra(_, words):

@@ -10,7 +10,6 @@ PACKAGE = Path(__file__).parents[1] / "symtop_ros"
 NUMERICAL = {"numpy", "scipy"}
 MCAP = {"mcap", "lz4", "zstandard"}
 RERUN = {"rerun", "rerun_cli"}
-PEERS = {"CyRK", "ahrs", "diffrax", "exudyn", "heyoka", "jax", "mujoco", "pinocchio", "pydrake"}
 # Files of the package itself.
 TOP = {"__init__", "arrays", "demo", "distribution", "programs", "quaternions", "shutdown"}
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
@@ -64,31 +63,12 @@ ARROWS = {
             *("rclpy", "geometry_msgs"),
         },
     ),
-    "article": (
-        {"drawing", "log", "physics", "playback", "simulation", "web"},
-        {*NUMERICAL, "PIL", "matplotlib", "pyarrow", "rerun"},
-    ),
     "models": ({"physics", "simulation"}, set()),
     "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),
     "testset": (set(), {"numpy"}),
     "judge": (
         {*("drawing", "log", "models", "physics"), *("shutdown", "simulation", "testset", "wire")},
         {*NUMERICAL, "matplotlib", "rclpy"},
-    ),
-    "report": (
-        {
-            *(
-                "article",
-                "drawing",
-                "imu",
-                "judge",
-                "models",
-                "physics",
-                "simulation",
-                "testset",
-            ),
-        },
-        {*NUMERICAL, "matplotlib", "tqdm", *PEERS},
     ),
 }
 

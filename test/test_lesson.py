@@ -12,7 +12,6 @@ import pytest
 import rclpy
 from PIL import Image
 from programs import running_node
-from write_lesson import PAGE, write_page
 
 from symtop_ros.client import main as client
 from symtop_ros.client.arguments import parse_values
@@ -21,9 +20,10 @@ from symtop_ros.live import main as live
 from symtop_ros.panel import main as panel
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.lesson import read_lesson
-from workshop.article.lesson import DRAWS, picture_of, run_step, write_lesson
+from workshop import main as report
+from workshop.lesson.page import PAGE, write_page
+from workshop.lesson.pictures import DRAWS, picture_of, run_step, write_lesson
 from workshop.load.domains import claim_domain
-from workshop.speed import main as report
 
 ROOT = Path(__file__).parents[1]
 LESSON = PAGE.read_text(encoding="utf-8")
@@ -87,7 +87,7 @@ def test_the_angle_that_is_computed_by_hand_is_that_of_the_motion():
 def test_the_commands_that_need_no_ros_are_options_of_their_programs():
     assert panel._parser().parse_args(["--lesson"]).lesson
     assert report._parser().parse_args(["lesson", "--sheets"]).sheets
-    assert typed(BEFORE)[:2] == ["top_panel --lesson", "top_report lesson --sheets"]
+    assert typed(BEFORE)[:2] == ["top_panel --lesson", "make lesson ARGS=--sheets"]
 
 
 @pytest.mark.parametrize("step", STEPS, ids=range(1, len(STEPS) + 1))
@@ -127,7 +127,7 @@ def test_a_picture_is_what_the_command_draws(number, tmp_path):
 
 
 def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
-    monkeypatch.setattr("workshop.article.lesson.picture_of", lambda step: b"picture")
+    monkeypatch.setattr("workshop.lesson.pictures.picture_of", lambda step: b"picture")
     assert write_lesson(tmp_path, sheets=True) == 0
     worksheet, teacher = (
         html.unescape((tmp_path / f"{name}.html").read_text()) for name in ("worksheet", "teacher")
@@ -145,7 +145,7 @@ def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, m
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("in the way")
     assert report.main(["lesson", str(tmp_path / "file")]) == 1
-    assert capsys.readouterr().err == f"top_report: {tmp_path / 'file'}: File exists\n"
+    assert capsys.readouterr().err == f"workshop: {tmp_path / 'file'}: File exists\n"
 
 
 def test_every_step_names_a_plot_that_there_is():

@@ -52,7 +52,7 @@ def assert_tree(prefix, programs):
     assert sorted(path.name for path in installed) == CONFIG
     (package,) = prefix.glob("lib/python*/site-packages/symtop_ros")
     web = ("web/page.html", "web/page.js", "web/lesson.js", "web/lesson.yaml")
-    for name in ("py.typed", "log/definitions.json", *web, "report/reference.json"):
+    for name in ("py.typed", "log/definitions.json", *web):
         assert (package / name).is_file()
     for name in (
         "top_node",
@@ -60,7 +60,6 @@ def assert_tree(prefix, programs):
         "top_replay",
         "top_live",
         "top_panel",
-        "top_report",
         "top_model",
         "top_imu",
         "top_judge",

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from symtop_ros import programs
-from workshop.speed import main as report
+from workshop import main as report
 
 
 @pytest.fixture(autouse=True)
@@ -60,7 +60,7 @@ def test_a_signal_is_status_130_after_the_program_has_tidied_up(number, monkeypa
             tidied.append(number)
 
     monkeypatch.setattr(report, "main", main)
-    assert programs.top_report() == 130
+    assert programs.run("workshop", "workshop.main", interruptible=True) == 130
     assert tidied == [number]
 
 
@@ -74,7 +74,7 @@ def test_a_signal_is_status_130_after_the_program_has_tidied_up(number, monkeypa
     ],
 )
 def test_top_ctl_uses_udp_unless_the_user_has_chosen(chosen, transports, monkeypatch):
-    monkeypatch.setattr(programs, "_run", lambda *_: 0)
+    monkeypatch.setattr(programs, "run", lambda *_: 0)
     for name in ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"):
         monkeypatch.delenv(name, raising=False)
     for name, value in chosen.items():

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from symtop_ros.physics import HurryEffect, Motion, State, hurry, regular_precession_rates
+from workshop import main as report
 from workshop.article.maps import (
     FACTOR,
     OUTCOMES,
@@ -24,7 +25,6 @@ from workshop.article.maps import (
     map_tilt,
     write_maps,
 )
-from workshop.speed import main as report
 
 SIDES = ("highest", "lowest")
 FILES = {"perry.rrd"} | {
@@ -127,4 +127,4 @@ def test_all_files_are_written_and_pictures_are_not_blank(written):
 def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert report.main(["maps", str(tmp_path / "file"), "--points", "4"]) == 1
-    assert capsys.readouterr().err == f"top_report: {tmp_path / 'file'}: File exists\n"
+    assert capsys.readouterr().err == f"workshop: {tmp_path / 'file'}: File exists\n"

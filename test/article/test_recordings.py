@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from pictures import pause_at, picture, running_viewer, view_named, views
 
 from symtop_ros.physics import perrys_rule
 from symtop_ros.playback.view import entities
@@ -15,6 +14,7 @@ from workshop.article.recordings import (
     six_rates,
     write_recordings,
 )
+from workshop.pictures.viewer import pause_at, picture, running_viewer, view_named, views
 
 TIMES = np.linspace(0.0, 2.0, 2001)
 

@@ -8,12 +8,12 @@ from rerun.chunk import RrdReader
 
 from symtop_ros.drawing.style import BLUE, GOLD, INK, RED
 from symtop_ros.playback.view import entities
+from workshop import main as report
 from workshop.article import retell as article
 from workshop.article.claims import Claim
 from workshop.article.figures import FIGURES, LOOKS
 from workshop.article.recordings import MOTIONS, RATE, SCENES, SPAN
 from workshop.article.retell import check_claims, retell
-from workshop.speed import main as report
 
 
 @pytest.fixture(scope="module")
@@ -129,7 +129,7 @@ def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys
     (tmp_path / "file").write_text("in the way")
     assert report.main(["article", str(tmp_path / name)]) == 1
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(f"top_report: {tmp_path}/file")
+    assert line.startswith(f"workshop: {tmp_path}/file")
 
 
 def test_a_file_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, monkeypatch):
@@ -139,5 +139,5 @@ def test_a_file_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, 
     (tmp_path / f"{first}.rrd").mkdir()
     assert report.main(["article", str(tmp_path)]) == 1
     assert capsys.readouterr().err.splitlines() == [
-        f"top_report: {tmp_path / first}.rrd: Is a directory"
+        f"workshop: {tmp_path / first}.rrd: Is a directory"
     ]

@@ -5,7 +5,6 @@ import time
 from types import SimpleNamespace
 
 import pytest
-from pictures import running_viewer, views
 from programs import PATIENT, command, environment, run, running_node
 
 from symtop_ros.live import main as module
@@ -13,6 +12,7 @@ from symtop_ros.log.batch import Batch
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
 from workshop.load.domains import claim_domain
+from workshop.pictures.viewer import running_viewer, views
 
 DOMAIN = claim_domain()
 TIMEOUT = 60.0

@@ -47,9 +47,9 @@ def test_the_resources_of_a_process_are_measured():
         process.terminate()
 
 
-@pytest.mark.parametrize("name", ["stress.py", "soak.py", "node_cost.py"])
+@pytest.mark.parametrize("name", ["stress", "soak", "node_cost"])
 def test_a_load_program_explains_itself(name):
     command = processes.script(name, "--help")
     result = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
-    assert f"usage: {name}" in result.stdout
+    assert f"usage: {name}.py" in result.stdout
     assert "--seconds" in result.stdout

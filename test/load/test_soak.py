@@ -15,7 +15,7 @@ BALANCE = 1e-13  # J, of an energy of some J: 1e-15 of it in a stretch, and a fa
 
 @pytest.mark.long
 def test_at_full_rate_nothing_is_lost_and_every_log_is_what_its_events_say():
-    command = script("soak.py", "--seconds", SECONDS)
+    command = script("soak", "--seconds", SECONDS)
     result = subprocess.run(
         command, capture_output=True, text=True, check=False, timeout=SECONDS + 120
     )

@@ -1,4 +1,4 @@
-"""Cost of the page: PYTHONPATH=test:test/load python test/panel/page_cost.py (1 minute)."""
+"""Cost of the page: PYTHONPATH=test python test/panel/page_cost.py (1 minute)."""
 
 from __future__ import annotations
 

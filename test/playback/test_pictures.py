@@ -5,7 +5,6 @@ import pytest
 import rerun as rr
 import rerun.blueprint as rrb
 from log_files import ARTICLE, BEGIN, Run
-from pictures import pause_at, picture, running_viewer, view_named, views
 from PIL import Image
 
 from symtop_ros.log.reader import McapFile
@@ -15,6 +14,7 @@ from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import EYE_UPPER_HALF, EYE_WHOLE_SPHERE
 from symtop_ros.playback.view.view import View
+from workshop.pictures.viewer import pause_at, picture, running_viewer, view_named, views
 
 VIEWS = 14
 FOV = np.radians(55.0)  # vertical, Rerun's own

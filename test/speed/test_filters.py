@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from symtop_ros.judge.estimates import Estimates
+from workshop import main as report
 from workshop.speed import filters
-from workshop.speed import main as report
 from workshop.speed.filters import MOUNTS, format_trials, judge_filters, record, run_filter
 
 
@@ -59,4 +59,4 @@ def test_tables_and_plot_are_written(short, tmp_path, capsys):
     file = tmp_path / "file"
     file.write_text("")
     assert report.main(["filters", str(file)]) == 1
-    assert capsys.readouterr().err.startswith(f"top_report: {file}: ")
+    assert capsys.readouterr().err.startswith(f"workshop: {file}: ")

@@ -5,19 +5,19 @@ from pathlib import Path
 
 import pytest
 
-from workshop.article import lesson, maps, retell
+from workshop import main as report
+from workshop.article import maps, retell
+from workshop.lesson import pictures as lesson
 from workshop.speed import benchmarks, filters, measure, testset
-from workshop.speed import main as report
 
 LONGER = dataclasses.replace(benchmarks.QUICK, limit=9.0)
 DOCS = Path("docs")
+ROOT = Path(__file__).parents[2]
 PARTS = {
-    "speed": (measure, "measure", "report", benchmarks.QUICK, "top_report speed", None),
-    "speed --full": (measure, "measure", "report", benchmarks.FULL, "top_report speed --full"),
-    "speed --docs docs": (
-        *(measure, "measure", "report", benchmarks.QUICK, "top_report speed", DOCS),
-    ),
-    "speed --limit 9": (measure, "measure", "report", LONGER, "top_report speed --limit 9"),
+    "speed": (measure, "measure", "report", benchmarks.QUICK, "make report", None),
+    "speed --full": (measure, "measure", "report", benchmarks.FULL, "make report ARGS=--full"),
+    "speed --docs docs": (*(measure, "measure", "report", benchmarks.QUICK, "make report", DOCS),),
+    "speed --limit 9": (measure, "measure", "report", LONGER, "python -m workshop speed --limit 9"),
     "testset": (testset, "score_testset", "report", None, 0.2),
     "testset here --limit 9 --docs docs": (testset, "score_testset", "here", DOCS, 9.0),
     "filters --docs docs": (filters, "judge_filters", "report", DOCS),
@@ -74,13 +74,13 @@ def test_a_wrong_option_is_refused_as_usage(words, message, capsys):
     ],
 )
 def test_a_missing_package_is_named_with_the_extra_that_brings_it(module, command, extra, tmp_path):
-    hidden = f"import sys; sys.modules[{module!r}] = None; "
-    program = "from symtop_ros.programs import top_report; sys.exit(top_report())"
+    hidden = f"import sys; sys.path.insert(0, {str(ROOT)!r}); sys.modules[{module!r}] = None; "
+    program = "from symtop_ros.programs import run; sys.exit(run('workshop', 'workshop.main'))"
     result = subprocess.run(
         [sys.executable, "-c", hidden + program, command],
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60,
     )  # fmt: skip
     assert result.returncode == 1
     remedy = f"pip install '.[{extra}]' in the checkout"
-    assert result.stderr == f"top_report: {module} is missing: {remedy}\n"
+    assert result.stderr == f"workshop: {module} is missing: {remedy}\n"
     assert list(tmp_path.iterdir()) == []

@@ -6,6 +6,7 @@ import re
 import pytest
 from PIL import Image
 
+from workshop.main import main
 from workshop.speed import measure as report
 from workshop.speed.benchmarks import (
     LARGEST_DRIVEN_ERROR,
@@ -13,7 +14,6 @@ from workshop.speed.benchmarks import (
     LARGEST_TAYLOR_ERROR,
     SMALL,
 )
-from workshop.speed.main import main
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import NAMES
@@ -26,7 +26,7 @@ def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("workshop.speed.peers.peer.RECORDED", 1024)  # a tenth
         patch.setattr("workshop.speed.benchmarks.SPAN", 2.5)  # a quarter
-        assert measure(folder, SMALL, "top_report") == 0
+        assert measure(folder, SMALL, "make report") == 0
     return folder
 
 
@@ -100,10 +100,10 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
 
     monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
-    assert measure(tmp_path, SMALL, "top_report") == 1
+    assert measure(tmp_path, SMALL, "make report") == 1
     assert capsys.readouterr().err.splitlines() == [
         "1 of 1: a peer: model",
-        "top_report: above the limit: a peer: the model is a different top",
+        "workshop: above the limit: a peer: the model is a different top",
     ]
 
 
@@ -111,7 +111,7 @@ def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys
     (tmp_path / "file").write_text("in the way")
     assert main(["speed", str(tmp_path / "file")]) == 1
     (line,) = capsys.readouterr().err.splitlines()
-    assert line == f"top_report: {tmp_path / 'file'}: File exists"
+    assert line == f"workshop: {tmp_path / 'file'}: File exists"
 
 
 def test_progress_is_printed_and_each_table_is_written_as_soon_as_it_is_measured(
@@ -130,7 +130,7 @@ def test_progress_is_printed_and_each_table_is_written_as_soon_as_it_is_measured
     report_steps = report.list_steps
     monkeypatch.setattr(report, "list_steps", list_some)
     with pytest.raises(pytest.fail.Exception):
-        measure(tmp_path, SMALL, "top_report")
+        measure(tmp_path, SMALL, "make report")
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "1 of 5: footprint"
     assert lines[-1] == "5 of 5: no more"

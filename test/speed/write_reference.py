@@ -1,4 +1,4 @@
-"""Write the reference motions of top_report to 25 digits, by independent formulas in mpmath.
+"""Write the reference motions of the report to 25 digits, by independent formulas in mpmath.
 
 Run it by hand after a change: PYTHONPATH=test python test/report/write_reference.py
 """

@@ -10,7 +10,7 @@ from typing import IO
 
 # Domain 0 is the user's, `make demo` takes 60 to 89, and beyond 101 the ports of a domain reach
 # those that Linux hands out to other programs.
-DOMAINS = (*range(1, 60), *range(90, 102))
+DOMAINS: tuple[int, ...] = (*range(1, 60), *range(90, 102))
 FOLDER = Path(tempfile.gettempdir(), "symtop_ros_domains")
 _held: dict[int, IO[str]] = {}
 _next = os.getpid()  # a released domain is used again as late as possible

@@ -1,6 +1,5 @@
 """Cost and steadiness of top_node, compared with bare rclpy nodes with the same messages.
 
-
 `make node-cost`, or `python -m workshop.load.node_cost --seconds 5 --runs 3`. With `--docs docs`
 the figures are written into the documentation.
 """
@@ -54,13 +53,13 @@ def list_commands(folder: str) -> dict[str, Command]:
     commands: dict[str, Command] = {
         TOP: top,
         RECORDING: lambda rate: top(rate, recording=True),
-        BARE: lambda rate: script("bare.py", rate),
-        PREPARED: lambda rate: script("bare.py", rate, "--prepared"),
+        BARE: lambda rate: script("bare", rate),
+        PREPARED: lambda rate: script("bare", rate, "--prepared"),
     }
     if _may_use_real_time():
         chrt = ["chrt", "--fifo", str(PRIORITY)]
         commands[TOP_FIFO] = lambda rate: top(rate, priority=PRIORITY)
-        commands[BARE_FIFO] = lambda rate: [*chrt, *script("bare.py", rate)]
+        commands[BARE_FIFO] = lambda rate: [*chrt, *script("bare", rate)]
     return commands
 
 

@@ -16,7 +16,8 @@ from symtop_ros.client.connection import UnreachableError
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 
-PROGRAMS = Path(__file__).parents[2] / "resource"
+ROOT = Path(__file__).parents[2]
+PROGRAMS = ROOT / "resource"
 LONGEST = 1e6  # s
 INTERRUPTED = 130  # exit status of a program that Ctrl-C has ended
 
@@ -28,8 +29,10 @@ def domain() -> int:
 
 
 def script(name: str, *arguments: object) -> list[str]:
-    """Return the command line of a Python script in this folder."""
-    return bound([sys.executable, str(Path(__file__).with_name(name)), *map(str, arguments)])
+    """Return the command line of a module of this folder, from whatever folder it is started."""
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")]))
+    start = ["/usr/bin/env", f"PYTHONPATH={path}", sys.executable, "-m", f"{__package__}.{name}"]
+    return bound([*start, *map(str, arguments)])
 
 
 def program(name: str, *arguments: str) -> list[str]:

@@ -172,7 +172,7 @@ def _many_tops(seconds: float) -> Outcome:
 
 
 def _start(client: str, *numbers: float) -> subprocess.Popen[bytes]:
-    command = script("clients.py", client, domain(), *numbers)
+    command = script("clients", client, domain(), *numbers)
     return subprocess.Popen(command, stdout=subprocess.PIPE)
 
 

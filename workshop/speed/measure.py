@@ -1,4 +1,4 @@
-"""The measurement behind `top_report`: runs the benchmarks, and writes tables and plots."""
+"""The measurement behind `make report`: runs the benchmarks, and writes tables and plots."""
 
 import platform
 import sys
@@ -36,7 +36,7 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
     print(f"{folder / 'report.md'}, report.json and plots")
     failures = results.list_failures()
     for failure in failures:
-        print(f"top_report: above the limit: {failure}", file=sys.stderr)
+        print(f"workshop: above the limit: {failure}", file=sys.stderr)
     return 1 if failures else 0
 
 

@@ -13,13 +13,14 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest import SkipTest  # a test that finds no driver is skipped
 
 import numpy as np
-import pytest
 from PIL import Image
 from rerun.experimental import ViewerClient
 
 from symtop_ros.playback import viewer
+from symtop_ros.playback.web import HOST
 from workshop.load.endings import bound
 
 DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one
@@ -32,9 +33,8 @@ def _environment() -> dict[str, str]:
     libraries = glob.glob(f"{DRIVER}/usr/lib/*/libvulkan_lvp.so")
     if not libraries:
         if not glob.glob("/usr/share/vulkan/icd.d/*.json"):
-            pytest.skip(
-                "no Vulkan driver: sh test/get_vulkan.sh .venv/vulkan, or mesa-vulkan-drivers"
-            )
+            msg = "no Vulkan driver: sh test/get_vulkan.sh .venv/vulkan, or mesa-vulkan-drivers"
+            raise SkipTest(msg)
         return dict(os.environ)
     manifest = DRIVER / "icd.json"
     icd = {"api_version": "1.1.230", "library_path": libraries[0]}
@@ -51,7 +51,7 @@ def _environment() -> dict[str, str]:
 def running_viewer(*files: Path, port: int | None = None) -> Iterator[tuple[ViewerClient, int]]:
     """A viewer of files, and the port it listens on; it has ended afterwards."""
     port = port or viewer.free_port()
-    options = ["--bind", viewer.HOST, "--port", str(port), "--headless", "--window-size", SIZE]
+    options = ["--bind", HOST, "--port", str(port), "--headless", "--window-size", SIZE]
     process = subprocess.Popen(
         bound([str(viewer.PROGRAM), *options, *map(str, files)]),
         env=_environment(),
@@ -70,7 +70,7 @@ def _connected(port: int, process: subprocess.Popen[bytes]) -> ViewerClient:
     while True:
         assert process.poll() is None, "the viewer ended"
         try:
-            client = ViewerClient.connect(f"rerun+http://{viewer.HOST}:{port}/proxy")
+            client = ViewerClient.connect(f"rerun+http://{HOST}:{port}/proxy")
             client.get_state()
             return client
         except Exception:

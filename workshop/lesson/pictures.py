@@ -28,10 +28,10 @@ from symtop_ros.physics import (
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import LessonStep, read_lesson
-from symtop_ros.web.sheets import write_teacher_sheet, write_worksheet
 from workshop.article.answers.fictitious import plot_torques
 from workshop.article.figures import DEPTH
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
+from workshop.lesson.sheets import write_teacher_sheet, write_worksheet
 
 KICK = 0.4  # s
 TRACE, TURNS = 1.0, 2.0  # s, and turns of the precession: whichever is shorter is drawn

@@ -1,6 +1,4 @@
-"""Write the steps into docs/lesson.md: PYTHONPATH=test python test/write_lesson.py."""
-
-from __future__ import annotations
+"""docs/lesson.md: its steps are written from the data of the lesson."""
 
 import re
 import textwrap
@@ -8,16 +6,11 @@ from pathlib import Path
 
 from symtop_ros.web.lesson import LessonStep, read_lesson
 
-PAGE = Path(__file__).parents[1] / "docs/lesson.md"
+PAGE = Path(__file__).parents[2] / "docs/lesson.md"
 FIRST = "## 1. "  # what is above the first step is written by hand
 WIDTH = 100
 # Options of the viewer for what the page shows in a step
 OPTIONS = {"fictitious torques": "--fictitious"}
-
-
-def main() -> None:
-    """Write the page."""
-    PAGE.write_text(write_page(), encoding="utf-8")
 
 
 def write_page() -> str:
@@ -59,7 +52,3 @@ def _wrap(text: str, indent: str = "") -> str:
     return textwrap.fill(
         text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
     )
-
-
-if __name__ == "__main__":
-    main()

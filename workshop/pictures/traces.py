@@ -1,18 +1,14 @@
-"""Draw docs/traces.svg: the axis of the article's top from above, for four starts."""
-
-from __future__ import annotations
-
-from pathlib import Path
+"""The axis of the article's top from above, for four starts."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.physics import Motion, State, Top, regular_precession_rates
+from symtop_ros.physics import Motion, State
+from workshop.article.motions import PSI_DOT, SLOW, THETA, TOP
 
-TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-SLOW = regular_precession_rates(TOP, theta=0.5, psi_dot=200.0)[0]
 STARTS = {"regular precession": SLOW, "cusps": 0.0, "loops": -8.0, "hurried: it rises": 1.4 * SLOW}
 TURN = 2 * np.pi / SLOW  # s; regular precession closes its circle
+POINTS = 900  # of a trace; with fewer, its cusps would be blunt
 SIZE, SCALE = 220, 125  # points; points per unit of the sphere, seen from above
 
 
@@ -26,13 +22,15 @@ def polyline(points: NDArray[np.float64], style: str) -> str:
 def circle(theta: float) -> NDArray[np.float64]:
     """Circle of equal tilt."""
     phi = np.linspace(0.0, 2 * np.pi, 121)
-    return np.sin(theta) * np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
+    points: NDArray[np.float64] = np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
+    points *= np.sin(theta)
+    return points
 
 
 def panel(name: str, phi_dot: float) -> str:
     """One start: turning circles, and the trace of the axis."""
-    path = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot))
-    trace = path.at(np.linspace(0.0, TURN, 1500)).to_world(np.array([0.0, 0.0, 1.0]))
+    path = Motion(TOP, State.from_euler(theta=THETA, psi_dot=PSI_DOT, phi_dot=phi_dot))
+    trace = path.at(np.linspace(0.0, TURN, POINTS)).to_world(np.array([0.0, 0.0, 1.0]))
     circles = "".join(
         polyline(circle(theta), 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
         for theta in path.turning_angles
@@ -42,19 +40,14 @@ def panel(name: str, phi_dot: float) -> str:
     return circles + curve + label
 
 
-def main() -> None:
-    """Write the picture next to this file."""
+def draw_traces() -> str:
+    """Return the picture."""
     panels = "".join(
         f'<g transform="translate({i * SIZE},0)">{panel(name, rate)}</g>'
         for i, (name, rate) in enumerate(STARTS.items())
     )
     width = SIZE * len(STARTS)
-    svg = (
+    return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {SIZE + 16}" '
         f'font-family="sans-serif" font-size="14" fill="#555">{panels}</svg>\n'
     )
-    Path(__file__).with_suffix(".svg").write_text(svg)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,33 +1,23 @@
-"""Render docs/replay.png and docs/six_rates.png: `python test/write_pictures.py`.
+"""Pictures of Rerun's viewer: a top that is hurried, and the article's six rates side by side."""
 
-The first is a top on cusps that is hurried, as `top_replay` shows it; the second a scene of
-`top_report article`.
-"""
-
-from __future__ import annotations
-
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
-ROOT = Path(__file__).parents[1]
-sys.path += [str(ROOT), str(ROOT / "test"), str(ROOT / "test/load")]
+from symtop_ros.physics import Motion, State, hurry, kick_verdict
+from symtop_ros.playback.replay import create_recording
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.view import View
+from symtop_ros.simulation.changes.outcomes import Start
+from symtop_ros.simulation.segment import Segment
+from workshop.article.motions import PSI_DOT, THETA, TOP
+from workshop.article.recordings import sample, six_rates, write_scene
+from workshop.pictures.viewer import pause_at, picture, running_viewer, views
 
-from log_files import ARTICLE, CUSPS  # noqa: E402
-from pictures import pause_at, picture, running_viewer, views  # noqa: E402
-from PIL import Image  # noqa: E402
-
-from symtop_ros.physics import Motion, hurry, kick_verdict  # noqa: E402
-from symtop_ros.playback.replay import create_recording  # noqa: E402
-from symtop_ros.playback.view import entities  # noqa: E402
-from symtop_ros.playback.view.view import View  # noqa: E402
-from symtop_ros.simulation.changes.outcomes import Start  # noqa: E402
-from symtop_ros.simulation.segment import Segment  # noqa: E402
-from workshop.article.recordings import sample, six_rates, write_scene  # noqa: E402
-
+CUSPS = State.from_euler(theta=THETA, psi_dot=PSI_DOT)
 KICK, END = 1_520_000_000, 3_000_000_000  # ns
 PERIOD = 2_000_000  # ns between samples
 MENU = 37  # rows of pixels
@@ -38,7 +28,7 @@ COLORS = 256
 def write_replay(file: Path) -> None:
     """Record a top on cusps that is hurried where it precesses fastest."""
     recording = create_recording(file, "replay")
-    view, start = View(recording), Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
+    view, start = View(recording), Segment.begin(Motion(TOP, CUSPS), 0, 1.0)
     stamps = np.arange(0, END, PERIOD)
     view.send(sample("start", Start.of(start.motion), CUSPS, start, stamps[stamps < KICK]))
     before = start.state_at(KICK)
@@ -60,9 +50,10 @@ def render(recording: Path, seconds: float, target: Path) -> None:
     print(f"wrote {target}")
 
 
-if __name__ == "__main__":
+def write_replays(docs: Path) -> None:
+    """Write replay.png and six_rates.png."""
     with tempfile.TemporaryDirectory() as name:
         write_replay(Path(name, "replay.rrd"))
-        render(Path(name, "replay.rrd"), 2.84, ROOT / "docs/replay.png")
+        render(Path(name, "replay.rrd"), 2.84, docs / "replay.png")
         write_scene(six_rates(), Path(name, "six_rates.rrd"))
-        render(Path(name, "six_rates.rrd"), 1.2, ROOT / "docs/six_rates.png")
+        render(Path(name, "six_rates.rrd"), 1.2, docs / "six_rates.png")

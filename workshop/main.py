@@ -1,8 +1,9 @@
-"""Entry point of `top_report`: its commands, and an import for the one that is chosen."""
+"""Entry point of `python -m workshop`: its commands, and an import for the one that is chosen."""
 
 import argparse
 import math
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,14 +12,16 @@ from symtop_ros.simulation.validation import one_line
 LARGEST_MAP = 4000  # points along a side
 LARGEST_LIMIT = 3600  # s
 DESCRIPTION = """Measures speed against error, compared with the integrators that are installed,
-retells the article with its numbers, and draws the lesson and the maps of Perry's rule."""
+retells the article with its numbers, and draws the lesson, the maps of Perry's rule and pictures of
+the documents. `make help` lists the targets that call it."""
 COMMANDS = {
     "speed": "speed against error: tables, plots and JSON (some minutes)",
     "testset": "scores of programs in the test set (20 minutes)",
     "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
     "article": "the article's figures, its motions in 3D, and its claims",
-    "lesson": "the pictures of docs/lesson.md, or sheets to print",
+    "lesson": "the pictures of the lesson, or sheets to print",
     "maps": "where hurrying the precession raises the top",
+    "pictures": "all pictures of the documents, and the steps of docs/lesson.md",
 }
 
 
@@ -26,20 +29,21 @@ def main(args: list[str] | None = None) -> int:
     """Run a command; return 0 (good), 1 (failed) or 2 (usage)."""
     options = _parser().parse_args(args)
     try:
-        return _run(options)
+        return PARTS[options.command](options)
     except OSError as error:
         file = error.filename or options.folder
-        print(f"top_report: {file}: {error.strerror or error}", file=sys.stderr)
+        print(f"workshop: {file}: {error.strerror or error}", file=sys.stderr)
         return 1
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="top_report", description=DESCRIPTION)
+    parser = argparse.ArgumentParser(prog="workshop", description=DESCRIPTION)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     of = {name: commands.add_parser(name, help=text) for name, text in COMMANDS.items()}
-    for command in of.values():
+    for name, command in of.items():
+        default = "docs" if name == "pictures" else "report"
         command.add_argument(
-            "folder", type=Path, nargs="?", default=Path("report"), help="./report"
+            "folder", type=Path, nargs="?", default=Path(default), help=f"./{default}"
         )
     for name in ("speed", "testset", "filters"):
         of[name].add_argument("--docs", type=_docs, help="write tables and plots here, too")
@@ -84,33 +88,61 @@ def _seconds(text: str) -> float:
     return limit
 
 
-def _run(options: argparse.Namespace) -> int:
-    """Import and run one part, so that a part works without the packages that others need."""
-    if options.command == "maps":
-        from workshop.article.maps import write_maps
+def _map(options: argparse.Namespace) -> int:
+    from workshop.article.maps import write_maps
 
-        return write_maps(options.folder, options.points)
-    if options.command == "article":
-        from workshop.article.retell import retell
+    return write_maps(options.folder, options.points)
 
-        return retell(options.folder)
-    if options.command == "lesson":
-        from workshop.article.lesson import write_lesson
 
-        return write_lesson(options.folder, options.sheets)
-    if options.command == "testset":
-        from workshop.speed.testset import LIMIT, score_testset
+def _retell(options: argparse.Namespace) -> int:
+    from workshop.article.retell import retell
 
-        return score_testset(options.folder, options.docs, options.limit or LIMIT)
-    if options.command == "filters":
-        from workshop.speed.filters import judge_filters
+    return retell(options.folder)
 
-        return judge_filters(options.folder, options.docs)
+
+def _draw_lesson(options: argparse.Namespace) -> int:
+    from workshop.lesson.pictures import write_lesson
+
+    return write_lesson(options.folder, options.sheets)
+
+
+def _draw_pictures(options: argparse.Namespace) -> int:
+    from workshop.pictures.documents import write_pictures
+
+    return write_pictures(options.folder)
+
+
+def _score(options: argparse.Namespace) -> int:
+    from workshop.speed.testset import LIMIT, score_testset
+
+    return score_testset(options.folder, options.docs, options.limit or LIMIT)
+
+
+def _filter(options: argparse.Namespace) -> int:
+    from workshop.speed.filters import judge_filters
+
+    return judge_filters(options.folder, options.docs)
+
+
+def _measure(options: argparse.Namespace) -> int:
     from workshop.speed.benchmarks import FULL, QUICK
     from workshop.speed.measure import measure
 
     scope = FULL if options.full else QUICK
-    command = "top_report speed --full" if options.full else "top_report speed"
+    command = "make report ARGS=--full" if options.full else "make report"
     if options.limit:
-        scope, command = replace(scope, limit=options.limit), f"{command} --limit {options.limit:g}"
+        scope = replace(scope, limit=options.limit)
+        command = f"python -m workshop speed --limit {options.limit:g}"
     return measure(options.folder, scope, command, options.docs)
+
+
+# Each imports what it needs, so that a part works without the packages that others need.
+PARTS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "speed": _measure,
+    "testset": _score,
+    "filters": _filter,
+    "article": _retell,
+    "lesson": _draw_lesson,
+    "maps": _map,
+    "pictures": _draw_pictures,
+}

@@ -1,0 +1,7 @@
+"""`python -m workshop COMMAND`, in a checkout."""
+
+import sys
+
+from symtop_ros.programs import run
+
+sys.exit(run("workshop", "workshop.main", interruptible=True))

@@ -1,0 +1,28 @@
+"""All pictures of the documents that show motions, and the steps of docs/lesson.md."""
+
+import sys
+from pathlib import Path
+from unittest import SkipTest
+
+from workshop.article.figures import FIGURES
+from workshop.lesson.page import PAGE, write_page
+from workshop.lesson.pictures import pack_figure, write_lesson
+from workshop.pictures.replay import write_replays
+from workshop.pictures.traces import draw_traces
+
+
+def write_pictures(docs: Path) -> int:
+    """Write the pictures into a folder such as docs; return the exit status."""
+    (docs / "article").mkdir(parents=True, exist_ok=True)
+    (docs / PAGE.name).write_text(write_page(), encoding="utf-8")
+    (docs / "traces.svg").write_text(draw_traces(), encoding="utf-8")
+    for name, draw in FIGURES.items():
+        (docs / f"article/{name}.png").write_bytes(pack_figure(draw))
+    print(f"wrote {len(FIGURES)} figures to {docs / 'article'}")
+    write_lesson(docs / "lesson")
+    try:
+        write_replays(docs)
+    except SkipTest as reason:  # no program that renders without a screen
+        print(f"workshop: {reason}", file=sys.stderr)
+        return 1
+    return 0
