@@ -1,12 +1,8 @@
-import json
-from dataclasses import asdict
-
 from workshop.speed.benchmarks import (
     FIRST,
     FULL,
     QUICK,
     SMALL,
-    ArrayCost,
     DrivenCase,
     Growth,
     HardCase,
@@ -14,7 +10,6 @@ from workshop.speed.benchmarks import (
     _lengthen,
     list_steps,
 )
-from workshop.speed.footprint import Footprint
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.peers.peer import Peer, Solution
 from workshop.speed.reference import EPS, Reference
@@ -83,15 +78,3 @@ def test_a_quick_report_leaves_out_peers_that_take_too_long():
     assert {f"no: {name}" for name in motions} <= {
         name for name, _ in list_steps(FULL, peers, Results())
     }
-
-
-def test_results_are_read_again_from_a_json_file():
-    results = Results(
-        curves=[curve("a peer", "cusps", 1e-10)],
-        growth=[Growth("a peer", 0.0, (10.0, 1e5), (1e-16, 1.0), (1e-4, 1e-4))],
-        states=[ArrayCost("a peer", (1, 10), (1e-4, 1e-3), 1e-15)],
-        hard=[HardCase("tilt", 0.1, EPS, 20 * EPS, {"a peer": 1e-9})],
-        driven=[DrivenCase("rods", {"a peer": 1e-9}, {"a peer": 1e-3})],
-        footprint=Footprint(0.2, 0.1, 100, 5600),
-    )
-    assert Results.from_facts(json.loads(json.dumps(asdict(results)))) == results

@@ -22,7 +22,7 @@ from workshop.load.bare import TOPICS
 from workshop.load.listener import Listener, Traffic
 from workshop.load.processes import domain, run_program, running, script, top_node
 from workshop.speed.measure import find_machine
-from workshop.speed.publish import publish_facts
+from workshop.speed.publish import publish
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -37,6 +37,7 @@ KICK, SLOW_KICK = "kick to first sample, ms", "kick to first sample p99, ms"
 HIGHEST = f"highest rate with < {LATE:.1%} late, Hz"
 
 Command = Callable[[float], list[str]]  # command line for a rate in Hz
+NAME = "node cost"  # of the table in the documentation
 Runs = dict[str, dict[str, list[float]]]  # values of each run, by the row and the node
 
 
@@ -138,7 +139,7 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     source = f"`make node-cost` on {facts['machine']}"
     spread = f"medians of {facts['count']} runs (lowest to highest), {len(TOPICS)} topics"
     table = _format_table(runs, tuple(dict.fromkeys(node for row in runs.values() for node in row)))
-    return {"node cost": f"{source}: {spread} with one subscriber each.\n\n{table}"}
+    return {NAME: f"{source}: {spread} with one subscriber each.\n\n{table}"}
 
 
 def _format_table(runs: Runs, nodes: tuple[str, ...]) -> str:
@@ -184,9 +185,9 @@ def main(args: list[str] | None = None) -> int:
         runs = compare(options.seconds, options.runs, lambda line: print(line, flush=True))
         facts = {"machine": find_machine(), "count": options.runs, "runs": runs}
         sections = format_sections(facts)
-        print(sections["node cost"])
+        print(sections[NAME])
         if options.docs:
-            publish_facts({"node": facts}, sections, options.docs)
+            publish(sections, options.docs)
         return True
 
     description = "CPU, jitter and kick latency of top_node, compared with bare rclpy nodes."

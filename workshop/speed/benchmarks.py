@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from math import inf
 from timeit import repeat
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from workshop.speed.many import ManyCost, Program, find_programs, measure_many
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, prepare
 from workshop.speed.peers.peer import Peer, PrepareArrays, Solution, Task, spread_times
 from workshop.speed.reference import EPS, Reference, ReferenceMotion
-from workshop.speed.sweep import REPEATS, Curve, Measurement, sweep_motion, time_call
+from workshop.speed.sweep import REPEATS, Curve, sweep_motion, time_call
 
 SPAN = 10.0  # s
 CHECK = 2.0**-5  # s on which a peer's model must be right at its finest setting
@@ -108,24 +107,6 @@ class Results:
     many: list[ManyCost] = field(default_factory=list)
     footprint: Footprint | None = None
 
-    @classmethod
-    def from_facts(cls, facts: dict[str, Any]) -> "Results":
-        """Return the results that `dataclasses.asdict` turned into the values of a JSON file."""
-        footprint = facts["footprint"]
-        return cls(
-            facts["checks"],
-            [
-                Curve(**{**each, "points": tuple(Measurement(**p) for p in each["points"])})
-                for each in facts["curves"]
-            ],
-            [Growth(**_freeze(each)) for each in facts["growth"]],
-            [ArrayCost(**_freeze(each)) for each in facts["states"]],
-            [HardCase(**each) for each in facts["hard"]],
-            [DrivenCase(**each) for each in facts.get("driven", ())],
-            [ManyCost(**each) for each in facts.get("many", ())],
-            Footprint(**footprint) if footprint else None,
-        )
-
     def find_curve(self, peer: str, motion: str) -> Curve:
         """Return the curve of a peer for a motion."""
         return next(c for c in self.curves if (c.peer, c.motion) == (peer, motion))
@@ -160,11 +141,6 @@ class Results:
         for case in self.driven:
             if case.errors[TAYLOR] > LARGEST_DRIVEN_ERROR:
                 yield f"{case.family}: error {case.errors[TAYLOR]:.1e}"
-
-
-def _freeze(facts: dict[str, Any]) -> dict[str, Any]:
-    """Return facts with tuples for lists."""
-    return {key: tuple(v) if isinstance(v, list) else v for key, v in facts.items()}
 
 
 Step = tuple[str, Callable[[], None]]  # text for a progress bar, and the work

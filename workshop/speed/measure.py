@@ -1,16 +1,23 @@
 """The measurement behind `make report`: runs the benchmarks, and writes tables and plots."""
 
 import platform
+import shutil
 import sys
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from symtop_ros.physics import describe_engine
 from workshop.speed.benchmarks import Results, Scope, list_steps
-from workshop.speed.document import Environment, format_document
+from workshop.speed.document import (
+    Environment,
+    format_chapters,
+    format_document,
+    format_summary,
+)
 from workshop.speed.peers import find_peers
-from workshop.speed.plots import write_plots
-from workshop.speed.publish import collect_facts, publish, track, write_results
+from workshop.speed.plots import NAMES, write_plots
+from workshop.speed.publish import publish, track, write_results
 from workshop.speed.reference import Reference
 
 PACKAGES = (
@@ -32,7 +39,7 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
         _write_tables(folder, results, environment)  # what is measured can be read at once
     _write(folder, results, environment)
     if docs:
-        publish(folder, docs)
+        _publish(folder, results, environment, docs)
     print(f"{folder / 'report.md'}, report.json and plots")
     failures = results.list_failures()
     for failure in failures:
@@ -48,8 +55,17 @@ def _write_tables(folder: Path, results: Results, environment: Environment) -> s
 
 def _write(folder: Path, results: Results, environment: Environment) -> None:
     text = _write_tables(folder, results, environment)
-    write_results("report", collect_facts(results, environment), text, folder)
+    facts = {"environment": asdict(environment), "results": asdict(results)}
+    write_results("report", facts, text, folder)
     write_plots(results, Reference.read().article[0], folder)
+
+
+def _publish(folder: Path, results: Results, environment: Environment, docs: Path) -> None:
+    motion = Reference.read().article[0]
+    chapters = format_chapters(results, motion, environment)
+    publish({"chapters": chapters, "summary": format_summary(results, motion)}, docs)
+    for name in NAMES:
+        shutil.copy(folder / f"{name}.svg", docs)
 
 
 def find_machine() -> str:
