@@ -16,7 +16,7 @@ from symtop_ros.web.lesson import read_lesson
 from symtop_ros.web.run import Run
 from workshop.article.figures import FIGURES
 from workshop.article.retell import check_claims
-from workshop.lesson.pictures import pack_figure
+from workshop.pictures.pack import pack_figure
 
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "article.md").read_text(encoding="utf-8")

@@ -80,7 +80,7 @@ def test_the_document_has_every_chapter_and_its_plots(folder):
         "Hard cases",
         "Where a peer is ahead",
     ]
-    named = re.findall(r"\((\w+)\.svg\)", text)
+    named = re.findall(r"\((\w+)\.png\)", text)
     assert named == [name for name in NAMES if name != "motions"]  # only one was measured
     for line in (line for line in text.splitlines() if line.startswith("|")):
         assert line.endswith("|")

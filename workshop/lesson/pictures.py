@@ -4,20 +4,17 @@ A start begins a run; a hurry kicks the last run. Regular precession is the only
 hurried, so that the time of the kick is free.
 """
 
-import io
 from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from PIL import Image
 
 from symtop_ros.drawing.fictitious import torques_of
-from symtop_ros.drawing.style import BLUE, GREY, INK, RED, SETTINGS, new_figure
+from symtop_ros.drawing.style import BLUE, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -32,12 +29,12 @@ from workshop.article.answers.fictitious import plot_torques
 from workshop.article.figures import DEPTH
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
 from workshop.lesson.sheets import write_teacher_sheet, write_worksheet
+from workshop.pictures.pack import pack_figure
 
 KICK = 0.4  # s
 TRACE, TURNS = 1.0, 2.0  # s, and turns of the precession: whichever is shorter is drawn
 SHORT = 0.08  # s in which the fast precession makes most of a turn
 SPAN = 0.8  # s of the plots
-RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
 LOOKS = ((BLUE, "-"), (RED, "--"), (INK, ":"))
 CHAIN, SHORTEST = (GREY, BLUE, RED, INK), 0.01  # colours as over phi'; of the largest torque
 Runs = dict[str, KickedMotion]
@@ -268,13 +265,3 @@ def write_lesson(folder: Path, sheets: bool = False) -> int:
 def picture_of(step: LessonStep) -> bytes:
     """Return the picture of a step as a PNG."""
     return pack_figure(lambda: draw_step(step))
-
-
-def pack_figure(draw: Callable[[], Figure]) -> bytes:
-    """Return the picture of a figure as a PNG with a palette, which has a third of the size."""
-    drawn, packed = io.BytesIO(), io.BytesIO()
-    with rc_context(SETTINGS):
-        draw().savefig(drawn, dpi=RESOLUTION)
-    with Image.open(drawn) as picture:
-        picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
-    return packed.getvalue()

@@ -6,7 +6,8 @@ from unittest import SkipTest
 
 from workshop.article.figures import FIGURES
 from workshop.lesson.page import PAGE, write_page
-from workshop.lesson.pictures import pack_figure, write_lesson
+from workshop.lesson.pictures import write_lesson
+from workshop.pictures.pack import pack_figure
 from workshop.pictures.replay import write_replays
 from workshop.pictures.traces import draw_traces
 

@@ -116,7 +116,7 @@ def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str
     ]
     return (
         f"## The article's top, {motion.name}, {SPAN:g} s\n\n"
-        f"![work and precision](work_precision.svg)\n\n"
+        f"![work and precision](work_precision.png)\n\n"
         f"Each at its best setting within {limit:g} s of computing time for a run.\n\n"
         f"{format_table(head, rows)}\n\n"
         "Largest and mean error: over times in (0, T], as many as the table says; peers without "
@@ -163,7 +163,7 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
     best = {(c.peer, c.motion): f"{c.best.error:.0e} in {_ms(c.best.seconds)}" for c in others}
     rows = [[peer, *(best[peer, name] for name in names)] for peer in peers]
     return (
-        "## Other motions\n\n![speed against error, by motion](motions.svg)\n\n"
+        "## Other motions\n\n![speed against error, by motion](motions.png)\n\n"
         f"Largest error in {SPAN:g} s at the best setting, and its time in ms.\n\n"
         f"{format_table(['', *names], rows)}"
     )
@@ -218,7 +218,7 @@ def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
         rows.append([each.peer, *cells, *["-"] * (len(times) - len(cells))])
     rows.append(["rounding of the input", *(f"{motion.limit(t):.0e}" for t in times)])
     return (
-        "## Long times\n\n![growth of the errors](long_times.svg)\n\n"
+        "## Long times\n\n![growth of the errors](long_times.png)\n\n"
         "Each at its best setting for ten seconds, within a limit of computing time: the error at "
         f"the end.\n\n{format_table(['', *(f'{t:g} s' for t in times)], rows)}"
     )
@@ -237,7 +237,7 @@ def _format_arrays(results: Results) -> str:
         for each in results.states
     ]
     return (
-        f"## Many states\n\n![cost of a state](arrays.svg)\n\nMicroseconds per state, by the "
+        f"## Many states\n\n![cost of a state](arrays.png)\n\nMicroseconds per state, by the "
         f"number of states, spread evenly over {SPAN:g} s; set-up or integration included.\n\n"
         f"{format_table(['', 'largest error', *(f'{n:g}' for n in numbers)], rows)}"
         f"{_format_footprint(results.footprint)}"
@@ -291,7 +291,7 @@ def _format_hard_cases(cases: list[HardCase]) -> str:
     head = ["family", "from ... to", "rounding of the input, eps", "closed form, eps"]
     head += [f"{peer}, eps" for peer in peers]
     return (
-        "## Hard cases\n\n![hard cases, step by step](hard_cases.svg)\n\n"
+        "## Hard cases\n\n![hard cases, step by step](hard_cases.png)\n\n"
         "Each family approaches its singular case by a factor of 100 per step, and ends with the "
         f"case itself. The largest errors in eps = {EPS:.1e} rad; a dash if a peer would take too "
         f"long.\n\n{format_table(head, rows)}"

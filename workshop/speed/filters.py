@@ -5,7 +5,6 @@ start from the exact attitude, so that nothing but the motion and the noise is j
 """
 
 import math
-import shutil
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -25,6 +24,7 @@ from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import invert
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.settings import Settings
+from workshop.pictures.pack import pack
 from workshop.speed.document import format_table
 from workshop.speed.publish import track, write_results
 
@@ -122,7 +122,7 @@ def judge_filters(folder: Path, docs: Path | None = None) -> int:
     write_results(NAME, facts, format_trials(facts), folder, docs)
     write_figures({NAME: lambda: draw_tilt_errors(curves)}, folder)
     if docs:
-        shutil.copy(folder / f"{NAME}.svg", docs)
+        (docs / f"{NAME}.png").write_bytes(pack(folder / f"{NAME}.png"))
     print(f"{folder / 'filters.md'}, filters.json and a plot")
     return 0
 

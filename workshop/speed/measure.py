@@ -1,13 +1,13 @@
 """The measurement behind `make report`: runs the benchmarks, and writes tables and plots."""
 
 import platform
-import shutil
 import sys
 from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from symtop_ros.physics import describe_engine
+from workshop.pictures.pack import pack
 from workshop.speed.benchmarks import Results, Scope, list_steps
 from workshop.speed.document import (
     Environment,
@@ -65,7 +65,7 @@ def _publish(folder: Path, results: Results, environment: Environment, docs: Pat
     chapters = format_chapters(results, motion, environment)
     publish({"chapters": chapters, "summary": format_summary(results, motion)}, docs)
     for name in NAMES:
-        shutil.copy(folder / f"{name}.svg", docs)
+        (docs / f"{name}.png").write_bytes(pack(folder / f"{name}.png"))
 
 
 def find_machine() -> str:

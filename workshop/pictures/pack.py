@@ -1,0 +1,30 @@
+"""Pictures for the documents: PNG with a palette, a third of the size."""
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from PIL import Image
+
+from symtop_ros.drawing.style import SETTINGS
+
+RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
+
+
+def pack_figure(draw: Callable[[], Figure]) -> bytes:
+    """Return the packed picture of a figure."""
+    drawn = io.BytesIO()
+    with rc_context(SETTINGS):
+        draw().savefig(drawn, dpi=RESOLUTION)
+    return pack(drawn)
+
+
+def pack(file: Path | IO[bytes]) -> bytes:
+    """Return the packed picture of a PNG."""
+    packed = io.BytesIO()
+    with Image.open(file) as picture:
+        picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
+    return packed.getvalue()
