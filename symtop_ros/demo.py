@@ -8,7 +8,8 @@ import signal
 import socket
 import subprocess
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import rclpy
@@ -100,8 +101,10 @@ def _run(domain: int) -> Path:
         _say(f"states are computed by {describe_engine()}")
     options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "-r", f"__ns:={space}"]
     command = [sys.executable, "-c", NODE, "--ros-args", *options, "--log-level", "warn"]
-    node = subprocess.Popen(command)
+    node = None
     try:
+        with _hold_signals():
+            node = subprocess.Popen(command)
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         top = Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)
         top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
@@ -112,8 +115,24 @@ def _run(domain: int) -> Path:
         raise DemoError(describe_failure(error)) from None
     finally:
         rclpy.try_shutdown()
-        node.terminate()
-        node.wait(timeout=10)
+        if node:
+            node.terminate()
+            node.wait(timeout=10)
+
+
+@contextmanager
+def _hold_signals() -> Iterator[None]:
+    """Deliver SIGINT and SIGTERM at the end: an exception in between would leave a node behind."""
+    held: list[int] = []
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    usual = {number: signal.signal(number, lambda n, _: held.append(n)) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in usual.items():
+            signal.signal(number, handler)
+    for number in held:
+        signal.raise_signal(number)
 
 
 def _is_known(top: Connection) -> bool:

@@ -149,6 +149,23 @@ def here(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("here")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_while_the_node_is_started_leaves_none_behind(number, monkeypatch):
+    started, start = [], subprocess.Popen
+
+    def start_and_signal(command):
+        started.append(start(command))
+        signal.raise_signal(number)
+        return started[0]
+
+    monkeypatch.setattr(demo, "NODE", "import time; time.sleep(60)")
+    monkeypatch.setattr(demo.subprocess, "Popen", start_and_signal)
+    assert demo.main() == demo.INTERRUPTED
+    (node,) = started
+    assert node.returncode == -signal.SIGTERM
+
+
+@pytest.mark.usefixtures("here")
 def test_a_node_that_does_not_start_is_reported(monkeypatch, capsys):
     monkeypatch.setattr(demo, "NODE", "pass")
     assert demo.main() == 1
