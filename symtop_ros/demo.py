@@ -124,7 +124,7 @@ def _run(domain: int) -> Path:
 def _hold_signals() -> Iterator[None]:
     """Deliver SIGINT and SIGTERM at the end: an exception in between would leave a node behind."""
     held: list[int] = []
-    numbers = (signal.SIGINT, signal.SIGTERM)
+    numbers: tuple[int, ...] = (signal.SIGINT, signal.SIGTERM)
     usual = {number: signal.signal(number, lambda n, _: held.append(n)) for number in numbers}
     try:
         yield

@@ -57,8 +57,8 @@ class FirstInstants:
         for n in range(TERMS):
             # Euler's equations and q' = q (0, omega)/2 in the frame that does not turn by c: there
             # gravity alone changes omega_xy. All products are convolutions.
-            over, along = _convolve_with_conjugate(B, omega), _convolve(omega, A)
-            weight, order = _convolve_with_conjugate(B, A), n + 1
+            over, along = _convolve(B, omega, -1.0), _convolve(omega, A)
+            weight, order = _convolve(B, A, -1.0), n + 1
             A_n, B_n = (A.real[n], A.imaginary[n]), (B.real[n], B.imaginary[n])
             omega.append(beta * weight[0] / order, beta * weight[1] / order)
             A.append(
@@ -103,27 +103,17 @@ def _find_fastest_rate(moments: Vector, angular_velocity: Vector) -> float:
     return max(*rates, SLOWEST)
 
 
-def _convolve(left: Series, right: Series) -> FloatPair:
-    """Return the coefficient of the product of two series that both have as many as it needs."""
+def _convolve(left: Series, right: Series, sign: float = 1.0) -> FloatPair:
+    """Return the coefficient of the product of two series that both have as many as it needs.
+
+    With sign -1 it is that of the product with the conjugate of the second series.
+    """
     real = imaginary = 0.0
     a, b = (
         zip(left.real, left.imaginary, strict=True),
         zip(right.real, right.imaginary, strict=True),
     )
     for (x, y), (u, v) in zip(a, reversed(list(b)), strict=True):
-        real += x * u - y * v
-        imaginary += x * v + y * u
-    return real, imaginary
-
-
-def _convolve_with_conjugate(left: Series, right: Series) -> FloatPair:
-    """Return the coefficient of the product of a series and the conjugate of another one."""
-    real = imaginary = 0.0
-    a, b = (
-        zip(left.real, left.imaginary, strict=True),
-        zip(right.real, right.imaginary, strict=True),
-    )
-    for (x, y), (u, v) in zip(a, reversed(list(b)), strict=True):
-        real += x * u + y * v
-        imaginary += y * u - x * v
+        real += x * u - sign * (y * v)
+        imaginary += y * u + sign * (x * v)
     return real, imaginary
