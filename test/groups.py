@@ -45,6 +45,7 @@ MARKS = "not realtime and not long"
 EXAMPLES = ("--doctest-modules", "--ignore-glob=*/*_peer.py")
 
 COUNT = re.compile(r"(\d+) (passed|failed|skipped|errors?)\b")
+CLOSING = re.compile(r"^(?:=+ )?(\d+ \w+.*) in [\d.]+s\b.*$", re.MULTILINE)
 FAILURE = re.compile(r"^(?:FAILED|ERROR) (\S+?(?:\[.*?\])?)(?= - |$)", re.MULTILINE)
 DOTS = re.compile(r"^([.FEsxX]+)(?: +\[ *\d+%\])?$", re.MULTILINE)
 DETAILS = re.compile(r"^=+ (?:FAILURES|ERRORS) =+$", re.MULTILINE)
@@ -69,7 +70,7 @@ class Outcome:
 
     def add(self, command: Command, status: int, text: str) -> None:
         """Add the exit status and the output of a command."""
-        counts = {name.rstrip("s"): int(number) for number, name in COUNT.findall(last_line(text))}
+        counts = {name.rstrip("s"): int(number) for number, name in COUNT.findall(closing(text))}
         failed = [shlex.join([*command.again, name]) for name in FAILURE.findall(text)]
         if command.again:
             self.passed += counts.get("passed", 0)
@@ -81,9 +82,9 @@ class Outcome:
             self.failures.append(f"{shlex.join(command.words)}  # exit status {status}")
 
 
-def last_line(text: str) -> str:
-    """Return the last line of a text; empty without any."""
-    return text.rstrip().rpartition("\n")[2]
+def closing(text: str) -> str:
+    """Return the line with pytest's counts, after which Python may print; empty without any."""
+    return (CLOSING.findall(text) or [""])[-1]
 
 
 def pytest(

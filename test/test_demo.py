@@ -158,9 +158,12 @@ def test_a_signal_while_the_node_is_started_leaves_none_behind(number, monkeypat
         signal.raise_signal(number)
         return started[0]
 
+    # A shell starts programs in the background with SIGINT ignored.
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
     monkeypatch.setattr(demo, "NODE", "import time; time.sleep(60)")
     monkeypatch.setattr(demo.subprocess, "Popen", start_and_signal)
     assert demo.main() == demo.INTERRUPTED
+    signal.signal(signal.SIGINT, usual)
     (node,) = started
     assert node.returncode == -signal.SIGTERM
 

@@ -53,6 +53,14 @@ def test_every_group_runs_and_failures_are_summed_up_at_the_end(monkeypatch, cap
     assert (folder / "first.txt").read_text() == "oh\nfine\n"
 
 
+def test_counts_are_found_before_what_python_prints_at_its_end(monkeypatch, capsys, folder):
+    (folder / "conftest.py").write_text("import atexit\natexit.register(print, 'after all')\n")
+    (folder / "test_of_group.py").write_text(TESTS.replace("a - b [c]", "d"))
+    run(monkeypatch, {"one": [groups.pytest(str(folder), options=["-p", "no:cacheprovider"])]})
+    assert (folder / "one.txt").read_text().endswith("after all\n")
+    assert "  one          2 passed, 0 failed, 1 skipped" in capsys.readouterr().out
+
+
 def test_without_a_failure_the_status_is_zero(monkeypatch, capsys):
     commands = {name: [script("")] for name in ("one", "realtime")}
     assert run(monkeypatch, commands) == 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import fcntl
 import os
 import tempfile
@@ -33,6 +34,13 @@ def claim_domain() -> int:
 def release_domain(number: int) -> None:
     """Let others claim a domain again."""
     _held.pop(number).close()
+
+
+@atexit.register
+def _release_all() -> None:
+    """Close the files before Python finds them open at its end, and says so."""
+    for number in list(_held):
+        release_domain(number)
 
 
 def _lock(number: int) -> IO[str] | None:
