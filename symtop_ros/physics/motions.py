@@ -145,6 +145,22 @@ class Motions(Setting):
         states = member.at(times.select(left) if isinstance(times, ExactTimes) else times[left])
         orientation[left], omega[left] = states.orientation, states.angular_velocity
 
+    def jacobian(self, t: ArrayLike) -> Real:
+        """Return the derivatives of each motion's state, as `Motion.jacobian` does.
+
+        Parameters
+        ----------
+        t : float or array_like (...)
+            Times since the start in s, the same for all motions.
+
+        Returns
+        -------
+        ndarray (..., 6, 9)
+            In the shape of the motions, followed by that of the times.
+        """
+        found = np.array([motion.jacobian(t) for motion in self.members])
+        return found.reshape(*self.shape, *np.shape(t), 6, 9)
+
     def _collect(self, ask: Callable[[Motion], Any], dtype: Any = np.float64) -> Any:
         """Return what each motion answers, in the shape of the motions."""
         answers = np.array([ask(member) for member in self.members], dtype)

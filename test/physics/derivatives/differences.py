@@ -1,0 +1,108 @@
+"""Derivatives of exact motions by differences of numbers with many digits."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+from mpmath import mp, mpf
+from physics.driven_motion import DrivenTop
+from physics.taylor_motion import TaylorMotion
+
+DIGITS = 70
+STEP = Fraction(1, 10**18)  # of a parameter of size 1: the square of it is the relative error
+DRIVEN_STEP = Fraction(1, 10**12)  # these motions have 40 digits
+BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
+
+
+def differentiate(motion, times, returns=True, digits=DIGITS):
+    """The Jacobians (n, 6, 9) at times in s; `returns` says that the nutation has a period."""
+
+    def follow(moments, orientation, omega):
+        exact = TaylorMotion(moments, orientation, omega, digits)
+        if not returns:
+            exact.reach(max(times))
+        return [exact.state_at(t) for t in times]
+
+    return _differentiate(motion, follow, STEP, digits)
+
+
+def differentiate_driven(motion, times):
+    """The Jacobians (n, 6, 9) of a motion with friction or a torque, at times in s > 0."""
+    friction = motion.friction.axial, motion.friction.transverse
+
+    def follow(moments, orientation, omega):
+        exact = DrivenTop(moments, friction, motion.applied_torque)
+        return exact.states_at(orientation, omega, times)
+
+    return _differentiate(motion, follow, DRIVEN_STEP, 50)
+
+
+def _differentiate(motion, follow, step, digits):
+    moments = [Fraction(each) for each in motion.top.moments]
+    orientation = [Fraction(each) for each in motion.start.given_orientation.tolist()]
+    omega = [Fraction(each) for each in motion.start.angular_velocity.tolist()]
+    base, columns = follow(moments, orientation, omega), []
+    fastest = max(map(abs, omega))
+    for k in range(9):
+        sizes = abs(moments[k]) or moments[0] if k < 3 else 1 if k < 6 else fastest or 1
+        h, pair = step * sizes, []
+        for sign in (h, -h):
+            top, q, rates = list(moments), orientation, list(omega)
+            if k < 3:
+                top[k] += sign
+            elif k < 6:
+                q = _turn(orientation, k - 3, sign)
+            else:
+                rates[k - 6] += sign
+            pair.append(follow(top, q, rates))
+        with mp.workdps(digits):
+            twice = 2 * mpf(h.numerator) / h.denominator
+            columns.append([_compare(*each, twice) for each in zip(base, *pair, strict=True)])
+    return np.array(columns).transpose(1, 2, 0)
+
+
+def _turn(q, axis, angle):
+    """A quaternion turned about an axis of the body by a small angle, not normalised."""
+    w, x, y, z = q
+    a, b, c = (angle / 2 if k == axis else Fraction(0) for k in range(3))
+    return [
+        w - x * a - y * b - z * c,
+        x + w * a + y * c - z * b,
+        y + w * b + z * a - x * c,
+        z + w * c + x * b - y * a,
+    ]
+
+
+def _compare(base, plus, minus, twice):
+    """The derivative of attitude, as a rotation vector of the body, and of omega."""
+    (w, x, y, z), _ = base
+    a, b, c, d = (
+        (p - m) / twice for p, m in zip(_near(plus[0], base), _near(minus[0], base), strict=True)
+    )
+    turned = (
+        w * b - x * a - y * d + z * c,
+        w * c + x * d - y * a - z * b,
+        w * d - x * c + y * b - z * a,
+    )
+    rates = ((p - m) / twice for p, m in zip(plus[1], minus[1], strict=True))
+    return [float(each) for each in (*(2 * each for each in turned), *rates)]
+
+
+def _near(q, base):
+    """The one of q and -q that is near to another quaternion."""
+    return q if sum(a * b for a, b in zip(q, base[0], strict=True)) > 0 else [-c for c in q]
+
+
+def find_errors(found, right):
+    """The largest error of each Jacobian, as a part of the largest element of its block.
+
+    A block has three rows, and one column for a moment or three for the start.
+    """
+    errors = np.zeros(found.shape[:-2])
+    for rows in (slice(0, 3), slice(3, 6)):
+        for columns in BLOCKS:
+            largest = np.abs(right[..., rows, columns]).max(axis=(-1, -2))
+            off = np.abs(found - right)[..., rows, columns].max(axis=(-1, -2))
+            errors = np.maximum(errors, off / np.where(largest, largest, 1.0))
+    return errors
