@@ -1,13 +1,18 @@
 """Build script of the ament_python package: the same tree from pip and from colcon."""
 
 import re
+import sys
 from glob import glob
 from pathlib import Path
 
 from setuptools import Extension, find_packages, setup
+from setuptools.command.build_py import build_py
+from setuptools.command.install_lib import install_lib
 
 NAME = "symtop_ros"
 VERSION = re.search(r'__version__ = "(.+)"', Path(NAME, "__init__.py").read_text())[1]
+# `colcon build --symlink-install` runs this file by a link, from a folder without the README.
+README = Path(__file__).resolve().with_name("README.md")
 
 # ROS 2 from PyPI, with Fast DDS, for machines without one. It is an extra, never a requirement: on
 # a machine with a ROS from apt it would be a second one. The two distributions exclude each other.
@@ -103,11 +108,29 @@ KERNEL = Extension(
     optional=True,
 )
 
+
+class BuildPython(build_py):
+    """Builds in silence where Python is told to write no bytecode, as colcon tells it."""
+
+    def byte_compile(self, files: list[str]) -> None:
+        if not sys.dont_write_bytecode:
+            super().byte_compile(files)
+
+
+class InstallPython(install_lib):
+    """The same for the installed files."""
+
+    def byte_compile(self, files: list[str]) -> None:
+        if not sys.dont_write_bytecode:
+            super().byte_compile(files)
+
+
 setup(
     name=NAME,
     version=VERSION,
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
     ext_modules=[KERNEL],
+    cmdclass={"build_py": BuildPython, "install_lib": InstallPython},
     options={"bdist_wheel": {"py_limited_api": "cp311"}},
     package_data={
         NAME: [
@@ -165,7 +188,7 @@ setup(
     maintainer="The symtop_ros authors",
     maintainer_email="symtop_ros@example.org",
     description="The heavy symmetric top as a ROS 2 node: exact motion, kicks as services",
-    long_description=Path("README.md").read_text(encoding="utf-8"),
+    long_description=README.read_text(encoding="utf-8"),
     long_description_content_type="text/markdown",
     license="Apache-2.0",
     keywords=["symmetric top", "rigid body", "precession", "ground truth", "ROS 2"],

@@ -67,13 +67,43 @@ def assert_tree(prefix, programs):
         assert os.access(programs / name, os.X_OK)
 
 
-def test_colcon_build_installs_what_ros2_run_looks_for(sources):
-    workspace = sources.parents[1]
+def build(workspace, *options, **variables):
+    """Build a workspace with colcon; return the prefix of the package and what is printed."""
     colcon = shutil.which("colcon", path=str(Path(sys.executable).parent))
     if colcon is None:
         pytest.skip("colcon is not installed")
-    subprocess.run([colcon, "build"], cwd=workspace, check=True, timeout=300, capture_output=True)
-    prefix = workspace / "install" / "symtop_ros"
+    result = subprocess.run(
+        [colcon, "build", "--packages-select", "symtop_ros", *options],
+        cwd=workspace,
+        check=True,
+        timeout=300,
+        capture_output=True,
+        text=True,
+        env={**os.environ, **variables},
+    )
+    return workspace / "install" / "symtop_ros", result.stdout + result.stderr
+
+
+@pytest.fixture
+def workspace(sources, tmp_path):
+    """A workspace of its own."""
+    shutil.copytree(sources, tmp_path / "src/symtop_ros")
+    return tmp_path
+
+
+@pytest.mark.parametrize("compiler", ["g++", "no-compiler"])
+def test_colcon_build_with_links_leads_to_the_sources(workspace, compiler):
+    prefix, printed = build(workspace, "--symlink-install", CC=compiler, CXX=compiler)
+    (link,) = prefix.glob("lib/python*/site-packages/symtop-ros.egg-link")
+    assert (Path(link.read_text().splitlines()[0]) / "symtop_ros/py.typed").is_file()
+    assert os.access(prefix / "lib/symtop_ros/top_node", os.X_OK)
+    assert sorted(path.name for path in (prefix / "share/symtop_ros/config").iterdir()) == CONFIG
+    assert "Failed" not in printed
+
+
+def test_colcon_build_installs_what_ros2_run_looks_for(workspace):
+    prefix, printed = build(workspace)
+    assert "stderr" not in printed
     assert_tree(prefix, prefix / "lib/symtop_ros")
     site = next(prefix.glob("lib/python*/site-packages"))
     environment = {
