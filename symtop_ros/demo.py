@@ -9,7 +9,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
 import rclpy
@@ -106,11 +106,11 @@ def _run(domain: int) -> Path:
         with _hold_signals():
             node = subprocess.Popen(command)
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-        top = Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)
-        top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
-        if node.poll() is not None:
-            raise DemoError(f"top_node ended with status {node.returncode}")
-        return _show(top)
+        with closing(Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)) as top:
+            top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
+            if node.poll() is not None:
+                raise DemoError(f"top_node ended with status {node.returncode}")
+            return _show(top)
     except RuntimeError as error:
         raise DemoError(describe_failure(error)) from None
     finally:

@@ -34,6 +34,10 @@ class Connection:
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
 
+    def close(self) -> None:
+        """End the executor; else Python may end its parts in an order that prints an exception."""
+        self._executor.shutdown()
+
     def set(self, service: str, values: Mapping[str, Any]) -> tuple[bool, str]:
         """Call a service that takes named values; return success and the answer."""
         request = SetParametersAtomically.Request(parameters=_parameter_messages(values))

@@ -4,6 +4,7 @@ import argparse
 import json
 import math
 import sys
+from contextlib import closing
 from typing import Any
 
 import rclpy
@@ -30,15 +31,15 @@ def main(args: list[str] | None = None) -> int:
         values = parse_values(vars(options).get("values", ()))
         with ros_context(arguments) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
-            top = Connection(node, options.node, options.timeout)
-            listen()
-            granted, text = _run(options, values, top)
-            if top.doubles:
-                print(
-                    f"top_ctl: {top.doubles} nodes have the name {top.name}, and one of them has "
-                    "answered (a killed node is listed for 20 s)",
-                    file=sys.stderr,
-                )
+            with closing(Connection(node, options.node, options.timeout)) as top:
+                listen()
+                granted, text = _run(options, values, top)
+                if top.doubles:
+                    print(
+                        f"top_ctl: {top.doubles} nodes have the name {top.name}, and one of them "
+                        "has answered (a killed node is listed for 20 s)",
+                        file=sys.stderr,
+                    )
     except ExternalShutdownException:
         granted = options.command in UNTIL_INTERRUPTED
         text = "" if granted else "interrupted before the answer arrived"

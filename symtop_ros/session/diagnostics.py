@@ -50,7 +50,7 @@ def balance_status(segment: Segment, stamp: int) -> Status:
         "friction.axial": motion.friction.axial,
         "friction.transverse": motion.friction.transverse,
         "applied_torque": list(motion.applied_torque),
-        "power": float(added @ state.to_world(state.angular_velocity)),
+        "power": float((added * state.to_world(state.angular_velocity)).sum()),
         "energy.balance": found.energy,
         "angular_momentum.balance": found.angular_momentum.tolist(),
     }

@@ -84,6 +84,14 @@ def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(changed, seed):
         assert swap(changed, place, data[:k] + bytes([digit]) + data[k + 1 :]), text
 
 
+def test_what_is_left_of_a_balance_is_rounding_and_not_judged(changed):
+    place = changed.places("/diagnostics")[-1]
+    data = changed.messages[place].data
+    (status,) = (each for each in decode_statuses(data) if each.name == "top: balance")
+    text = status.values["angular_momentum.balance"]
+    assert swap(changed, place, data.replace(text.encode(), text.encode()[::-1])) == []
+
+
 def test_a_message_that_cannot_be_read_is_named(changed):
     (place, *_) = changed.places("/diagnostics")
     (found,) = swap(changed, place, changed.messages[place].data[:-2])
