@@ -8,7 +8,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from symtop_ros.node.duplicates import DuplicateNodes
+from symtop_ros.node.duplicates import DuplicateClocks, DuplicateNodes, Duplicates
 from symtop_ros.node.markers import Markers
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
@@ -54,7 +54,11 @@ class NodeHost:
     """The node; see `OutputHost` for the methods."""
 
     def __init__(self, node: Node, settings: Settings) -> None:
-        self._node, self._duplicates = node, DuplicateNodes(node)
+        self._node = node
+        self._duplicates: list[Duplicates] = [
+            DuplicateNodes(node),
+            DuplicateClocks(node, settings.publish_clock),
+        ]
         self._markers = Markers(node, settings.world_frame) if settings.publish_markers else None
 
     @property
@@ -94,9 +98,10 @@ class NodeHost:
         """Do nothing: events are published and logged."""
 
     def update_statuses(self) -> list[Status]:
-        """Count the nodes of the same name, and return the status on them."""
-        self._duplicates.update()
-        return [self._duplicates.status]
+        """Count the nodes of the same name and the publishers of /clock; return the statuses."""
+        for each in self._duplicates:
+            each.update()
+        return [each.status for each in self._duplicates]
 
     def inform(self, text: str) -> None:
         """Log a sentence. Each level needs a separate line of code, because rclpy asks for it."""

@@ -1,8 +1,9 @@
-"""Two nodes of one name: both warn until one is gone."""
+"""Two nodes of one name, or two clocks: a warning until one is gone."""
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from node.running_top import status_of
+from rosgraph_msgs.msg import Clock
 
 from symtop_ros.node.top_node import TopNode
 
@@ -30,3 +31,21 @@ def test_two_nodes_of_one_name_warn_until_one_is_gone(start_top):
     heard.clear()
     first.spin_until(lambda: names() and names()[-1].level == b"\0")
     assert names()[-1].message == "no other node has the name /top"
+
+
+@pytest.mark.realtime
+def test_a_second_publisher_of_the_clock_is_reported_until_it_is_gone(start_top):
+    run = start_top(realtime=True, publish_clock=True)
+    heard = run.collect(DiagnosticArray, "/diagnostics")
+    other = run.user.create_publisher(Clock, "/clock", 10)
+
+    def clocks():
+        return [status_of(each, "top: clock") for each in heard]
+
+    run.spin_until(lambda: clocks() and clocks()[-1].level == b"\1")
+    assert clocks()[-1].message.startswith("2 programs publish /clock, and the time steps back")
+    assert {each.key: each.value for each in clocks()[-1].values} == {"publishers": "2"}
+    run.user.destroy_publisher(other)
+    heard.clear()
+    run.spin_until(lambda: clocks() and clocks()[-1].level == b"\0")
+    assert clocks()[-1].message == "no duplicate publisher of /clock concerns this node"
