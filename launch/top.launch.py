@@ -1,62 +1,77 @@
 """Start a top: ros2 launch symtop_ros top.launch.py scene:=hurry_slow rviz:=true."""
 
-from launch.actions import DeclareLaunchArgument
-from launch.conditions import IfCondition
+from collections.abc import Callable
+
+import yaml
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
-from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
-from launch import LaunchDescription
+from launch import LaunchContext, LaunchDescription
 
 PACKAGE = "symtop_ros"
-# The name of each argument, its default and its meaning.
+# The name of each argument, its default and its meaning. An empty one sets no parameter, so that
+# the file of parameters, the scene or the node decides.
 ARGUMENTS = (
-    ("scene", "cusps", "file in config/ with the defaults of all parameters"),
+    ("name", "top", "name of the node, and of its frame"),
     ("namespace", "", "namespace of the node; config/top.rviz shows the root namespace"),
+    ("scene", "", "file in config/ with the defaults of all parameters (cusps)"),
+    ("params_file", "", "file with parameters of the node; arguments given here come first"),
+    ("use_sim_time", "", "true: follow /clock, that of a simulation"),
+    ("publish_clock", "", "true: publish /clock, the elapsed time of the run"),
+    ("record", "", "true: record a log from the start"),
+    ("record_directory", "", "folder of the logs (./logs)"),
     ("rviz", "false", "show the top in rviz2, with ~/markers"),
     ("live", "false", "show the top in Rerun (top_live)"),
-    ("record", "false", "record a log from the start"),
-    ("record_directory", "./logs", "folder of the logs"),
 )
+# The parameter that an argument sets; booleans are read as in YAML.
+PARAMETERS: dict[str, tuple[str, Callable[[str], object]]] = {
+    "scene": ("scene", str),
+    "use_sim_time": ("use_sim_time", yaml.safe_load),
+    "publish_clock": ("publish_clock", yaml.safe_load),
+    "record": ("record.enabled", yaml.safe_load),
+    "record_directory": ("record.directory", str),
+}
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Describe the arguments, the node and what is started with it."""
-    values = {name: LaunchConfiguration(name) for name, _, _ in ARGUMENTS}
-    layout = PathJoinSubstitution([FindPackageShare(PACKAGE), "config", "top.rviz"])
-    parameters = {
-        "scene": values["scene"],
-        "record.enabled": ParameterValue(values["record"], value_type=bool),
-        "record.directory": values["record_directory"],
-        "publish_markers": ParameterValue(values["rviz"], value_type=bool),
-    }
-    return LaunchDescription(
-        [
-            *(
-                DeclareLaunchArgument(name, default_value=default, description=text)
-                for name, default, text in ARGUMENTS
-            ),
-            # First: if rviz2 is not installed, the launch ends before it has started a node.
-            Node(
-                package="rviz2",
-                executable="rviz2",
-                arguments=["-d", layout],
-                condition=IfCondition(values["rviz"]),
-            ),
-            Node(
-                package=PACKAGE,
-                executable="top_node",
-                namespace=values["namespace"],
-                parameters=[parameters],
-                output="screen",
-            ),
-            Node(
-                package=PACKAGE,
-                executable="top_live",
-                arguments=["--node", [values["namespace"], "/top"]],
-                output="screen",
-                condition=IfCondition(values["live"]),
-            ),
-        ]
+    """Describe the arguments, and what is started with them."""
+    arguments = (
+        DeclareLaunchArgument(name, default_value=default, description=text)
+        for name, default, text in ARGUMENTS
     )
+    return LaunchDescription([*arguments, OpaqueFunction(function=start)])
+
+
+def start(context: LaunchContext) -> list[Node]:
+    """Return the node, and the programs that show it, for the arguments of a launch."""
+    values = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
+    rviz, live = (yaml.safe_load(values[name]) for name in ("rviz", "live"))
+    given = {
+        parameter: read(values[name])
+        for name, (parameter, read) in PARAMETERS.items()
+        if values[name]
+    }
+    if rviz:
+        given["publish_markers"] = True
+    parameters = [each for each in (values["params_file"], given) if each]
+    top = Node(
+        package=PACKAGE,
+        executable="top_node",
+        name=values["name"],
+        namespace=values["namespace"],
+        parameters=parameters,
+        output="screen",
+    )
+    layout = PathJoinSubstitution([FindPackageShare(PACKAGE), "config", "top.rviz"])
+    viewer = Node(package="rviz2", executable="rviz2", arguments=["-d", layout])
+    full_name = f"{values['namespace'].rstrip('/')}/{values['name']}"
+    follower = Node(
+        package=PACKAGE,
+        executable="top_live",
+        arguments=["--node", full_name if full_name.startswith("/") else f"/{full_name}"],
+        output="screen",
+    )
+    # rviz2 first: if it is not installed, the launch ends before it has started a node.
+    return [*([viewer] if rviz else ()), top, *([follower] if live else ())]

@@ -1,6 +1,7 @@
 """Orderly shutdown of a ROS program by SIGINT, SIGTERM and SIGHUP."""
 
 import os
+import re
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -16,6 +17,9 @@ from rclpy.signals import (
 
 from symtop_ros.simulation.validation import one_line
 
+# rcl's text for a list such as [0, 0, 0.1], which says nothing of integers; and its rule
+MIXED = "Sequence should be of same type"
+OVERRIDE = re.compile(r"'-p (\S+?):=(.*?)'")
 SIGNALS = signal.SIGINT, signal.SIGTERM, signal.SIGHUP
 
 
@@ -26,6 +30,8 @@ def describe_failure(error: Exception) -> str:
     wrong with the keys.
     """
     text = one_line(error) or type(error).__name__
+    if MIXED in text and (found := OVERRIDE.search(text)):
+        return f"{found[1]} must have numbers of one kind, got {found[2]}: write 0.0 for 0"
     if os.environ.get("ROS_SECURITY_ENABLE") != "true":
         return text
     domain = os.environ.get("ROS_DOMAIN_ID", "0")

@@ -64,42 +64,91 @@ def test_plotjuggler_shows_topics_and_joints_that_there_are():
         assert joint or (part == "vector" and quantity in "xyz")
 
 
+class Argument:
+    """An argument of a launch, with the value that is given or the default."""
+
+    def __init__(self, name):
+        self._name = name
+
+    def perform(self, values):
+        return values[self._name]
+
+
 @pytest.fixture
-def described(monkeypatch):
-    """Return what the launch file describes: arguments, and nodes by their executables."""
-    arguments, nodes = {}, {}
-    for name in ("launch_ros", *ACTIONS, *ROS_ACTIONS):
+def launch(monkeypatch):
+    """Return what the launch file starts for some arguments: nodes by their executables."""
+    defaults, functions = {}, []
+    for name in ("launch", "launch_ros", *ACTIONS, *ROS_ACTIONS):
         module = ModuleType(name)
         module.__getattr__ = lambda attribute: lambda *values, **_: (attribute, *values)
         monkeypatch.setitem(sys.modules, name, module)
-    monkeypatch.setattr(
-        sys.modules["launch.actions"],
-        "DeclareLaunchArgument",
-        lambda name, default_value, description: arguments.setdefault(name, default_value),
-        raising=False,
-    )
-    monkeypatch.setattr(
-        sys.modules["launch_ros.actions"],
-        "Node",
-        lambda **values: nodes.setdefault(values["executable"], values),
-        raising=False,
-    )
-    file = runpy.run_path(str(ROOT / "launch" / "top.launch.py"))
-    file["generate_launch_description"]()
-    return arguments, nodes
+
+    def replace(module, **attributes):
+        for name, value in attributes.items():
+            monkeypatch.setattr(sys.modules[module], name, value, raising=False)
+
+    def declare(name, default_value, description):
+        assert description
+        defaults[name] = default_value
+
+    def keep(function):
+        functions.append(function)
+
+    replace("launch.actions", DeclareLaunchArgument=declare, OpaqueFunction=keep)
+    replace("launch.substitutions", LaunchConfiguration=Argument)
+    replace("launch", LaunchDescription=list, LaunchContext=object)
+    replace("launch_ros.actions", Node=lambda **values: values)
+    runpy.run_path(str(ROOT / "launch" / "top.launch.py"))["generate_launch_description"]()
+    (start,) = functions
+
+    def run(**given):
+        assert given.keys() <= defaults.keys()
+        return {node["executable"]: node for node in start({**defaults, **given})}
+
+    return run
 
 
-def test_the_launch_file_starts_programs_and_sets_parameters_that_there_are(described):
-    arguments, nodes = described
-    assert set(nodes) == {"top_node", "top_live", "rviz2"}
-    (parameters,) = nodes["top_node"]["parameters"]
-    assert set(parameters) <= {*PARAMETERS, "scene"}
-    assert "condition" not in nodes["top_node"]
-    assert nodes["rviz2"]["condition"] == ("IfCondition", ("LaunchConfiguration", "rviz"))
-    for name in ("top_node", "top_live"):
-        assert (ROOT / "resource" / name).is_file()
-    assert arguments["scene"] == "cusps"
-    # the one that may not be installed: what comes after it is then not started
-    assert next(iter(nodes)) == "rviz2"
+def test_a_launch_without_arguments_starts_a_node_that_decides_all(launch):
+    nodes = launch()
+    assert list(nodes) == ["top_node"]
+    node = nodes["top_node"]
+    assert (node["name"], node["namespace"], node["parameters"]) == ("top", "", [])
+
+
+def test_a_launch_sets_parameters_that_there_are_after_those_of_the_file(launch):
+    node = launch(
+        name="disc",
+        namespace="lab",
+        scene="disc",
+        params_file="mine.yaml",
+        use_sim_time="true",
+        publish_clock="false",
+        record="true",
+        record_directory="here",
+    )["top_node"]
+    assert (node["name"], node["namespace"]) == ("disc", "lab")
+    file, given = node["parameters"]
+    assert file == "mine.yaml"
+    assert given == {
+        "scene": "disc",
+        "use_sim_time": True,
+        "publish_clock": False,
+        "record.enabled": True,
+        "record.directory": "here",
+    }
+    assert set(given) <= {*PARAMETERS, "scene", "use_sim_time"}
+
+
+@pytest.mark.parametrize(
+    ("namespace", "name"), [("", "/top"), ("lab", "/lab/top"), ("/a/", "/a/top")]
+)
+def test_a_launch_starts_viewers_of_the_node(launch, namespace, name):
+    nodes = launch(rviz="true", live="true", namespace=namespace)
+    # rviz2 may not be installed: what comes after it is then not started
+    assert list(nodes) == ["rviz2", "top_node", "top_live"]
+    assert nodes["top_node"]["parameters"] == [{"publish_markers": True}]
+    assert nodes["top_live"]["arguments"] == ["--node", name]
+    for program in ("top_node", "top_live"):
+        assert (ROOT / "resource" / program).is_file()
     folder, layout = nodes["rviz2"]["arguments"][1][1][1:]
     assert (ROOT / folder / layout).is_file()

@@ -1,5 +1,6 @@
 """The node as the host of a session: publishers, messages to the user, markers, duplicate nodes."""
 
+import warnings
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -44,10 +45,10 @@ class NodePublisher:
 
 
 def _check_depth(profile: QoSProfile) -> SetParametersResult:
-    """Refuse a depth that the middleware would only report in several lines."""
-    if profile.depth >= 0:
+    """Refuse a depth that the middleware would report in several lines, or read as the default."""
+    if profile.depth > 0:
         return SetParametersResult(successful=True)
-    return SetParametersResult(successful=False, reason=f"depth {profile.depth} (must be >= 0)")
+    return SetParametersResult(successful=False, reason=f"depth {profile.depth} (must be >= 1)")
 
 
 class NodeHost:
@@ -81,9 +82,11 @@ class NodeHost:
         qos = QoSProfile(depth=topic.depth, durability=latched if topic.latched else volatile)
         options = QoSOverridingOptions.with_default_policies(callback=_check_depth)
         try:
-            publisher: Any = self._node.create_publisher(
-                message_class, topic.ros_name, qos, qos_overriding_options=options
-            )
+            with warnings.catch_warnings():  # of a depth of 0, with the path of a file of rclpy
+                warnings.simplefilter("ignore")
+                publisher: Any = self._node.create_publisher(
+                    message_class, topic.ros_name, qos, qos_overriding_options=options
+                )
         except Exception as error:
             name = f"qos_overrides.{self.resolve(topic)}.publisher"
             raise RefusedError(f"{name} must be valid, got: {one_line(error)}") from None

@@ -56,7 +56,7 @@ class Markers:
         early = self._next - PERIOD <= stamp < self._next  # a clock may also jump back
         if early or not self._publisher or not self._publisher.get_subscription_count():
             return
-        self._next = stamp + PERIOD
+        self._next = (stamp // PERIOD + 1) * PERIOD  # on a grid: the rate is 30 Hz for any other
         time = Time(sec=stamp // NANOSECONDS, nanosec=stamp % NANOSECONDS)
         self._trace.append(_axis_end(block.numbers("orientation", stamp)))
         markers = [self._line(time)]

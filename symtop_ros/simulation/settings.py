@@ -1,5 +1,6 @@
 """The parameters of a simulation: default, meaning, unit and range of each, and their values."""
 
+import json
 import math
 from collections.abc import Callable, Mapping, Sized
 from dataclasses import dataclass, replace
@@ -65,8 +66,18 @@ def _moment(default: float, description: str, unit: str, low: float) -> Paramete
     return _number(default, description, unit, low, MAX_MOMENT)
 
 
+def _read_list(text: str) -> Any:
+    """Return the list of a text such as [0, 0, 0.1], which is no list to ROS; else the text."""
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        return text
+    return found if isinstance(found, list) else text
+
+
 def _vector(description: str, size: int, limit: float, unit: str) -> Parameter:
     def validate(name: str, value: Any) -> tuple[float, ...]:
+        value = _read_list(value) if isinstance(value, str) else value
         empty = not isinstance(value, str) and isinstance(value, Sized) and len(value) == 0
         return () if empty else vector(name, value, size, limit, unit)
 
@@ -89,8 +100,15 @@ def _text(default: str, description: str, condition: str, max_length: int) -> Pa
 
 
 def _frame(default: str, description: str) -> Parameter:
-    condition = f"the name of a frame (1 to {MAX_FRAME} printable characters)"
-    return _text(default, description, condition, MAX_FRAME)
+    condition = f"the name of a frame (1 to {MAX_FRAME} printable characters, no leading slash)"
+
+    def validate(name: str, value: Any) -> str:
+        text = _printable(condition, MAX_FRAME, name, value)
+        if text.startswith("/"):  # tf2 would not find it
+            raise reject(name, f"{text.lstrip('/')!r}, without the leading slash", text)
+        return text
+
+    return Parameter(default, description, condition, validate, read_only=True)
 
 
 def _flag(default: bool, description: str, read_only: bool = False) -> Parameter:

@@ -26,6 +26,22 @@ def test_help_names_the_scenes():
         (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate must be 1 to 2000 Hz, got 0"),
         (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz must be > 0 and <= 2 Ix"),
         (["--ros-args", "-p", "scene:=x"], 1, "scene must be one of backward_start"),
+        (["--ros-args", "-p", "publish_tf:=1"], 1, "publish_tf must be true or false, got 1"),
+        (
+            ["--ros-args", "-p", "top_frame:=/top"],
+            1,
+            "top_frame must be 'top', without the leading slash, got '/top'",
+        ),
+        (
+            ["--ros-args", "-p", "steady_torque:=[0, 0, 0.0001]"],
+            1,
+            "steady_torque must have numbers of one kind, got [0, 0, 0.0001]: write 0.0 for 0",
+        ),
+        (
+            ["--ros-args", "-p", "qos_overrides./top/orientation.publisher.depth:=0"],
+            1,
+            "depth 0 (must be >= 1)",
+        ),
         (["--ros-args", "--params-file", "/nowhere.yaml"], 1, "Couldn't parse params file"),
         (["--ros-args", "-p", "use_sim_time:=7"], 1, "use_sim_time"),
         (
@@ -41,6 +57,7 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
     assert sentence in result.stderr
     assert "Traceback" not in result.stderr
     if status == 1:
+        assert ".py" not in result.stderr  # no warning of Python
         lines = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
         assert len(lines) == 1
 

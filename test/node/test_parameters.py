@@ -100,7 +100,9 @@ def test_a_scene_starts_the_motion_that_its_name_promises(start_top, scene, kind
         ({"publish_tf": "yes"}, "publish_tf must be true or false, got 'yes'"),
         (
             {"world_frame": " "},
-            ("world_frame must be the name of a frame (1 to 200 printable characters), got ' '"),
+            (
+                "world_frame must be the name of a frame (1 to 200 printable characters, no leading slash), got ' '"
+            ),
         ),
     ],
 )
@@ -155,6 +157,7 @@ def test_every_parameter_has_the_type_of_its_default_whatever_is_set(start_top):
         ("hurry_factor", {"type": 2, "integer_value": 2}, 2.0),
         ("hurry_factor", {"type": 4, "string_value": "2e0"}, 2.0),
         ("steady_torque", {"type": 7, "integer_array_value": [0, 0, 1]}, [0.0, 0.0, 1.0]),
+        ("steady_torque", {"type": 4, "string_value": "[0, 0, 0.5]"}, [0.0, 0.0, 0.5]),
         ("steady_torque", {"type": BYTES}, []),
         ("initial.orientation", {"type": 6}, []),  # `ros2 param set ... []`
     ],

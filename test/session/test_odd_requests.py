@@ -134,7 +134,7 @@ def test_names_that_cannot_be_printed_are_refused(name, value):
 
 def test_a_frame_of_a_million_characters_is_refused():
     reason = refusal(Settings.from_values, {"world_frame": "w" * 1_000_000})
-    assert "must be the name of a frame (1 to 200 printable characters)" in reason
+    assert "must be the name of a frame (1 to 200 printable characters, no leading slash)" in reason
 
 
 def test_a_root_faster_than_any_top_is_refused():
