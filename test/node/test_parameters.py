@@ -101,7 +101,8 @@ def test_a_scene_starts_the_motion_that_its_name_promises(start_top, scene, kind
         (
             {"world_frame": " "},
             (
-                "world_frame must be the name of a frame (1 to 200 printable characters, no leading slash), got ' '"
+                "world_frame must be the name of a frame (1 to 200 printable characters, "
+                "no leading slash), got ' '"
             ),
         ),
     ],
