@@ -1,25 +1,25 @@
-"""Runs in several files: rosbag2 folders, split recordings, and bags of rosbag2's sqlite3 storage.
+"""Runs in several files: rosbag2 folders and split recordings.
 
 A bag of any kind is read like one `McapFile`, as a `MessageSource`.
 """
 
 import os
-import sqlite3
+import weakref
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 from mcap.records import Channel, Message, Schema
 
-from symtop_ros.log.reader import MAX_MESSAGES, LogError, McapFile
+from symtop_ros.log.compressed import SUFFIX as ZSTD
+from symtop_ros.log.compressed import CompressedMessages, is_compressed, unpack_file
+from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.sqlite import SqliteBag
 
 MCAP, SQLITE = ".mcap", ".db3"
+SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
 MAX_FILES = 10_000  # of one run
-# In the order in which they arrived: simulated times may go back.
-MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
-TOPICS = "SELECT id, name, type, serialization_format FROM topics"
 
 
 class MessageSource(Protocol):
@@ -61,18 +61,21 @@ def open_run(paths: Sequence[Path]) -> MessageSource:
 def _files_of(path: Path) -> list[Path]:
     if not os.path.isdir(path):  # Path.is_dir raises for names that are too long
         return [path]
-    files = sorted(file for suffix in (MCAP, SQLITE) for file in path.glob(f"*{suffix}"))
+    files = sorted(file for suffix in SUFFIXES for file in path.glob(f"*{suffix}"))
     if not files:
-        compressed = any(path.glob("*.zstd"))
-        reason = "its files are compressed as a whole (`ros2 bag convert` writes others)"
-        raise LogError(
-            f"cannot open {path}: {reason if compressed else 'no .mcap or .db3 file in it'}"
-        )
+        raise LogError(f"cannot open {path}: no .mcap or .db3 file in it")
     return files
 
 
 def _open(path: Path) -> MessageSource:
-    return SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
+    """Open a file that may be compressed, or hold compressed messages."""
+    if path.suffix == ZSTD:
+        copy, folder = unpack_file(path)
+        source = _open(copy)
+        weakref.finalize(source, folder.cleanup)  # when the source is no longer read
+        return source
+    source = SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
+    return CompressedMessages(source) if is_compressed(source) else source
 
 
 class SeveralFiles:
@@ -130,50 +133,3 @@ def _begin(source: MessageSource) -> tuple[int, str]:
     """Return the time of the first message, and the name for files that begin together."""
     first = next(source.chunks(), [])
     return (first[0].log_time if first else 0), source.path.name
-
-
-class SqliteBag:
-    """A bag of rosbag2's sqlite3 storage, read with the attributes of an `McapFile`."""
-
-    def __init__(self, path: Path) -> None:
-        self.path, self.offset = path, 0
-        self.schemas: dict[int, Schema] = {}
-        self.channels: dict[int, Channel] = {}
-        self.problems: list[str] = []
-        self.metadata: dict[str, dict[str, str]] = {}  # a bag has none
-        try:
-            self.size = path.stat().st_size
-            for number, name, kind, encoding in self._rows(TOPICS):
-                self._add_topic(int(number), str(name), str(kind), str(encoding))
-        except OSError as error:
-            raise LogError(f"cannot open {path}: {error.strerror}") from None
-        except (sqlite3.Error, ValueError) as error:
-            raise LogError(f"cannot open {path}: not a bag of rosbag2 ({error})") from None
-
-    def _add_topic(self, number: int, name: str, kind: str, encoding: str) -> None:
-        self.schemas[number] = Schema(number, b"", "ros2msg", kind)
-        self.channels[number] = Channel(number, name, encoding, {}, number)
-
-    def chunks(self) -> Iterator[list[Message]]:
-        """Yield messages in the order of their arrival."""
-        self.problems.clear()
-        messages: list[Message] = []
-        try:
-            for number, time, data in self._rows(MESSAGES):
-                messages.append(Message(number, time, bytes(data), time, 0))
-                if len(messages) == MAX_MESSAGES:
-                    yield messages
-                    messages = []
-        except (sqlite3.Error, ValueError, TypeError) as error:
-            self.problems.append(f"the bag is damaged after the messages that were read: {error}")
-        self.offset = self.size
-        yield messages
-
-    def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
-        # Immutable: without locks and files next to the bag, whose disk may be read-only. But a
-        # recorder that was killed may have left messages in a file next to it (write-ahead log),
-        # which SQLite would then ignore.
-        pending = self.path.with_name(f"{self.path.name}-wal").exists()
-        name = f"{self.path.absolute().as_uri()}?mode=ro{'' if pending else '&immutable=1'}"
-        with closing(sqlite3.connect(name, uri=True)) as database:
-            yield from database.execute(query)

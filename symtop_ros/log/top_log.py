@@ -16,7 +16,6 @@ from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS, SENSOR_TOPICS
 from symtop_ros.simulation.validation import full_name
 
 DEFAULT_NODE = "/top"
-COMPRESSED = b"\x28\xb5\x2f\xfd"  # first bytes of zstd, with which no message begins
 ROWS = 4096  # samples of a topic in a batch: Rerun's viewer is fastest with columns of this length
 TYPES = {topic.name: topic.type for topic in (EVENTS, *SAMPLE_TOPICS.values())}
 
@@ -85,13 +84,7 @@ class TopLog:
     def _select(self, messages: list[Message]) -> list[tuple[str, bytes]]:
         """Return the messages of the top, with the names of their topics."""
         named = ((self._name(message.channel_id), message.data) for message in messages)
-        found = [each for each in named if each[0]]
-        if found and found[0][1].startswith(COMPRESSED):
-            raise LogError(
-                f"cannot read {self.file.path}: its messages are compressed one by one "
-                "(`ros2 bag convert` writes others)"
-            )
-        return found
+        return [each for each in named if each[0]]
 
     def _name(self, channel: int) -> str:
         if channel not in self._names:

@@ -1,8 +1,10 @@
 """Runs in several files and in the folders and databases of rosbag2."""
 
+import gc
 import itertools
 import shutil
 import sqlite3
+import tempfile
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from log_files import Run, topic
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
+from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.bag import open_run
 from symtop_ros.log.reader import LogError
@@ -145,9 +148,6 @@ def test_a_database_with_other_columns_is_refused(tmp_path):
 def test_a_folder_without_files_is_refused(tmp_path):
     with pytest.raises(LogError, match=r"cannot open \S+: no .mcap or .db3 file in it"):
         open_run([tmp_path])
-    (tmp_path / "bag_0.mcap.zstd").touch()
-    with pytest.raises(LogError, match="its files are compressed as a whole"):
-        open_run([tmp_path])
 
 
 def test_messages_that_a_killed_recorder_left_in_the_write_ahead_log_are_read(tmp_path):
@@ -169,11 +169,42 @@ def test_messages_that_a_killed_recorder_left_in_the_write_ahead_log_are_read(tm
 
 
 @pytest.mark.parametrize("storage", STORAGES)
-def test_a_bag_of_compressed_messages_is_named_as_such(storage, tmp_path):
+def test_a_bag_of_compressed_messages_is_read(storage, tmp_path):
     """As `ros2 bag record --compression-mode message --compression-format zstd` writes it."""
     compress = zstandard.ZstdCompressor().compress
     messages = [(name, stamp, compress(data)) for name, stamp, data in RUN.messages]
     folder = write(tmp_path / "bag", messages, storage)
-    expected = r"cannot read \S+: its messages are compressed one by one \(`ros2 bag convert`"
-    with pytest.raises(LogError, match=expected):
-        check_log(TopLog(open_run([folder])))
+    assert_complete([folder])
+    findings = check_run(TopLog(open_run([folder])))
+    assert (findings.mismatches, findings.damage) == ([], [])
+
+
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path, monkeypatch):
+    """As `--compression-mode file` leaves it."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "copies"))
+    (tmp_path / "copies").mkdir()
+    folder = tmp_path / "bag"
+    folder.mkdir()
+    for file in parts(tmp_path / "written", 2, storage):
+        packed = zstandard.ZstdCompressor().compress(file.read_bytes())
+        (folder / f"{file.name}.zstd").write_bytes(packed)
+    assert_complete([folder])
+    gc.collect()
+    assert list((tmp_path / "copies").iterdir()) == []
+
+
+def test_compressed_messages_that_are_damaged_are_counted(tmp_path):
+    compress = zstandard.ZstdCompressor().compress
+    messages = [(name, stamp, compress(data)) for name, stamp, data in RUN.messages]
+    name, stamp, data = messages[40]
+    messages[40] = name, stamp, data[:8] + b"\xff" * 8
+    log = TopLog(open_run([write(tmp_path / "bag", messages)]))
+    check_log(log)
+    assert log.damage == ["messages that cannot be decompressed: 1"]
+
+
+def test_a_compressed_file_that_is_none_is_refused(tmp_path):
+    (tmp_path / "bag_0.mcap.zstd").write_bytes(b"nothing of the kind")
+    with pytest.raises(LogError, match=r"cannot open \S+: it cannot be decompressed"):
+        open_run([tmp_path])

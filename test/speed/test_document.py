@@ -2,9 +2,15 @@ from dataclasses import fields
 
 import pytest
 
-from workshop.speed.ahead import TABLES, list_ahead
+from workshop.speed.ahead import FRICTION, TABLES, list_ahead
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
-from workshop.speed.document import _format_ahead, _format_other_motions, format_table
+from workshop.speed.document import (
+    Environment,
+    _format_ahead,
+    _format_other_motions,
+    format_document,
+    format_table,
+)
 from workshop.speed.many import ManyCost
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.reference import Reference
@@ -27,6 +33,20 @@ def test_the_table_of_other_motions_has_a_row_for_each_peer():
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert rows[0] == "|  | looping | sleeping |"
     assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
+
+
+@pytest.mark.parametrize("by", ["peer", "motion"])
+def test_a_report_can_be_written_after_each_curve(by):
+    motion = Reference.read().article[0]
+    names = [motion.name, "looping", "regular", FRICTION]
+    curves = [curve(peer, name) for peer in (CLOSED_FORM, TAYLOR, "a", "b") for name in names]
+    curves.sort(key=lambda each: 0 if by == "peer" else names.index(each.motion))
+    environment = Environment("make report", "a machine", {}, [], 4.0, "the compiled kernel")
+    for count in range(1, len(curves) + 1):
+        checks = dict.fromkeys((CLOSED_FORM, TAYLOR, "a", "b"), 0.0)
+        text = format_document(Results(checks, curves[:count]), motion, environment)
+        assert "| looping |" in text or count < len(names)
+    assert text.count("\n| b |") >= 3
 
 
 def test_every_case_in_which_a_peer_is_ahead_is_named():

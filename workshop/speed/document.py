@@ -161,7 +161,8 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
         return ""
     peers = dict.fromkeys(curve.peer for curve in others)
     best = {(c.peer, c.motion): f"{c.best.error:.0e} in {_ms(c.best.seconds)}" for c in others}
-    rows = [[peer, *(best[peer, name] for name in names)] for peer in peers]
+    # In a report that is not complete yet, some are still to come.
+    rows = [[peer, *(best.get((peer, name), "") for name in names)] for peer in peers]
     return (
         "## Other motions\n\n![speed against error, by motion](motions.png)\n\n"
         f"Largest error in {SPAN:g} s at the best setting, and its time in ms.\n\n"
