@@ -6,6 +6,7 @@ The stamps then decide. After a jump of the clock back they are repeated: severa
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +29,25 @@ class Course:
         self._begins = np.array([event.stamp for event in events], dtype=np.int64)
         ends = [*(event.previous_end for event in events[1:]), MAX_STAMP]
         self._ends = np.array(ends[: len(events)], dtype=np.int64)
+        numbers = [event.number for event in events]
+        # True for an event after which others are missing: what holds then is known in part.
+        self.has_gap = np.array([b > a + 1 for a, b in pairwise(numbers)] + [False][: len(numbers)])
         # True if no stamp is repeated, so that the stamps alone decide.
         self.is_ordered = bool((self._begins[1:] >= self._ends[:-1]).all())
         self.is_ordered &= bool((self._begins <= self._ends).all())
+
+    def list_missing(self) -> list[str]:
+        """Describe the events that are missing between others, with the stamps around them."""
+        found = []
+        for place in np.flatnonzero(self.has_gap).tolist():
+            before, after = self._events[place], self._events[place + 1]
+            first, last = before.number + 1, after.number - 1
+            which = f"event {first} is" if first == last else f"events {first} to {last} are"
+            found.append(
+                f"{which} missing, between {before.stamp} and {after.stamp} ns; samples that "
+                "follow from what is missing are not judged"
+            )
+        return found
 
     def _find_segment(self, number: int) -> Segment:
         """Return the segment that holds from an event on."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from symtop_ros.check import checksums, events, texts
+from symtop_ros.check.course import Course
 from symtop_ros.check.mismatch import Mismatch
 from symtop_ros.check.samples import Deviation, check_log
 from symtop_ros.log.bag import MessageSource, SeveralFiles
@@ -19,6 +20,7 @@ class Findings:
     mismatches: list[Mismatch]  # in events, descriptions and diagnostics
     foreign: int  # events of another version or engine, which are not computed
     damage: list[str]  # in the files, apart from what reading them has found
+    missing: list[str]  # events between others
 
     @property
     def samples_agree(self) -> bool:
@@ -34,6 +36,7 @@ def check_run(log: TopLog) -> Findings:
         [*events.find_mismatches(given), *texts.find_mismatches(log, given)],
         sum(not events.is_own(each) for each in given),
         _find_damage(log.file),
+        Course(given).list_missing(),
     )
 
 

@@ -41,6 +41,8 @@ class Deviation:
     unchecked: int = 0  # samples before the first event
     # samples of a motion that is too fast or too long to be integrated for a check
     unreached: int = 0
+    # samples that follow from an event that is missing
+    unjudged: int = 0
     # samples that agree with an event, although the order of the messages names another one
     unordered: int = 0
 
@@ -117,10 +119,15 @@ class LogCheck:
     def _take_all(self, deviation: Deviation, name: str, part: Columns, number: int) -> None:
         """Take samples of an event whether they agree or not."""
         segment = self._course.segment(number)
-        if self._budget.reach_stamps(segment, part.stamps):
-            deviation.add(*_compare(name, part, segment), _is_exact(name, segment))
-        else:
+        if not self._budget.reach_stamps(segment, part.stamps):
             deviation.unreached += len(part.stamps)
+            return
+        difference, scale = _compare(name, part, segment)
+        if self._course.has_gap[number]:
+            known = (difference <= BOUND * scale).all(axis=1)
+            deviation.unjudged += int((~known).sum())
+            difference, scale = difference[known], scale[known]
+        deviation.add(difference, scale, _is_exact(name, segment))
 
 
 def check_log(log: TopLog) -> dict[str, Deviation]:

@@ -104,7 +104,10 @@ class TextCheck:
     def _judge_status(self, name: str, status: Status, kind: str, place: int) -> Iterator[Mismatch]:
         """Yield the fields of a status that are those of no event that can hold."""
         found: list[list[Mismatch]] = []
-        for number in self._list_owners(status.stamp, place):
+        owners = self._list_owners(status.stamp, place)
+        if self._course.has_gap[owners].any():
+            return
+        for number in owners:
             segment = self._course.segment(number)
             stamps = np.array([status.stamp])
             if not is_own(self._events[number]) or not self._budget.reach_stamps(segment, stamps):

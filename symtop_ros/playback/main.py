@@ -103,7 +103,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _check(log: TopLog) -> int:
     found = check_run(log)
-    _print_problems(log.problems + found.damage)
+    _print_problems(log.problems + found.damage + found.missing)
     for name, deviation in found.deviations.items():
         print(_row(log.topics[name], deviation))
     unreached = sum(each.unreached for each in found.deviations.values())
@@ -120,7 +120,7 @@ def _check(log: TopLog) -> int:
         print("events or what is said of the motion DO NOT agree with what is computed")
     if found.foreign:
         print(f"{found.foreign} events are of another version or engine: only it can compute them")
-    is_whole = not log.damage and not found.damage
+    is_whole = not (log.damage or found.damage or found.missing)
     if found.samples_agree and not is_whole:
         print("the log is damaged or incomplete")
     return 0 if found.samples_agree and not found.mismatches and is_whole else 1
@@ -138,6 +138,8 @@ def _row(topic: str, deviation: Deviation) -> str:
         row += f" ({deviation.relative:.1e} of its size)"
     if deviation.unchecked:
         row += f"; {deviation.unchecked} before the first event not checked"
+    if deviation.unjudged:
+        row += f"; {deviation.unjudged} after missing events not judged"
     if deviation.unordered:
         row += (
             f"; {deviation.unordered} agree with an event, but the order of messages is not known"
