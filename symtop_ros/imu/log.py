@@ -29,7 +29,7 @@ def write_log(record: ImuRecord, path: Path) -> None:
     rows = [numbers.tolist() for *_, numbers in contents]
     with tempfile.TemporaryDirectory(dir=path.absolute().parent) as folder:
         log = LogFile(Path(folder), channels, {"program": "top_imu"}, {})
-        log.write(0, 0, record.event.encode(WORLD))
+        log.write(0, 0, record.event.encode(WORLD, NODE))
         for place, stamp in enumerate(record.stamps.tolist()):
             for channel, (layout, table) in enumerate(zip(layouts, rows, strict=True), start=1):
                 log.write(channel, stamp, layout.encode(stamp, table[place]))

@@ -139,7 +139,7 @@ class Outputs:
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""
         self._host.watch_event(event)
-        self._events.send(event.stamp, event.encode(self._frame))
+        self._events.send(event.stamp, event.encode(self._frame, self._name))
 
     def send_description(self, stamp: int, settings: Settings) -> None:
         """Publish and log the URDF of the top, and the frames on its body."""

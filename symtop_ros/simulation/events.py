@@ -94,10 +94,10 @@ class Event:
         }
         return cls(stamp, name, describe(name, outcome) if outcome else "", values)
 
-    def encode(self, frame: str) -> bytes:
-        """Encode the event as a DiagnosticArray with one status."""
+    def encode(self, frame: str, node: str = "") -> bytes:
+        """Encode the event of a node (full name) as a DiagnosticArray with one status."""
         status = Status(self.stamp, OK, PREFIX + self.name, self.verdict, self.values)
-        return encode_statuses(self.stamp, frame, [status])
+        return encode_statuses(self.stamp, frame, [status], node)
 
     @property
     def has_fields(self) -> bool:

@@ -8,7 +8,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import String
 
 from symtop_ros.physics import Body
@@ -120,7 +120,8 @@ def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top
     assert abs(float(values["energy.drift"])) < 1e-15
     assert abs(float(values["L_z'.drift"])) < 1e-17
     names = {status.name for status in messages[-1].status}
-    assert names == {"top: motion", "top: pace", "top: log", "top: balance", "top: name"}
+    kinds = ("motion", "pace", "log", "balance", "name", "clock")
+    assert names == {f"top: {kind}" for kind in kinds}
     pace = facts(messages[-1], "top: pace")
     assert pace["missed"] == "0"
     assert pace["real_time_factor.achieved"] == "1.0"
@@ -135,3 +136,17 @@ def test_the_clock_is_published_if_the_parameter_asks_for_it(start_top):
     run.spin_until(lambda: len(clocks) > 3)
     times = [message.clock.sec * 10**9 + message.clock.nanosec for message in clocks]
     assert set(np.diff(times)) == {5_000_000}
+
+
+def test_events_name_their_node(start_top):
+    run = start_top()
+    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    run.spin_until(lambda: events)
+    assert [each.hardware_id for each in events[0].status] == ["/top"]
+
+
+def test_the_sensor_may_have_the_topic_of_rep_145(start_top):
+    run = start_top(arguments=["--ros-args", "-r", "~/imu:=/imu/data"], imu__enabled=True)
+    heard = run.collect(Imu, "/imu/data")
+    run.spin_until(lambda: heard)
+    assert heard[0].header.frame_id == "top_imu"
