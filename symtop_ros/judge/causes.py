@@ -7,6 +7,7 @@ ones leave much more; several explanations that are as simple and as good are al
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -40,6 +41,7 @@ TIE = 1.5  # explanations that are as good, by their mean squares
 CLEAR = 10.0  # the error becomes so many times smaller: its causes are clear
 HALF = 2.0  # less is enough if what is left is noise
 WHITE = 0.5  # largest correlation of what is left, from one estimate to the next
+LOUD = 0.3  # rad; noise of an attitude is smaller
 SMALL = 1e-3  # rad; rotations below this are none in a comparison of explanations
 STILL = 0.05  # rad; estimates that stay this close to one attitude do not move
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
@@ -64,7 +66,7 @@ CHANGES: dict[str, tuple[float, tuple[str, ...], Change]] = {
     "frame": (1.0, ALL[:3], lambda e: replace(e, of_sensor=not e.of_sensor)),
     "ned": (1.0, ALL[:2], _turn(lambda q: compose(FLIP_WORLD, q))),
     "frd": (1.0, ALL[:2], _turn(lambda q: compose(q, FLIP_BODY))),
-    "ned_frd": (2.0, ALL[:2], _turn(lambda q: compose(compose(FLIP_WORLD, q), FLIP_BODY))),
+    "ned_frd": (1.0, ALL[:2], _turn(lambda q: compose(compose(FLIP_WORLD, q), FLIP_BODY))),
 }
 
 
@@ -82,6 +84,11 @@ class Cause:
     def weight(self) -> float:
         """How much it takes to be true; smaller is simpler."""
         return CHANGES[self.change][0] + LEVELS[self.level][1] + len(self.parameters)
+
+    @property
+    def residual(self) -> float:
+        """Root mean square of the angle that is left in rad."""
+        return float(np.sqrt(4 * self.cost))
 
     @property
     def kind(self) -> tuple[object, ...]:
@@ -166,6 +173,8 @@ class Search:
         q, model, known = fit.residuals(cause.offset)
         left = to_rotation(compose(q[known], invert(model[known]))).as_rotvec()
         square = float((left**2).sum())
+        if square > LOUD**2 * len(left):
+            return False
         lagged = float((left[1:] * left[:-1]).sum())
         return abs(lagged) <= WHITE * square
 
@@ -176,11 +185,11 @@ class Search:
         least = min(each.weight for each in good)
         simple = [each for each in good if each.weight == least]
         best = min(simple, key=lambda each: (self._prefer(each), each.cost))
-        ties = {}
+        ties: dict[tuple[object, ...], Cause] = {}
         for each in simple:
             if each.kind != best.kind and each.cost <= TIE * best.cost + self.fit.rounding:
                 small = _turned(each.offset) <= ALIGNED * max(_turned(best.offset), SMALL)
-                if small and each.change != best.change or each.parameters != best.parameters:
+                if (small and each.change != best.change) or each.parameters != best.parameters:
                     ties.setdefault(each.kind, each)
         return best, list(ties.values())
 
@@ -225,14 +234,11 @@ class Search:
                 if name and costs[place] > HOPELESS:
                     continue
                 start = table.start(place, level)
-                value = {name: float(table.values[place])} if name else {}
                 begin = int(self.some.stamps[0])
-                offset = replace(start, begin=begin, **value)
+                offset = _set(replace(start, begin=begin), name, float(table.values[place]))
                 yield self.refine(change, level, (name,) if name else (), offset)
 
-    def refine(
-        self, change: str, level: str, names: tuple[str, ...], offset: Offset
-    ) -> Cause:
+    def refine(self, change: str, level: str, names: tuple[str, ...], offset: Offset) -> Cause:
         """Return the least squares near an offset."""
         fit = self._fit(change, level)
         best = fit.refine(offset, tuple(PARAMETERS[name] for name in names))
@@ -249,7 +255,10 @@ class Search:
             return None, NONE
         changed = CHANGES[best.change][2](self.some)
         start = Table(
-            np.zeros(1), changed.orientations[np.newaxis], exact[np.newaxis], known[np.newaxis] * 1.0
+            np.zeros(1),
+            changed.orientations[np.newaxis],
+            exact[np.newaxis],
+            known[np.newaxis] * 1.0,
         ).start(0, "both")
         offset = replace(best.offset, world=start.world, body=start.body, delay=float(later))
         found = self.refine(best.change, "both", best.parameters, offset)
@@ -271,7 +280,7 @@ class Search:
         some = CHANGES[change][2](self.some).select(np.arange(len(self.some)) % every == 0)
         values = self._grid(name) if name else np.zeros(1)
         begin = int(self.some.stamps[0])
-        offsets = [replace(NONE, begin=begin, **({name: float(v)} if name else {})) for v in values]
+        offsets = [_set(replace(NONE, begin=begin), name, float(v)) for v in values]
         exact, known = self._exact(some, name, offsets)
         if name == "spin":
             exact = np.stack([compose(exact[0], each.turn_body(some.stamps)) for each in offsets])
@@ -283,12 +292,10 @@ class Search:
             values,
             np.broadcast_to(q, (*shape, 4)),
             np.broadcast_to(exact, (*shape, 4)),
-            np.broadcast_to(known, shape),
+            np.asarray(np.broadcast_to(known, shape), dtype=np.float64),
         )
 
-    def _exact(
-        self, some: Estimates, name: str, offsets: Sequence[Offset]
-    ) -> tuple[Real, Real]:
+    def _exact(self, some: Estimates, name: str, offsets: Sequence[Offset]) -> tuple[Real, Real]:
         """Return exact attitudes and what is known of them, for each offset or once for all."""
         cache = self.__dict__.setdefault("exacts", {})
         moved = offsets if name in ("delay", "clock") else offsets[:1]
@@ -315,6 +322,12 @@ class Search:
         """Return True if the sensor's attitude is not that of the body."""
         other = self.truth.states_at(self.some.stamps, not self.some.of_sensor)[0]
         return bool(np.abs(other - self.fit.exact(0.0)[0]).max() > SMALL)
+
+
+def _set(offset: Offset, name: str, value: float) -> Offset:
+    """Return an offset with a parameter; without a name, the same."""
+    changed: dict[str, Any] = {name: value} if name else {}
+    return replace(offset, **changed)
 
 
 def _turned(offset: Offset) -> float:

@@ -47,7 +47,7 @@ class Offset:
     def shift(self, stamps: Stamps) -> Stamps:
         """Return the stamps in ns of the exact states, (n,)."""
         late = self.delay * NANOSECONDS + self.clock * (stamps - self.begin)
-        return stamps - np.rint(late).astype(np.int64)
+        return np.asarray(stamps - np.rint(late).astype(np.int64))
 
     @property
     def angles(self) -> tuple[float, float]:
@@ -69,6 +69,7 @@ class Errors:
     rate: Real | None  # |omega_est - omega| in rad/s
     unknown: int  # estimates at stamps of which the exact motion is not known
     late: int = 0  # estimates after the last sample of the run
+    early: int = 0  # estimates before the run
 
     @property
     def seconds(self) -> Real:
@@ -105,8 +106,9 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
         turned = to_rotation(body).apply(chosen.angular_velocities)
         rate = np.linalg.norm(turned - rates, axis=1)
     late = truth.count_late(stamps)
-    unknown = int((~known).sum()) - late
-    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late)
+    early = truth.count_early(stamps)
+    unknown = int((~known).sum()) - late - early
+    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early)
 
 
 def to_rotation(q: Real) -> Rotation:

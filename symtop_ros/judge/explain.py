@@ -16,6 +16,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.rotations import fit_rotations, from_vector
+from symtop_ros.judge.search import Table
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
@@ -42,6 +43,7 @@ COLUMNS = 10
 RANK = 1e-7
 SIGMAS = 2.0
 VISIBLE = 1e-3  # part of a parameter in what the motion hides
+MODELS = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
 Exact = tuple[Real, Real, NDArray[np.bool_]]  # quaternions, rates, and the mask of those known
 
 
@@ -71,6 +73,7 @@ def explain(
     by the method of Gauss and Newton. The simplest explanation that leaves no more is taken: the
     one with the smallest delay.
     """
+    estimates = estimates.select(truth.states_at(estimates.stamps, estimates.of_sensor)[2])
     every = max(1, len(estimates) // SAMPLES)
     fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
     if len(fit.some) < 2:
@@ -82,6 +85,16 @@ def explain(
         fit.hidden.append("delay")
         best = fit.find_best(False, sees_drift)
     return Explanation(best, tuple(fit.hidden), float(np.sqrt(4 * fit.cost(best))))
+
+
+def align(estimates: Estimates, truth: Truth, model: str) -> Offset:
+    """Return the least squares of a stated model, one of MODELS, without any search."""
+    inside = truth.states_at(estimates.stamps, estimates.of_sensor)[2]
+    run = estimates.select(inside)
+    q, exact = run.orientations, truth.states_at(run.stamps, run.of_sensor)[0]
+    known = np.ones((1, len(run)))
+    table = Table(np.zeros(1), q[np.newaxis], exact[np.newaxis], known)
+    return table.start(0, MODELS[model])
 
 
 @dataclass(eq=False)

@@ -48,7 +48,7 @@ class Table:
         largest = np.linalg.eigvalsh(np.swapaxes(left, 1, 2) @ left)[:, -1]
         enough = counts >= max(2, self.known.shape[1] // 2)
         costs = 1 - largest / np.maximum(counts, 1)
-        return np.where(enough, np.maximum(costs, 0.0), np.inf)
+        return np.asarray(np.where(enough, np.maximum(costs, 0.0), np.inf))
 
     def start(self, place: int, level: str) -> Offset:
         """Return the best rotations of a level for one value."""
