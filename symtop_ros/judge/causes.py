@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.compare import NONE, Offset, to_rotation
+from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import (
     CLOCK,
@@ -212,14 +212,21 @@ class Search:
 
     def extend(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the causes with one more parameter, small ones near zero."""
-        for each in causes:
-            if each.cost > HOPELESS or not each.parameters:
-                continue
-            for name in self.names:
-                if name not in each.parameters:
-                    yield self.refine(
-                        change, each.level, tuple(sorted((*each.parameters, name))), each.offset
-                    )
+        pairs = [
+            self.refine(change, each.level, tuple(sorted((*each.parameters, name))), each.offset)
+            for each in causes
+            if each.cost <= HOPELESS and each.parameters
+            for name in self.names
+            if name not in each.parameters
+        ]
+        yield from pairs
+        # Of those that are as good, large rotations may belong to another period of the nutation.
+        limit = SIMPLER * min((each.cost for each in pairs), default=0.0) + self.fit.rounding
+        good = [each for each in pairs if each.cost <= limit]
+        for each in sorted(good, key=lambda pair: _turned(pair.offset))[:VALLEYS]:
+            for level in CHANGES[change][1]:  # rotations may have been needed without the second
+                offset = _keep(each.offset, level)
+                yield self.refine(change, level, each.parameters, offset)
 
     def search(self, change: str, name: str) -> Iterator[Cause]:
         """Yield explanations with a change and a parameter, or none."""
@@ -258,7 +265,7 @@ class Search:
             np.zeros(1),
             changed.orientations[np.newaxis],
             exact[np.newaxis],
-            known[np.newaxis] * 1.0,
+            known[np.newaxis].astype(np.float64),
         ).start(0, "both")
         offset = replace(best.offset, world=start.world, body=start.body, delay=float(later))
         found = self.refine(best.change, "both", best.parameters, offset)
@@ -304,7 +311,7 @@ class Search:
             stamps = np.concatenate([each.shift(some.stamps) for each in moved])
             exact, _, known = self.truth.states_at(stamps, some.of_sensor)
             shape = (len(moved), len(some))
-            cache[key] = exact.reshape(*shape, 4), known.reshape(shape).astype(float)
+            cache[key] = exact.reshape(*shape, 4), known.reshape(shape).astype(np.float64)
         found: tuple[Real, Real] = cache[key]
         return found
 
@@ -328,6 +335,17 @@ def _set(offset: Offset, name: str, value: float) -> Offset:
     """Return an offset with a parameter; without a name, the same."""
     changed: dict[str, Any] = {name: value} if name else {}
     return replace(offset, **changed)
+
+
+def _keep(offset: Offset, level: str) -> Offset:
+    """Return an offset with those of its rotations that a level has."""
+    turns = LEVELS[level][0]
+    world = offset.world if 2 in turns else IDENTITY
+    if level == "heading":
+        world = world * np.array([1.0, 0.0, 0.0, 1.0])
+        size = float(np.linalg.norm(world))
+        world = world / size if size > 0 else IDENTITY
+    return replace(offset, world=world, body=offset.body if 5 in turns else IDENTITY)
 
 
 def _turned(offset: Offset) -> float:

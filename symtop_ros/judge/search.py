@@ -87,4 +87,4 @@ def _turns(q: Real) -> Real:
 def _mean(q: Real) -> Real:
     """Return the mean of rotations, (4,)."""
     mean: Real = np.linalg.eigh(q.T @ q)[1][:, -1]
-    return mean * np.copysign(1.0, mean[0])
+    return np.asarray(mean * np.copysign(1.0, mean[0]))

@@ -9,12 +9,14 @@ from judge.made import FRD, MOUNT, NED, TILT, Made, heading
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.causes import find_causes
+from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.truth import Truth, scene_truth
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.simulation.events import start_event
 
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)
+STEADY = ("hanging", "regular_precession", "sleeping")
 N = 5e-3  # rad of noise in each component
 # scene, what is wrong, and what is named: the change, the rotations, and the other causes
 LOGS = [
@@ -66,7 +68,14 @@ def describe(log):
     return f"{log[0]}-{log[2]}-{log[3]}-{fields}"
 
 
-@pytest.mark.parametrize("log", LOGS, ids=describe)
+def choose_marks(log):
+    """Leave logs with noise, for which more has to be tried, to the long trials."""
+    return [pytest.mark.long] if log[1].noise else []
+
+
+@pytest.mark.parametrize(
+    "log", [pytest.param(log, marks=choose_marks(log), id=describe(log)) for log in LOGS]
+)
 def test_the_cause_of_a_made_log_is_named_and_nothing_else(log):
     scene, made, change, level, parameters = log
     truth = scene_truth(scene)
@@ -76,10 +85,14 @@ def test_the_cause_of_a_made_log_is_named_and_nothing_else(log):
         assert found.best.kind == ("", "none", ())
         return
     assert found.explained
-    assert found.best.kind == (change, level, parameters)
+    kinds = [each.kind for each in (found.best, *found.others)]
+    assert (change, level, parameters) in kinds
+    if scene not in STEADY:  # such a top shows a delay as a heading; then both are named
+        assert {kind[0] for kind in kinds} == {change}
+    cause = (found.best, *found.others)[kinds.index((change, level, parameters))]
     for name in parameters:
         # Noise of 5e-3 rad in 500 estimates: 1e-3 of each value; others are exact to 1e-9.
-        assert getattr(found.best.offset, name) == pytest.approx(getattr(made, name), rel=5e-3)
+        assert getattr(cause.offset, name) == pytest.approx(getattr(made, name), rel=5e-3)
 
 
 def draw(seed):
@@ -139,15 +152,15 @@ def test_what_is_not_explained_is_said(other):
 
 
 def test_estimates_after_and_before_the_run_are_counted_and_the_others_are_explained():
-    events = [
-        start_event(
-            Motion(Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0))
-        )
-    ]
-    estimates = Made(heading(1.0)).make(Truth(events), STAMPS - 2 * SECOND)
+    start = State.from_euler(theta=0.5, psi_dot=200.0)
+    events = [start_event(Motion(Top(0.000228, 0.0000572, 0.068), start))]
+    made = Made(heading(1.0)).make(Truth(events), STAMPS - SECOND)
+    early = np.arange(-SECOND, 0, SECOND // 100)
+    stamps = np.concatenate((early, made.stamps))
+    q = np.concatenate((np.tile([1.0, 0.0, 0.0, 0.0], (len(early), 1)), made.orientations))
     truth = Truth(events, end=SECOND)
-    facts = judge(estimates, truth, "x").facts()
-    assert (facts["before_the_run"], facts["estimates"], facts["after_the_run"]) == (100, 101, 299)
+    facts = judge(Estimates.of(stamps, q), truth, "x").facts()
+    assert (facts["before_the_run"], facts["estimates"], facts["after_the_run"]) == (100, 101, 399)
     assert facts["found"]["world_offset"]["angle"] == pytest.approx(1.0, abs=1e-12)
     assert facts["found"]["not_identifiable"] == []
     json.dumps(facts, allow_nan=False)
