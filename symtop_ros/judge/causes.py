@@ -220,11 +220,17 @@ class Search:
             if name not in each.parameters
         ]
         yield from pairs
-        # Of those that are as good, large rotations may belong to another period of the nutation.
+        simpler = [*self.simplify(change, pairs)]
+        yield from simpler
+        # A delay of another period needs rotations, and without them it is found only now.
+        yield from self.simplify(change, [*pairs, *simpler])
+
+    def simplify(self, change: str, pairs: Sequence[Cause]) -> Iterator[Cause]:
+        """Yield the good ones of the smallest rotations again, with fewer of them free."""
         limit = SIMPLER * min((each.cost for each in pairs), default=0.0) + self.fit.rounding
         good = [each for each in pairs if each.cost <= limit]
         for each in sorted(good, key=lambda pair: _turned(pair.offset))[:VALLEYS]:
-            for level in CHANGES[change][1]:  # rotations may have been needed without the second
+            for level in CHANGES[change][1]:
                 offset = _keep(each.offset, level)
                 yield self.refine(change, level, each.parameters, offset)
 
