@@ -5,13 +5,14 @@ rate of a clock. Causes are named only if they make most of the error vanish and
 ones leave much more; several explanations that are as simple and as good are all named.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from symtop_ros.arrays import Real
+from symtop_ros.judge.changes import CHANGES
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import (
@@ -46,28 +47,6 @@ SMALL = 1e-3  # rad; rotations below this are none in a comparison of explanatio
 STILL = 0.05  # rad; estimates that stay this close to one attitude do not move
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN}
-FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down
-FLIP_BODY = np.array([0.0, 1.0, 0.0, 0.0])  # forward-left-up to forward-right-down
-ALL = tuple(LEVELS)
-Change = Callable[[Estimates], Estimates]
-
-
-def _turn(change: Callable[[Real], Real]) -> Change:
-    return lambda e: replace(e, orientations=change(e.orientations))
-
-
-# Undoing each: its weight, and the rotations that may be free with it.
-CHANGES: dict[str, tuple[float, tuple[str, ...], Change]] = {
-    "": (0.0, ALL, lambda e: e),
-    "order": (1.0, ALL, _turn(lambda q: q[:, [3, 0, 1, 2]])),
-    "conjugate": (1.0, ALL, _turn(invert)),
-    # These are the same as rotations of both frames, so few rotations are free with them.
-    "conjugate_order": (1.0, ALL[:3], _turn(lambda q: invert(q[:, [3, 0, 1, 2]]))),
-    "frame": (1.0, ALL[:3], lambda e: replace(e, of_sensor=not e.of_sensor)),
-    "ned": (1.0, ALL[:2], _turn(lambda q: compose(FLIP_WORLD, q))),
-    "frd": (1.0, ALL[:2], _turn(lambda q: compose(q, FLIP_BODY))),
-    "ned_frd": (1.0, ALL[:2], _turn(lambda q: compose(compose(FLIP_WORLD, q), FLIP_BODY))),
-}
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,7 +52,7 @@ def test_what_is_no_attitude_is_left_out(tmp_path):
     # a time before the run has an attitude as well
     assert found.stamps.tolist() == [-1_000_000_000, 2_000_000_000]
     assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]] * 2
-    assert found.left_out == 4
+    assert found.left_out == 3
 
 
 def test_a_byte_order_mark_and_spaces_are_no_obstacle(tmp_path):
