@@ -67,7 +67,10 @@ ARROWS = {
     "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),
     "testset": (set(), {"numpy"}),
     "judge": (
-        {*("drawing", "log", "models", "physics"), *("shutdown", "simulation", "testset", "wire")},
+        {
+            *("drawing", "log", "models", "physics", "shutdown", "simulation", "testset"),
+            *("wire", "wording"),
+        },
         {*NUMERICAL, "matplotlib", "rclpy"},
     ),
 }

@@ -2,7 +2,8 @@
 
 An estimate is modelled as q_est(t) = D(t) W q(t - delay) M with constant rotations W of the world
 (a heading that no gyroscope knows) and M of the body (how the sensor is mounted), and a rotation
-D(t) about the vertical that grows steadily (a drift of the heading).
+D(t) about the vertical that grows steadily (a drift of the heading). A clock that runs fast makes
+the delay grow, and a gyroscope whose scale is wrong along the axis turns the body about it.
 """
 
 from dataclasses import dataclass
@@ -31,13 +32,22 @@ class Offset:
     body: Real
     delay: float = 0.0  # time in s by which the estimates are late
     drift: float = 0.0  # rate in rad/s about the vertical of the world
-    begin: int = 0  # stamp in ns at which the drift has not yet turned anything
+    begin: int = 0  # stamp in ns at which nothing has drifted yet
+    clock: float = 0.0  # growth of the delay in s per s
+    spin: float = 0.0  # rate in rad/s about the axis of the body
 
     def turn_world(self, stamps: Stamps) -> Real:
         """Return the rotations of the world, D(t) W, at stamps, (n, 4)."""
-        half = self.drift * (stamps - self.begin) / NANOSECONDS / 2
-        zero = np.zeros(len(stamps))
-        return compose(np.stack((np.cos(half), zero, zero, np.sin(half)), axis=-1), self.world)
+        return compose(_turn_about_z(self.drift, stamps - self.begin), self.world)
+
+    def turn_body(self, stamps: Stamps) -> Real:
+        """Return the rotations of the body at stamps, (n, 4)."""
+        return compose(_turn_about_z(self.spin, stamps - self.begin), self.body)
+
+    def shift(self, stamps: Stamps) -> Stamps:
+        """Return the stamps in ns of the exact states, (n,)."""
+        late = self.delay * NANOSECONDS + self.clock * (stamps - self.begin)
+        return np.asarray(stamps - np.rint(late).astype(np.int64))
 
     @property
     def angles(self) -> tuple[float, float]:
@@ -59,6 +69,7 @@ class Errors:
     rate: Real | None  # |omega_est - omega| in rad/s
     unknown: int  # estimates at stamps of which the exact motion is not known
     late: int = 0  # estimates after the last sample of the run
+    early: int = 0  # estimates before the run
 
     @property
     def seconds(self) -> Real:
@@ -77,11 +88,12 @@ class Errors:
 
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:
     """Return the errors of estimates after an offset is removed."""
-    stamps = estimates.stamps - round(offset.delay * NANOSECONDS)
+    stamps = offset.shift(estimates.stamps)
     exact, rates, known = truth.states_at(stamps, estimates.of_sensor)
     chosen, exact, rates = estimates.select(known), exact[known], rates[known]
     world = offset.turn_world(chosen.stamps)
-    q = compose(compose(invert(world), chosen.orientations), invert(offset.body))
+    body = offset.turn_body(chosen.stamps)
+    q = compose(compose(invert(world), chosen.orientations), invert(body))
     wrong = compose(q, invert(exact))
     # |q - exact| is 2 sin(angle/4). An arccosine of their product would lose half of the digits.
     sine = np.linalg.norm(subtract(q, exact), axis=1) / 2
@@ -91,11 +103,12 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     heading = _wrap(2 * np.arctan2(z, w))
     rate = None
     if chosen.angular_velocities is not None:
-        turned = to_rotation(offset.body).apply(chosen.angular_velocities)
+        turned = to_rotation(body).apply(chosen.angular_velocities)
         rate = np.linalg.norm(turned - rates, axis=1)
     late = truth.count_late(stamps)
-    unknown = int((~known).sum()) - late
-    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late)
+    early = truth.count_early(stamps)
+    unknown = int((~known).sum()) - late - early
+    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early)
 
 
 def to_rotation(q: Real) -> Rotation:
@@ -110,6 +123,12 @@ def subtract(q: Real, p: Real) -> Real:
 
 def _angle(q: Real) -> float:
     return float(2 * np.arctan2(np.linalg.norm(q[1:]), abs(q[0])))
+
+
+def _turn_about_z(rate: float, nanoseconds: Stamps) -> Real:
+    half = rate * nanoseconds / NANOSECONDS / 2
+    zero = np.zeros(len(nanoseconds))
+    return np.stack((np.cos(half), zero, zero, np.sin(half)), axis=-1)
 
 
 def _wrap(angle: Real) -> Real:

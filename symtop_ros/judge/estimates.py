@@ -63,7 +63,7 @@ class Estimates:
             good = np.isfinite(norms) & (norms > LARGEST_NORM_ERROR)
             if angular_velocities is not None:
                 good &= np.isfinite(angular_velocities).all(axis=1)
-        good &= (times >= 0) & (times < MAX_STAMP)
+        good &= np.abs(times) < MAX_STAMP
         order = np.flatnonzero(good)[np.argsort(times[good], kind="stable")]
         rates = None if angular_velocities is None else angular_velocities[order]
         # Unit quaternions stay as they are: a division would add the rounding that is measured.

@@ -16,6 +16,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.rotations import fit_rotations, from_vector
+from symtop_ros.judge.search import Table
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
@@ -34,12 +35,15 @@ STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried
 WORTHWHILE = 1.01  # a delay or drift counts if it makes the mean square smaller by this factor
 ROUNDING = 1e-28  # mean square of errors that are rounding
 # Columns of the derivatives: a rotation vector of the world and of the body, delay, and drift.
-ROTATIONS, DELAY, DRIFT = range(6), 6, 7
+# The last two are the rate of the clock and a drift about the axis of the body.
+ROTATIONS, DELAY, DRIFT, CLOCK, SPIN = range(6), 6, 7, 8, 9
+COLUMNS = 10
 # Singular values below this are zero. Those of steady motions are rounding, those of visible
 # nutation are larger than its amplitude.
 RANK = 1e-7
 SIGMAS = 2.0
 VISIBLE = 1e-3  # part of a parameter in what the motion hides
+MODELS = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
 Exact = tuple[Real, Real, NDArray[np.bool_]]  # quaternions, rates, and the mask of those known
 
 
@@ -69,6 +73,7 @@ def explain(
     by the method of Gauss and Newton. The simplest explanation that leaves no more is taken: the
     one with the smallest delay.
     """
+    estimates = estimates.select(truth.states_at(estimates.stamps, estimates.of_sensor)[2])
     every = max(1, len(estimates) // SAMPLES)
     fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
     if len(fit.some) < 2:
@@ -82,33 +87,46 @@ def explain(
     return Explanation(best, tuple(fit.hidden), float(np.sqrt(4 * fit.cost(best))))
 
 
+def align(estimates: Estimates, truth: Truth, model: str) -> Offset:
+    """Return the least squares of a stated model, one of MODELS, without any search."""
+    inside = truth.states_at(estimates.stamps, estimates.of_sensor)[2]
+    run = estimates.select(inside)
+    q, exact = run.orientations, truth.states_at(run.stamps, run.of_sensor)[0]
+    known = np.ones((1, len(run)))
+    table = Table(np.zeros(1), q[np.newaxis], exact[np.newaxis], known)
+    return table.start(0, MODELS[model])
+
+
 @dataclass(eq=False)
 class Fit:
     """Some estimates, and the ways to compare them with the exact motion."""
 
     some: Estimates
     truth: Truth
-    rotations: bool  # False: they stay the identity
+    rotations: bool = True  # False: they stay the identity
+    turns: tuple[int, ...] = tuple(ROTATIONS)  # columns of the rotations that are free
+    most: float = MAX_DELAY  # s
     hidden: list[str] = field(default_factory=list)
-    _last: tuple[float, Exact] | None = None  # the delay that was asked for last, and its motion
+    _last: tuple[tuple[float, float], Exact] | None = None  # delay and clock, and their motion
 
     @cached_property
     def seconds(self) -> Real:
         """Times since the first estimate in s, (n,)."""
         return np.asarray((self.some.stamps - self.some.stamps[0]) / NANOSECONDS)
 
-    def exact(self, delay: float) -> Exact:
+    def exact(self, delay: float, clock: float = 0.0) -> Exact:
         """Return exact quaternions, rates and the mask of those known, for a delay."""
-        if self._last is None or self._last[0] != delay:
-            stamps = self.some.stamps - round(delay * NANOSECONDS)
-            self._last = delay, self.truth.states_at(stamps, self.some.of_sensor)
+        if self._last is None or self._last[0] != (delay, clock):
+            begin = int(self.some.stamps[0])
+            stamps = replace(NONE, delay=delay, clock=clock, begin=begin).shift(self.some.stamps)
+            self._last = (delay, clock), self.truth.states_at(stamps, self.some.of_sensor)
         return self._last[1]
 
     def residuals(self, offset: Offset) -> tuple[Real, Real, NDArray[np.bool_]]:
         """Return q_est, the model of it, and the mask of those known."""
-        exact, _, known = self.exact(offset.delay)
+        exact, _, known = self.exact(offset.delay, offset.clock)
         world = offset.turn_world(self.some.stamps)
-        model = compose(compose(world, exact), offset.body)
+        model = compose(compose(world, exact), offset.turn_body(self.some.stamps))
         return self.some.orientations, model, known
 
     def cost(self, offset: Offset) -> float:
@@ -197,13 +215,13 @@ class Fit:
 
     def refine(self, offset: Offset, more: tuple[int, ...]) -> Offset:
         """Return the least squares near an offset, in its rotations and `more` columns."""
-        free = [*(ROTATIONS if self.rotations else ()), *more]
+        free = [*(self.turns if self.rotations else ()), *more]
         best, cost = offset, self.cost(offset)
         for _ in range(ITERATIONS):
-            step = np.zeros(8)
+            step = np.zeros(COLUMNS)
             if free:
                 step[free] = self._solve(best, free)
-            tried = [_move(best, step * part) for part in STEPS]
+            tried = [_move(best, step * part, self.most) for part in STEPS]
             costs = [self.cost(each) for each in tried]
             if not min(costs) < cost:
                 break
@@ -220,17 +238,21 @@ class Fit:
         return np.asarray(np.linalg.lstsq(columns / norms, left, rcond=RANK)[0] / norms)
 
     def derive(self, offset: Offset) -> Real:
-        """Return derivatives of the model's rotation vectors in the world frame, (3 n, 8)."""
-        exact, rates, known = self.exact(offset.delay)
+        """Return derivatives of the model's rotation vectors in the world frame, (3 n, 10)."""
+        exact, rates, known = self.exact(offset.delay, offset.clock)
         world = offset.turn_world(self.some.stamps)[known]
         turned = compose(world, exact[known])
-        columns = np.zeros((int(known.sum()), 3, 8))
+        columns = np.zeros((int(known.sum()), 3, COLUMNS))
+        model = compose(turned, offset.turn_body(self.some.stamps)[known])
         drifted = compose(world, invert(offset.world))
         columns[:, :, :3] = to_rotation(drifted).as_matrix()
-        columns[:, :, 3:6] = to_rotation(compose(turned, offset.body)).as_matrix()
+        columns[:, :, 3:6] = to_rotation(model).as_matrix()
         columns[:, :, DELAY] = -to_rotation(turned).apply(rates[known])
-        columns[:, 2, DRIFT] = self.seconds[known]
-        return columns.reshape(-1, 8)
+        seconds = self.seconds[known]
+        columns[:, :, CLOCK] = columns[:, :, DELAY] * seconds[:, np.newaxis]
+        columns[:, 2, DRIFT] = seconds
+        columns[:, :, SPIN] = to_rotation(turned).as_matrix()[:, :, 2] * seconds[:, np.newaxis]
+        return columns.reshape(-1, COLUMNS)
 
     def find_hidden(self) -> list[str]:
         """Return what the motion cannot show, from the rank of the derivatives."""
@@ -267,9 +289,17 @@ class Fit:
         return np.asarray(directions[sizes <= RANK * sizes[0]])
 
 
-def _move(offset: Offset, step: Real) -> Offset:
-    """Return the offset changed by a step in the eight columns; a delay stays within its bound."""
+def _move(offset: Offset, step: Real, most: float) -> Offset:
+    """Return the offset changed by a step in its columns; a delay stays within its bound."""
     world = compose(from_vector(step[:3]), offset.world)
-    delay = float(np.clip(offset.delay + step[DELAY], -MAX_DELAY, MAX_DELAY))
+    delay = float(np.clip(offset.delay + step[DELAY], -most, most))
     body = compose(offset.body, from_vector(step[3:6]))
-    return replace(offset, world=world, body=body, delay=delay, drift=offset.drift + step[DRIFT])
+    return replace(
+        offset,
+        world=world,
+        body=body,
+        delay=delay,
+        drift=offset.drift + float(step[DRIFT]),
+        clock=offset.clock + float(step[CLOCK]),
+        spin=offset.spin + float(step[SPIN]),
+    )

@@ -7,14 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.judge.compare import PERCENTILES, Errors, compare
+from symtop_ros.judge.causes import Cause, Finding, find_causes
+from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.explain import Explanation, explain
+from symtop_ros.judge.explain import align, explain
 from symtop_ros.judge.mistakes import find_mistakes
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.layout import NANOSECONDS
+from symtop_ros.wording import write
 
+NOTHING = 1e-6  # rad; an error below this is not worth a sentence
 YEAR = 366 * 86_400 * NANOSECONDS
 QUANTITIES = {  # name -> label
     "attitude": "attitude (rad)",
@@ -30,7 +33,8 @@ class Judgement:
 
     source: str  # topic or file
     errors: Errors  # after what was removed
-    found: Explanation
+    found: Finding | None  # None: nothing was looked for
+    aligned: str | None  # the model that was stated in place of it
     removed: tuple[str, ...]  # "offset", "delay" and "drift", if they were taken away
     left_out: int  # messages without a readable attitude
     notes: tuple[str, ...]  # likely mistakes, and what is odd about the file
@@ -42,7 +46,7 @@ class Judgement:
 
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
-        errors, offset = self.errors, self.found.offset
+        errors = self.errors
         quantities = {
             "attitude": errors.total,
             "tilt": errors.tilt,
@@ -50,25 +54,19 @@ class Judgement:
         }
         if errors.rate is not None:
             quantities["angular_velocity"] = errors.rate
-        world, body = offset.angles
         return {
             "source": self.source,
             "estimates": len(errors.total),
             "unknown": errors.unknown,
+            "before_the_run": errors.early,
             "after_the_run": errors.late,
             "left_out": self.left_out,
             "seconds": float(errors.seconds[-1]),
             "removed": list(self.removed),
             **{name: summarize(values) for name, values in quantities.items()},
             "growth_rms": [None if np.isnan(x) else float(x) for x in errors.growth()],
-            "found": {
-                "delay": None if "delay" in self.found.hidden else offset.delay,
-                "drift": None if "drift" in self.found.hidden else offset.drift,
-                "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
-                "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
-                "not_identifiable": list(self.found.hidden),
-                "residual_rms": self.found.residual,
-            },
+            "aligned": self.aligned,
+            "found": None if self.found is None else _describe_finding(self.found),
             "notes": list(self.notes),
         }
 
@@ -89,19 +87,23 @@ class Judgement:
 
     def _explain(self) -> str:
         """Return what explains the errors, and what the motion hides, in sentences."""
-        offset, hidden = self.found.offset, self.found.hidden
-        world, body = offset.angles
-        parts = [
-            *([] if "delay" in hidden else [f"a delay of {offset.delay * 1e3:.4g} ms"]),
-            *([] if "drift" in hidden else [f"a drift of {offset.drift:.3g} rad/s"]),
-            f"a rotation of the world by {world:.2e} rad and of the body by {body:.2e} rad",
-        ]
-        text = f"best explained by {', '.join(parts)}; it leaves {self.found.residual:.2e} rad rms"
-        return "\n".join([text, *(f"not identifiable: {HIDDEN[name]}" for name in hidden)])
+        if self.found is None:
+            rms = summarize(self.errors.total)["rms"]
+            return write("found.aligned", {"model": self.aligned, "residual": rms})
+        found, best = self.found, self.found.best
+        parts = _list_parts(best)
+        record = {"parts": parts, "residual": best.residual}
+        lines = [write(f"found.{_choose_key(found)}", record)]
+        if found.period is not None:
+            world, body = found.repeated.angles
+            lines.append(write("repeats", {"period": found.period, "world": world, "body": body}))
+        lines += [write("or", {"parts": _list_parts(each)}) for each in found.others]
+        return "\n".join([*lines, *(f"not identifiable: {HIDDEN[name]}" for name in found.hidden)])
 
     def _remarks(self) -> list[str]:
         counts = (
-            (self.errors.unknown, "before the run or out of reach of its integration"),
+            (self.errors.early, "before the run"),
+            (self.errors.unknown, "out of reach of the integration of the run"),
             (self.errors.late, "after the last sample of the run"),
             (self.left_out, "without a readable attitude"),
         )
@@ -117,22 +119,79 @@ HIDDEN = {
 
 
 def judge(
-    estimates: Estimates, truth: Truth, source: str, removed: tuple[str, ...] = ()
+    estimates: Estimates,
+    truth: Truth,
+    source: str,
+    removed: tuple[str, ...] = (),
+    aligned: str | None = None,
 ) -> Judgement:
-    """Compare estimates with the exact motion; `removed` may name "offset", "delay", "drift"."""
+    """Compare estimates with the exact motion.
+
+    `removed` may name "offset", "delay", "drift"; with a stated model of `aligned` nothing else is
+    looked for.
+    """
     if not len(compare(estimates, truth).total):
         raise RefusedError(_describe_absence(estimates, truth, source))
-    found = explain(estimates, truth)
+    if aligned is not None:
+        errors = compare(estimates, truth, align(estimates, truth, aligned))
+        return Judgement(source, errors, None, aligned, (), estimates.left_out, estimates.notes)
+    found = find_causes(estimates, truth)
     wanted = {
         "rotations": "offset" in removed,
         "delay": "delay" in removed,
         "drift": "drift" in removed,
     }
-    taken = found if all(wanted.values()) else explain(estimates, truth, **wanted)
-    errors = compare(estimates, truth, taken.offset)
-    mistakes = find_mistakes(estimates, truth, found.offset, found.residual)
+    taken = explain(estimates, truth, **wanted).offset if removed else NONE
+    errors = compare(estimates, truth, taken)
+    mistakes = find_mistakes(estimates, truth, found)
     notes = *(f"likely mistake: {each}" for each in mistakes), *estimates.notes
-    return Judgement(source, errors, found, removed, estimates.left_out, notes)
+    return Judgement(source, errors, found, None, removed, estimates.left_out, notes)
+
+
+def _choose_key(found: Finding) -> str:
+    if found.still:
+        return "still"
+    if not found.explained:
+        return "unexplained"
+    if found.best.weight:
+        return "explained"
+    return "exact" if found.best.residual < NOTHING else "nothing"
+
+
+def _list_parts(cause: Cause) -> list[dict[str, Any]]:
+    """Return the parts of an explanation as records for sentences."""
+    offset = cause.offset
+    world, body = offset.angles
+    scale = {"delay": 1e3, "clock": 1e6}
+    parts: list[dict[str, Any]] = [
+        {"kind": name, "value": scale.get(name, 1.0) * getattr(offset, name)}
+        for name in cause.parameters
+    ]
+    if cause.level != "none":
+        parts.append({"kind": cause.level, "world": world, "body": body})
+    if cause.change:
+        parts.insert(0, {"kind": "change"})
+    return parts
+
+
+def _describe_finding(found: Finding) -> dict[str, Any]:
+    """Return what was found, for JSON."""
+    offset = found.best.offset
+    world, body = offset.angles
+    return {
+        "explained": found.explained,
+        "estimates_move": not found.still,
+        "mistake": found.best.change or None,
+        "delay": None if "delay" in found.hidden else offset.delay,
+        "drift": None if "drift" in found.hidden else offset.drift,
+        "body_drift": offset.spin,
+        "clock_rate": offset.clock,
+        "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
+        "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
+        "delay_period": found.period,
+        "not_identifiable": list(found.hidden),
+        "residual_rms": found.best.residual,
+    }
 
 
 def _describe_absence(estimates: Estimates, truth: Truth, source: str) -> str:

@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from symtop_ros.judge.estimates import Estimates, read_topic
+from symtop_ros.judge.explain import MODELS
 from symtop_ros.judge.judgement import Judgement, format_several, judge
 from symtop_ros.judge.problems import run_testset
 from symtop_ros.judge.tables import CSV, read_csv
@@ -40,6 +41,8 @@ def main(args: list[str] | None = None) -> int:
         )
     if options.live and len(options.topic) > 1:
         parser.error("--live judges one --topic")
+    if options.aligned and (options.remove or options.live):
+        parser.error("--aligned states what is removed: no --remove, no --live")
     try:
         return _run(options, rest)
     except ValueError as error:
@@ -88,6 +91,12 @@ def _parser() -> argparse.ArgumentParser:
         help="take away the constant rotations, the delay (up to 0.1 s), or the drift of the "
         "heading that were found",
     )
+    parser.add_argument(
+        "--aligned",
+        choices=tuple(MODELS),
+        metavar="MODEL",
+        help=f"align by a stated model and look for nothing else: {', '.join(MODELS)}",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="for JSON and plots")
     parser.add_argument(
@@ -125,7 +134,7 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
         return judge_live(options, ["top_judge", *rest])
     truth = _read_run(options)
     judgements = [
-        judge(estimates, truth, source, tuple(options.remove))
+        judge(estimates, truth, source, tuple(options.remove), options.aligned)
         for source, estimates in _read_estimates(options)
     ]
     print(_format(judgements, options.json))

@@ -79,7 +79,8 @@ def _describe(problem: score.Problem, source: Path) -> str:
     facts = problem.facts
     body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
     start = State(facts["orientation"], facts["angular_velocity"])
-    readme = (source / README).read_text(encoding="utf-8").replace("(../../README.md)", "")
+    readme = (source / README).read_text(encoding="utf-8")
+    readme = readme.replace("[symtop_ros](../../README.md)", "symtop_ros")
     sections = readme.split("\n## ")
     return INTRODUCTION.format(
         name=facts["name"],

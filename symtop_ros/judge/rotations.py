@@ -9,14 +9,29 @@ from symtop_ros.arrays import Real
 from symtop_ros.judge.compare import Offset, to_rotation
 from symtop_ros.quaternions import compose, invert
 
+FLIPS = np.eye(4)  # no turn, and half turns about x, y and z
+
 
 def fit_rotations(q: Real, exact: Real) -> Offset:
     """Return the rotations W and M for which W exact M is nearest to q.
 
     Both together are one rotation of the four components of a quaternion, found by Kabsch's method
-    (a singular value decomposition). The signs of the quaternions follow from a first guess.
+    (a singular value decomposition). The signs of the quaternions follow from a first guess; a top
+    that turns about one axis leaves it open, so half turns of the body are tried as well.
     """
-    guess = _guess_rotations(q, exact)
+    guesses = [_guess_rotations(q, exact), *(_align_world(q, exact, body) for body in FLIPS)]
+    found = [_improve(q, exact, guess) for guess in guesses]
+    return min(found, key=lambda each: _measure(q, exact, each))
+
+
+def _measure(q: Real, exact: Real, offset: Offset) -> float:
+    """Return the mean square of what is left, nearly, and a little more for large rotations."""
+    images = compose(compose(offset.world, exact), offset.body)
+    left = 1 - float(((images * q).sum(axis=1) ** 2).mean())
+    return left + 1e-12 * sum(offset.angles)
+
+
+def _improve(q: Real, exact: Real, guess: Offset) -> Offset:
     images = compose(compose(guess.world, exact), guess.body)
     signs = np.where((images * q).sum(axis=1) < 0, -1.0, 1.0)
     u, _, vt = np.linalg.svd((q * signs[:, np.newaxis]).T @ exact)
@@ -41,6 +56,11 @@ def _guess_rotations(q: Real, exact: Real) -> Offset:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a top at rest leaves M open
         body = to_quaternion(Rotation.align_vectors(theirs, ours)[0])
+    return _align_world(q, exact, body)
+
+
+def _align_world(q: Real, exact: Real, body: Real) -> Offset:
+    """Return the best rotation of the world for one of the body."""
     left = compose(q, invert(compose(exact, body)))
     return Offset(np.linalg.eigh(left.T @ left)[1][:, -1], body)
 

@@ -48,7 +48,7 @@ def _read_rows(path: Path, rows: csv.DictReader[str]) -> Estimates:
     stamps, numbers, decimals = [], [], 0
     for line, row in enumerate(rows, start=2):
         try:
-            stamps.append(min(max(to_ns(row[time]), -1), MAX_STAMP))
+            stamps.append(min(max(to_ns(row[time]), -MAX_STAMP), MAX_STAMP))
             numbers.append([float(row[name]) for name in wanted])
             decimals = max(decimals, len(row[time].strip().partition(".")[2]))
         except (TypeError, ValueError, InvalidOperation, OverflowError):

@@ -51,6 +51,22 @@ class Truth:
         """Stamp of the first event in ns, or None."""
         return self._events[0].stamp if self._events else None
 
+    @property
+    def period(self) -> float | None:
+        """Nutation period of a run of one motion in s of its clock, or None."""
+        if len(self._events) != 1:
+            return None
+        segment = self._segment(0)
+        try:
+            period = segment.motion.nutation_period / segment.factor
+        except ValueError:  # with friction or a torque there is none
+            return None
+        return float(period) if np.isfinite(period) and period > 0 else None
+
+    def count_early(self, stamps: Stamps) -> int:
+        """Return how many stamps are before the run."""
+        return 0 if self.begin is None else int((stamps < self.begin).sum())
+
     def count_late(self, stamps: Stamps) -> int:
         """Return how many stamps are after the last sample of the run."""
         return 0 if self.end is None else int((stamps > self.end).sum())

@@ -224,15 +224,22 @@ def random_walks(seed: int, streams: Sequence[int], times: Any) -> Real:
     low, high = ends[:, block], ends[:, block + 1]
     walks = low + (high - low) * (rest / BLOCK)
     # The bridges of each level: its number at these times, and how far from its ends they are.
-    level = np.arange(1, LEVELS + 1).reshape(-1, *[1] * times.ndim)
-    bits = BLOCK_BITS - level + 1
-    inside = (rest & ((1 << bits) - 1)) / (1 << bits)
-    sizes = (1 - np.abs(2 * inside - 1)) * np.sqrt((1 << bits) / NANOSECONDS / 4)
-    places = (block << (LEVELS + 2)) + (1 << level) + (rest >> bits)
-    bridges = sizes * _normals(seed, streams, places)
-    for k in range(LEVELS):  # in this order for any number of times: the same bits
-        walks = walks + bridges[:, k]
+    for level in range(1, LEVELS + 1):  # in this order for any number of times: the same bits
+        bits = BLOCK_BITS - level + 1
+        inside = (rest & ((1 << bits) - 1)) / (1 << bits)
+        sizes = (1 - np.abs(2 * inside - 1)) * np.sqrt((1 << bits) / NANOSECONDS / 4)
+        places = (block << (LEVELS + 2)) + (1 << level) + (rest >> bits)
+        walks = walks + sizes * _normals_of_runs(seed, streams, places)
     return np.asarray(walks)
+
+
+def _normals_of_runs(seed: int, streams: Sequence[int], counters: Real) -> Real:
+    """Return the normal numbers of counters, computed once for a run of equal ones."""
+    flat = np.atleast_1d(counters).ravel()
+    begins = np.flatnonzero(np.append(True, flat[1:] != flat[:-1])[: len(flat)])
+    lengths = np.diff(np.append(begins, len(flat)))
+    found = np.repeat(_normals(seed, streams, flat[begins]), lengths, axis=1)
+    return found.reshape(len(streams), *np.shape(counters))
 
 
 def _normals(seed: int, streams: Sequence[int], counters: Any) -> Real:

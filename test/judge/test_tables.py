@@ -49,8 +49,10 @@ def test_what_is_no_attitude_is_left_out(tmp_path):
     path = tmp_path / "odd.csv"
     path.write_text("t,w,x,y,z\n0,0,0,0,0\n1,nan,0,0,0\n-1,1,0,0,0\n1e30,1,0,0,0\n2,3,0,0,0\n")
     found = read_csv(path)
-    assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
-    assert found.left_out == 4
+    # a time before the run has an attitude as well
+    assert found.stamps.tolist() == [-1_000_000_000, 2_000_000_000]
+    assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]] * 2
+    assert found.left_out == 3
 
 
 def test_a_byte_order_mark_and_spaces_are_no_obstacle(tmp_path):

@@ -12,6 +12,7 @@ from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
 from symtop_ros.session.outputs import list_fixed_frames
+from symtop_ros.simulation import sensor
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
@@ -200,3 +201,16 @@ def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     assert run.simulation.segment.rig.imu.rate == 50.0
     assert run.simulation.segment.motion.top.Mgl == 0.05
     assert list_fixed_frames("top", Run().simulation.settings.imu, None) == []
+
+
+def test_a_random_walk_computes_what_neighbouring_samples_share_once(monkeypatch):
+    counts, compute = [], sensor._normals
+
+    def count(seed, streams, counters):
+        counts.append(np.size(counters))
+        return compute(seed, streams, counters)
+
+    monkeypatch.setattr(sensor, "_normals", count)
+    sensor.random_walks(1, [0], np.arange(10_000) * 1_000_000)
+    # 24 levels of bridges; those that are longer than a sample are shared: measured 4.91
+    assert sum(counts) < 5 * 10_000
