@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from symtop_ros.arrays import Real
+from symtop_ros.judge.causes.rotations import fit_rotations, from_vector
+from symtop_ros.judge.causes.search import Table
 from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.rotations import fit_rotations, from_vector
-from symtop_ros.judge.search import Table
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.judge.causes import Cause, Finding, find_causes
+from symtop_ros.judge.causes.causes import Cause, Finding, find_causes
+from symtop_ros.judge.causes.mistakes import find_mistakes
 from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import align, explain
-from symtop_ros.judge.mistakes import find_mistakes
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.layout import NANOSECONDS

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.changes import CHANGES
+from symtop_ros.judge.causes.changes import CHANGES
+from symtop_ros.judge.causes.search import LEVELS, Table
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import (
@@ -25,7 +26,6 @@ from symtop_ros.judge.explain import (
     SPIN,
     Fit,
 )
-from symtop_ros.judge.search import LEVELS, Table
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.arrays import Real
+from symtop_ros.judge.causes.search import LEVELS
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.search import LEVELS
 from symtop_ros.quaternions import compose, invert
 
 FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes import Finding
-from symtop_ros.judge.changes import CHANGES, Change
+from symtop_ros.judge.causes.causes import Finding
+from symtop_ros.judge.causes.changes import CHANGES, Change
 from symtop_ros.judge.compare import NONE, Errors, Offset, compare, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import SAMPLES

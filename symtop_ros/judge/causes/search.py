@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from symtop_ros.arrays import Real
+from symtop_ros.judge.causes.rotations import fit_rotations
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
-from symtop_ros.judge.rotations import fit_rotations
 from symtop_ros.quaternions import compose, invert
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the

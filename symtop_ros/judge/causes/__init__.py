@@ -1,0 +1,1 @@
+"""What explains the errors of estimates: conventions, rotations, delays, drifts and clocks."""
