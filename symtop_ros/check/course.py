@@ -30,8 +30,10 @@ class Course:
         ends = [*(event.previous_end for event in events[1:]), MAX_STAMP]
         self._ends = np.array(ends[: len(events)], dtype=np.int64)
         numbers = [event.number for event in events]
+        self._present = set(numbers)
         # True for an event after which others are missing: what holds then is known in part.
-        self.has_gap = np.array([b > a + 1 for a, b in pairwise(numbers)] + [False][: len(numbers)])
+        gaps = [bool(self._find_missing(*pair)) for pair in pairwise(numbers)]
+        self.has_gap = np.array([*gaps, False][: len(numbers)], dtype=np.bool_)
         # True if no stamp is repeated, so that the stamps alone decide.
         self.is_ordered = bool((self._begins[1:] >= self._ends[:-1]).all())
         self.is_ordered &= bool((self._begins <= self._ends).all())
@@ -41,13 +43,21 @@ class Course:
         found = []
         for place in np.flatnonzero(self.has_gap).tolist():
             before, after = self._events[place], self._events[place + 1]
-            first, last = before.number + 1, after.number - 1
+            missing = self._find_missing(before.number, after.number)
+            first, last = missing[0], missing[-1]
             which = f"event {first} is" if first == last else f"events {first} to {last} are"
             found.append(
                 f"{which} missing, between {before.stamp} and {after.stamp} ns; samples that "
                 "follow from what is missing are not judged"
             )
         return found
+
+    def _find_missing(self, before: int, after: int) -> list[int]:
+        """Return numbers between those of two events that no event has; the ends of many."""
+        if after - before > MAX_SEGMENTS + len(self._present):  # a number may be a hostile one
+            return [before + 1, after - 1]
+        # A log that was sorted by time may have events in another order.
+        return [number for number in range(before + 1, after) if number not in self._present]
 
     def _find_segment(self, number: int) -> Segment:
         """Return the segment that holds from an event on."""

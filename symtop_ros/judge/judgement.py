@@ -162,10 +162,14 @@ def _list_parts(cause: Cause) -> list[dict[str, Any]]:
     """Return the parts of an explanation as records for sentences."""
     offset = cause.offset
     world, body = offset.angles
-    scale = {"delay": 1e3, "clock": 1e6}
+    values = {
+        "delay": 1e3 * offset.delay,
+        "drift": offset.drift,
+        "clock": 1e6 * offset.clock,
+        "spin": offset.spin,
+    }
     parts: list[dict[str, Any]] = [
-        {"kind": name, "value": scale.get(name, 1.0) * getattr(offset, name)}
-        for name in cause.parameters
+        {"kind": name, "value": values[name]} for name in cause.parameters
     ]
     if cause.level != "none":
         parts.append({"kind": cause.level, "world": world, "body": body})
