@@ -213,7 +213,10 @@ def test_a_motion_that_becomes_too_fast_for_doubles_is_paused_there(publish_cloc
     end = paused.outcome().time
     # half the spin angle is then 1e15 rad: t^2 = 4e15 Iz/0.398 N m
     assert end == pytest.approx(1.0023e-3, rel=1e-4)
-    assert run.sink.warnings == [f"the motion becomes too fast for doubles: {paused.verdict}"]
+    *slower, last = run.sink.warnings
+    assert last == f"the motion becomes too fast for doubles: {paused.verdict}"
+    # a busy machine integrates less in real time, and slows the motion down first
+    assert all("is too fast for the compute budget" in each for each in slower)
     assert paused.state_before() == paused.segment().motion.at(end)
     assert run.ask("reset")[0]
     assert run.simulation.state == run.simulation.timeline.start
