@@ -30,8 +30,8 @@ from symtop_ros.physics.values import refuse
 
 Complex = NDArray[np.complex128]
 
-# A step in units of the fastest rate. Half of it changes no derivative by more than 1e-12 of the
-# largest one of its kind.
+# A step in units of the fastest rate. Half or twice of it changes no derivative by more than 4e-14
+# of the largest one of its kind, which is rounding.
 WIDTH = 1.0
 SIZE, COUNT = 5, 2  # delta and u; r and m
 SLOWEST = 1e-290  # rad/s
