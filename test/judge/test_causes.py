@@ -134,6 +134,7 @@ def test_nothing_false_is_named_for_a_drawn_log(seed):
     assert (made.change, level, names) in kinds or found.hidden
 
 
+@pytest.mark.wording
 def test_a_delay_is_known_up_to_periods_of_the_nutation():
     truth = scene_truth("cusps")
     found = find_causes(Made(delay=0.08).make(truth, STAMPS), truth)
@@ -142,6 +143,7 @@ def test_a_delay_is_known_up_to_periods_of_the_nutation():
     assert "or plus n x 0.1595 s, with a rotation of the world by " in text
 
 
+@pytest.mark.wording
 @pytest.mark.parametrize("other", ["still", "wave"])
 def test_what_is_not_explained_is_said(other):
     truth = scene_truth("cusps")
@@ -166,6 +168,7 @@ def test_estimates_after_and_before_the_run_are_counted_and_the_others_are_expla
     json.dumps(facts, allow_nan=False)
 
 
+@pytest.mark.wording
 @pytest.mark.parametrize(
     ("model", "error"), [("none", 1.0), ("heading", 0.0), ("world", 0.0), ("world-and-body", 0.0)]
 )

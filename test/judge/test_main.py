@@ -32,6 +32,7 @@ def log(tmp_path_factory):
     return write_log(tmp_path_factory.mktemp("judge") / "run.mcap", topics)
 
 
+@pytest.mark.wording
 def test_exact_estimates_are_told_so(log, capsys):
     assert main([str(log), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
     out = capsys.readouterr().out

@@ -35,6 +35,7 @@ RATES = {
 }
 
 
+@pytest.mark.wording
 @pytest.mark.parametrize("scene", ["cusps", "regular_precession"])
 @pytest.mark.parametrize("mistake", ATTITUDES)
 def test_a_mistake_of_the_attitude_is_named(scene, mistake):

@@ -20,6 +20,7 @@ from symtop_ros.wire.messages import IMU
 STAMPS = np.arange(0, SECOND, SECOND // 200)
 
 
+@pytest.mark.wording
 def test_the_mount_of_the_sensor_is_applied_to_its_messages():
     mounted = Imu(position=(0.0, 0.0, 0.02), orientation=(0.5, -0.5, 0.5, 0.5))
     segment = Segment.begin(Motion(TOP, START), 0, 1.0, Rig(imu=mounted))

@@ -70,6 +70,7 @@ def replay(python, *arguments):
     )
 
 
+@pytest.mark.wording  # of the log, which another program computes again
 def test_without_ros_a_log_becomes_a_recording_and_is_checked(laptop, log, tmp_path):
     none = subprocess.run(
         [laptop, "-c", "import rclpy"], env={}, capture_output=True, text=True, check=False

@@ -346,8 +346,10 @@ def assert_swing(seed):
     ("top", "torque", "t", "bounds"),
     [
         # docs/accuracy.md names these: eps of the attitude that Python alone reaches, measured, and
-        # what the kernel reaches, of which two thirds are measured
-        (ARTICLE, 0.07, 10.0, {"Python": 160, "kernel": 2}),
+        # what the kernel reaches, of which two thirds are measured. Python's sums are those of the
+        # linear algebra that NumPy chooses for a processor: of the first top 191 eps with that for
+        # Haswell and Zen, 137 with that for SkylakeX, 13 with the plain one.
+        (ARTICLE, 0.07, 10.0, {"Python": 200, "kernel": 2}),
         (Top(1.0, 0.001, 1.0), 1.0294117647058825, 10.0, {"Python": 450, "kernel": 2}),
         (Top(1.0, 2.0, 1.0), 1.0294117647058825, 777.7, {"kernel": 2}),
         pytest.param(
