@@ -11,7 +11,7 @@ from symtop_ros.check.events import find_mismatches, is_own
 from symtop_ros.check.mismatch import NOTHING, Mismatch
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import describe_engine
+from symtop_ros.physics import accelerated, describe_engine
 
 # What nothing else in a log tells: the scene's name, the paths of logs, the frame of /tf, whether
 # another version wrote it, and why a torque changed.
@@ -22,6 +22,11 @@ FREE = ("request.scene", "outcome.path", "top_frame", "version", "computed_by", 
 @pytest.fixture(scope="module")
 def events(tmp_path_factory):
     return list(TopLog(McapFile(write_log(tmp_path_factory.mktemp("run")))).events())
+
+
+def is_judged(event):
+    """Driven motions of Python have last digits that depend on the processor."""
+    return accelerated or not event.segment().motion.is_driven
 
 
 def alter(rng, text):
@@ -49,14 +54,14 @@ def test_events_of_every_kind_are_those_that_follow(events):
         *("clock", "record"),
     }
     assert list(find_mismatches(events)) == []
-    assert all(map(is_own, events))
+    assert [is_own(event) for event in events] == list(map(is_judged, events))
 
 
 @pytest.mark.parametrize("seed", seeds(1, 20))
 def test_an_altered_digit_or_letter_of_a_value_is_found(events, seed):
     rng = random.Random(seed)
     for place, event in enumerate(events):
-        for key in event.values:
+        for key in event.values if is_judged(event) else ():
             if key in FREE or not any(map(str.isalnum, event.values[key])):
                 continue
             if key == "outcome.kind" and event.name in ("torque", "record"):
@@ -66,13 +71,17 @@ def test_an_altered_digit_or_letter_of_a_value_is_found(events, seed):
             if event.name == "start" and key.startswith("request."):  # parameters give the rest
                 continue
             values = {**event.values, key: alter(rng, event.values[key])}
-            before = events[max(0, place - 1) : place]
-            assert found(before, replace(event, values=values)), (event.name, key, values[key])
+            other = replace(event, values=values)
+            if key == "friction" and not is_judged(other):
+                continue
+            assert found(events[max(0, place - 1) : place], other), (event.name, key, values[key])
 
 
 def test_an_altered_name_or_sentence_is_found(events):
     rng = random.Random(2)
     for place, event in enumerate(events):
+        if not is_judged(event):
+            continue
         before = events[max(0, place - 1) : place]
         if event.name != "record":  # its sentence has the path
             (one,) = found(before, replace(event, verdict=alter(rng, event.verdict)))
