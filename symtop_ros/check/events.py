@@ -39,6 +39,7 @@ from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
 
 BEFORE = ("before.orientation", "before.angular_velocity")
+ENGINE = ("computed_by",)  # nothing else in a log tells
 MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 VECTORS = ("angular_impulse",)  # of the request for a kick; "hold" is a word
 
@@ -100,8 +101,9 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
     found = Event.of(
         event.stamp, event.name, outcome, request, state, following, frame, event.number
     )
-    own = {} if before else {name: event.values[name] for name in BEFORE}
-    return replace(found, values={**found.values, **own})
+    own = ENGINE if before else (*BEFORE, *ENGINE)
+    given = {name: event.values[name] for name in own if name in event.values}
+    return replace(found, values={**found.values, **given})
 
 
 def _state_before(previous: Segment, event: Event, budget: StepBudget) -> State | None:
