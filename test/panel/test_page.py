@@ -603,6 +603,7 @@ def test_a_page_that_is_reloaded_in_the_middle_of_a_pull_neither_kicks_nor_start
 
 def test_keys_play_and_do_not_move_the_camera(watched):
     keyboard = watched.tab.keyboard
+    watched.wait_for_ball()  # with the camera in its place
     (client,) = watched.page.server.get_clients().values()
     position = client.camera.position.copy()
     for key, factor in (("h", "1.4"), ("d", repr(1 / 1.4))):
