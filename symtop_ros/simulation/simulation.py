@@ -315,12 +315,18 @@ class Simulation:
         """Announce an event that changes nothing of the motion; return the verdict."""
         return self.apply(self.timeline.report(name, outcome, request or {}, self.stamp))
 
-    def note_jump(self) -> None:
-        """Note that the clock jumped to its current time; the next tick follows it.
+    def begin_jump(self) -> None:
+        """Publish nothing from before the clock is set until `end_jump`, in the same thread.
 
-        Does not take the lock, because it is called from within the clock.
+        A sample in between would belong to the time of before, with a stamp of after.
         """
-        self._jumped_to = self.now
+        self._lock.acquire()
+
+    def end_jump(self, jumped: bool) -> None:
+        """Go on after the clock was set; if it jumped, the next tick follows it."""
+        if jumped:
+            self._jumped_to = self.now
+        self._lock.release()
 
     def _follow_jump(self) -> None:
         """Continue the motion from its current state at the time the clock jumped to."""

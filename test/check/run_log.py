@@ -42,8 +42,9 @@ def write_log(folder: Path, **changes: object) -> Path:
     assert not session.apply_settings({"real_time_factor": 0.5, "publish_rate": 100.0})
     advance(session, clock, 0.05)
     session.keep_up()
+    session.simulation.begin_jump()
     clock.now += 5_000_000_000
-    session.simulation.note_jump()
+    session.simulation.end_jump(True)
     advance(session, clock, 0.05)
     session.close()
     (path,) = folder.glob("*.mcap")

@@ -43,9 +43,9 @@ class Recorder:
         """Set the clock to a time in s, and let it run to another one."""
         for time in range(round(begin * SECOND), round(end * SECOND), SECOND // 100):
             jumped = not 0 <= time - self.now < SECOND
+            self.session.simulation.begin_jump()
             self.now = time
-            if jumped:
-                self.session.simulation.note_jump()
+            self.session.simulation.end_jump(jumped)
             while (wait := self.session.simulation.tick()) is not None and wait <= 0:
                 pass
 

@@ -78,6 +78,12 @@ class Run:
             self.clock.now += round(step * SECOND)
             self.tick()
 
+    def jump(self, now: int) -> None:
+        """Set the clock (ns), as the node does it."""
+        self.simulation.begin_jump()
+        self.clock.now = now
+        self.simulation.end_jump(True)
+
     def tick(self) -> None:
         """Publish everything that is due, as the pacing of the node does."""
         while (wait := self.simulation.tick()) is not None and wait <= 0.0:

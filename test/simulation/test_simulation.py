@@ -58,8 +58,7 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
     run = Run()
     run.advance(0.5)
     before = run.simulation.state
-    run.clock.now = 90 * SECOND
-    run.simulation.note_jump()
+    run.jump(90 * SECOND)
     run.tick()
     assert run.sink.events[-1].name == "clock"
     stamp, numbers = run.sink.samples[-1]
@@ -69,6 +68,24 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
     run.tick()
     assert [event.name for event in run.sink.events].count("clock") == 2
     assert run.sink.samples[-1][0] == 10 * SECOND
+
+
+def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
+    run = Run()
+    run.advance(0.5)
+    count = len(run.sink.samples)
+    run.simulation.begin_jump()
+    ticks = threading.Thread(target=run.tick)
+    ticks.start()
+    run.clock.now = 90 * SECOND
+    ticks.join(0.05)
+    assert ticks.is_alive()
+    assert len(run.sink.samples) == count
+    run.simulation.end_jump(True)
+    ticks.join()
+    assert run.sink.events[-1].name == "clock"
+    assert run.simulation.ticker.missed == 0
+    assert_recomputed(run)
 
 
 def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
