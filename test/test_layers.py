@@ -37,9 +37,12 @@ ARROWS = {
         set(),
     ),
     "node": (
-        {"distribution", "models", "physics", "session", "shutdown", "simulation", "wire"},
         {
-            *("rclpy", "rcl_interfaces", "std_srvs"),
+            *("__init__", "distribution", "models", "physics", "session", "shutdown", "simulation"),
+            "wire",
+        },
+        {
+            *("numpy", "rclpy", "rcl_interfaces", "std_srvs", "simulation_interfaces"),
             *("builtin_interfaces", "geometry_msgs", "visualization_msgs"),
         },
     ),

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from importlib.util import find_spec
 from typing import Any, cast
 
 from geometry_msgs.msg import WrenchStamped
@@ -70,6 +71,8 @@ class TopNode(Node):
     Ticks run in a thread of the pacer, requests and timers in the executor's.
     """
 
+    _simulator: Any = None  # the interface of all simulators, if it can be offered
+
     def __init__(self, **options: Any) -> None:
         super().__init__(DEFAULT_NAME, **options)
         settings = declare_parameters(self)
@@ -100,8 +103,17 @@ class TopNode(Node):
         self._clock_is_missing = False
         self.create_timer(CLOCK_WAIT, self._check_clock, clock=steady)
         self._pacer = Pacer(self.simulation.tick, self._fail)
+        self._simulator = self._offer_standard_interface()
         # kept, because rclpy forgets a callback whose handle is gone
         self._clock_handle = self._follow_clock()
+
+    def _offer_standard_interface(self) -> Any:
+        """Offer the interface of all simulators where its messages are installed."""
+        if find_spec("simulation_interfaces") is None:
+            return None
+        from symtop_ros.node.simulator import Simulator  # noqa: PLC0415 - it needs them
+
+        return Simulator(self, self.session, self._pacer.wake)
 
     def _announce_speed(self, settings: Settings) -> None:
         """Report what computes the states, and whether real-time scheduling is granted."""
@@ -125,6 +137,8 @@ class TopNode(Node):
         """Close, then remove the node; also called by rclpy if the constructor failed."""
         if hasattr(self, "_pacer"):
             self.close()
+        if self._simulator:
+            self._simulator.close()
         super().destroy_node()
 
     # Time

@@ -13,8 +13,14 @@ Examples
 'cusps'
 """
 
+from symtop_ros.physics.accelerations import (
+    STANDARD_GRAVITY,
+    angular_acceleration,
+    point_acceleration,
+    specific_force,
+)
 from symtop_ros.physics.balance import Balance, balance
-from symtop_ros.physics.body import STANDARD_GRAVITY, Body, point_acceleration, specific_force
+from symtop_ros.physics.body import Body
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.kernel import accelerated, describe_engine
 from symtop_ros.physics.kicks import (
@@ -68,6 +74,7 @@ __all__ = [
     "Verdict",
     "Verdicts",
     "accelerated",
+    "angular_acceleration",
     "apply_impulse",
     "balance",
     "compare_hurried",

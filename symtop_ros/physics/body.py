@@ -8,16 +8,13 @@ chosen here that exists for every top for which any exists.
 import math
 from dataclasses import dataclass
 
-from numpy.typing import ArrayLike
-
 from symtop_ros.arrays import Real, Vector
+from symtop_ros.physics.accelerations import STANDARD_GRAVITY, specific_force
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import refuse, validate_number, validate_vector
-from symtop_ros.quaternions import split, stack
+from symtop_ros.physics.values import refuse, validate_number
 
-STANDARD_GRAVITY = 9.81  # m/s^2
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
 
@@ -211,94 +208,3 @@ class Body:
             raise refuse("motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)
-
-
-def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Real:
-    """Return the acceleration of a point of the body, in the body frame.
-
-    It is alpha x p + omega x (omega x p), with the angular acceleration alpha from Euler's
-    equations (Goldstein, sections 4.10 and 5.5).
-
-    Parameters
-    ----------
-    motion : Motion
-        Gives the moments of inertia and the torque.
-    state : State
-        One state or many.
-    position : array_like (3,)
-        The point p in the body frame, in m.
-
-    Returns
-    -------
-    ndarray (..., 3)
-        In m/s^2.
-
-    Raises
-    ------
-    ValueError
-        If the position is not three finite numbers.
-
-    Examples
-    --------
-    A point at a distance of 0.5 m from an axis at rest is pulled inwards by omega^2 r.
-
-    >>> from symtop_ros.physics import Motion, State, Top
-    >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 4)))
-    >>> point_acceleration(motion, motion.start, (0.5, 0, 0)).tolist()
-    [-8.0, 0.0, 0.0]
-    """
-    a, b, c = validate_vector("position", position, "m, body frame")
-    Ix, Iz, _ = motion.top.moments
-    x, y, z = split(state.angular_velocity)
-    torque_x, torque_y, torque_z = split(_body_torque(motion, state))
-    # The sums of alpha and of products of omega are put together before they are rounded: in
-    # alpha_y + x z, for one, a term (1 - 1) x z is left out.
-    across_x, across_y, axial = torque_x / Ix, torque_y / Ix, torque_z / Iz
-    slow, fast = Iz / Ix, (2 * Ix - Iz) / Ix
-    return stack(
-        c * (slow * x * z + across_y) + b * (x * y - axial) - a * (y * y + z * z),
-        c * (slow * y * z - across_x) + a * (x * y + axial) - b * (x * x + z * z),
-        a * (fast * x * z - across_y) + b * (fast * y * z + across_x) - c * (x * x + y * y),
-    )
-
-
-def specific_force(
-    motion: Motion, state: State, position: ArrayLike, gravity: float = STANDARD_GRAVITY
-) -> Real:
-    """Return what an ideal accelerometer at a point of the body measures, in the body frame.
-
-    It is the acceleration of the point minus that of free fall, a + g z': at rest g upwards.
-
-    Parameters
-    ----------
-    motion : Motion
-    state : State
-        One state or many.
-    position : array_like (3,)
-        Of the accelerometer, in the body frame, in m.
-    gravity : float
-        Acceleration of gravity in m/s^2.
-
-    Returns
-    -------
-    ndarray (..., 3)
-        In m/s^2.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import Motion, State, Top
-    >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 0)))
-    >>> specific_force(motion, motion.start, (0, 0, 1)).tolist()
-    [0.0, 0.0, 9.81]
-    """
-    return point_acceleration(motion, state, position) + gravity * state.vertical
-
-
-def _body_torque(motion: Motion, state: State) -> Real:
-    """Return the total torque about the pivot in the body frame."""
-    x, y, z = split(state.vertical)
-    Mgl = motion.top.Mgl
-    torque = stack(Mgl * y, -Mgl * x, 0.0 * abs(z))
-    if motion.is_driven:
-        torque += motion.friction.torque(state) + state.to_body(motion.applied_torque)
-    return torque

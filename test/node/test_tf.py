@@ -1,14 +1,11 @@
 """/tf with the real tf2_msgs, between processes."""
 
-import importlib.util
 import json
-import os
-import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from node.built_messages import with_messages
 from programs import command, environment
 
 from symtop_ros.log.definitions import load_definition
@@ -17,7 +14,6 @@ from workshop.load.endings import bound
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
-BUILD = Path(__file__).parents[1] / "build_tf2_msgs.py"
 LISTEN = """
 import json, rclpy
 from geometry_msgs.msg import QuaternionStamped
@@ -61,18 +57,7 @@ print(json.dumps({
 @pytest.fixture(scope="module")
 def with_tf2(tmp_path_factory):
     """An environment in which tf2_msgs can be imported."""
-    variables = environment(DOMAIN)
-    if importlib.util.find_spec("tf2_msgs"):
-        return variables
-    if not (shutil.which("gcc") and shutil.which("g++")):
-        pytest.skip("tf2_msgs is not installed, and there is no compiler to build it")
-    folder = tmp_path_factory.mktemp("tf2")
-    subprocess.run(
-        [sys.executable, BUILD, folder], check=True, capture_output=True, timeout=120, text=True
-    )
-    for name, place in (("PYTHONPATH", folder), ("LD_LIBRARY_PATH", folder / "lib")):
-        variables[name] = os.pathsep.join(filter(None, [str(place), variables.get(name)]))
-    return variables
+    return with_messages("tf2_msgs", tmp_path_factory.mktemp("tf2"), environment(DOMAIN))
 
 
 def test_tf_is_published_with_the_quaternion_of_the_topic_and_the_type_of_the_log(with_tf2):

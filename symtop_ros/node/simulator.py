@@ -1,0 +1,276 @@
+"""The standard interface of simulators, for programs that are written for any of them.
+
+It is offered where the package simulation_interfaces is installed, under the names that Gazebo
+gives it. One step is a period of publish_rate; a reset goes back to the parameters `initial.*`, in
+the state and not in the time, which a clock shares with others.
+"""
+
+import re
+from collections.abc import Callable, Generator
+from typing import Any, cast
+
+import numpy as np
+from geometry_msgs.msg import Quaternion, Vector3
+from rclpy.action.server import ActionServer, CancelResponse
+from rclpy.node import Node
+from simulation_interfaces.action import SimulateSteps
+from simulation_interfaces.msg import Bounds, Result, SimulationState, SimulatorFeatures
+from simulation_interfaces.srv import (
+    GetEntities,
+    GetEntityState,
+    GetSimulationState,
+    GetSimulatorFeatures,
+    ResetSimulation,
+    SetEntityState,
+    SetSimulationState,
+    StepSimulation,
+)
+
+from symtop_ros import __version__
+from symtop_ros.arrays import Real
+from symtop_ros.physics import State, angular_acceleration
+from symtop_ros.session.session import Session
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.validation import MAX_RATE, RefusedError, reject, vector
+from symtop_ros.wire.layout import NANOSECONDS
+
+FEATURES = (
+    SimulatorFeatures.ENTITY_STATE_GETTING,
+    SimulatorFeatures.ENTITY_STATE_SETTING,
+    SimulatorFeatures.SIMULATION_RESET,
+    SimulatorFeatures.SIMULATION_RESET_STATE,
+    SimulatorFeatures.SIMULATION_STATE_GETTING,
+    SimulatorFeatures.SIMULATION_STATE_SETTING,
+    SimulatorFeatures.SIMULATION_STATE_PAUSE,
+    SimulatorFeatures.STEP_SIMULATION_SINGLE,
+    SimulatorFeatures.STEP_SIMULATION_MULTIPLE,
+    SimulatorFeatures.STEP_SIMULATION_ACTION,
+)
+INFO = f"symtop_ros {__version__}: one top; a reset leaves the time as it is"
+STOPPED, PLAYING, PAUSED = (
+    SimulationState.STATE_STOPPED,
+    SimulationState.STATE_PLAYING,
+    SimulationState.STATE_PAUSED,
+)
+SCOPES = (
+    ResetSimulation.Request.SCOPE_DEFAULT,
+    ResetSimulation.Request.SCOPE_STATE,
+    ResetSimulation.Request.SCOPE_ALL,
+)
+UNSUPPORTED, FAILED = Result.RESULT_FEATURE_UNSUPPORTED, Result.RESULT_OPERATION_FAILED
+
+
+AT_REST = (0.0, 0.0, 0.0)
+
+
+class ResultError(RefusedError):
+    """A request that is refused with a code of the interface."""
+
+    def __init__(self, code: int, refusal: RefusedError) -> None:
+        super().__init__(str(refusal))
+        self.code = code
+
+
+class NextSpin:
+    """To be awaited: the executor does its other work before it goes on."""
+
+    def __await__(self) -> Generator[None, None, None]:
+        """Yield once."""
+        yield
+
+
+class Simulator:
+    """The services and the action of the interface, next to those of the node."""
+
+    def __init__(self, node: Node, session: Session, wake: Callable[[], None]) -> None:
+        self._session, self._simulation, self._wake = session, session.simulation, wake
+        self._stopped: Segment | None = None  # what a stop has led to
+        for kind, name, act in (
+            (GetSimulatorFeatures, "get_simulator_features", self._get_features),
+            (GetSimulationState, "get_simulation_state", self._get_state),
+            (SetSimulationState, "set_simulation_state", self._set_state),
+            (ResetSimulation, "reset_simulation", self._reset),
+            (StepSimulation, "step_simulation", self._step),
+            (GetEntities, "get_entities", self._get_entities),
+            (GetEntityState, "get_entity_state", self._get_entity_state),
+            (SetEntityState, "set_entity_state", self._set_entity_state),
+        ):
+            node.create_service(kind, f"~/{name}", self._handler(name, act))
+        self._steps = ActionServer(
+            node,
+            SimulateSteps,
+            "~/simulate_steps",
+            self._simulate_steps,
+            cancel_callback=lambda _: CancelResponse.ACCEPT,
+        )
+
+    def close(self) -> None:
+        """Remove the action, which the node does not remove itself."""
+        self._steps.destroy()
+
+    def _handler(self, name: str, act: Callable[[Any, Any], None]) -> Any:
+        def handle(request: Any, response: Any) -> Any:
+            result = Result(result=Result.RESULT_OK)
+            with self._simulation.turn(f"~/{name}") as turn:
+                try:
+                    act(request, response)
+                except RefusedError as refusal:
+                    code = refusal.code if isinstance(refusal, ResultError) else FAILED
+                    result = Result(result=code, error_message=str(refusal))
+            if turn.failure:
+                result = Result(result=FAILED, error_message=turn.failure)
+            if not isinstance(response, GetSimulatorFeatures.Response):  # it has no result
+                response.result = result
+            return response
+
+        return handle
+
+    def _demand(self, service: str, argument: Any) -> None:
+        """Call one of the services of the top; raise RefusedError if it refuses."""
+        granted, answer = self._session.answer(service, lambda: argument)
+        self._wake()
+        if not granted:
+            raise RefusedError(answer)
+
+    # The simulation
+
+    def _get_features(self, _: Any, response: Any) -> None:
+        response.features.features = list(FEATURES)
+        response.features.custom_info = INFO
+
+    @property
+    def _state(self) -> int:
+        segment = self._simulation.segment
+        if segment.running:
+            return cast(int, PLAYING)
+        return cast(int, STOPPED if segment is self._stopped else PAUSED)
+
+    def _get_state(self, _: Any, response: Any) -> None:
+        response.state.state = self._state
+
+    def _set_state(self, request: Any, _: Any) -> None:
+        target, options = request.state.state, (STOPPED, PLAYING, PAUSED)
+        if target not in options:
+            refusal = reject("state", "0 (stopped), 1 (playing) or 2 (paused)", target)
+            raise ResultError(UNSUPPORTED, refusal)
+        if target == self._state:
+            refusal = reject("state", "another one than now", target)
+            raise ResultError(SetSimulationState.Response.ALREADY_IN_TARGET_STATE, refusal)
+        if self._simulation.segment.running != (target == PLAYING):
+            self._demand("pause", target != PLAYING)
+        self._stopped = None
+        if target == STOPPED:
+            self._begin_again()
+            self._stopped = self._simulation.segment
+
+    def _begin_again(self) -> None:
+        self._demand("set_initial_conditions", {})
+
+    def _reset(self, request: Any, _: Any) -> None:
+        if request.scope not in SCOPES:
+            refusal = reject("scope", "0, 2 or 255: the time is not set back", request.scope)
+            raise ResultError(UNSUPPORTED, refusal)
+        self._begin_again()
+
+    def _step(self, request: Any, _: Any) -> None:
+        if not request.steps:
+            raise reject("steps", "at least 1", 0)
+        period = round(NANOSECONDS / self._simulation.ticker.rate)  # as a clock counts
+        self._demand("step", {"duration": request.steps * period / NANOSECONDS})
+
+    async def _simulate_steps(self, goal: Any) -> Any:
+        """Step until all is done, a step is refused or the client cancels."""
+        steps, step = goal.request.steps, self._handler("simulate_steps", self._step)
+        single = StepSimulation.Request(steps=min(steps, 1))  # 0 is refused
+        for done in range(1, max(steps, 1) + 1):
+            result = SimulateSteps.Result(result=step(single, StepSimulation.Response()).result)
+            if result.result.result != Result.RESULT_OK:
+                goal.abort()
+                return result
+            goal.publish_feedback(
+                SimulateSteps.Feedback(completed_steps=done, remaining_steps=steps - done)
+            )
+            if goal.is_cancel_requested:
+                goal.canceled()
+                return result
+            await NextSpin()
+        goal.succeed()
+        return result
+
+    # The top, the one entity
+
+    @property
+    def _name(self) -> str:
+        return self._simulation.settings.top_frame
+
+    def _get_entities(self, request: Any, response: Any) -> None:
+        filters = request.filters
+        if filters.categories or filters.tags.tags or filters.bounds.type != Bounds.TYPE_EMPTY:
+            raise ResultError(UNSUPPORTED, reject("filters", "a filter of names only", "others"))
+        try:
+            is_found = re.search(filters.filter, self._name)
+        except re.error:
+            raise reject("filter", "a regular expression", filters.filter) from None
+        response.entities = [self._name] if is_found else []
+
+    def _check_name(self, entity: str) -> None:
+        if entity != self._name:
+            refusal = reject("entity", f"'{self._name}'", entity)
+            raise ResultError(Result.RESULT_NOT_FOUND, refusal)
+
+    def _get_entity_state(self, request: Any, response: Any) -> None:
+        self._check_name(request.entity)
+        stamp, found = self._simulation.stamp, response.state
+        state = self._simulation.state
+        found.header.frame_id = self._simulation.settings.world_frame
+        found.header.stamp.sec, found.header.stamp.nanosec = divmod(stamp, NANOSECONDS)
+        w, x, y, z = state.orientation.tolist()
+        found.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
+        found.twist.angular = _to_message(state.to_world(state.angular_velocity))
+        alpha = angular_acceleration(self._simulation.segment.motion, state)
+        found.acceleration.angular = _to_message(alpha)
+
+    def _set_entity_state(self, request: Any, _: Any) -> None:
+        self._check_name(request.entity)
+        given, world = request.state, self._simulation.settings.world_frame
+        if request.set_acceleration:
+            refusal = reject("set_acceleration", "false: it follows from the torque", True)
+            raise ResultError(UNSUPPORTED, refusal)
+        if given.header.frame_id not in ("", world):
+            raise reject("header.frame_id", f"'{world}'", given.header.frame_id)
+        now = self._simulation.state
+        attitude = _read_pose(given.pose) if request.set_pose else now
+        omega = now.to_world(now.angular_velocity)
+        if request.set_twist:
+            omega = _read_twist(given.twist)
+        if request.set_pose or request.set_twist:
+            w, x, y, z = attitude.orientation.tolist()
+            body = attitude.to_body(omega).tolist()
+            values = {"orientation": [x, y, z, w], "angular_velocity": body}
+            self._demand("set_initial_conditions", values)
+
+
+def _to_message(vector: Any) -> Vector3:
+    x, y, z = vector.tolist()
+    return Vector3(x=x, y=y, z=z)
+
+
+def _read_pose(pose: Any) -> State:
+    """Return a state of rest with the orientation of a top, which turns about the pivot."""
+    code = SetEntityState.Response.INVALID_POSE
+    position = (pose.position.x, pose.position.y, pose.position.z)
+    if position != AT_REST:
+        raise ResultError(code, reject("position", "0 (the pivot is fixed)", position))
+    q = pose.orientation
+    try:
+        return State((q.w, q.x, q.y, q.z), AT_REST)
+    except ValueError as error:
+        raise ResultError(code, RefusedError(str(error))) from None
+
+
+def _read_twist(twist: Any) -> Real:
+    """Return omega in the world frame."""
+    linear, omega = ((each.x, each.y, each.z) for each in (twist.linear, twist.angular))
+    if linear != AT_REST:
+        raise reject("twist.linear", "0 (the pivot is fixed)", linear)
+    return np.array(vector("twist.angular", omega, 3, MAX_RATE, "rad/s, world frame"))

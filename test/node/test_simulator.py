@@ -1,0 +1,372 @@
+"""The interface of all simulators, called by a client as one would be written for Gazebo."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from documents import commands, names, rows
+from geometry_msgs.msg import QuaternionStamped
+from node.built_messages import with_messages
+from node.running_top import stamp_of
+from rclpy.action import ActionClient
+from rosgraph_msgs.msg import Clock
+
+from symtop_ros.physics import Motion, Top
+
+pytestmark = pytest.mark.untraced
+MS = 1_000_000
+PERIOD = 5 * MS  # ns, at the 200 Hz of the scenes
+UNSUPPORTED, OK, NOT_FOUND, FAILED = 0, 1, 2, 4
+ALREADY, INVALID_POSE = 101, 101
+STOPPED, PLAYING, PAUSED, QUITTING = 0, 1, 2, 3
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _messages(tmp_path_factory):
+    """Make the messages importable for the tests of this module."""
+    folder = tmp_path_factory.mktemp("messages")
+    with_messages("simulation_interfaces", folder, dict(os.environ))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(folder)
+        for path in (folder / "lib").glob("*typesupport_*_c.so"):
+            ctypes.CDLL(path)  # ROS asks the loader for its name, which does not know the folder
+        yield
+    for name in [each for each in sys.modules if "simulation_interfaces" in each]:
+        del sys.modules[name]
+    sys.modules.pop("symtop_ros.node.simulator", None)
+    importlib.invalidate_caches()
+
+
+class Client:
+    """Calls the services of a simulator under the names that Gazebo gives them."""
+
+    def __init__(self, run, server="/top"):
+        self.run, self.server = run, server
+        self.srv = importlib.import_module("simulation_interfaces.srv")
+        self.clients = {}
+        action = importlib.import_module("simulation_interfaces.action").SimulateSteps
+        self.steps = ActionClient(run.user, action, f"{server}/simulate_steps")
+        self.goal = action.Goal
+
+    def call(self, kind, name, **fields):
+        kind = getattr(self.srv, kind)
+        client = self.clients.get(name)
+        if client is None:
+            client = self.run.user.create_client(kind, f"{self.server}/{name}")
+            self.clients[name] = client
+        self.run.spin_until(client.service_is_ready)
+        future = client.call_async(fill(kind.Request(), fields))
+        self.run.spin_until(future.done)
+        return future.result()
+
+    def features(self):
+        return self.call("GetSimulatorFeatures", "get_simulator_features").features
+
+    def state(self):
+        response = self.call("GetSimulationState", "get_simulation_state")
+        assert response.result.result == OK
+        return response.state.state
+
+    def set_state(self, state):
+        fields = {"state": {"state": state}}
+        return self.call("SetSimulationState", "set_simulation_state", **fields).result
+
+    def reset(self, scope=0):
+        return self.call("ResetSimulation", "reset_simulation", scope=scope).result
+
+    def step(self, steps):
+        return self.call("StepSimulation", "step_simulation", steps=steps).result
+
+    def entities(self, **filters):
+        return self.call("GetEntities", "get_entities", filters=filters)
+
+    def entity(self, name="top"):
+        return self.call("GetEntityState", "get_entity_state", entity=name)
+
+    def set_entity(self, name="top", **fields):
+        return self.call("SetEntityState", "set_entity_state", entity=name, **fields).result
+
+    def simulate(self, steps, feedback=None):
+        """Send a goal; return its handle once it is accepted."""
+        self.run.spin_until(self.steps.server_is_ready)
+        sent = self.steps.send_goal_async(self.goal(steps=steps), feedback)
+        self.run.spin_until(sent.done)
+        assert sent.result().accepted
+        return sent.result()
+
+
+def fill(message, fields):
+    """Set fields of a message from nested dicts."""
+    for name, value in fields.items():
+        if isinstance(value, dict):
+            fill(getattr(message, name), value)
+        else:
+            setattr(message, name, value)
+    return message
+
+
+@pytest.fixture
+def client(start_top):
+    return Client(start_top(scene="hurry_slow"))
+
+
+def vector(message):
+    return [message.x, message.y, message.z]
+
+
+def numbers(q):
+    return [q.w, q.x, q.y, q.z]
+
+
+def times(client):
+    """Exact time of the motion in ns."""
+    return client.run.top.simulation.segment.elapsed_at(client.run.top.simulation.stamp)
+
+
+def test_the_features_are_those_that_the_services_have(client):
+    found = client.features()
+    assert sorted(found.features) == [10, 11, 20, 22, 24, 25, 26, 31, 32, 33]
+    assert found.custom_info.startswith("symtop_ros ")
+
+
+def test_it_is_paused_played_and_stopped_and_tells_so(client):
+    run = client.run
+    assert client.state() == PLAYING
+    assert client.set_state(PAUSED).result == OK
+    assert (client.state(), run.top.simulation.segment.running) == (PAUSED, False)
+    assert client.set_state(PAUSED).result == ALREADY
+    assert client.set_state(STOPPED).result == OK
+    assert (client.state(), times(client)) == (STOPPED, 0)
+    assert client.set_state(STOPPED).result == ALREADY
+    assert client.step(1).result == OK
+    assert client.state() == PAUSED  # it is no more at its start
+    assert client.set_state(PLAYING).result == OK
+    assert client.state() == PLAYING
+    assert client.set_state(STOPPED).result == OK
+    assert client.set_state(PLAYING).result == OK
+    run.spin_until(lambda: times(client) > 100 * MS)
+    refused = client.set_state(QUITTING)
+    assert refused.result == UNSUPPORTED
+    assert refused.error_message == "state must be 0 (stopped), 1 (playing) or 2 (paused), got 3"
+    assert client.state() == PLAYING
+
+
+def test_steps_are_periods_to_the_nanosecond(start_top):
+    run = start_top(realtime=True, publish_clock=True, publish_rate=30.0)
+    client, clocks = Client(run), run.collect(Clock, "/clock")
+    assert client.step(1).result == FAILED  # not while it runs
+    assert client.set_state(STOPPED).result == OK
+    run.spin_until(lambda: clocks)
+    clocks.clear()
+    run.spin_until(lambda: clocks)
+    before = clocks[-1].clock
+    for steps in (1, 1, 28):
+        assert client.step(steps).result == OK
+    passed = 30 * round(1e9 / 30)
+    end = divmod(before.sec * 10**9 + before.nanosec + passed, 10**9)
+    run.spin_until(lambda: (clocks[-1].clock.sec, clocks[-1].clock.nanosec) == end)
+    assert client.step(0).error_message == "steps must be at least 1, got 0"
+    refused = client.step(2**63)
+    assert refused.result == FAILED
+    assert refused.error_message.startswith("duration must be ")
+
+
+def test_a_reset_goes_back_to_the_parameters_and_leaves_the_time(client):
+    run = client.run
+    start = run.top.simulation.segment.motion.start
+    assert client.set_entity(set_twist=True, state={"twist": {"angular": {"z": 5.0}}}).result == OK
+    before = run.top.simulation.stamp
+    for scope in (0, 2, 255):
+        assert client.reset(scope).result == OK
+        again = run.top.simulation.segment.motion.start
+        assert np.array_equal(again.orientation, start.orientation)
+        assert np.array_equal(again.angular_velocity, start.angular_velocity)
+    assert run.top.simulation.stamp >= before
+    assert client.state() == PLAYING
+    refused = client.reset(1)
+    assert refused.result == UNSUPPORTED
+    assert refused.error_message == "scope must be 0, 2 or 255: the time is not set back, got 1"
+
+
+def test_entities_are_filtered_by_name(client):
+    assert client.entities().entities == ["top"]
+    assert client.entities(filter="^t.p$").entities == ["top"]
+    assert client.entities(filter="robot").entities == []
+    refused = client.entities(filter="(")
+    assert (refused.result.result, refused.entities) == (FAILED, [])
+    assert refused.result.error_message == "filter must be a regular expression, got '('"
+    assert client.entities(tags={"tags": ["a"]}).result.result == UNSUPPORTED
+    assert client.entities(bounds={"type": 3}).result.result == UNSUPPORTED
+
+
+def test_the_state_of_the_top_is_that_of_the_topics(client):
+    run = client.run
+    messages = run.collect(QuaternionStamped, "/top/orientation")
+    client.set_state(PAUSED)
+    found = client.entity()
+    assert (found.result.result, found.state.header.frame_id) == (OK, "world")
+    stamp = stamp_of(found.state)
+    run.spin_until(lambda: messages and stamp_of(messages[-1]) >= stamp)
+    sample = next(each for each in messages if stamp_of(each) >= stamp).quaternion
+    assert numbers(found.state.pose.orientation) == numbers(sample)
+    state, motion = run.top.simulation.state, run.top.simulation.segment.motion
+    twist = np.array(vector(found.state.twist.angular))
+    assert np.array_equal(twist, state.to_world(state.angular_velocity))
+    # alpha, for which the change of omega in the world is measured: (0.1 us)^2 of curvature and
+    # rounding of 2e-14 rad/s over it leave 1e-6 of 200 rad/s times 10 rad/s
+    h, t = 1e-7, run.top.simulation.segment.time_at(run.top.simulation.stamp)
+    after, before = (motion.at(t + each) for each in (h, -h))
+    change = after.to_world(after.angular_velocity) - before.to_world(before.angular_velocity)
+    alpha = vector(found.state.acceleration.angular)
+    assert alpha == pytest.approx(change / (2 * h), abs=2e-3)
+    missing = client.entity("robot").result
+    assert (missing.result, missing.error_message) == (
+        NOT_FOUND,
+        "entity must be 'top', got 'robot'",
+    )
+
+
+def test_the_state_of_the_top_is_set_in_the_world(client):
+    client.set_state(PAUSED)
+    before = client.entity().state
+    orientation = {"w": 0.8, "x": 0.0, "y": 0.6, "z": 0.0}
+    pose = {"pose": {"orientation": orientation}}
+    assert client.set_entity(set_pose=True, state=pose).result == OK
+    found = client.entity().state
+    assert numbers(found.pose.orientation) == pytest.approx([0.8, 0.0, 0.6, 0.0], abs=1e-16)
+    # forth and back between world and body: some roundings of 200 rad/s
+    assert vector(found.twist.angular) == pytest.approx(vector(before.twist.angular), abs=2e-13)
+    twist = {"twist": {"angular": {"x": 1.0, "y": 2.0, "z": 3.0}}}
+    assert client.set_entity(set_twist=True, state=twist).result == OK
+    found = client.entity().state
+    assert numbers(found.pose.orientation) == pytest.approx([0.8, 0.0, 0.6, 0.0], abs=1e-16)
+    assert vector(found.twist.angular) == pytest.approx([1.0, 2.0, 3.0], abs=2e-15)
+
+
+@pytest.mark.parametrize(
+    ("fields", "code", "message"),
+    [
+        (
+            {"set_pose": True, "state": {"pose": {"position": {"x": 1.0}}}},
+            INVALID_POSE,
+            "position must be 0 (the pivot is fixed), got (1.0, 0.0, 0.0)",
+        ),
+        (
+            {"set_pose": True, "state": {"pose": {"orientation": {"w": 2.0}}}},
+            INVALID_POSE,
+            "orientation must be a quaternion of norm 1 within 0.001, got a norm of 2",
+        ),
+        (
+            {"set_twist": True, "state": {"twist": {"linear": {"y": 1.0}}}},
+            FAILED,
+            "twist.linear must be 0 (the pivot is fixed), got (0.0, 1.0, 0.0)",
+        ),
+        (
+            {"set_twist": True, "state": {"twist": {"angular": {"z": float("nan")}}}},
+            FAILED,
+            "twist.angular must be 3 numbers from -1e+09 to 1e+09 (rad/s, world frame), "
+            "got [0.0, 0.0, nan]",
+        ),
+        (
+            {"set_twist": True, "state": {"header": {"frame_id": "map"}}},
+            FAILED,
+            "header.frame_id must be 'world', got 'map'",
+        ),
+        (
+            {"set_acceleration": True},
+            UNSUPPORTED,
+            "set_acceleration must be false: it follows from the torque, got True",
+        ),
+    ],
+)
+def test_what_no_top_can_do_is_refused_and_changes_nothing(client, fields, code, message):
+    before = client.run.top.simulation.segment
+    refused = client.set_entity(**fields)
+    assert (refused.result, refused.error_message) == (code, message)
+    assert client.run.top.simulation.segment is before
+
+
+def test_the_action_steps_with_feedback_and_leaves_the_node_free(client):
+    run, feedback = client.run, []
+    client.set_state(STOPPED)
+    goal = client.simulate(40, lambda each: feedback.append(each.feedback))
+    result = goal.get_result_async()
+    assert client.entity().result.result == OK  # answered meanwhile
+    run.spin_until(lambda: result.done() and len(feedback) == 40)
+    assert result.result().result.result.result == OK
+    counts = [(each.completed_steps, each.remaining_steps) for each in feedback]
+    assert counts == [(n, 40 - n) for n in range(1, 41)]
+    # each duration is a double of 5 ms, exact to 2^-60 s
+    assert float(times(client)) == pytest.approx(40 * PERIOD, abs=1e-6)
+    assert client.state() == PAUSED
+
+
+def test_the_action_is_cancelled_and_refused(client):
+    run = client.run
+    refused = client.simulate(3).get_result_async()  # it runs
+    run.spin_until(refused.done)
+    assert refused.result().result.result.result == FAILED
+    client.set_state(STOPPED)
+    goal = client.simulate(10**6)
+    cancelled, result = goal.cancel_goal_async(), goal.get_result_async()
+    run.spin_until(lambda: cancelled.done() and result.done())
+    assert 0 < times(client) < 10**6 * PERIOD
+    none = client.simulate(0).get_result_async()
+    run.spin_until(none.done)
+    assert none.result().result.result.error_message == "steps must be at least 1, got 0"
+
+
+def test_a_mistake_of_ours_is_an_answer_and_the_motion_goes_on(client, monkeypatch):
+    simulator = importlib.import_module("symtop_ros.node.simulator")
+
+    def fail(*_):
+        raise KeyError("by a bug")
+
+    monkeypatch.setattr(simulator, "angular_acceleration", fail)
+    found = client.entity().result
+    assert found.result == FAILED
+    assert "by a bug" in found.error_message
+    assert client.state() == PLAYING
+
+
+def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, tmp_path):
+    run = start_top(scene="cusps", record__enabled=True, record__directory=str(tmp_path))
+    client = Client(run)
+    for act in (lambda: client.set_state(STOPPED), lambda: client.step(7), client.reset):
+        assert act().result == OK
+    client.set_entity(set_twist=True, state={"twist": {"angular": {"z": 5.0}}})
+    client.set_state(PLAYING)
+    assert run.switch("record", False)[0]
+    importlib.import_module("exact_log").assert_exact(run.last_log)
+
+
+def test_the_commands_and_the_table_of_the_page_on_ros_are_those_of_the_node(client):
+    page = Path(__file__).parents[2] / "docs" / "ros.md"
+    called = [words for words, _ in commands(page) if "simulation_interfaces/" in " ".join(words)]
+    assert len(called) == 3
+    for *_, name, kind, text in called:
+        fields = yaml.safe_load(text)
+        answer = client.call(kind.split("/")[2], name.removeprefix("/top/"), **fields)
+        assert answer.result.result == OK
+    cells = [row[0] for row in rows(page, "The interface of simulators")]
+    listed = {name.replace("~", "/top") for cell in cells for name in names(cell)}
+    pairs = client.run.user.get_service_names_and_types_by_node("top", "/")
+    found = {name for name, (kind,) in pairs if kind.startswith("simulation_interfaces/srv")}
+    assert listed == found | {"/top/simulate_steps"}
+
+
+def test_the_motion_of_the_library_is_that_of_the_steps(client):
+    """From the start of the scene, by the steps alone."""
+    client.set_state(STOPPED)
+    client.step(25)
+    simulation = client.run.top.simulation
+    motion = simulation.segment.motion
+    same = Motion(Top(*motion.top.moments), motion.start).at(0.125)
+    assert np.abs(same.orientation - simulation.state.orientation).max() < 1e-15
