@@ -83,7 +83,8 @@ class Simulator:
     """The services and the action of the interface, next to those of the node."""
 
     def __init__(self, node: Node, session: Session, wake: Callable[[], None]) -> None:
-        self._session, self._simulation, self._wake = session, session.simulation, wake
+        self._node, self._session, self._wake = node, session, wake
+        self._simulation = session.simulation
         self._stopped: Segment | None = None  # what a stop has led to
         for kind, name, act in (
             (GetSimulatorFeatures, "get_simulator_features", self._get_features),
@@ -187,15 +188,26 @@ class Simulator:
             if result.result.result != Result.RESULT_OK:
                 goal.abort()
                 return result
-            goal.publish_feedback(
-                SimulateSteps.Feedback(completed_steps=done, remaining_steps=steps - done)
-            )
+            await self._tell(goal, done, steps - done)
             if goal.is_cancel_requested:
                 goal.canceled()
                 return result
-            await NextSpin()
         goal.succeed()
         return result
+
+    async def _tell(self, goal: Any, done: int, left: int) -> None:
+        """Send feedback, and let the executor do its other work."""
+        feedback = SimulateSteps.Feedback(completed_steps=done, remaining_steps=left)
+        try:
+            goal.publish_feedback(feedback)
+        except RuntimeError:
+            if self._node.context.ok():
+                raise
+        if self._node.executor:
+            self._node.executor.wake()  # it sleeps until there is something to do
+        await NextSpin()
+        while not self._node.context.ok():  # ROS has ended, and the goal with it
+            await NextSpin()
 
     # The top, the one entity
 
