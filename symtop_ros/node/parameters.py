@@ -7,10 +7,16 @@ package, at start-up as well as later.
 
 import difflib
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import Any
 
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
 from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
@@ -119,9 +125,10 @@ def _descriptor(description: str, condition: str, read_only: bool) -> ParameterD
 
 
 def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
-    """Return a handler of a service (full name) that sets parameters; others are unchanged.
+    """Return a handler of a service (full name) of parameters; those of others are unchanged.
 
-    rclpy's own handlers raise an exception for unknown types, which would end the node.
+    rclpy's own handlers raise an exception for unknown types, which would end the node. Ranges are
+    told and not declared: rclpy would refuse what is outside before we do, in other words.
     """
 
     def set_all(request: Any, response: Any) -> Any:
@@ -134,8 +141,30 @@ def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
         ]
         return response
 
-    last = name.rpartition("/")[2]
-    return {"set_parameters": set_each, "set_parameters_atomically": set_all}.get(last, handler)
+    def describe(request: Any, response: Any) -> Any:
+        response = handler(request, response)
+        response.descriptors = [_with_range(each) for each in response.descriptors]
+        return response
+
+    guarded = {
+        "set_parameters": set_each,
+        "set_parameters_atomically": set_all,
+        "describe_parameters": describe,
+    }
+    return guarded.get(name.rpartition("/")[2], handler)
+
+
+def _with_range(descriptor: ParameterDescriptor) -> ParameterDescriptor:
+    """Return a descriptor with the range of its parameter, of which rqt makes a slider."""
+    entry = PARAMETERS.get(descriptor.name)
+    if entry is None or entry.limits is None:
+        return descriptor
+    found, (low, high) = copy(descriptor), entry.limits
+    if isinstance(entry.default, int):
+        found.integer_range = [IntegerRange(from_value=int(low), to_value=int(high), step=1)]
+    else:
+        found.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    return found
 
 
 def _set(

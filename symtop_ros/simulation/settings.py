@@ -43,6 +43,7 @@ class Parameter:
     # returns the value, converted, from the name and a raw value; raises RefusedError
     validate: Callable[[str, Any], Any]
     read_only: bool = False  # True if it can only be set at the start
+    limits: tuple[float, float] | None = None  # of a number
 
 
 def _number(default: float, description: str, unit: str, low: float, high: float) -> Parameter:
@@ -51,6 +52,7 @@ def _number(default: float, description: str, unit: str, low: float, high: float
         f"{description} ({unit or 'no unit'})",
         describe_range(low, high, unit),
         partial(number, unit=unit, low=low, high=high),
+        limits=(low, high),
     )
 
 
@@ -187,7 +189,12 @@ PARAMETERS: dict[str, Parameter] = {
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
     "imu.noise.seed": Parameter(
-        0, "seed of the noise", "a whole number", partial(_whole, MAX_SEED), read_only=True
+        0,
+        "seed of the noise",
+        f"a whole number, 0 to {MAX_SEED}",
+        partial(_whole, MAX_SEED),
+        read_only=True,
+        limits=(0, MAX_SEED),
     ),
     "odometry.enabled": _flag(False, "publish ~/odometry", read_only=True),
     "scheduling_priority": Parameter(
@@ -196,6 +203,7 @@ PARAMETERS: dict[str, Parameter] = {
         f"a whole number, 0 to {MAX_PRIORITY}",
         partial(_whole, MAX_PRIORITY),
         read_only=True,
+        limits=(0, MAX_PRIORITY),
     ),
     "world_frame": _frame("world", "fixed frame, z up"),
     "top_frame": _frame("top", "frame of the body"),

@@ -10,7 +10,12 @@ from geometry_msgs.msg import QuaternionStamped, TransformStamped
 from node.running_top import LATCHED, facts, segment_of, stamp_of
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    SetParameters,
+    SetParametersAtomically,
+)
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
@@ -214,6 +219,21 @@ def test_every_parameter_is_described_with_its_allowed_values(start_top):
         assert descriptor.description
         assert descriptor.additional_constraints.startswith("must be ")
     assert "Hz" in run.top.describe_parameter("publish_rate").additional_constraints
+
+
+def test_a_range_is_told_and_what_is_outside_is_refused_in_our_words(start_top):
+    run = start_top()
+    client = run.user.create_client(DescribeParameters, "/top/describe_parameters")
+    run.spin_until(client.service_is_ready)
+    future = client.call_async(DescribeParameters.Request(names=[*PARAMETERS]))
+    run.spin_until(future.done)
+    for found in future.result().descriptors:
+        limits = PARAMETERS[found.name].limits
+        ranges = [*found.floating_point_range, *found.integer_range]
+        assert [(each.from_value, each.to_value) for each in ranges] == [limits] * bool(limits)
+        assert all(each.step == bool(found.integer_range) for each in ranges)
+    result = put(run, "publish_rate", type=3, double_value=3000.0)
+    assert result.reason == "publish_rate must be 1 to 2000 Hz, got 3000.0"
 
 
 def test_another_weight_keeps_the_state_and_changes_what_follows(start_top):
