@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores filters article lesson maps pictures stress soak node-cost clean FORCE
+.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores filters article lesson maps pictures stress soak node-cost wheels clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -52,7 +52,7 @@ test-realtime: $(VENV)/test $(VENV)/chromium  ## tests that measure time, one af
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
 	@$(BIN)/python -m pytest -m long test
 
 test-keys: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
@@ -112,8 +112,11 @@ soak: $(VENV)/report  ## the node for an hour with requests at random, its logs 
 node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9 minutes)
 	@$(BIN)/python -m workshop.load.node_cost $(ARGS)
 
+wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM, in dist/ (2 minutes)
+	@$(VENV)/zig/bin/python workshop/wheels.py dist
+
 clean:  ## remove the environment and all that was built; logs/ and report/ stay
-	rm -rf $(VENV) site build install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf $(VENV) site build dist install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find symtop_ros test workshop docs -name __pycache__ -prune -exec rm -rf {} +
 	find symtop_ros -name '*.so' -delete
 
@@ -172,6 +175,13 @@ $(VENV)/chromium: test/get_chromium.sh $(VENV)/bin/activate
 $(VENV)/aarch64: test/get_aarch64.sh $(VENV)/bin/activate
 	@echo "Setting up .venv: a compiler and an emulator for ARM (once) ..."
 	@$(TICK) sh test/get_aarch64.sh $@
+	@touch $@
+
+# Pinned: another Zig is another compiler.
+$(VENV)/zig/done: $(VENV)/bin/activate
+	@echo "Setting up $(VENV)/zig: a compiler for wheels (about 400 MB, once) ..."
+	@$(TICK) $(BIN)/python -m venv --clear $(VENV)/zig
+	@$(TICK) $(VENV)/zig/bin/python -m pip install 'ziglang==0.15.2' 'setuptools>=70.1'
 	@touch $@
 
 # What the kernel needs, as far as it is installed: a compiler and Python's headers. When that

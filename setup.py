@@ -2,6 +2,7 @@
 
 import re
 import sys
+import sysconfig
 from glob import glob
 from pathlib import Path
 
@@ -92,6 +93,8 @@ LINT = [
     "colcon-common-extensions>=0.3",  # a test builds the package in a workspace
 ]
 
+# One module for every Python from 3.11 on; free-threaded Pythons have no such interface.
+LIMITED = not sysconfig.get_config_var("Py_GIL_DISABLED")
 # The kernel of the physics. It is optional: without a compiler, or without Python's headers, the
 # package is installed without it. No fused products and sums, so that states have the same bits on
 # every machine.
@@ -104,7 +107,7 @@ KERNEL = Extension(
         *("-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),
         "-Wno-psabi",  # vectors are passed between inlined functions only
     ],
-    py_limited_api=True,
+    py_limited_api=LIMITED,
     optional=True,
 )
 
@@ -131,7 +134,7 @@ setup(
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
     ext_modules=[KERNEL],
     cmdclass={"build_py": BuildPython, "install_lib": InstallPython},
-    options={"bdist_wheel": {"py_limited_api": "cp311"}},
+    options={"bdist_wheel": {"py_limited_api": "cp311"} if LIMITED else {}},
     package_data={
         NAME: [
             "py.typed",

@@ -1,0 +1,153 @@
+"""`make wheels` builds wheels that run on other machines, with the bits of the kernel here."""
+
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+from physics.tops import random_case
+
+from symtop_ros.physics import Friction, Motion, State, Top, accelerated
+
+pytestmark = pytest.mark.untraced
+ROOT = Path(__file__).parents[1]
+ZIG, ARM = ROOT / ".venv/zig", ROOT / ".venv/aarch64"
+needs_zig = pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it")
+# Prints the states of the motions that it reads, as bytes in hexadecimal digits.
+PROGRAM = """
+import sys
+from symtop_ros.physics import Friction, Motion, State, Top, accelerated
+for line in sys.stdin:
+    top, friction, q, omega, t = ([float.fromhex(each) for each in part.split()]
+                                  for part in line.split(","))
+    state = Motion(Top(*top), State(q, omega), Friction(*friction)).at(*t)
+    print(state.orientation.tobytes().hex(), state.angular_velocity.tobytes().hex())
+print(accelerated)
+"""
+
+
+def list_motions():
+    """Random tops, and some with friction, each with a time."""
+    for seed in range(60):
+        case = random_case(70_000 + seed, "any")
+        yield Motion(case.top, case.start), case.t
+    start = State.from_euler(theta=0.5, psi_dot=200.0)
+    for axial in (1e-8, 1e-6, 1e-5):
+        yield Motion(Top(0.000228, 0.0000572, 0.068), start, Friction(axial, 2 * axial)), 1.5
+
+
+def encode(motion, t):
+    friction = motion.friction
+    parts = (
+        motion.top.moments,
+        (friction.axial, friction.transverse),
+        motion.start.given_orientation,
+        motion.start.angular_velocity,
+        (t,),
+    )
+    return ",".join(" ".join(float(each).hex() for each in part) for part in parts)
+
+
+def expect():
+    for motion, t in list_motions():
+        state = motion.at(t)
+        yield f"{state.orientation.tobytes().hex()} {state.angular_velocity.tobytes().hex()}"
+    yield "True"
+
+
+def compute(command, **variables):
+    """Return what the program prints."""
+    text = "\n".join(encode(motion, t) for motion, t in list_motions())
+    result = subprocess.run(
+        [*map(str, command), "-c", PROGRAM],
+        input=text,
+        env=os.environ | {name: str(value) for name, value in variables.items()},
+        cwd="/",
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=600,
+    )
+    assert result.returncode == 0, result.stderr
+    return result.stdout.splitlines()
+
+
+@pytest.fixture(scope="module")
+def wheels(tmp_path_factory):
+    """The wheels, unpacked: a folder for each processor."""
+    folder = tmp_path_factory.mktemp("wheels")
+    subprocess.run([ZIG / "bin/python", ROOT / "workshop/wheels.py", folder], check=True)
+    found = {}
+    for path in folder.glob("*.whl"):
+        processor = re.search(r"manylinux_2_28_(\w+)\.whl", path.name)[1]
+        found[processor] = folder / processor
+        with zipfile.ZipFile(path) as wheel:
+            wheel.extractall(folder / processor)
+    return found
+
+
+@pytest.mark.long
+@needs_zig
+def test_there_is_a_wheel_for_each_processor_that_asks_for_no_newer_c_library(wheels):
+    assert sorted(wheels) == ["aarch64", "x86_64"]
+    for folder in wheels.values():
+        (kernel,) = folder.rglob("_kernel.abi3.so")
+        versions = re.findall(rb"GLIBC_(\d+)\.(\d+)", kernel.read_bytes())
+        assert max((int(major), int(minor)) for major, minor in versions) <= (2, 28)
+        assert b"libstdc++" not in kernel.read_bytes()
+        (tags,) = folder.glob("*.dist-info/WHEEL")
+        assert f"Tag: cp311-abi3-manylinux_2_28_{folder.name}\n" in tags.read_text()
+
+
+@pytest.mark.long
+@needs_zig
+@pytest.mark.skipif(not accelerated, reason="without the kernel there is nothing to compare with")
+def test_the_wheel_for_this_processor_has_the_same_bits(wheels):
+    assert compute([sys.executable], PYTHONPATH=wheels["x86_64"]) == list(expect())
+
+
+@pytest.mark.long
+@needs_zig
+@pytest.mark.skipif(not accelerated, reason="without the kernel there is nothing to compare with")
+@pytest.mark.skipif(
+    not list(ARM.glob("python/usr/bin/python3.*")), reason="make .venv/aarch64 fetches a Python"
+)
+def test_the_wheel_for_arm_has_the_same_bits_in_the_emulator(wheels, tmp_path):
+    (python,) = ARM.glob("python/usr/bin/python3.*")
+    version = python.name.removeprefix("python")
+    subprocess.run(
+        [
+            *(sys.executable, "-m", "pip", "install", "--quiet", "--target", tmp_path, "numpy"),
+            *("--no-deps", "--only-binary=:all:", "--python-version", version),
+            *(f"--platform=manylinux_2_{minor}_aarch64" for minor in (17, 27, 28)),
+            "--platform=manylinux2014_aarch64",
+        ],
+        check=True,
+    )
+    emulator = [ARM / "usr/bin/qemu-aarch64-static", "-L", ARM / "python"]
+    path = os.pathsep.join(map(str, (wheels["aarch64"], tmp_path)))
+    options = ["-E", f"PYTHONHOME={ARM / 'python/usr'}", "-E", f"PYTHONPATH={path}"]
+    assert compute([*emulator, *options, python]) == list(expect())
+
+
+@pytest.mark.parametrize("threads", [False, True])
+def test_a_free_threaded_python_gets_no_module_of_the_limited_interface(threads):
+    """It has none, and the wheel would be refused."""
+    program = (
+        "import sys, sysconfig; from distutils.core import run_setup; import setuptools; "
+        "known = sysconfig.get_config_vars(); known['Py_GIL_DISABLED'] = int(sys.argv[1]); "
+        "found = run_setup('setup.py', stop_after='init'); "
+        "print(found.ext_modules[0].py_limited_api, "
+        "found.command_options.get('bdist_wheel', {}).get('py_limited_api', ('', None))[1])"
+    )
+    result = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", program, str(int(threads))],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.stdout == ("False None\n" if threads else "True cp311\n"), result.stderr
