@@ -110,7 +110,7 @@ def format_scores(facts: dict[str, Any]) -> str:
     for peer in dict.fromkeys(entry.peer for entry in entries):
         own = [entry for entry in entries if entry.peer == peer]
         cells = [_summarize([e.angle for e in own if e.level == level]) for level in LEVELS]
-        rows.append([peer, *cells, f"{len(own)} of 60"])
+        rows.append([peer, *cells, f"{len(own)} of {count}"])
     head = ["median, worst (rad)", *(f"level {level}" for level in LEVELS), "in time"]
     return format_table(head, rows)
 
