@@ -3,6 +3,7 @@
 import argparse
 import json
 import shutil
+from hashlib import sha256
 from pathlib import Path
 
 from symtop_ros.judge.scoreboard import TABLES, Entry, format_json, format_table, read_entries
@@ -12,14 +13,21 @@ from symtop_ros.testset import score
 
 ALL = "all"  # in place of a name: copies every problem into a folder of its own, or scores them
 README = "README.md"
-SHARED = ("score.py", "LICENSE")
+SHARED = ("score.py", "score.mjs", "score.cpp", "LICENSE")
+CHECKSUMS = "SHA256SUMS"
 INTRODUCTION = """\
 # {name}: {what}
 
 A problem of the test set that is described [below](#a-test-set-of-heavy-tops), in a folder that
-stands alone: `{name}.json` has all of it, `problems.csv`, `states.csv` and `forces.csv` have it as
-tables, `{name}.mjcf`, `.sdf` and `.urdf` are models. `python score.py {name} trajectory.csv` scores
-a trajectory.
+stands alone: `{name}.json` has all of it, `problems.csv`, `states.csv`, `forces.csv` and
+`world.csv` have it as tables, `{name}.mjcf`, `.sdf` and `.urdf` are models. Each of these scores a
+trajectory and prints the same:
+
+    python score.py {name} trajectory.csv
+    node score.mjs {name} trajectory.csv
+    g++ -O2 -std=c++17 score.cpp -o score && ./score {name} trajectory.csv
+
+`sha256sum -c SHA256SUMS` checks the files.
 
 {snippets}
 {rest}"""
@@ -46,7 +54,8 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
     path: Path = options.files[0]
     if options.testset == ALL:
         entries = read_entries(problems, path)
-        print(format_json(entries) if options.json else format_table(entries))
+        write = format_json if options.json else format_table
+        print(write(entries, problems))
     else:
         entries = [Entry(path.stem, score.score_file(problems, options.testset, path))]
         facts = json.dumps(entries[0].facts(), indent=1)
@@ -71,6 +80,9 @@ def _copy(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
     for each in copied:
         shutil.copy(each, folder / each.name)
     names = [target.name, *TABLES, README, *(each.name for each in copied)]
+    sums = [f"{sha256((folder / each).read_bytes()).hexdigest()}  {each}\n" for each in names]
+    (folder / CHECKSUMS).write_text("".join(sums), encoding="utf-8")
+    names.append(CHECKSUMS)
     print(f"wrote {', '.join(names)} to {folder}")
 
 

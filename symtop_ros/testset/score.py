@@ -227,7 +227,9 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
         found = _pick(file, split, places, problem.times)
     q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
-        rates = turn_to_body(q, rates)
+        with np.errstate(all="ignore"):  # quaternions that are none are refused later
+            unit = q / np.linalg.norm(q, axis=1, keepdims=True)
+            rates = turn_to_body(unit, rates)
     return q, rates
 
 
@@ -280,7 +282,7 @@ def _read(text: str) -> float:
 
 def _show(text: str) -> str:
     """Return the beginning of a line, with other characters than ASCII replaced."""
-    line = text.strip()[:SHOWN]
+    line = text.strip().replace("\t", " ")[:SHOWN]
     return "".join(each if " " <= each <= "~" else "?" for each in line) or "nothing"
 
 

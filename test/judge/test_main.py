@@ -112,7 +112,7 @@ def test_a_log_without_a_top_is_refused(tmp_path, capsys, log):
 
 def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 61
+    assert len(capsys.readouterr().out.splitlines()) == 71
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {
         *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
