@@ -8,6 +8,7 @@ from pathlib import Path
 
 from symtop_ros.judge.scoreboard import TABLES, Entry, format_json, format_table, read_entries
 from symtop_ros.models.snippets import format_snippets
+from symtop_ros.models.world_snippets import format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State
 from symtop_ros.testset import score
 
@@ -27,10 +28,14 @@ trajectory and prints the same:
     node score.mjs {name} trajectory.csv
     g++ -O2 -std=c++17 score.cpp -o score && ./score {name} trajectory.csv
 
-`sha256sum -c SHA256SUMS` checks the files.
+`sha256sum -c SHA256SUMS` checks the files.{free}
 
 {snippets}
 {rest}"""
+FREE = """
+
+The body has no weight. `{name}.free.mjcf`, `.free.sdf` and `.free.urdf` hold it by nothing: engines
+have code of their own for free bodies, which a ball joint does not reach."""
 OF_THE_SET = ("Files", "An example: MuJoCo")  # sections that name files that a copy has not
 
 
@@ -91,12 +96,15 @@ def _describe(problem: score.Problem, source: Path) -> str:
     facts = problem.facts
     body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
     start = State(facts["orientation"], facts["angular_velocity"])
+    duration = facts["times"][-1]
+    snippets = format_snippets(facts["name"], start, body, duration)
     readme = (source / README).read_text(encoding="utf-8")
     readme = readme.replace("[symtop_ros](../../README.md)", "symtop_ros")
     sections = readme.split("\n## ")
     return INTRODUCTION.format(
         name=facts["name"],
         what=facts["what"],
-        snippets=format_snippets(facts["name"], start, body, facts["times"][-1]),
+        free="" if facts["Mgl"] else FREE.format(name=facts["name"]),
+        snippets=f"{snippets}\n{format_world_snippets(start, body, duration)}",
         rest="\n## ".join(each for each in sections if not each.startswith(OF_THE_SET)),
     )

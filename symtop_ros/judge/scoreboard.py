@@ -113,7 +113,7 @@ class Rank:
     solved: int  # problems with an error of at most SOLVED
     tried: int
     of: int  # problems that the level has
-    median_limits: float  # of those tried
+    median_limits: float  # of those solved; if none is, of those tried
 
 
 def rank(
@@ -121,8 +121,8 @@ def rank(
 ) -> Iterator[tuple[int, list[Rank]]]:
     """Yield each level with its entries, best first: those that solved most of its problems.
 
-    Of those that solved as many, the one with the smaller median comes first. Problems that were
-    not tried count in it as not solved, so that trying fewer is no advantage.
+    Of those that solved as many, the one with the smaller median of these comes first. If nothing
+    is solved, the median is that of all problems, and the worst for those that were not tried.
     """
     for level in sorted({each.problem["level"] for each in entries}):
         count = sum(each.facts["level"] == level for each in problems.values())
@@ -130,11 +130,11 @@ def rank(
         rows = []
         for name in {each.name for each in ours}:
             own = [each for each in ours if each.name == name]
-            limits = [each.limits for each in own]
-            solved = sum(each.error <= SOLVED for each in own)
-            whole = median([*limits, *[math.inf] * (count - len(own))])
-            row = Rank(name, solved, len(own), count, median(limits))
-            rows.append((-solved, whole, row.median_limits, name, row))
+            good = [each.limits for each in own if each.error <= SOLVED]
+            tried = [each.limits for each in own]
+            whole = good or [*tried, *[math.inf] * (count - len(own))]
+            row = Rank(name, len(good), len(own), count, median(good or tried))
+            rows.append((-row.solved, median(whole), name, row))
         yield level, [row for *_, row in sorted(rows)]
 
 
