@@ -141,7 +141,9 @@ setup(
             "web/*.yaml",
             "wording/en.json",
         ],
-        f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],
+        f"{NAME}.testset": [
+            *("*.md", "*.json", "*.csv", "*.mjs", "*.cpp", "LICENSE", "SHA256SUMS", "models/*"),
+        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import re
 import shutil
 from hashlib import sha256
 from pathlib import Path
@@ -32,6 +33,7 @@ trajectory and prints the same:
 
 {snippets}
 {rest}"""
+LINK_OUT = re.compile(r"\[([^]]*)\]\(\.\.[^)]*\)")  # of the README, to files that a copy has not
 FREE = """
 
 The body has no weight. `{name}.free.mjcf`, `.free.sdf` and `.free.urdf` hold it by nothing: engines
@@ -99,7 +101,7 @@ def _describe(problem: score.Problem, source: Path) -> str:
     duration = facts["times"][-1]
     snippets = format_snippets(facts["name"], start, body, duration)
     readme = (source / README).read_text(encoding="utf-8")
-    readme = readme.replace("[symtop_ros](../../README.md)", "symtop_ros")
+    readme = LINK_OUT.sub(r"\1", readme)
     sections = readme.split("\n## ")
     return INTRODUCTION.format(
         name=facts["name"],

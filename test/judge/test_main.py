@@ -155,7 +155,7 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", str(path), "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
     assert main(["--testset", "none", str(path)]) == 1
-    assert "top_judge: problem must be one of plane_pendulum, " in capsys.readouterr().err
+    assert "top_judge: problem must be one of gentle_cusps, " in capsys.readouterr().err
 
 
 def write_csv(path, scene="cusps"):
