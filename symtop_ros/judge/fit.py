@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.judge.causes.rotations import fit_rotations, from_vector
 from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
@@ -27,7 +27,8 @@ MOST_TURNS = 2  # of the heading, by a drift
 CANDIDATES = 3
 FINE = 1e-9  # s, or rad/s
 ITERATIONS = 30  # of Gauss and Newton; they converge quadratically
-STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried
+STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried, until one is an improvement
+ENOUGH = 1e-6  # part of the mean square; less is no improvement
 WORTHWHILE = 1.01  # a delay or drift counts if it makes the mean square smaller by this factor
 ROUNDING = 1e-28  # mean square of errors that are rounding
 # Columns of the derivatives: a rotation vector of the world and of the body, delay, and drift.
@@ -55,16 +56,12 @@ class Fit:
     hidden: list[str] = field(default_factory=list)
     # delay, clock and scale, and their motion
     _last: tuple[tuple[float, float, float], Exact] | None = None
+    _scaling: tuple[tuple[float, float], Scaling] | None = None  # by delay and clock
 
     @cached_property
     def seconds(self) -> Real:
         """Times since the first estimate in s, (n,)."""
         return np.asarray((self.some.stamps - self.some.stamps[0]) / NANOSECONDS)
-
-    @cached_property
-    def scaling(self) -> Scaling:
-        """Attitudes of gyroscopes whose scale is wrong; without a delay."""
-        return Scaling(self.truth, self.some.stamps)
 
     def exact(self, delay: float, clock: float = 0.0, scale: float = 0.0) -> Exact:
         """Return exact quaternions, rates and the mask of those known, for a delay.
@@ -72,13 +69,23 @@ class Fit:
         With a scale the quaternions are those that a gyroscope of this scale would show.
         """
         if self._last is None or self._last[0] != (delay, clock, scale):
-            begin = int(self.some.stamps[0])
-            stamps = replace(NONE, delay=delay, clock=clock, begin=begin).shift(self.some.stamps)
-            q, rates, known = self.truth.states_at(stamps, self.some.of_sensor)
+            q, rates, known = self.truth.states_at(self.shift(delay, clock), self.some.of_sensor)
             if scale:
-                q = compose(self.scaling.turn(scale), q)
-            self._last = (delay, clock, scale), (q, rates, known)
+                q = compose(self.scaling(delay, clock).turn(scale), q)
+            self._last = (delay, clock, scale), (q, rates * (1 + scale), known)
         return self._last[1]
+
+    def shift(self, delay: float, clock: float) -> Stamps:
+        """Return the stamps of the exact states, for a delay and a clock."""
+        begin = int(self.some.stamps[0])
+        return replace(NONE, delay=delay, clock=clock, begin=begin).shift(self.some.stamps)
+
+    def scaling(self, delay: float, clock: float) -> Scaling:
+        """Return the attitudes of gyroscopes whose scale is wrong, for a delay and a clock."""
+        if self._scaling is None or self._scaling[0] != (delay, clock):
+            scaling = Scaling(self.truth, self.shift(delay, clock))
+            self._scaling = (delay, clock), scaling
+        return self._scaling[1]
 
     def residuals(self, offset: Offset) -> tuple[Real, Real, NDArray[np.bool_]]:
         """Return q_est, the model of it, and the mask of those known."""
@@ -179,12 +186,14 @@ class Fit:
             step = np.zeros(COLUMNS)
             if free:
                 step[free] = self._solve(best, free)
-            tried = [_move(best, step * part, self.most) for part in STEPS]
-            costs = [self.cost(each) for each in tried]
-            if not min(costs) < cost:
+            moved = (_move(best, step * part, self.most) for part in STEPS)
+            tried = ((each, self.cost(each)) for each in moved)
+            found = next(((each, new) for each, new in tried if new < cost), None)
+            if found is None:
                 break
-            cost = min(costs)
-            best = tried[costs.index(cost)]
+            best, gain, cost = found[0], cost - found[1], found[1]
+            if gain < ENOUGH * cost:
+                break
         return best
 
     def _solve(self, offset: Offset, free: list[int]) -> Real:
@@ -211,7 +220,7 @@ class Fit:
         columns[:, 2, DRIFT] = seconds
         columns[:, :, SPIN] = to_rotation(turned).as_matrix()[:, :, 2] * seconds[:, np.newaxis]
         if with_scale:
-            turned_by = self.scaling.derive(offset.scale)[known]
+            turned_by = self.scaling(offset.delay, offset.clock).derive(offset.scale)[known]
             columns[:, :, SCALE] = to_rotation(world).apply(turned_by)
         return columns.reshape(-1, COLUMNS)
 

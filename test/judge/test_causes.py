@@ -55,6 +55,8 @@ LOGS = [
     ("looping", Made(heading(0.3), clock=-2e-4, noise=N), "", "heading", ("clock",)),
     ("cusps", Made(spin=0.2, noise=N), "", "none", ("spin",)),
     ("regular_precession", Made(spin=-2.0), "", "none", ("spin",)),
+    ("cusps", Made(scale=1e-3), "", "none", ("scale",)),
+    ("looping", Made(heading(0.5), scale=-2e-3, noise=N), "", "heading", ("scale",)),
     ("cusps", Made(other="random"), None, None, None),
     ("cusps", Made(other="walk"), None, None, None),
     ("looping", Made(other="wave", noise=N), None, None, None),

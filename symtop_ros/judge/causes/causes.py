@@ -29,13 +29,15 @@ from symtop_ros.judge.scale import MOST_STEPS, count_steps
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 
-VALLEYS = 2  # of each table that are refined
+VALLEYS = 4  # of each table that are refined
 # An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
 # this left, nothing is explained there.
 HOPELESS = 0.05  # mean square of half angles
 SIMPLER = 4.0  # simpler causes count if they leave at most twice the error (squared)
+MOST_PERIODS = 500  # by which a delay is changed
 TIE = 1.5  # explanations that are as good, by their mean squares
 CLEAR = 10.0  # the error becomes so many times smaller: its causes are clear
+FAR = 0.05  # rad; more than this is noise, or the causes are others
 HALF = 2.0  # less is enough if what is left is noise
 WHITE = 0.5  # largest correlation of what is left, from one estimate to the next
 LOUD = 0.3  # rad; noise of an attitude is smaller
@@ -92,7 +94,8 @@ class Search:
             clear = start.cost <= self.fit.rounding or self.is_white(start)
             return Finding(start, (), tuple(self.hidden), explained=clear)
         ratio = np.sqrt(start.cost / max(best.cost, 1e-300))
-        if ratio < CLEAR and not (ratio >= HALF and self.is_white(best)):
+        is_clear = ratio >= CLEAR and best.residual <= FAR
+        if not is_clear and not (ratio >= HALF and self.is_white(best)):
             return Finding(start, (), tuple(self.hidden), explained=False)
         period, repeated = self.find_period(best)
         return Finding(best, tuple(others), tuple(self.hidden), True, False, period, repeated)
@@ -145,14 +148,34 @@ class Search:
                 continue
             single: list[Cause] = []
             for name in ("", *self.names):
-                if name == "scale" and change:
-                    continue  # a mistake of convention and a scale are looked for one at a time
                 single += self.search(change, name)
+            single += self.shift_periods(change, single)
             yield from single
-            several = [each for each in single if "scale" not in each.parameters]
-            good = sorted(several, key=lambda each: each.cost)[:4]
+            good = sorted(single, key=lambda each: each.cost)[:4]
             if good and good[0].cost > 10 * self.fit.rounding:
                 yield from self.extend(change, good)
+
+    def shift_periods(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
+        """Yield the best delay again, changed by periods of the nutation, with fewer rotations.
+
+        A fast nutation makes many valleys of nearly the same depth, and few of them are refined.
+        """
+        late = [each for each in causes if each.parameters == ("delay",)]
+        best = min(late, key=lambda each: each.cost, default=None)
+        period = self.truth.period
+        if best is None or period is None or best.level != "both":
+            return
+        delay = best.offset.delay
+        numbers = np.arange(
+            np.ceil((-MOST - delay) / period), np.floor((MOST - delay) / period) + 1
+        )
+        if not 1 < len(numbers) <= MOST_PERIODS:
+            return
+        table = self.grids.tabulate(change, "delay", NONE, delay + period * numbers)
+        for level in CHANGES[change][1]:
+            place = int(table.costs(level).argmin())
+            offset = replace(table.start(place, level), delay=float(table.values[place]))
+            yield self.refine(change, level, ("delay",), offset)
 
     def extend(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the causes with one more parameter, small ones near zero."""
@@ -161,8 +184,10 @@ class Search:
             for each in causes
             if each.cost <= HOPELESS and each.parameters
             for name in self.names
-            if name not in each.parameters and name != "scale"
+            if name not in each.parameters
         ]
+        if not any(self.is_white(each) for each in causes):
+            pairs += self.search_pairs(change, causes)
         yield from pairs
         simpler = [*self.simplify(change, pairs)]
         yield from simpler
@@ -178,9 +203,18 @@ class Search:
                 offset = keep_rotations(each.offset, level)
                 yield self.refine(change, level, each.parameters, offset)
 
-    def search(self, change: str, name: str) -> Iterator[Cause]:
-        """Yield explanations with a change and a parameter, or none."""
-        table = self.grids.tabulate(change, name)
+    def search_pairs(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
+        """Yield explanations with a second parameter that may be far from zero."""
+        bases = {each.parameters: each for each in reversed(causes) if each.parameters}
+        for (first,), each in bases.items():
+            for name in self.names:
+                if name != first and not {name, first} <= {"delay", "clock"}:
+                    yield from self.search(change, name, each)
+
+    def search(self, change: str, name: str, base: Cause | None = None) -> Iterator[Cause]:
+        """Yield explanations with a change and a parameter, or none, next to those of a base."""
+        known = base.offset if base else NONE
+        table = self.grids.tabulate(change, name, known)
         for level in CHANGES[change][1]:
             if level != "none" and "rotations" in self.hidden and level == "body":
                 continue
@@ -192,10 +226,10 @@ class Search:
                     continue
                 start = table.start(place, level)
                 begin = int(self.some.stamps[0])
-                offset = set_parameter(
-                    replace(start, begin=begin), name, float(table.values[place])
-                )
-                yield self.refine(change, level, (name,) if name else (), offset)
+                place_of = replace(known, world=start.world, body=start.body, begin=begin)
+                offset = set_parameter(place_of, name, float(table.values[place]))
+                names = {*(base.parameters if base else ()), *((name,) if name else ())}
+                yield self.refine(change, level, tuple(sorted(names)), offset)
 
     def refine(self, change: str, level: str, names: tuple[str, ...], offset: Offset) -> Cause:
         """Return the least squares near an offset."""
