@@ -114,7 +114,7 @@ node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9
 
 clean:  ## remove the environment and all that was built; logs/ and report/ stay
 	rm -rf $(VENV) site build install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
-	find symtop_ros test workshop docs -name __pycache__ -prune -exec rm -rf {} +
+	find symtop_ros test workshop examples docs -name __pycache__ -prune -exec rm -rf {} +
 	find symtop_ros -name '*.so' -delete
 
 $(VENV)/ros: $(SOURCES) $(VENV)/compiler

@@ -75,6 +75,7 @@ TEST = [
     "mujoco>=3.3",  # reads the MJCF of the top
     "pin>=3.4",  # reads its URDF
     "ahrs>=0.4",  # filters that are fed with its sensor
+    "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]
 # The HTML site of `make docs`.
 DOCS = [
