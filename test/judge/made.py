@@ -41,7 +41,8 @@ class Made:
         found = make_estimates(truth, shifted, None, None, self.delay)
         q = found.orientations
         if self.scale:
-            q = integrate_rates(truth, stamps, 1 + self.scale)
+            late = shifted - round(self.delay * SECOND)
+            q = integrate_rates(truth, late, 1 + self.scale)
         q = compose(turn_z(self.drift * seconds), _turn_world(self.world, q))
         q = compose(q, turn_z(self.spin * seconds))
         if self.body is not None:

@@ -165,7 +165,7 @@ class Search:
 
         A fast nutation makes many valleys of nearly the same depth, and few of them are refined.
         """
-        late = [each for each in causes if each.parameters == ("delay",)]
+        late = [each for each in causes if "delay" in each.parameters]
         best = min(late, key=lambda each: each.cost, default=None)
         period = self.truth.period
         if best is None or period is None or best.level != "both":
@@ -176,11 +176,13 @@ class Search:
         )
         if not 1 < len(numbers) <= MOST_PERIODS:
             return
-        table = self.grids.tabulate(change, "delay", NONE, delay + period * numbers)
+        table = self.grids.tabulate(change, "delay", best.offset, delay + period * numbers)
         for level in CHANGES[change][1]:
             place = int(table.costs(level).argmin())
-            offset = replace(table.start(place, level), delay=float(table.values[place]))
-            yield self.refine(change, level, ("delay",), offset)
+            start = table.start(place, level)
+            offset = replace(best.offset, world=start.world, body=start.body)
+            offset = replace(offset, delay=float(table.values[place]))
+            yield self.refine(change, level, best.parameters, offset)
 
     def extend(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the causes with one more parameter, small ones near zero."""
@@ -198,6 +200,7 @@ class Search:
         yield from simpler
         # A delay of another period needs rotations, and without them it is found only now.
         yield from self.simplify(change, [*pairs, *simpler])
+        yield from self.shift_periods(change, pairs)
 
     def simplify(self, change: str, pairs: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the good ones of the smallest rotations again, with fewer of them free."""
