@@ -128,10 +128,15 @@ def format_entries(facts: dict[str, Any]) -> str:
     rows = [
         [name]
         + [
-            f"{each['error']:.0e}, {1e3 * each['seconds']:.2g} ms"
+            f"{each['error']:.0e}, {_round(1e3 * each['seconds']):g} ms"
             for each in entries
             if each["program"] == name
         ]
         for name in dict.fromkeys(each["program"] for each in entries)
     ]
     return format_table(["error, time", *(f"{t:g} s" for t in times)], rows)
+
+
+def _round(value: float) -> float:
+    """Return a number with two digits, of which %g then writes no exponent."""
+    return float(f"{value:.2g}")
