@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores filters article lesson maps pictures stress soak node-cost wheels clean FORCE
+.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -88,6 +88,9 @@ report: $(VENV)/peers  ## speed against error on this machine (some minutes; 2 G
 scores: $(VENV)/peers  ## scores of these programs in the test set (20 minutes)
 	$(WORKSHOP) testset $(ARGS)
 
+derivatives: $(VENV)/peers  ## derivatives by top and start, compared with heyoka (a minute)
+	$(WORKSHOP) derivatives $(ARGS)
+
 filters: $(VENV)/peers  ## attitude filters fed with the top's noisy sensor (4 minutes)
 	$(WORKSHOP) filters $(ARGS)
 
@@ -117,7 +120,7 @@ wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM,
 
 clean:  ## remove the environment and all that was built; logs/ and report/ stay
 	rm -rf $(VENV) site build dist install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
-	find symtop_ros test workshop docs -name __pycache__ -prune -exec rm -rf {} +
+	find symtop_ros test workshop examples docs -name __pycache__ -prune -exec rm -rf {} +
 	find symtop_ros -name '*.so' -delete
 
 $(VENV)/ros: $(SOURCES) $(VENV)/compiler

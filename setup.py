@@ -76,6 +76,7 @@ TEST = [
     "mujoco>=3.3",  # reads the MJCF of the top
     "pin>=3.4",  # reads its URDF
     "ahrs>=0.4",  # filters that are fed with its sensor
+    "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]
 # The HTML site of `make docs`.
 DOCS = [
@@ -144,7 +145,9 @@ setup(
             "web/*.yaml",
             "wording/en.json",
         ],
-        f"{NAME}.testset": ["*.md", "*.json", "*.csv", "LICENSE", "SHA256SUMS", "models/*"],
+        f"{NAME}.testset": [
+            *("*.md", "*.json", "*.csv", "*.mjs", "*.cpp", "LICENSE", "SHA256SUMS", "models/*"),
+        ],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),

@@ -103,6 +103,37 @@ def test_the_program_in_cpp_scores_as_an_rk4_does(tmp_path):
     assert score.angles.max() < 1e-7
 
 
+def find_commands(beginning):
+    """The lines of docs/truth.md that begin with a command, and the line that they print."""
+    text = (ROOT / "docs/truth.md").read_text()
+    (block,) = (each for each in text.split("```console\n") if each.startswith(f"$ {beginning}"))
+    lines = block.partition("```")[0].splitlines()
+    return [line[2:] for line in lines if line.startswith("$ ")], lines[-1]
+
+
+@pytest.mark.parametrize(
+    ("language", "name", "program"), [("cpp", "top.cpp", "g++"), ("js", "top.mjs", "node")]
+)
+def test_the_commands_of_the_page_give_a_first_score(language, name, program, tmp_path):
+    if not shutil.which(program):
+        pytest.skip(f"no {program} here")
+    assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
+    ((code, _),) = blocks(ROOT / "docs/truth.md", language)
+    (tmp_path / name).write_text(code)
+    commands, shown = find_commands(program)
+    for command in commands:
+        done = subprocess.run(
+            command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=True
+        )
+    # the same numbers up to the last of two digits, which the order of sums may change
+    assert done.stdout.startswith("cusps: attitude 3.")
+    found, wanted = (
+        [float(each) for each in re.findall(r"\d\.\de[-+]\d\d", text)]
+        for text in (done.stdout, shown)
+    )
+    assert found == pytest.approx(wanted, rel=0.1)
+
+
 def test_the_program_in_rust_reads_the_states(tmp_path):
     assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     compile_block("rust", "rustc", ["--edition=2021"], tmp_path)

@@ -17,6 +17,7 @@ the documents. `make help` lists the targets that call it."""
 COMMANDS = {
     "speed": "speed against error: tables, plots and JSON (some minutes)",
     "testset": "scores of programs in the test set (20 minutes)",
+    "derivatives": "derivatives by top and start, compared with heyoka (a minute)",
     "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
     "article": "the article's figures, its motions in 3D, and its claims",
     "lesson": "the pictures of the lesson, or sheets to print",
@@ -45,7 +46,7 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument(
             "folder", type=Path, nargs="?", default=Path(default), help=f"./{default}"
         )
-    for name in ("speed", "testset", "filters"):
+    for name in ("speed", "testset", "derivatives", "filters"):
         of[name].add_argument("--docs", type=_docs, help="write tables and plots here, too")
     of["speed"].add_argument(
         "--full",
@@ -118,6 +119,12 @@ def _score(options: argparse.Namespace) -> int:
     return score_testset(options.folder, options.docs, options.limit or LIMIT)
 
 
+def _derive(options: argparse.Namespace) -> int:
+    from workshop.speed.derivatives import compare_derivatives
+
+    return compare_derivatives(options.folder, options.docs)
+
+
 def _filter(options: argparse.Namespace) -> int:
     from workshop.speed.filters import judge_filters
 
@@ -140,6 +147,7 @@ def _measure(options: argparse.Namespace) -> int:
 PARTS: dict[str, Callable[[argparse.Namespace], int]] = {
     "speed": _measure,
     "testset": _score,
+    "derivatives": _derive,
     "filters": _filter,
     "article": _retell,
     "lesson": _draw_lesson,

@@ -4,6 +4,8 @@ An estimate is modelled as q_est(t) = D(t) W q(t - delay) M with constant rotati
 (a heading that no gyroscope knows) and M of the body (how the sensor is mounted), and a rotation
 D(t) about the vertical that grows steadily (a drift of the heading). A clock that runs fast makes
 the delay grow, and a gyroscope whose scale is wrong along the axis turns the body about it.
+A gyroscope alone whose scale is wrong gives other attitudes (`judge.scale`), which are not
+compared here.
 """
 
 from dataclasses import dataclass
@@ -35,6 +37,7 @@ class Offset:
     begin: int = 0  # stamp in ns at which nothing has drifted yet
     clock: float = 0.0  # growth of the delay in s per s
     spin: float = 0.0  # rate in rad/s about the axis of the body
+    scale: float = 0.0  # part by which the scale of a gyroscope is too large; see judge.scale
 
     def turn_world(self, stamps: Stamps) -> Real:
         """Return the rotations of the world, D(t) W, at stamps, (n, 4)."""

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.judge.causes.causes import Cause, Finding, find_causes
+from symtop_ros.judge.causes.cause import Cause, Finding
+from symtop_ros.judge.causes.causes import find_causes
 from symtop_ros.judge.causes.mistakes import find_mistakes
 from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
@@ -167,6 +168,7 @@ def _list_parts(cause: Cause) -> list[dict[str, Any]]:
         "drift": offset.drift,
         "clock": 1e6 * offset.clock,
         "spin": offset.spin,
+        "scale": 100 * offset.scale,
     }
     parts: list[dict[str, Any]] = [
         {"kind": name, "value": values[name]} for name in cause.parameters
@@ -190,6 +192,7 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
         "drift": None if "drift" in found.hidden else offset.drift,
         "body_drift": offset.spin,
         "clock_rate": offset.clock,
+        "gyroscope_scale": offset.scale,
         "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
         "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
         "delay_period": found.period,

@@ -12,7 +12,7 @@ from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.explain import MODELS
 from symtop_ros.judge.judgement import Judgement, format_several, judge
 from symtop_ros.judge.problems import run_testset
-from symtop_ros.judge.tables import CSV, read_csv
+from symtop_ros.judge.tables import TABLES, read_table
 from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
 from symtop_ros.simulation.validation import RefusedError, one_line
 
@@ -81,7 +81,7 @@ def _parser() -> argparse.ArgumentParser:
         "--estimates",
         type=Path,
         metavar="FILE",
-        help="another log, or a CSV file, with the estimates",
+        help="another log, or a table (.csv, .tum, .txt: columns with names, TUM, or EuRoC)",
     )
     parser.add_argument(
         "--remove",
@@ -190,8 +190,8 @@ def _write(judgements: list[Judgement], folder: Path) -> None:
 def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimates]]:
     """Yield the sources and their estimates."""
     other: Path | None = options.estimates
-    if other and other.suffix == CSV:
-        yield str(other), _choose_frame(read_csv(other), options.attitude_of)
+    if other and other.suffix.lower() in TABLES:
+        yield str(other), _choose_frame(read_table(other), options.attitude_of)
         return
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")

@@ -1,9 +1,10 @@
 """Scores of many trajectories of the test set: a table, orders of convergence, and a ranking."""
 
 import json
+import math
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from itertools import groupby
 from pathlib import Path
 from statistics import median
@@ -14,10 +15,11 @@ import numpy as np
 from symtop_ros.testset.score import Problem, Score, read_trajectory
 
 # Of a copied problem: the problem and its exact motion, which are no entries.
-TABLES = ("problems.csv", "states.csv", "forces.csv")
+TABLES = ("problems.csv", "states.csv", "forces.csv", "world.csv")
 # rk4-0.001 and rk4-1e-3: the step of this entry. The first part is as short as it can be, so that
 # the sign of an exponent belongs to the step.
 STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
+SOLVED = 0.01  # rad; an attitude that is never further off
 ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
 
 
@@ -103,19 +105,40 @@ def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
     return orders
 
 
-def rank(entries: Sequence[Entry]) -> Iterator[tuple[int, list[tuple[str, int, float]]]]:
-    """Yield each level with its entries: name, problems, median of their limits; best first."""
-    levels = sorted({each.problem["level"] for each in entries})
-    for level in levels:
+@dataclass(frozen=True)
+class Rank:
+    """What an entry has reached in the problems of a level."""
+
+    entry: str
+    solved: int  # problems with an error of at most SOLVED
+    tried: int
+    of: int  # problems that the level has
+    median_limits: float  # of those solved; if none is, of those tried
+
+
+def rank(
+    entries: Sequence[Entry], problems: Mapping[str, Problem]
+) -> Iterator[tuple[int, list[Rank]]]:
+    """Yield each level with its entries, best first: those that solved most of its problems.
+
+    Of those that solved as many, the one with the smaller median of these comes first. If nothing
+    is solved, the median is that of all problems, and the worst for those that were not tried.
+    """
+    for level in sorted({each.problem["level"] for each in entries}):
+        count = sum(each.facts["level"] == level for each in problems.values())
         ours = [each for each in entries if each.problem["level"] == level]
         rows = []
         for name in {each.name for each in ours}:
-            limits = [each.limits for each in ours if each.name == name]
-            rows.append((name, len(limits), median(limits)))
-        yield level, sorted(rows, key=lambda row: (-row[1], row[2], row[0]))
+            own = [each for each in ours if each.name == name]
+            good = [each.limits for each in own if each.error <= SOLVED]
+            tried = [each.limits for each in own]
+            whole = good or [*tried, *[math.inf] * (count - len(own))]
+            row = Rank(name, len(good), len(own), count, median(good or tried))
+            rows.append((-row.solved, median(whole), name, row))
+        yield level, [row for *_, row in sorted(rows)]
 
 
-def format_table(entries: Sequence[Entry]) -> str:
+def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
     """Return the table of all entries, the orders, and the ranking of each level."""
     lines = [f"{'problem':19}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"]
     lines += [
@@ -125,28 +148,22 @@ def format_table(entries: Sequence[Entry]) -> str:
     ]
     for (problem, method), order in find_orders(entries).items():
         lines.append(f"order of {method} in {problem}: {order:.2f}")
-    for level, rows in rank(entries):
-        tried = len({each.problem["name"] for each in entries if each.problem["level"] == level})
-        lines.append(f"level {level}, by problems tried and the median of their limits:")
+    for level, rows in rank(entries, problems):
+        lines.append(f"level {level}, by problems solved (within {SOLVED:g} rad) and by limits:")
         lines += [
-            f"  {place}. {name} ({count} of {tried}, {limits:.2g} limits)"
-            for place, (name, count, limits) in enumerate(rows, start=1)
+            f"  {place}. {row.entry}: solved {row.solved} of {row.of}, tried {row.tried}, "
+            f"median {row.median_limits:.2g} limits"
+            for place, row in enumerate(rows, start=1)
         ]
     return "\n".join(lines)
 
 
-def format_json(entries: Sequence[Entry]) -> str:
+def format_json(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
     """Return the same as JSON, with the errors at each time."""
     orders = [
         {"problem": problem, "method": method, "order": order}
         for (problem, method), order in find_orders(entries).items()
     ]
-    ranking = {
-        str(level): [
-            {"entry": name, "problems": count, "median_limits": limits}
-            for name, count, limits in rows
-        ]
-        for level, rows in rank(entries)
-    }
+    ranking = {str(level): [asdict(row) for row in rows] for level, rows in rank(entries, problems)}
     scores = [each.facts() for each in entries]
     return json.dumps({"scores": scores, "orders": orders, "ranking": ranking}, indent=1)

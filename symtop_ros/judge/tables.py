@@ -1,10 +1,10 @@
-"""Estimates from CSV files, and what is odd about such a file."""
+"""Estimates from tables of text: columns with names, TUM and EuRoC, and what is odd about them."""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 
@@ -15,57 +15,134 @@ from symtop_ros.judge.estimates import MAX_STAMP, Estimates
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS
 
-CSV = ".csv"
+TABLES = (".csv", ".tum", ".txt")  # endings of files that are no logs
+SEPARATORS = (",", ";", "\t")  # else any white space
 COLUMNS, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+STAMP, SECONDS = "stamp", "t"
+# Columns without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position,
+# x, y, z, w; KITTI has twelve numbers of a matrix, and no time.
+EUROC, TUM, KITTI = 8, 8, 12
 # Seconds since 1970 as a double are off by 1e-7 s, and have up to seven decimals.
 EPOCH, DIGITS = 10**18, 9  # ns; decimals of a time in whole ns
+Row = Sequence[str]
 
 
-def read_csv(path: Path) -> Estimates:
-    """Return the estimates of a CSV file."""
+@dataclass(frozen=True)
+class Columns:
+    """Where a table has the time, the quaternion w, x, y, z, and the rates if there are any."""
+
+    time: int
+    numbers: tuple[int, ...]
+    in_seconds: bool
+    has_names: bool = True  # in the first line, which is then no row
+
+
+def read_table(path: Path) -> Estimates:
+    """Return the estimates of a table: columns with names, TUM, or EuRoC."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            return _read_rows(path, csv.DictReader(file, skipinitialspace=True))
+            return _read_lines(path, file)
     except OSError as error:
         raise RefusedError(f"cannot open {path}: {error.strerror}") from None
     except (csv.Error, UnicodeDecodeError, ValueError) as error:
         if isinstance(error, RefusedError):
             raise
-        raise RefusedError(f"cannot read {path}: not a CSV file ({one_line(error)})") from None
+        raise RefusedError(f"cannot read {path}: not a table ({one_line(error)})") from None
 
 
-def _read_rows(path: Path, rows: csv.DictReader[str]) -> Estimates:
-    names = [name.strip() for name in rows.fieldnames or ()]
-    rows.fieldnames = names
-    time = "stamp" if "stamp" in names else "t"
-    missing = [name for name in (time, *COLUMNS) if name not in names]
-    if missing:
-        raise RefusedError(
-            f"{path} must have the columns stamp (ns) or t (s), w, x, y, z; got no {missing[0]}"
-        )
-    to_ns: Callable[[str], int] = int if time == "stamp" else _to_nanoseconds
-    wanted = [*COLUMNS, *(RATES if set(RATES) <= set(names) else ())]
-    stamps, numbers, decimals = [], [], 0
-    for line, row in enumerate(rows, start=2):
+def _read_lines(path: Path, lines: Iterable[str]) -> Estimates:
+    numbered = ((number, line) for number, line in enumerate(lines, 1) if line.strip())
+    number, first = next(numbered, (1, ""))
+    separator = next((each for each in SEPARATORS if each in first), None)
+    head = _split(first, separator)
+    while first.startswith("#") and separator is None and not _is_named(head):
+        number, first = next(numbered, (1, ""))  # a comment, as TUM has
+        head = _split(first, separator)
+    columns = _find_columns(path, head, first, separator)
+    rows = [] if columns.has_names else [(number, first)]
+    return _read_rows(path, columns, _chain(rows, numbered), separator)
+
+
+def _chain(
+    first: Iterable[tuple[int, str]], rest: Iterable[tuple[int, str]]
+) -> Iterator[tuple[int, str]]:
+    yield from first
+    yield from (each for each in rest if not each[1].startswith("#"))
+
+
+def _split(line: str, separator: str | None) -> list[str]:
+    if separator is None:
+        return line.split()
+    (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+    return [cell.strip() for cell in cells]
+
+
+def _is_named(head: Row) -> bool:
+    names = [name.lstrip("# ") for name in head if name.strip("# ")]
+    return set(COLUMNS) <= set(names)
+
+
+def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> Columns:
+    """Return where the columns are, from the first line."""
+    names = [name.lstrip("# ") for name in head]
+    if separator is None and names and not names[0]:  # "# t w x y z"
+        names = names[1:]
+    if _is_named(head) and {STAMP, SECONDS} & set(names):
+        time = STAMP if STAMP in names else SECONDS
+        wanted = [*COLUMNS, *(RATES if set(RATES) <= set(names) else ())]
+        places = tuple(names.index(name) for name in wanted)
+        return Columns(names.index(time), places, time == SECONDS)
+    if separator == "," and len(head) >= EUROC and names[0].startswith("timestamp"):
+        return Columns(0, (4, 5, 6, 7), in_seconds=False)
+    if separator == "," and len(head) >= EUROC and names[0].isdecimal():
+        return Columns(0, (4, 5, 6, 7), in_seconds=False, has_names=False)
+    if separator is None and len(head) == TUM and _is_number(head[0]):
+        return Columns(0, (7, 4, 5, 6), in_seconds=True, has_names=False)
+    if separator is None and len(head) == KITTI and _is_number(head[0]):
+        raise RefusedError(f"{path} must have times, got poses of KITTI, which have none")
+    raise RefusedError(
+        f"{path} must have the columns stamp (ns) or t (s), w, x, y, z, or be a file of TUM or "
+        f"EuRoC; got the header {one_line(first) or 'nothing'}"
+    )
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _read_rows(
+    path: Path, columns: Columns, rows: Iterable[tuple[int, str]], separator: str | None
+) -> Estimates:
+    to_ns: Callable[[str], int] = _to_nanoseconds if columns.in_seconds else int
+    stamps, numbers, lines, decimals = [], [], [], 0
+    for line, row in rows:
+        cells = _split(row, separator)
         try:
-            stamps.append(min(max(to_ns(row[time]), -MAX_STAMP), MAX_STAMP))
-            numbers.append([float(row[name]) for name in wanted])
-            decimals = max(decimals, len(row[time].strip().partition(".")[2]))
-        except (TypeError, ValueError, InvalidOperation, OverflowError):
+            time = cells[columns.time]
+            stamps.append(min(max(to_ns(time), -MAX_STAMP), MAX_STAMP))
+            numbers.append([float(cells[place]) for place in columns.numbers])
+            lines.append(line)
+            decimals = max(decimals, len(time.strip().partition(".")[2]))
+        except (IndexError, ValueError, InvalidOperation, OverflowError):
             raise RefusedError(
-                f"line {line} of {path} must consist of numbers, got {one_line(dict(row))}"
+                f"line {line} of {path} must consist of numbers, got {one_line(row)}"
             ) from None
-    table = np.array(numbers, dtype=float).reshape(-1, len(wanted))
-    notes = _describe_rows(table) + _describe_times(stamps, time == "t", decimals)
-    found = Estimates.of(stamps, table[:, :4], table[:, 4:] if len(wanted) > 4 else None)
-    return replace(found, notes=notes)
+    table = np.array(numbers, dtype=float).reshape(-1, len(columns.numbers))
+    notes = _describe_rows(table, lines) + _describe_times(stamps, columns.in_seconds, decimals)
+    rates = table[:, 4:] if table.shape[1] > 4 else None
+    return replace(Estimates.of(stamps, table[:, :4], rates), notes=notes)
 
 
-def _describe_rows(table: Real) -> tuple[str, ...]:
+def _describe_rows(table: Real, lines: Sequence[int]) -> tuple[str, ...]:
     """Name the first row that is not finite."""
-    bad = np.flatnonzero(~np.isfinite(table).all(axis=1)) + 2
+    bad = np.flatnonzero(~np.isfinite(table).all(axis=1))
     return tuple(
-        f"{len(bad)} rows have nan or infinity, the first in line {line}" for line in bad[:1]
+        f"{len(bad)} rows have nan or infinity, the first in line {lines[place]}"
+        for place in bad[:1]
     )
 
 

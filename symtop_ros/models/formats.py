@@ -37,11 +37,9 @@ def format_sdf(top: Top, start: State, body: Body) -> str:
     """
     w, x, y, z = start.orientation.tolist()
     local, world = (
-        _join(each.tolist())
+        join(each.tolist())
         for each in (start.angular_velocity, start.to_world(start.angular_velocity))
     )
-    size = _size(body)
-    moments = f"<ixx>{body.Ix!r}</ixx><iyy>{body.Ix!r}</iyy><izz>{body.Iz!r}</izz>"
     return f"""<?xml version="1.0"?>
 <!-- {describe_body(top, body)}
      Start of the motion: angular velocity {local} rad/s (frame of the body, and of Drake's ball
@@ -53,7 +51,23 @@ def format_sdf(top: Top, start: State, body: Body) -> str:
       <max_step_size>{STEP!r}</max_step_size>
     </physics>
     <model name="top">
-      <pose rotation_format="quat_xyzw">0 0 0 {_join((x, y, z, w))}</pose>
+      <pose rotation_format="quat_xyzw">0 0 0 {join((x, y, z, w))}</pose>
+{draw_body(body)}
+      <joint name="pivot" type="ball">
+        <parent>world</parent>
+        <child>top</child>
+      </joint>
+    </model>
+  </world>
+</sdf>
+"""
+
+
+def draw_body(body: Body) -> str:
+    """Return the link of an SDF model: inertia, and what is drawn."""
+    size = measure_size(body)
+    moments = f"<ixx>{body.Ix!r}</ixx><iyy>{body.Ix!r}</iyy><izz>{body.Iz!r}</izz>"
+    return f"""\
       <link name="top">
         <inertial>
           <pose>0 0 {body.arm!r} 0 0 0</pose>
@@ -70,20 +84,12 @@ def format_sdf(top: Top, start: State, body: Body) -> str:
           <geometry><cylinder><radius>{0.4 * size!r}</radius>\
 <length>{0.1 * size!r}</length></cylinder></geometry>
         </visual>
-      </link>
-      <joint name="pivot" type="ball">
-        <parent>world</parent>
-        <child>top</child>
-      </joint>
-    </model>
-  </world>
-</sdf>
-"""
+      </link>"""
 
 
 def format_mjcf(top: Top, start: State, body: Body) -> str:
     """Return the top as MJCF with a ball joint; its start is the keyframe "start"."""
-    size = _size(body)
+    size = measure_size(body)
     end = math.copysign(size, body.arm)
     disc = f"{0.4 * size!r} {0.05 * size!r}"
     return f"""<!-- {describe_body(top, body)} -->
@@ -103,8 +109,8 @@ diaginertia="{body.Ix!r} {body.Ix!r} {body.Iz!r}"/>
     </body>
   </worldbody>
   <keyframe>
-    <key name="start" qpos="{_join(start.orientation.tolist())}" \
-qvel="{_join(start.angular_velocity.tolist())}"/>
+    <key name="start" qpos="{join(start.orientation.tolist())}" \
+qvel="{join(start.angular_velocity.tolist())}"/>
   </keyframe>
 </mujoco>
 """
@@ -117,10 +123,11 @@ FORMATS: dict[str, Callable[[Top, State, Body], str]] = {
 }
 
 
-def _size(body: Body) -> float:
+def measure_size(body: Body) -> float:
     """Return the length of the drawn axis in m: beyond the centre of mass, and near the body."""
     return max(abs(body.arm) / 0.6, 2 * math.sqrt(body.Ix / body.mass))
 
 
-def _join(numbers: Sequence[float]) -> str:
+def join(numbers: Sequence[float]) -> str:
+    """Return numbers in full, with spaces between them."""
     return " ".join(map(repr, numbers))

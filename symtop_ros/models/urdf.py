@@ -57,7 +57,7 @@ def robot_description(
     <parent link="{top_frame}_tilt"/><child link="{end}"/><axis xyz="0 0 1"/>
   </joint>{floating if tf_moves_it else ""}
   <link name="{top_frame}">
-    {_inertial(top, body)}
+    {describe_inertial(top, body)}
     {_cylinder("steel", 0.04 * LENGTH, LENGTH, LENGTH / 2)}
     {_cylinder("brass", radius, 0.12 * LENGTH, distance)}
     {_box("mark", radius, 0.122 * LENGTH, distance)}
@@ -72,7 +72,7 @@ def robot_description(
 """
 
 
-def _inertial(top: Top, body: Body | None) -> str:
+def describe_inertial(top: Top, body: Body | None) -> str:
     """Return the inertia of the body, and the sentence that describes it."""
     try:
         body = body or Body.of(top)

@@ -3,18 +3,19 @@
     python score.py                          # lists the problems
     python score.py cusps trajectory.csv     # scores a trajectory
 
-A trajectory is a CSV file with the columns t, w, x, y, z, and wx, wy, wz if it has angular
-velocities, in any order; further columns and rows at other times are ignored.
+A trajectory is a table with the columns t, w, x, y, z, and wx, wy, wz if it has angular velocities
+in the body frame, or omega_x, omega_y, omega_z in the world frame, in any order. Commas,
+semicolons, tabs or spaces separate columns. Further columns and rows at other times are ignored.
 """
 
 from __future__ import annotations
 
 import argparse
-import csv
 import json
-import math
 import sys
-from collections.abc import Sequence
+from array import array
+from bisect import bisect
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
@@ -25,10 +26,19 @@ from numpy.typing import ArrayLike, NDArray
 
 FILE = Path(__file__).with_name("problems.json")
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+WORLD_RATES = ("omega_x", "omega_y", "omega_z")
+BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
+SEPARATORS = (",", ";", "\t", None)  # None: any white space
 LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is another error than that of a motion
 # A row belongs to a time if it is this close to it, relatively: a clock that adds up its steps.
 SAME_TIME = 1e-9
 LARGEST_FILE = 2**30  # bytes
+LARGEST_NUMBER = 1e100  # beyond it squares overflow
+SHOWN = 60  # characters of a header or row in a message
+SMALL, MUCH = (
+    0.05,
+    10.0,
+)  # rad, or part of the largest rate; a mistake makes an error so much larger
 Real = NDArray[np.float64]
 
 
@@ -95,15 +105,22 @@ class Problem:
         if abs(worst - 1) > LARGEST_NORM_ERROR:
             msg = f"orientations must be unit quaternions, got a norm of {worst:.6g}"
             raise ValueError(msg)
-        angles = measure_angles(
-            q / norms[:, np.newaxis], *split_decimals(self.facts["orientations"])
-        )
-        rates = None
-        if angular_velocities is not None:
-            omega = _check("angular_velocities", angular_velocities, 3)
-            high, low = split_decimals(self.facts["angular_velocities"])
-            rates = np.linalg.norm((omega - high) - low, axis=1)
-        return Score(self, angles, rates)
+        q = q / norms[:, np.newaxis]
+        exact = split_decimals(self.facts["orientations"])
+        angles = measure_angles(q, *exact)
+        others = {text: measure_angles(mend(q), *exact) for text, mend in ATTITUDES.items()}
+        mistakes = _name_mistake(angles, others, 1.0)
+        if angular_velocities is None:
+            return Score(self, angles, None, mistakes)
+        omega = _check("angular_velocities", angular_velocities, 3)
+        high, low = split_decimals(self.facts["angular_velocities"])
+        rates = np.linalg.norm((omega - high) - low, axis=1)
+        others = {
+            text: np.linalg.norm(mend(exact[0], omega) - high, axis=1)
+            for text, mend in VELOCITIES.items()
+        }
+        mistakes += _name_mistake(rates, others, float(np.linalg.norm(high, axis=1).max()))
+        return Score(self, angles, rates, mistakes)
 
 
 @dataclass(frozen=True)
@@ -117,15 +134,18 @@ class Score:
         Angle in rad of the rotation that would correct the attitude.
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
+    mistakes : tuple of str
+        Mistakes of convention without which an error would be at most a tenth.
     """
 
     problem: Problem
     angles: Real
     rates: Real | None
+    mistakes: tuple[str, ...] = ()
 
     @property
     def in_limits(self) -> Real:
-        """Errors of the attitude in units of what half an ulp of the inputs does to it, (20,)."""
+        """Errors of the attitude in units of what 2^-53 of each input does to it, (20,)."""
         return self._divide("orientation_limits")
 
     @property
@@ -137,7 +157,7 @@ class Score:
         return np.asarray(self.angles / np.array(self.problem.facts[limits]), dtype=np.float64)
 
     def format(self) -> str:
-        """Return the score in a line.
+        """Return the score in a line, and likely mistakes in lines of their own.
 
         Examples
         --------
@@ -152,7 +172,7 @@ class Score:
         )
         if self.rates is not None:
             text += f"; angular velocity {self.rates.max():.1e} rad/s at most"
-        return text
+        return "\n".join([text, *(f"likely mistake: {each}" for each in self.mistakes)])
 
 
 def read_problems(path: Path = FILE) -> dict[str, Problem]:
@@ -164,7 +184,7 @@ def read_problems(path: Path = FILE) -> dict[str, Problem]:
     Examples
     --------
     >>> len(read_problems())
-    60
+    70
     """
     if path.exists():
         found = json.loads(path.read_text(encoding="utf-8"))["problems"]
@@ -175,7 +195,7 @@ def read_problems(path: Path = FILE) -> dict[str, Problem]:
 
 
 def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
-    """Return the orientations (20, 4) and angular velocities (20, 3) of a CSV file.
+    """Return the orientations (20, 4) and body angular velocities (20, 3) of a table.
 
     Parameters
     ----------
@@ -193,49 +213,130 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
     if path.stat().st_size > LARGEST_FILE:
         msg = f"{path} must have at most {LARGEST_FILE} bytes, got {path.stat().st_size}"
         raise ValueError(msg)
-    with path.open(encoding="utf-8", newline="") as file:
-        try:
-            rows = csv.DictReader(file)
-            names = [*QUATERNION, *(RATES if set(RATES) <= set(rows.fieldnames or ()) else ())]
-            missing = [name for name in ("t", *names) if name not in (rows.fieldnames or ())]
-            if missing:
-                msg = f"{path} must have the columns t, w, x, y, z, got no {missing[0]}"
-                raise ValueError(msg)
-            found = _pick(rows, problem.times, names)
-        except (csv.Error, UnicodeDecodeError) as error:
-            msg = f"{path} must be a CSV file, got {error}"
-            raise ValueError(msg) from None
-    return found[:, :4], found[:, 4:] if len(names) > 4 else None
+    # Every byte is a character of Latin-1; names and numbers are ASCII in any encoding that counts.
+    with path.open(encoding="latin-1", newline="") as file:
+        head = file.readline().removeprefix(BOM).strip()
+        split = _choose_separator(head)
+        header = [name.strip().strip('"') for name in split(head.removeprefix("#"))]
+        names = [*QUATERNION]
+        names += next((each for each in (RATES, WORLD_RATES) if set(each) <= set(header)), ())
+        if not {"t", *QUATERNION} <= set(header):
+            msg = f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
+            raise ValueError(msg)
+        places = [header.index(name) for name in ("t", *names)]
+        found = _pick(file, split, places, problem.times)
+    q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
+    if rates is not None and names[-1] in WORLD_RATES:
+        with np.errstate(all="ignore"):  # quaternions that are none are refused later
+            unit = q / np.linalg.norm(q, axis=1, keepdims=True)
+            rates = turn_to_body(unit, rates)
+    return q, rates
 
 
-def _pick(rows: csv.DictReader[str], times: Real, names: Sequence[str]) -> Real:
-    """Return the numbers of the rows at the times."""
-    found = np.full((len(times), len(names)), np.nan)
+def _choose_separator(head: str) -> Callable[[str], list[str]]:
+    """Return the function that splits a row as the header is separated."""
+    separator = next((each for each in SEPARATORS if each is None or each in head), None)
+    return lambda row: row.split(separator)
+
+
+def _pick(
+    rows: Iterable[str], split: Callable[[str], list[str]], places: Sequence[int], times: Real
+) -> Real:
+    """Return the numbers of the rows at the times; the place of t comes first."""
+    found = np.full((len(times), len(places) - 1), np.nan)
+    marks, tried = times.tolist(), array("d")
     for number, row in enumerate(rows, start=2):
+        if not row.strip():
+            continue
         try:
-            t = float(row["t"])
-            place = int(np.abs(times - t).argmin()) if math.isfinite(t) else 0
-            if abs(times[place] - t) <= SAME_TIME * times[place]:
-                found[place] = [float(row[name]) for name in names]
-        except (TypeError, ValueError):
-            msg = f"line {number} must consist of numbers, got {list(row.values())[:8]}"
+            cells = split(row)
+            tried.append(t := _read(cells[places[0]]))
+            after = bisect(marks, t)
+            for place in range(max(after - 1, 0), min(after + 1, len(marks))):
+                if abs(marks[place] - t) <= SAME_TIME * marks[place]:
+                    found[place] = [_read(cells[each]) for each in places[1:]]
+        except (IndexError, ValueError):
+            msg = f"line {number} must consist of numbers, got {_show(row)}"
             raise ValueError(msg) from None
-    absent = times[np.isnan(found).any(axis=1)]
-    if absent.size:
-        msg = f"trajectory must have a state at each time, got none at {absent.tolist()[0]!r} s"
-        raise ValueError(msg)
+    _find_absent(times, np.array(tried))
     return found
 
 
+def _find_absent(times: Real, tried: Real) -> None:
+    """Raise ValueError if no row is at one of the times."""
+    tried = tried[np.isfinite(tried)]
+    for t in times.tolist():
+        near = tried[np.abs(tried - t).argmin()] if tried.size else None
+        if near is None or not abs(t - near) <= SAME_TIME * t:
+            nearest = "there is no row" if near is None else f"the nearest is {near:.12g} s"
+            msg = f"trajectory must have a state at each time, got none at {t:.12g} s; {nearest}"
+            raise ValueError(msg)
+
+
+def _read(text: str) -> float:
+    """Return a number; Python's own grammar has underscores, too."""
+    if "_" in text:
+        raise ValueError(text)
+    return float(text.strip().strip('"'))
+
+
+def _show(text: str) -> str:
+    """Return the beginning of a line, with other characters than ASCII replaced."""
+    line = text.strip().replace("\t", " ")[:SHOWN]
+    return "".join(each if " " <= each <= "~" else "?" for each in line) or "nothing"
+
+
 def _check(name: str, values: ArrayLike, width: int) -> Real:
-    array = np.asarray(values, dtype=float)
-    if array.ndim != 2 or array.shape != (20, width):
-        msg = f"{name} must be of shape (20, {width}), got {array.shape}"
+    numbers = np.asarray(values, dtype=float)
+    if numbers.ndim != 2 or numbers.shape != (20, width):
+        msg = f"{name} must be of shape (20, {width}), got {numbers.shape}"
         raise ValueError(msg)
-    if not np.isfinite(array).all():
-        msg = f"{name} must be finite numbers, got {array[~np.isfinite(array)][0]}"
+    wrong = numbers[~(np.abs(numbers) <= LARGEST_NUMBER)]
+    if wrong.size:
+        msg = f"{name} must be finite numbers up to {LARGEST_NUMBER:g}, got {wrong[0]:g}"
         raise ValueError(msg)
-    return array
+    return numbers
+
+
+def _conjugate(q: Real) -> Real:
+    return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
+
+
+def turn_to_body(orientations: Real, vectors: Real) -> Real:
+    """Return vectors of the world (n, 3) in the frames of the body, (n, 3).
+
+    Examples
+    --------
+    >>> turn_to_body(np.array([[0.5, 0.5, 0.5, 0.5]]), np.array([[1.0, 0.0, 0.0]])).tolist()
+    [[0.0, 0.0, 1.0]]
+    """
+    w, xyz = orientations[:, :1], -orientations[:, 1:]
+    twice = 2 * np.cross(xyz, vectors)
+    return np.asarray(vectors + w * twice + np.cross(xyz, twice))
+
+
+ATTITUDES: dict[str, Callable[[Real], Real]] = {
+    "the quaternions have the order x, y, z, w": lambda q: q[:, [3, 0, 1, 2]],
+    "the quaternions are conjugate: world to body": _conjugate,
+    "the quaternions are conjugate, in the order x, y, z, w": lambda q: _conjugate(
+        q[:, [3, 0, 1, 2]]
+    ),
+}
+VELOCITIES: dict[str, Callable[[Real, Real], Real]] = {
+    "the angular velocities are in deg/s": lambda q, omega: np.radians(omega),
+    "the angular velocities are in the world frame": turn_to_body,
+    "the angular velocities are in deg/s, in the world frame": lambda q, omega: turn_to_body(
+        q, np.radians(omega)
+    ),
+}
+
+
+def _name_mistake(errors: Real, others: dict[str, Real], size: float) -> tuple[str, ...]:
+    """Return the mistake without which a large error would be small, or nothing."""
+    best = min(others, key=lambda text: float(others[text].max()))
+    largest = float(errors.max())
+    named = largest > SMALL * size and others[best].max() < largest / MUCH
+    return (best,) if named else ()
 
 
 def split_decimals(rows: Sequence[Sequence[str]]) -> tuple[Real, Real]:
@@ -322,7 +423,7 @@ def list_problems(problems: dict[str, Problem]) -> str:
 
     Examples
     --------
-    >>> list_problems(read_problems()).splitlines()[11].split()[:4]
+    >>> list_problems(read_problems()).splitlines()[18].split()[:4]
     ['2', 'cusps', '10', 's']
     """
     lines = ["level  name              duration  what"]

@@ -5,6 +5,7 @@ import os
 import sqlite3
 import subprocess
 import sys
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -112,13 +113,21 @@ def test_a_log_without_a_top_is_refused(tmp_path, capsys, log):
 
 def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 61
+    assert len(capsys.readouterr().out.splitlines()) == 71
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == {
         *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
-        *("score.py", "problems.csv", "states.csv", "forces.csv", "README.md", "LICENSE"),
+        *(f"score.{suffix}" for suffix in ("py", "mjs", "cpp")),
+        *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),
+        *("README.md", "LICENSE", "SHA256SUMS"),
     }
-    for name, count in (("problems", 1), ("states", 20), ("forces", 21)):
+    sums = [line.split("  ") for line in (tmp_path / "SHA256SUMS").read_text().splitlines()]
+    assert {name for _, name in sums} == {path.name for path in tmp_path.iterdir()} - {"SHA256SUMS"}
+    for digest, name in sums:
+        assert sha256((tmp_path / name).read_bytes()).hexdigest() == digest
+    readme = (tmp_path / "README.md").read_text()
+    assert "[symtop_ros]" not in readme.replace("[symtop_ros](", "")
+    for name, count in (("problems", 1), ("states", 20), ("forces", 21), ("world", 21)):
         exact = (tmp_path / f"{name}.csv").read_text().splitlines()
         assert len(exact) == 1 + count
         assert all(row.startswith("cusps,") for row in exact[1:])
@@ -146,7 +155,7 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", str(path), "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
     assert main(["--testset", "none", str(path)]) == 1
-    assert "top_judge: problem must be one of plane_pendulum, " in capsys.readouterr().err
+    assert "top_judge: problem must be one of gentle_cusps, " in capsys.readouterr().err
 
 
 def write_csv(path, scene="cusps"):

@@ -43,8 +43,31 @@ def test_errors_orders_and_a_ranking_of_each_level_are_printed(folder, capsys):
     assert "order of rk4 in cusps: 4.00" in text
     assert "order of euler" not in text  # one step shows none
     level = text.index("level 2")
-    places = [text.index(f"{name} (1 of 1", level) for name in ("rk4-1e-3", "euler-0.01")]
+    places = [
+        text.index(each, level)
+        for each in (
+            "rk4-1e-3: solved 1 of 10, tried 1, ",
+            "rk4-0.1: solved 1 of 10, ",
+            "euler-0.01: solved 0 of 10, tried 1, ",
+        )
+    ]
     assert places == sorted(places)
+
+
+def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tmp_path, capsys):
+    # solved: 2 of 2 tried, 1 of 3 tried with the rest off by 2 rad, 1 of 1 tried
+    errors = {
+        "careful": {"cusps": 1e-3, "rising": 1e-3},
+        "bold": {"cusps": 1e-10, "rising": 2.0, "looping": 2.0},
+        "shy": {"cusps": 1e-9},
+    }
+    for name, of in errors.items():
+        for problem, error in of.items():
+            write_entry(tmp_path, problem, name, error)
+    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["ranking"]["2"]
+    found = [(row["entry"], row["solved"], row["tried"], row["of"]) for row in rows]
+    assert found == [("careful", 2, 2, 10), ("bold", 1, 3, 10), ("shy", 1, 1, 10)]
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,12 @@
-"""Estimates from CSV files."""
+"""Estimates from tables of text."""
 
 import numpy as np
 import pytest
 from judge.cases import make_estimates, truth_and_stamps
 
-from symtop_ros.judge.tables import read_csv
+from symtop_ros.imu.main import main as imu_main
+from symtop_ros.judge.main import main
+from symtop_ros.judge.tables import read_table
 from symtop_ros.simulation.validation import RefusedError
 
 
@@ -22,7 +24,7 @@ def test_a_csv_file_with_stamps_or_seconds_is_read(tmp_path, estimates):
         path = tmp_path / f"{name}.csv"
         rows = [",".join([t, *map(repr, n)]) for t, n in zip(column, numbers, strict=True)]
         path.write_text("\n".join([f"{name},w,x,y,z,wx,wy,wz", *rows]) + "\n")
-        found = read_csv(path)
+        found = read_table(path)
         assert found.stamps.tolist() == stamps
         assert (found.orientations == estimates.orientations).all()
         assert (found.angular_velocities == estimates.angular_velocities).all()
@@ -31,10 +33,13 @@ def test_a_csv_file_with_stamps_or_seconds_is_read(tmp_path, estimates):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z; got no t"),
-        ("t,w,x,y\n", "got no z"),
+        (
+            "",
+            "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing",
+        ),
+        ("t,w,x,y\n", "got the header t,w,x,y"),
         ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
-        ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a CSV file|must consist of numbers"),
+        ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),
         ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
     ],
 )
@@ -42,13 +47,74 @@ def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
     path = tmp_path / "bad.csv"
     path.write_text(text)
     with pytest.raises(RefusedError, match=reason):
-        read_csv(path)
+        read_table(path)
+
+
+def write_rows(estimates, separator, order=(0, 1, 2, 3), middle=(), header=(), seconds=True):
+    """A table of estimates: times, further numbers, and the quaternions in an order."""
+    rows = [separator.join(header)] if header else []
+    for stamp, q in zip(estimates.stamps.tolist(), estimates.orientations.tolist(), strict=True):
+        time = f"{stamp // 10**9}.{stamp % 10**9:09d}" if seconds else str(stamp)
+        rows.append(separator.join([time, *middle, *(repr(q[k]) for k in order)]))
+    return "\n".join(rows) + "\n"
+
+
+NAMES = ("t", "w", "x", "y", "z")
+EUROC = ("#timestamp", *("p_RS_R_x [m]", "p_RS_R_y [m]", "p_RS_R_z [m]"), *("q_RS_w []",) * 4)
+FORMS = {
+    "semicolons.csv": {"separator": ";", "header": NAMES},
+    "tabs.csv": {"separator": "\t", "header": NAMES},
+    "spaces.txt": {"separator": "  ", "header": NAMES},
+    "hash.txt": {"separator": " ", "header": ("#", *NAMES)},
+    "tum.tum": {"separator": " ", "order": (1, 2, 3, 0), "middle": "000"},
+    "tum.txt": {
+        "separator": " ",
+        "order": (1, 2, 3, 0),
+        "middle": "000",
+        "header": ("#", "timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"),
+    },
+    "euroc.csv": {"separator": ",", "middle": "000", "header": EUROC, "seconds": False},
+    "euroc_bare.csv": {"separator": ",", "middle": "000", "seconds": False},
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_tables_of_other_programs_are_read(tmp_path, estimates, name):
+    path = tmp_path / name
+    path.write_text(write_rows(estimates, **FORMS[name]))
+    found = read_table(path)
+    assert found.stamps.tolist() == estimates.stamps.tolist()
+    assert (found.orientations == estimates.orientations).all()
+    assert found.angular_velocities is None
+    assert found.notes == ()
+
+
+def test_poses_without_times_are_refused(tmp_path):
+    path = tmp_path / "kitti.txt"
+    path.write_text(" ".join("1" * 12) + "\n")
+    with pytest.raises(RefusedError, match="must have times, got poses of KITTI"):
+        read_table(path)
+
+
+def test_what_top_imu_writes_is_judged(tmp_path, capsys):
+    folder = tmp_path / "record"
+    command = ["--scene", "cusps", "--rate", "500", "--seconds", "2", "-o", str(folder)]
+    assert imu_main(command) == 0
+    for name in ("poses.tum", "state_groundtruth_estimate0/data.csv"):
+        found = [str(folder / "events.json"), "--estimates", str(folder / name)]
+        # the doubles of the states, and of their quaternions in the file
+        assert main([*found, "--attitude-of", "sensor", "--max-error", "2e-15"]) == 0
+    capsys.readouterr()
+    # what has no attitude is refused, with its header
+    imu = str(folder / "imu0/data.csv")
+    assert main([str(folder / "events.json"), "--estimates", imu]) == 1
+    assert "got the header #timestamp [ns],w_RS_S_x" in capsys.readouterr().err
 
 
 def test_what_is_no_attitude_is_left_out(tmp_path):
     path = tmp_path / "odd.csv"
     path.write_text("t,w,x,y,z\n0,0,0,0,0\n1,nan,0,0,0\n-1,1,0,0,0\n1e30,1,0,0,0\n2,3,0,0,0\n")
-    found = read_csv(path)
+    found = read_table(path)
     # a time before the run has an attitude as well
     assert found.stamps.tolist() == [-1_000_000_000, 2_000_000_000]
     assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]] * 2
@@ -58,7 +124,7 @@ def test_what_is_no_attitude_is_left_out(tmp_path):
 def test_a_byte_order_mark_and_spaces_are_no_obstacle(tmp_path):
     path = tmp_path / "spaces.csv"
     path.write_text("\ufefft, w, x, y, z\n0, 1, 0, 0, 0\n", encoding="utf-8")
-    assert read_csv(path).orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
+    assert read_table(path).orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
 
 
 @pytest.mark.parametrize(
@@ -72,11 +138,11 @@ def test_a_byte_order_mark_and_spaces_are_no_obstacle(tmp_path):
 def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
     path = tmp_path / "odd.csv"
     path.write_text(f"t,w,x,y,z\n{rows}")
-    (found,) = read_csv(path).notes
+    (found,) = read_table(path).notes
     assert note in found
 
 
 def test_exact_epoch_seconds_are_not_odd(tmp_path):
     path = tmp_path / "exact.csv"
     path.write_text("t,w,x,y,z\n1700000000.123456789,1,0,0,0\n")
-    assert read_csv(path).notes == ()
+    assert read_table(path).notes == ()

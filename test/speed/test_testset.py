@@ -68,5 +68,5 @@ def test_a_table_and_the_entries_are_written(tmp_path, monkeypatch, capsys):
     entries = json.loads((tmp_path / "new" / "testset.json").read_text())["entries"]
     assert [entry["problem"] for entry in entries] == [motion.name for motion in PROBLEMS[:2]]
     assert max(entry["angle"] for entry in entries) <= 10 * 2.0**-52  # as promised
-    assert "| 2 of 60 |" in (tmp_path / "new" / "testset.md").read_text()
+    assert "| 2 of 70 |" in (tmp_path / "new" / "testset.md").read_text()
     assert capsys.readouterr().out.endswith("testset.md and testset.json\n")

@@ -1,4 +1,4 @@
-"""Accelerations, force of the pivot and energy of exact states, with the digits of these.
+"""Accelerations, forces, energy, and the world's view of exact states, with the digits of these.
 
 Newton's and Euler's equations in mpmath, written apart from those of `symtop_ros.physics.body`.
 """
@@ -19,6 +19,28 @@ class Forces(NamedTuple):
     acceleration: Vector  # of the centre of mass, m/s^2
     pivot_force: Vector  # on the top, N
     energy: mpf  # J; Mgl cos(theta) is the potential energy
+
+
+class WorldState(NamedTuple):
+    """A state as engines in maximal coordinates have it, in the world frame."""
+
+    position: Vector  # of the centre of mass, m
+    velocity: Vector  # of the centre of mass, m/s
+    angular_velocity: Vector  # rad/s
+
+
+def find_world_state(setting: Setting, q: Attitude, omega: Vector) -> WorldState:
+    """Return the centre of mass, its velocity, and the angular velocity in the world frame."""
+    arm = mpf(setting.body.arm)
+    with mp.workdps(DIGITS):
+        R = rotation(q)
+        wx, wy, _ = omega
+        velocity = (arm * wy, -arm * wx, mpf(0))  # omega x (0, 0, arm), in the body frame
+        return WorldState(
+            tuple(arm * row[2] for row in R),
+            tuple(mp.fdot(row, velocity) for row in R),
+            tuple(mp.fdot(row, omega) for row in R),
+        )
 
 
 def find_forces(setting: Setting, q: Attitude, omega: Vector) -> Forces:

@@ -1,4 +1,4 @@
-"""The sixty problems of the test set: tops, starts and times, from easy to hard.
+"""The seventy problems of the test set: tops, starts and times, from easy to hard.
 
 Starts have six digits, so that they can be copied by hand, or a few more where a distance of 1e-9
 counts. Regular precession, merging roots and the critical spin need all digits of a double.
@@ -16,6 +16,10 @@ UNIT = Top(1.0, 0.5, 1.0)
 DISC = Top(0.0002, 0.00035, 0.05)
 # The body of Brüls, Cardona and Arnold 2012; its axis is y there.
 CARDONA = Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81)
+# Bodies of the gentle level: all numbers are exact in doubles, and in single precision but for g.
+STICK = Body(mass=2.0, arm=0.25, Ix=0.125, Iz=0.125, gravity=9.81)
+DISH = Body(mass=2.0, arm=0.125, Ix=0.09375, Iz=0.1875, gravity=9.81)
+KNOWN = {each.top: each for each in (CARDONA, STICK, DISH)}
 SMALL = Top(2.0e-12, 1.5e-12, 3.0e-9)
 LARGE = Top(3.0e6, 1.0e6, 4.0e7)
 UP, DOWN = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
@@ -28,8 +32,9 @@ COUNT = 20  # times of each problem
 class Setting:
     """A problem without its solution.
 
-    `level` is 1 (slow), 2 (an ordinary top), 3 (fast, or of an unusual shape), 4 (at the vertical)
-    or 5 (close to a separatrix, critical, or long); `has_period` is False if theta does not swing.
+    `level` is 0 (gentle: two seconds at 10 rad/s), 1 (slow), 2 (an ordinary top), 3 (fast, or of
+    an unusual shape), 4 (at the vertical) or 5 (close to a separatrix, critical, or long);
+    `has_period` is False if theta does not swing.
     """
 
     level: int
@@ -42,8 +47,8 @@ class Setting:
 
     @property
     def body(self) -> Body:
-        """The body of the literature, or the one that the package chooses."""
-        return CARDONA if self.top == CARDONA.top else Body.of(self.top)
+        """The body that has a name here, or the one that the package chooses."""
+        return KNOWN.get(self.top) or Body.of(self.top)
 
     @property
     def times(self) -> list[float]:
@@ -78,6 +83,24 @@ def pendulum(theta_dot):
 ROOT = math.sqrt(2.0)  # theta' of UNIT at theta = pi/2 from which the axis comes to rest on top
 
 SETTINGS = [
+    Setting(0, "gentle_cusps", "a dish, let go", DISH.top, euler(0.5, psi_dot=10.0), 2),
+    Setting(
+        0, "gentle_looping", "pushed backwards", DISH.top, euler(0.8, phi_dot=-2.0, psi_dot=10.0), 2
+    ),
+    Setting(0, "gentle_fall", "a stick too slow to stand", STICK.top, euler(0.2, psi_dot=10.0), 2),
+    Setting(0, "gentle_pendulum", "no spin, let go", STICK.top, euler(2.0), 2),
+    Setting(
+        0,
+        "gentle_hanging",
+        "below the pivot",
+        STICK.top,
+        euler(2.6, phi_dot=3.0, psi_dot=10.0),
+        2,
+    ),
+    Setting(0, "gentle_pole", "passes upright", DISH.top, State(UP, (2.0, 0.0, 10.0)), 2),
+    Setting(
+        0, "gentle_free", "no weight", Top(0.125, 0.1875, 0.0), State(HALF, (2.0, 0.0, 10.0)), 2
+    ),
     Setting(1, "plane_pendulum", "no spin, let go", UNIT, euler(1.0), 20),
     Setting(1, "pendulum_hanging", "no spin, below the pivot", UNIT, euler(2.5, phi=0.3), 20),
     Setting(1, "spherical_pendulum", "no spin", UNIT, euler(2.0, phi_dot=0.8), 20),
@@ -126,6 +149,31 @@ SETTINGS = [
     Setting(3, "tumbling", "faster across than along", TOP, euler(1.0, theta_dot=300.0), 5),
     Setting(3, "small", "a mass of 0.15 mg", SMALL, euler(0.7, psi_dot=300.0), 10),
     Setting(3, "large", "a mass of 13 000 t", LARGE, euler(0.7, phi_dot=0.2, psi_dot=30.0), 10),
+    # Integrators that damp or drive free bodies change the angle between axis and momentum here.
+    Setting(
+        3,
+        "free_rod_fast",
+        "no weight, Iz = Ix/10",
+        Top(1.0, 0.1, 0.0),
+        State(HALF, (6.0, 0.0, 20.0)),
+        10,
+    ),
+    Setting(
+        3,
+        "free_disc_fast",
+        "no weight, Iz = 1.9 Ix",
+        Top(1.0, 1.9, 0.0),
+        State(HALF, (3.0, 0.0, 20.0)),
+        10,
+    ),
+    Setting(
+        3,
+        "free_somersault",
+        "no weight, faster across than along",
+        Top(1.0, 0.05, 0.0),
+        State(HALF, (20.0, 0.0, 10.0)),
+        10,
+    ),
     Setting(4, "upper_pole", "passes upright", TOP, State(UP, (20.0, 0.0, 150.0)), 10),
     Setting(4, "lower_pole", "passes hanging", TOP, State(DOWN, (20.0, 0.0, 150.0)), 10),
     Setting(

@@ -1,7 +1,7 @@
-"""Write symtop_ros/testset: sixty motions to 30 digits, their models, tables and checksums.
+"""Write symtop_ros/testset: seventy motions to 30 digits, their models, tables and checksums.
 
 Each state is computed by the closed form in 150 digits, and again by a Taylor series in 80 digits
-that shares no formula with it; a difference in the 33rd digit ends the program. It takes ten
+that shares no formula with it; a difference in the 33rd digit ends the program. It takes twelve
 minutes with two processors:
 
     PYTHONPATH=.:test python test/testset/write_testset.py
@@ -15,6 +15,7 @@ import io
 import json
 import math
 import sys
+from collections.abc import Callable
 from multiprocessing import Pool
 from pathlib import Path
 from typing import Any
@@ -22,15 +23,17 @@ from typing import Any
 from mpmath import mp, mpf
 from physics.exact_motion import DIGITS, Inputs, distance, exact_motion, perturb
 from physics.taylor_motion import TaylorMotion
-from testset.forces import find_forces
+from testset.forces import find_forces, find_world_state
 from testset.links import find_link_effect
 from testset.problems import SETTINGS, Setting
 
 from symtop_ros.models.formats import FORMATS
-from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.models.free import FREE_FORMATS
+from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
+from symtop_ros.physics import State as Start
 
 FOLDER = Path(__file__).parents[2] / "symtop_ros" / "testset"
-VERSION = "2.1"
+VERSION = "3.0"
 SHOWN = 30  # digits
 AGREEMENT = mpf(10) ** -33  # of both methods, relative to the largest component
 EPS, EPS_32 = 2.0**-52, 2.0**-23  # of float64 and float32
@@ -47,6 +50,12 @@ FORCES = {
     "accelerations": ("ax", "ay", "az"),
     "pivot_forces": ("fx", "fy", "fz"),
     "energies": ("energy",),
+}
+# Columns of world.csv by their lists in problems.json; the attitude comes first.
+WORLD = {
+    "centre_positions": ("px", "py", "pz"),
+    "centre_velocities": ("vx", "vy", "vz"),
+    "world_angular_velocities": ("omega_x", "omega_y", "omega_z"),
 }
 State = tuple[Any, Any]  # orientation and body angular velocity in numbers of mpmath
 
@@ -113,6 +122,7 @@ def describe(setting: Setting) -> dict[str, Any]:
         "orientations": [digits(each[0]) for each in states],
         "angular_velocities": [digits(each[1]) for each in states],
         **describe_forces(setting, states),
+        **describe_world(setting, states),
         **dict(zip(LIMITS, shown, strict=True)),
         "mujoco_urdf_effect": find_link_effect(setting),
     }
@@ -121,9 +131,7 @@ def describe(setting: Setting) -> dict[str, Any]:
 def describe_forces(setting: Setting, states: list[State]) -> dict[str, Any]:
     """Accelerations, pivot forces and energies, at the start and at the times."""
     with mp.workdps(DIGITS):
-        q = [mpf(x) for x in setting.start.given_orientation.tolist()]
-        start = [x / mp.norm(q) for x in q], [mpf(x) for x in setting.start.angular_velocity]
-        found = [find_forces(setting, *each) for each in (start, *states)]
+        found = [find_forces(setting, *each) for each in (find_start(setting), *states)]
         energies = [each.energy for each in found]
         if max(energies) - min(energies) > AGREEMENT * max(map(abs, energies)):
             sys.exit(f"{setting.name}: the energy changes")
@@ -132,19 +140,36 @@ def describe_forces(setting: Setting, states: list[State]) -> dict[str, Any]:
     return dict(zip(FORCES, lists, strict=True))
 
 
+def describe_world(setting: Setting, states: list[State]) -> dict[str, Any]:
+    """Positions, velocities and rates in the world frame, at the start and at the times."""
+    found = [find_world_state(setting, *each) for each in (find_start(setting), *states)]
+    columns = zip(*found, strict=True)
+    return dict(zip(WORLD, ([digits(each) for each in column] for column in columns), strict=True))
+
+
+def find_start(setting: Setting) -> State:
+    """The start with a unit quaternion."""
+    with mp.workdps(DIGITS):
+        q = [mpf(x) for x in setting.start.given_orientation.tolist()]
+        return [x / mp.norm(q) for x in q], [mpf(x) for x in setting.start.angular_velocity]
+
+
 def digits(numbers: Any) -> list[str]:
     # The axial rate is a double; mpf() would round the others to the precision of the moment.
     return [mp.nstr(n if isinstance(n, mpf) else mpf(n), SHOWN) for n in numbers]
 
 
 def tabulate(problems: list[dict[str, Any]]) -> dict[str, str]:
-    """Texts of problems.csv, states.csv and forces.csv."""
+    """Texts of problems.csv, states.csv, forces.csv and world.csv."""
     start = [f"{name}0" for name in (*QUATERNION, *RATES)]
     problem = ("name", "level", *CONSTANTS, *start, "duration", "mujoco_urdf_effect", "what")
     starts: list[tuple[Any, ...]] = [problem]
     limits = [name.replace("limits", "limit") for name in LIMITS]
     states: list[tuple[Any, ...]] = [("name", "t", *QUATERNION, *RATES, *limits)]
     forces: list[tuple[Any, ...]] = [("name", "t", *(c for each in FORCES.values() for c in each))]
+    world: list[tuple[Any, ...]] = [
+        ("name", "t", *QUATERNION, *(c for each in WORLD.values() for c in each))
+    ]
     for each in problems:
         name, effect = each["name"], each["mujoco_urdf_effect"]
         values = [each[key] for key in CONSTANTS]
@@ -158,8 +183,24 @@ def tabulate(problems: list[dict[str, Any]]) -> dict[str, str]:
         times = [0.0, *each["times"]]
         for t, alpha, a, force, energy in zip(times, *columns, strict=True):
             forces.append((name, repr(t), *alpha, *a, *force, energy))
-    tables = {"problems.csv": starts, "states.csv": states, "forces.csv": forces}
+        attitudes = [normalise(each["orientation"]), *each["orientations"]]
+        columns = (each[key] for key in WORLD)
+        for t, q, p, v, omega in zip(times, attitudes, *columns, strict=True):
+            world.append((name, repr(t), *q, *p, *v, *omega))
+    tables = {
+        "problems.csv": starts,
+        "states.csv": states,
+        "forces.csv": forces,
+        "world.csv": world,
+    }
     return {name: write_csv(rows) for name, rows in tables.items()}
+
+
+def normalise(numbers: list[float]) -> list[str]:
+    """Digits of a unit quaternion."""
+    with mp.workdps(DIGITS):
+        q = [mpf(x) for x in numbers]
+        return digits([x / mp.norm(q) for x in q])
 
 
 def write_csv(rows: list[tuple[Any, ...]]) -> str:
@@ -168,10 +209,15 @@ def write_csv(rows: list[tuple[Any, ...]]) -> str:
     return text.getvalue()
 
 
+def list_formats(setting: Setting) -> dict[str, Callable[[Top, Start, Body], str]]:
+    """The models of a problem: without weight, also those that nothing holds."""
+    return FORMATS if setting.top.Mgl else {**FORMATS, **FREE_FORMATS}
+
+
 def write_models(setting: Setting) -> None:
     """Write the models of a problem."""
     (FOLDER / "models").mkdir(exist_ok=True)
-    for form, write in FORMATS.items():
+    for form, write in list_formats(setting).items():
         text = write(setting.top, setting.start, setting.body)
         (FOLDER / "models" / f"{setting.name}.{form}").write_text(text, encoding="utf-8")
 
@@ -190,13 +236,27 @@ def write_checksums() -> None:
     (FOLDER / "SHA256SUMS").write_text("".join(lines), encoding="utf-8")
 
 
+def read_effects() -> dict[str, float | None]:
+    """The published effects of links: those near rounding depend on the processor."""
+    path = FOLDER / "problems.json"
+    found = json.loads(path.read_text(encoding="utf-8"))["problems"] if path.exists() else []
+    return {each["name"]: each["mujoco_urdf_effect"] for each in found}
+
+
 def main() -> None:
-    problems = []
+    problems, effects = [], read_effects()
     with Pool() as pool:
         for setting, problem in zip(SETTINGS, pool.imap(describe, SETTINGS), strict=True):
+            name = setting.name
+            problem["mujoco_urdf_effect"] = effects.get(name, problem["mujoco_urdf_effect"])
             problems.append(problem)
             write_models(setting)
             print(setting.name, flush=True)
+    write_files(problems)
+
+
+def write_files(problems: list[dict[str, Any]]) -> None:
+    """Write problems.json, the tables and the checksums."""
     facts = {
         "name": "symtop_ros test set",
         "version": VERSION,

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.testset.score import FILE
+from symtop_ros.testset.score import FILE, read_problems
 from workshop.speed.document import format_table
 from workshop.speed.peers import CLOSED_FORM, find_peers
 from workshop.speed.peers.peer import Peer
@@ -31,7 +31,7 @@ PROGRAMS = (
     "EXUDYN RK67",
 )
 PROBE = 1.0  # s of the motion
-LEVELS = (1, 2, 3, 4, 5)
+LEVELS = (0, 1, 2, 3, 4, 5)
 NAME = "testset"  # of the files, and of the section in the documentation
 
 
@@ -106,11 +106,11 @@ def find_best_run(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Ent
 def format_scores(facts: dict[str, Any]) -> str:
     """Return the table of a measurement: for each level the median and the worst problem."""
     entries = [Entry(**each) for each in facts["entries"]]
-    rows = []
+    rows, count = [], len(read_problems())
     for peer in dict.fromkeys(entry.peer for entry in entries):
         own = [entry for entry in entries if entry.peer == peer]
         cells = [_summarize([e.angle for e in own if e.level == level]) for level in LEVELS]
-        rows.append([peer, *cells, f"{len(own)} of 60"])
+        rows.append([peer, *cells, f"{len(own)} of {count}"])
     head = ["median, worst (rad)", *(f"level {level}" for level in LEVELS), "in time"]
     return format_table(head, rows)
 

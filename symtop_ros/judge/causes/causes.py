@@ -6,86 +6,47 @@ ones leave much more; several explanations that are as simple and as good are al
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes.changes import CHANGES
-from symtop_ros.judge.causes.search import LEVELS, Table
-from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
-from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.explain import (
-    CLOCK,
-    DELAY,
-    DRIFT,
-    GRID_STEP,
-    MOST_DELAYS,
-    SAMPLES,
-    SPIN,
-    Fit,
+from symtop_ros.judge.causes.cause import (
+    PARAMETERS,
+    Cause,
+    Finding,
+    keep_rotations,
+    measure_turns,
+    set_parameter,
 )
+from symtop_ros.judge.causes.changes import CHANGES
+from symtop_ros.judge.causes.grids import MOST, Grids
+from symtop_ros.judge.causes.search import LEVELS, Table
+from symtop_ros.judge.compare import NONE, Offset, to_rotation
+from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.fit import SAMPLES, Fit
+from symtop_ros.judge.scale import MOST_STEPS, count_steps
 from symtop_ros.judge.truth import Truth
 from symtop_ros.quaternions import compose, invert
 
-MOST = 0.5  # s, of a delay
-MOST_CLOCK = 5e-3  # s per s
-TURNS = 8  # of world or body within the run, by a drift
-COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
-VALLEYS = 2  # of each table that are refined
+VALLEYS = 4  # of each table that are refined
 # An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
 # this left, nothing is explained there.
 HOPELESS = 0.05  # mean square of half angles
 SIMPLER = 4.0  # simpler causes count if they leave at most twice the error (squared)
+MOST_PERIODS = 500  # by which a delay is changed
 TIE = 1.5  # explanations that are as good, by their mean squares
 CLEAR = 10.0  # the error becomes so many times smaller: its causes are clear
+FAR = 0.05  # rad; more than this is noise, or the causes are others
 HALF = 2.0  # less is enough if what is left is noise
 WHITE = 0.5  # largest correlation of what is left, from one estimate to the next
+# If nothing but noise can be left, an explanation that leaves a little more leaves a cause out.
+# The correlation of 500 estimates of noise, of three components each, is within 0.026 of zero.
+PURE, PURER = 0.1, 1.2
 LOUD = 0.3  # rad; noise of an attitude is smaller
 SMALL = 1e-3  # rad; rotations below this are none in a comparison of explanations
 STILL = 0.05  # rad; estimates that stay this close to one attitude do not move
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
-PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN}
-
-
-@dataclass(frozen=True, eq=False)
-class Cause:
-    """One explanation, and what it leaves."""
-
-    change: str
-    level: str  # which rotations are free
-    parameters: tuple[str, ...]
-    offset: Offset
-    cost: float  # mean square of the distances of quaternions
-
-    @property
-    def weight(self) -> float:
-        """How much it takes to be true; smaller is simpler."""
-        return CHANGES[self.change][0] + LEVELS[self.level][1] + len(self.parameters)
-
-    @property
-    def residual(self) -> float:
-        """Root mean square of the angle that is left in rad."""
-        return float(np.sqrt(4 * self.cost))
-
-    @property
-    def kind(self) -> tuple[object, ...]:
-        """What it names, without numbers."""
-        return self.change, self.level, self.parameters
-
-
-@dataclass(frozen=True, eq=False)
-class Finding:
-    """What explains the errors of estimates."""
-
-    best: Cause
-    others: tuple[Cause, ...] = ()  # as simple and as good
-    hidden: tuple[str, ...] = ()
-    explained: bool = True  # False: most of the error is left
-    still: bool = False  # True: the estimates do not move, and the top does
-    period: float | None = None  # s; delays that differ by it are as good, with `repeated`
-    repeated: Offset = NONE
 
 
 def find_causes(estimates: Estimates, truth: Truth) -> Finding:
@@ -106,6 +67,7 @@ class Search:
 
     some: Estimates
     truth: Truth
+    fits: dict[str, Fit] = field(default_factory=dict)  # by the change
 
     def __post_init__(self) -> None:
         """Find what the motion hides."""
@@ -116,7 +78,10 @@ class Search:
             for name in PARAMETERS
             if name not in self.hidden and not (name == "clock" and "delay" in self.hidden)
         ]
-        self.span = float(self.fit.seconds[-1])
+        if count_steps(self.some.stamps) > MOST_STEPS:
+            self.names.remove("scale")
+        span = float(self.fit.seconds[-1])
+        self.grids = Grids(self.some, self.truth, self.fit.fastest, span)
 
     def find(self) -> Finding:
         """Return the simplest of all explanations."""
@@ -132,7 +97,8 @@ class Search:
             clear = start.cost <= self.fit.rounding or self.is_white(start)
             return Finding(start, (), tuple(self.hidden), explained=clear)
         ratio = np.sqrt(start.cost / max(best.cost, 1e-300))
-        if ratio < CLEAR and not (ratio >= HALF and self.is_white(best)):
+        is_clear = ratio >= CLEAR and best.residual <= FAR
+        if not is_clear and not (ratio >= HALF and self.is_white(best)):
             return Finding(start, (), tuple(self.hidden), explained=False)
         period, repeated = self.find_period(best)
         return Finding(best, tuple(others), tuple(self.hidden), True, False, period, repeated)
@@ -146,8 +112,8 @@ class Search:
         moved = spread(self.fit.exact(0.0)[0])
         return spread(self.some.orientations) < min(STILL, moved / CLEAR)
 
-    def is_white(self, cause: Cause) -> bool:
-        """Return True if what an explanation leaves looks like noise."""
+    def is_white(self, cause: Cause, limit: float = WHITE) -> bool:
+        """Return True if what an explanation leaves looks like noise, by its correlation."""
         fit = self._fit(cause.change, cause.level)
         q, model, known = fit.residuals(cause.offset)
         left = to_rotation(compose(q[known], invert(model[known]))).as_rotvec()
@@ -155,11 +121,13 @@ class Search:
         if square > LOUD**2 * len(left):
             return False
         lagged = float((left[1:] * left[:-1]).sum())
-        return abs(lagged) <= WHITE * square
+        return abs(lagged) <= limit * square
 
     def choose(self, found: Sequence[Cause]) -> tuple[Cause, list[Cause]]:
         """Return the simplest of the good explanations, and others that are as simple and good."""
-        limit = SIMPLER * min(each.cost for each in found) + self.fit.rounding
+        lowest = min(found, key=lambda each: each.cost)
+        factor = PURER if self.is_white(lowest, PURE) else SIMPLER
+        limit = factor * lowest.cost + self.fit.rounding
         good = [each for each in found if each.cost <= limit]
         least = min(each.weight for each in good)
         simple = [each for each in good if each.weight == least]
@@ -167,14 +135,16 @@ class Search:
         ties: dict[tuple[object, ...], Cause] = {}
         for each in simple:
             if each.kind != best.kind and each.cost <= TIE * best.cost + self.fit.rounding:
-                small = _turned(each.offset) <= ALIGNED * max(_turned(best.offset), SMALL)
+                small = measure_turns(each.offset) <= ALIGNED * max(
+                    measure_turns(best.offset), SMALL
+                )
                 if (small and each.change != best.change) or each.parameters != best.parameters:
                     ties.setdefault(each.kind, each)
         return best, list(ties.values())
 
     def _prefer(self, cause: Cause) -> float:
         """Return the sum of the rotations; then the smaller delay counts."""
-        return _turned(cause.offset) + abs(cause.offset.delay) * 1e-3
+        return measure_turns(cause.offset) + abs(cause.offset.delay) * 1e-3
 
     def list_causes(self) -> Iterator[Cause]:
         """Yield explanations with every change, and none, one or two parameters."""
@@ -184,10 +154,35 @@ class Search:
             single: list[Cause] = []
             for name in ("", *self.names):
                 single += self.search(change, name)
+            single += self.shift_periods(change, single)
             yield from single
             good = sorted(single, key=lambda each: each.cost)[:4]
             if good and good[0].cost > 10 * self.fit.rounding:
                 yield from self.extend(change, good)
+
+    def shift_periods(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
+        """Yield the best delay again, changed by periods of the nutation, with fewer rotations.
+
+        A fast nutation makes many valleys of nearly the same depth, and few of them are refined.
+        """
+        late = [each for each in causes if "delay" in each.parameters]
+        best = min(late, key=lambda each: each.cost, default=None)
+        period = self.truth.period
+        if best is None or period is None or best.level != "both":
+            return
+        delay = best.offset.delay
+        numbers = np.arange(
+            np.ceil((-MOST - delay) / period), np.floor((MOST - delay) / period) + 1
+        )
+        if not 1 < len(numbers) <= MOST_PERIODS:
+            return
+        table = self.grids.tabulate(change, "delay", best.offset, delay + period * numbers)
+        for level in CHANGES[change][1]:
+            place = int(table.costs(level).argmin())
+            start = table.start(place, level)
+            offset = replace(best.offset, world=start.world, body=start.body)
+            offset = replace(offset, delay=float(table.values[place]))
+            yield self.refine(change, level, best.parameters, offset)
 
     def extend(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the causes with one more parameter, small ones near zero."""
@@ -198,24 +193,36 @@ class Search:
             for name in self.names
             if name not in each.parameters
         ]
+        if not any(self.is_white(each) for each in causes):
+            pairs += self.search_pairs(change, causes)
         yield from pairs
         simpler = [*self.simplify(change, pairs)]
         yield from simpler
         # A delay of another period needs rotations, and without them it is found only now.
         yield from self.simplify(change, [*pairs, *simpler])
+        yield from self.shift_periods(change, pairs)
 
     def simplify(self, change: str, pairs: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the good ones of the smallest rotations again, with fewer of them free."""
         limit = SIMPLER * min((each.cost for each in pairs), default=0.0) + self.fit.rounding
         good = [each for each in pairs if each.cost <= limit]
-        for each in sorted(good, key=lambda pair: _turned(pair.offset))[:VALLEYS]:
+        for each in sorted(good, key=lambda pair: measure_turns(pair.offset))[:VALLEYS]:
             for level in CHANGES[change][1]:
-                offset = _keep(each.offset, level)
+                offset = keep_rotations(each.offset, level)
                 yield self.refine(change, level, each.parameters, offset)
 
-    def search(self, change: str, name: str) -> Iterator[Cause]:
-        """Yield explanations with a change and a parameter, or none."""
-        table = self._tabulate(change, name)
+    def search_pairs(self, change: str, causes: Sequence[Cause]) -> Iterator[Cause]:
+        """Yield explanations with a second parameter that may be far from zero."""
+        bases = {each.parameters: each for each in reversed(causes) if each.parameters}
+        for (first,), each in bases.items():
+            for name in self.names:
+                if name != first and not {name, first} <= {"delay", "clock"}:
+                    yield from self.search(change, name, each)
+
+    def search(self, change: str, name: str, base: Cause | None = None) -> Iterator[Cause]:
+        """Yield explanations with a change and a parameter, or none, next to those of a base."""
+        known = base.offset if base else NONE
+        table = self.grids.tabulate(change, name, known)
         for level in CHANGES[change][1]:
             if level != "none" and "rotations" in self.hidden and level == "body":
                 continue
@@ -227,8 +234,10 @@ class Search:
                     continue
                 start = table.start(place, level)
                 begin = int(self.some.stamps[0])
-                offset = _set(replace(start, begin=begin), name, float(table.values[place]))
-                yield self.refine(change, level, (name,) if name else (), offset)
+                place_of = replace(known, world=start.world, body=start.body, begin=begin)
+                offset = set_parameter(place_of, name, float(table.values[place]))
+                names = {*(base.parameters if base else ()), *((name,) if name else ())}
+                yield self.refine(change, level, tuple(sorted(names)), offset)
 
     def refine(self, change: str, level: str, names: tuple[str, ...], offset: Offset) -> Cause:
         """Return the least squares near an offset."""
@@ -259,79 +268,13 @@ class Search:
         return None, NONE
 
     def _fit(self, change: str, level: str) -> Fit:
-        fits = self.__dict__.setdefault("fits", {})
-        if change not in fits:
-            fits[change] = Fit(CHANGES[change][2](self.some), self.truth, most=MOST)
-        fit: Fit = fits[change]
+        if change not in self.fits:
+            self.fits[change] = Fit(CHANGES[change][2](self.some), self.truth, most=MOST)
+        fit = self.fits[change]
         fit.turns = LEVELS[level][0]
         return fit
-
-    def _tabulate(self, change: str, name: str) -> Table:
-        """Return the table of a parameter; without a name, of nothing."""
-        every = max(1, len(self.some) // COARSE) if name else 1
-        some = CHANGES[change][2](self.some).select(np.arange(len(self.some)) % every == 0)
-        values = self._grid(name) if name else np.zeros(1)
-        begin = int(self.some.stamps[0])
-        offsets = [_set(replace(NONE, begin=begin), name, float(v)) for v in values]
-        exact, known = self._exact(some, name, offsets)
-        if name == "spin":
-            exact = np.stack([compose(exact[0], each.turn_body(some.stamps)) for each in offsets])
-        q = some.orientations[np.newaxis]
-        if name == "drift":
-            q = np.stack([compose(invert(e.turn_world(some.stamps)), q[0]) for e in offsets])
-        shape = (len(values), len(some))
-        return Table(
-            values,
-            np.broadcast_to(q, (*shape, 4)),
-            np.broadcast_to(exact, (*shape, 4)),
-            np.asarray(np.broadcast_to(known, shape), dtype=np.float64),
-        )
-
-    def _exact(self, some: Estimates, name: str, offsets: Sequence[Offset]) -> tuple[Real, Real]:
-        """Return exact attitudes and what is known of them, for each offset or once for all."""
-        cache = self.__dict__.setdefault("exacts", {})
-        moved = offsets if name in ("delay", "clock") else offsets[:1]
-        key = name if name in ("delay", "clock") else "", len(some), some.of_sensor
-        if key not in cache:
-            stamps = np.concatenate([each.shift(some.stamps) for each in moved])
-            exact, _, known = self.truth.states_at(stamps, some.of_sensor)
-            shape = (len(moved), len(some))
-            cache[key] = exact.reshape(*shape, 4), known.reshape(shape).astype(np.float64)
-        found: tuple[Real, Real] = cache[key]
-        return found
-
-    def _grid(self, name: str) -> Real:
-        if name in ("delay", "clock"):
-            most = MOST if name == "delay" else MOST_CLOCK
-            turn = most * self.fit.fastest * (1.0 if name == "delay" else self.span)
-        else:
-            turn = 2 * np.pi * TURNS
-            most = turn / self.span
-        count = int(min(max(turn / GRID_STEP, 10), MOST_DELAYS))
-        return np.linspace(-most, most, 2 * count + 1)
 
     def _differs(self) -> bool:
         """Return True if the sensor's attitude is not that of the body."""
         other = self.truth.states_at(self.some.stamps, not self.some.of_sensor)[0]
         return bool(np.abs(other - self.fit.exact(0.0)[0]).max() > SMALL)
-
-
-def _set(offset: Offset, name: str, value: float) -> Offset:
-    """Return an offset with a parameter; without a name, the same."""
-    changed: dict[str, Any] = {name: value} if name else {}
-    return replace(offset, **changed)
-
-
-def _keep(offset: Offset, level: str) -> Offset:
-    """Return an offset with those of its rotations that a level has."""
-    turns = LEVELS[level][0]
-    world = offset.world if 2 in turns else IDENTITY
-    if level == "heading":
-        world = world * np.array([1.0, 0.0, 0.0, 1.0])
-        size = float(np.linalg.norm(world))
-        world = world / size if size > 0 else IDENTITY
-    return replace(offset, world=world, body=offset.body if 5 in turns else IDENTITY)
-
-
-def _turned(offset: Offset) -> float:
-    return float(sum(offset.angles))

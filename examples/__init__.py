@@ -1,0 +1,1 @@
+"""Programs that show how the library is used with others; they are not installed."""

@@ -1,0 +1,74 @@
+"""A cause of errors, what a search has found, and the parameters that a cause may have."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.judge.causes.changes import CHANGES
+from symtop_ros.judge.causes.search import LEVELS
+from symtop_ros.judge.compare import IDENTITY, NONE, Offset
+from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
+
+PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "scale": SCALE}
+
+
+@dataclass(frozen=True, eq=False)
+class Cause:
+    """One explanation, and what it leaves."""
+
+    change: str
+    level: str  # which rotations are free
+    parameters: tuple[str, ...]
+    offset: Offset
+    cost: float  # mean square of the distances of quaternions
+
+    @property
+    def weight(self) -> float:
+        """How much it takes to be true; smaller is simpler."""
+        return CHANGES[self.change][0] + LEVELS[self.level][1] + len(self.parameters)
+
+    @property
+    def residual(self) -> float:
+        """Root mean square of the angle that is left in rad."""
+        return float(np.sqrt(4 * self.cost))
+
+    @property
+    def kind(self) -> tuple[object, ...]:
+        """What it names, without numbers."""
+        return self.change, self.level, self.parameters
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """What explains the errors of estimates."""
+
+    best: Cause
+    others: tuple[Cause, ...] = ()  # as simple and as good
+    hidden: tuple[str, ...] = ()
+    explained: bool = True  # False: most of the error is left
+    still: bool = False  # True: the estimates do not move, and the top does
+    period: float | None = None  # s; delays that differ by it are as good, with `repeated`
+    repeated: Offset = NONE
+
+
+def set_parameter(offset: Offset, name: str, value: float) -> Offset:
+    """Return an offset with a parameter; without a name, the same."""
+    changed: dict[str, Any] = {name: value} if name else {}
+    return replace(offset, **changed)
+
+
+def keep_rotations(offset: Offset, level: str) -> Offset:
+    """Return an offset with those of its rotations that a level has."""
+    turns = LEVELS[level][0]
+    world = offset.world if 2 in turns else IDENTITY
+    if level == "heading":
+        world = world * np.array([1.0, 0.0, 0.0, 1.0])
+        size = float(np.linalg.norm(world))
+        world = world / size if size > 0 else IDENTITY
+    return replace(offset, world=world, body=offset.body if 5 in turns else IDENTITY)
+
+
+def measure_turns(offset: Offset) -> float:
+    """Return the sum of both rotations in rad."""
+    return float(sum(offset.angles))

@@ -1,0 +1,60 @@
+"""The map on Dask: each of its points is the motion alone, whatever the number of workers."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from symtop_ros.physics import Motion, State
+
+pytest.importorskip("distributed", reason="no distributed: pip install '.[test]' in the checkout")
+from examples.map_on_dask import SPINS, TILTS, TOP, compute_rows
+
+ROOT = Path(__file__).parents[2]
+SIZE = 200
+
+
+def run(*options):
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "examples/map_on_dask.py"), *map(str, options)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=True,
+        cwd=ROOT,
+    )
+    return done.stdout
+
+
+def test_a_block_has_the_tilts_of_its_rows():
+    whole = compute_rows(0, 6, 6, 10.0)
+    assert (compute_rows(2, 4, 6, 10.0) == whole[2:4]).all()
+    for row, theta in enumerate(np.linspace(*TILTS, 6)):
+        for column, spin in enumerate(np.linspace(*SPINS, 6)):
+            motion = Motion(TOP, State.from_euler(theta=theta, psi_dot=spin))
+            assert whole[row, column] == np.float32(motion.at(10.0).euler_angles.theta)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_cluster_of_workers_computes_the_map(workers, tmp_path):
+    path = tmp_path / "map.npy"
+    text = run("--motions", SIZE**2, "--workers", workers, "-o", path)
+    assert re.match(rf"{SIZE**2} motions in [\d.]+ s on {workers} workers", text)
+    tilts = np.load(path)
+    assert tilts.shape == (SIZE, SIZE)
+    assert (tilts[150:160] == compute_rows(150, 160, SIZE, 10.0)).all()
+
+
+@pytest.mark.long
+def test_the_address_of_a_scheduler_is_all_that_changes(tmp_path):
+    from distributed import LocalCluster
+
+    path = tmp_path / "map.npy"
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        text = run("--motions", SIZE**2, "--scheduler", cluster.scheduler_address, "-o", path)
+    assert " on 2 workers, " in text
+    assert (np.load(path)[:5] == compute_rows(0, 5, SIZE, 10.0)).all()

@@ -1,0 +1,252 @@
+"""The scorers in C++ and JavaScript print what the scorer in Python prints, for any file."""
+
+import json
+import shutil
+import subprocess
+from base64 import b64encode
+
+import numpy as np
+import pytest
+from browser import running_browser
+
+from symtop_ros.physics import State
+from symtop_ros.testset.score import FILE, main, read_problems, split_decimals
+
+FOLDER = FILE.parent
+NAMES = ("t", "w", "x", "y", "z", "wx", "wy", "wz")
+PROBLEMS = ("cusps", "gentle_pole", "plane_pendulum", "free_rod", "cusps_100000", "large")
+
+
+def read_exact(name):
+    """Times, quaternions and rates in doubles."""
+    facts = read_problems()[name].facts
+    parts = [np.array(facts[key], dtype=float) for key in ("orientations", "angular_velocities")]
+    return np.array(facts["times"]), *parts
+
+
+def make_table(name, error=0.0, seed=1):
+    """The columns of an exact trajectory with errors at random."""
+    t, q, omega = read_exact(name)
+    random = np.random.default_rng(seed)
+    q = q + error * random.normal(size=q.shape)
+    return np.column_stack((t, q, omega * (1 + error * random.normal(size=omega.shape))))
+
+
+def write(table, names=NAMES, separator=","):
+    rows = [separator.join(map(repr, row)) for row in table.tolist()]
+    return "\n".join([separator.join(names), *rows]) + "\n"
+
+
+def conjugate(q):
+    return q * [1.0, -1.0, -1.0, -1.0]
+
+
+def make_mistakes():
+    """Tables with a mistake of convention, by what is named."""
+    t, q, omega = read_exact("cusps")
+    world = State(q, omega).to_world(omega)
+    xyzw = [1, 2, 3, 0]
+    tables = {
+        "order x, y, z, w": (q[:, xyzw], omega),
+        "conjugate: world to body": (conjugate(q), omega),
+        "conjugate, in the order x, y, z, w": (conjugate(q)[:, xyzw], omega),
+        "in deg/s": (q, np.degrees(omega)),
+        "in the world frame": (q, world),
+        "in deg/s, in the world frame": (q, np.degrees(world)),
+    }
+    return {name: write(np.column_stack((t, *parts))) for name, parts in tables.items()}
+
+
+def make_files():
+    """Good and bad tables of the problem cusps, by what they are."""
+    good, (t, q, omega) = make_table("cusps", 1e-7), read_exact("cusps")
+    text = write(good)
+    lines = text.splitlines()
+    # errors above rounding, which depends on the order of sums
+    world = State(q, omega).to_world(omega * (1 + 1e-9))
+    far, odd = good.copy(), good.copy()
+    far[3, 1], odd[5, 6] = 1e300, -1e200
+    return {
+        "good": text,
+        "bom": "\ufeff" + text,
+        "semicolons": write(good, separator=";"),
+        "tabs": write(good, separator="\t"),
+        "spaces": write(good, separator="  "),
+        "hash": "# " + write(good, separator=" "),
+        "quotes": text.replace("t,w", '"t","w"'),
+        "blank lines and carriage returns": "\r\n\r\n".join(lines),
+        "no rates": write(good[:, :5], NAMES[:5]),
+        "world rates": write(
+            np.column_stack((t, q, world)), (*NAMES[:5], "omega_x", "omega_y", "omega_z")
+        ),
+        "other columns and rows": "\n".join(
+            ["a," + lines[0], *(f"x,{row}" for row in [*lines[1:], "0.1" + ",1" * 7])]
+        ),
+        "times that have added up": write(good * [1 + 5e-10, *[1.0] * 7]),
+        "norms of 1.005": write(good * [1, *[1.005] * 4, 1, 1, 1]),
+        "of one sign": write(good * [1, *[-1.0] * 4, 1, 1, 1]),
+        "still": write(np.column_stack((t, np.tile(q[0], (20, 1))))[:, :5], NAMES[:5]),
+        **make_mistakes(),
+        "norms of 1.1": write(good * [1, *[1.1] * 4, 1, 1, 1]),
+        "zeros": write(good * [1, *[0.0] * 4, 1, 1, 1]),
+        "overflow": write(far),
+        "overflow of a rate": write(odd),
+        "nan": text.replace(lines[4].split(",")[2], "nan"),
+        "infinite time": text + "inf" + ",1" * 7 + "\n",
+        "no header": "\n".join(lines[1:]),
+        "other names": text.replace("t,w", "time,qw"),
+        "empty": "",
+        "a header alone": lines[0],
+        "other times": write(good * [1 + 1e-6, *[1.0] * 7]),
+        "half of the times": "\n".join(lines[:11]),
+        "a word": text.replace(lines[4].split(",")[2], "one"),
+        "a hexadecimal number": text.replace(lines[4].split(",")[2], "0x1p-3"),
+        "underscores": text.replace(lines[4].split(",")[2], "1_0"),
+        "short row": text.replace(lines[4], "1.75,1,2"),
+        "not text": "\x00\x01\u00e9\u0416",
+    }
+
+
+FILES = make_files()
+
+
+@pytest.fixture(scope="session")
+def cpp(tmp_path_factory):
+    """Run the scorer in C++."""
+    compiler = shutil.which("g++")
+    if not compiler:
+        pytest.skip("no g++: apt install g++")
+    folder = tmp_path_factory.mktemp("cpp")
+    for name in ("score.cpp", "problems.csv", "states.csv"):
+        shutil.copy(FOLDER / name, folder)
+    command = [compiler, "-O1", "-std=c++17", "-Wall", "-Wextra", "-Werror", "score.cpp"]
+    subprocess.run([*command, "-o", "score"], cwd=folder, check=True)
+    return lambda *args: run(folder / "score", *args)
+
+
+@pytest.fixture(scope="session")
+def javascript():
+    """Run the scorer in JavaScript, by Node or in Chromium."""
+    node = shutil.which("node")
+    if node:
+        yield lambda *args: run(node, FOLDER / "score.mjs", *args)
+        return
+    with running_browser() as browser:
+        page = browser.new_page()
+        yield lambda *args: run_in_page(page, *args)
+
+
+def run(*command):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def run_in_page(page, *args):
+    """Import the module into a page, and give it the texts of the files."""
+    module = b64encode((FOLDER / "score.mjs").read_bytes()).decode()
+    texts = {name: (FOLDER / name).read_text() for name in ("problems.csv", "states.csv")}
+    own = {str(path): path.read_bytes().decode("latin-1") for path in args[1:]}
+    call = f"""async () => {{
+        const {{ run }} = await import("data:text/javascript;base64,{module}");
+        const [texts, own] = {json.dumps([texts, own])};
+        return run({json.dumps(list(map(str, args)))}, (name) => texts[name], (name) => own[name]);
+    }}"""
+    found = page.evaluate(call)
+    ends = ["\n" if found[key] else "" for key in ("out", "err")]
+    return found["status"], found["out"] + ends[0], found["err"] + ends[1]
+
+
+def score(capsys, *args):
+    status = main(list(map(str, args)))
+    return status, *capsys.readouterr()
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_the_three_scorers_print_the_same(kind, tmp_path, capsys, cpp, javascript):
+    path = tmp_path / "trajectory.csv"
+    path.write_text(FILES[kind], encoding="utf-8")
+    wanted = score(capsys, "cusps", path)
+    assert cpp("cusps", path) == wanted
+    assert javascript("cusps", path) == wanted
+
+
+@pytest.mark.parametrize("error", [1e-15, 1e-3])
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_the_three_scorers_print_the_same_of_other_problems(
+    name, error, tmp_path, capsys, cpp, javascript
+):
+    path = tmp_path / "trajectory.csv"
+    path.write_text(write(make_table(name, error)))
+    wanted = score(capsys, name, path)
+    assert wanted[0] == 0
+    assert cpp(name, path) == wanted
+    assert javascript(name, path) == wanted
+
+
+def test_the_three_scorers_list_and_refuse_the_same(tmp_path, capsys, cpp, javascript):
+    for args in ((), ("no  such",), ("cusps",)):
+        wanted = score(capsys, *args)
+        assert cpp(*args) == wanted
+        assert javascript(*args) == wanted
+    if shutil.which("node"):
+        for path in (tmp_path / "none.csv", tmp_path):
+            wanted = score(capsys, "cusps", path)
+            assert cpp("cusps", path) == wanted
+            assert javascript("cusps", path) == wanted
+
+
+def test_all_tables_that_say_the_same_are_scored_alike(tmp_path, capsys):
+    path, found = tmp_path / "trajectory.csv", set()
+    for kind in ("good", "bom", "semicolons", "tabs", "spaces", "hash", "quotes"):
+        path.write_text(FILES[kind], encoding="utf-8")
+        found.add(score(capsys, "cusps", path))
+    ((status, out, _),) = found
+    assert (status, out.count("\n")) == (0, 1)
+
+
+@pytest.mark.parametrize("kind", make_mistakes())
+def test_a_mistake_of_convention_is_named(kind, tmp_path, capsys):
+    path = tmp_path / "trajectory.csv"
+    path.write_text(FILES[kind])
+    status, out, _ = score(capsys, "cusps", path)
+    (note,) = out.splitlines()[1:]
+    assert status == 0
+    assert note.startswith("likely mistake: the ")
+    assert note.endswith(kind)
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason"),
+    [
+        ("overflow", "orientations must be finite numbers up to 1e+100, got 1e+300"),
+        (
+            "overflow of a rate",
+            "angular_velocities must be finite numbers up to 1e+100, got -1e+20",
+        ),
+        ("other names", "must have the columns t, w, x, y, z, got the header time,qw,x,y,z,wx"),
+        ("other times", "got none at 0.5 s; the nearest is 0.5000005 s"),
+        ("half of the times", "got none at 5.5 s; the nearest is 5 s"),
+        ("a word", "line 5 must consist of numbers, got 2.0,"),
+    ],
+)
+def test_a_refusal_says_what_was_found(kind, reason, tmp_path, capsys):
+    path = tmp_path / "trajectory.csv"
+    path.write_text(FILES[kind])
+    status, out, err = score(capsys, "cusps", path)
+    assert (status, out, err.count("\n")) == (1, "", 1)
+    assert reason in err
+
+
+def test_decimals_are_split_as_in_python(javascript):
+    # The page and Node give the same numbers; Node is enough here.
+    node = shutil.which("node")
+    if not node:
+        pytest.skip("no node: the outputs above are compared in Chromium")
+    texts = ["0.1", "-2.88840675952426555432007563896e-152", "0.0", "123456.789012345678901234567"]
+    code = f"""const {{ splitDecimal }} = await import({json.dumps(str(FOLDER / "score.mjs"))});
+        console.log(JSON.stringify({json.dumps(texts)}.map(splitDecimal)));"""
+    _, out, _ = run(node, "--input-type=module", "-e", code)
+    high, low = split_decimals([texts])
+    # the small part needs a few digits only; here it has all but the last one
+    assert np.array(json.loads(out))[:, 0].tolist() == high[0].tolist()
+    assert np.array(json.loads(out))[:, 1] == pytest.approx(low[0], rel=1e-15, abs=0)
