@@ -15,6 +15,9 @@ from symtop_ros.physics import (
 from workshop.article.angles import draw_euler_angles
 from workshop.article.answers.drawings import draw_cusp_story, draw_release
 from workshop.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
+from workshop.article.answers.ledger import draw_energy_ledger
+from workshop.article.answers.resolution import draw_resolution
+from workshop.article.answers.starts import draw_map_of_kinds
 from workshop.article.kinds import DISC
 from workshop.article.motions import (
     FAST,
@@ -247,4 +250,7 @@ FIGURES: dict[str, Callable[[], Figure]] = {
     "release": draw_release,
     "fictitious_torques": draw_fictitious_torques,
     "four_masses": draw_four_masses,
+    "energy_ledger": draw_energy_ledger,
+    "map_of_kinds": draw_map_of_kinds,
+    "resolution": draw_resolution,
 }

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.drawing.style import BLUE, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 
 PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
@@ -28,6 +28,7 @@ def claims_on_fictitious_forces(top: Top) -> list[Claim]:
     return [three_torques_raise_or_lower(top), masses_feel_the_same(top), body_frame_has_one(top)]
 
 
+@claim
 def three_torques_raise_or_lower(top: Top) -> Claim:
     """Check that the three torques are Ix theta'' of the closed form, with the signs of Perry's."""
     rates = np.array(PHI_DOTS)
@@ -52,6 +53,7 @@ def three_torques_raise_or_lower(top: Top) -> Claim:
     )
 
 
+@claim
 def masses_feel_the_same(top: Top) -> Claim:
     """Check the Coriolis and the centrifugal torque as sums over mass elements."""
     masses, places = point_masses(top)
@@ -77,6 +79,7 @@ def masses_feel_the_same(top: Top) -> Claim:
     )
 
 
+@claim
 def body_frame_has_one(top: Top) -> Claim:
     """Check that in the body frame nothing moves, and the centrifugal torque is -omega x L."""
     masses, places = point_masses(top)
