@@ -2,8 +2,8 @@ import pytest
 
 from symtop_ros.physics import Top
 from workshop.article.claims import Claim, markdown, summarize, table
-from workshop.article.motions import HANGING_DISC, TOP, cusps
-from workshop.article.nutation import fall_is_fastest_at_zero_acceleration
+from workshop.article.motions import HANGING_DISC, TOP, cusps, regular
+from workshop.article.nutation import momentum_does_not_close
 from workshop.article.retell import check_claims
 
 TWO = [
@@ -41,23 +41,20 @@ def test_no_claims_are_counted_as_none():
 @pytest.mark.parametrize(
     "top",
     [
-        Top(TOP.Ix, TOP.Iz, -TOP.Mgl),
-        Top(TOP.Ix, TOP.Iz, 0.0),
-        Top(TOP.Ix, TOP.Iz, 20 * TOP.Mgl),
         HANGING_DISC,
-        Top(1e-4, 2e-4, 1e-9),
+        pytest.param(Top(TOP.Ix, TOP.Iz, 0.0), marks=pytest.mark.long),
+        pytest.param(Top(TOP.Ix, TOP.Iz, 20 * TOP.Mgl), marks=pytest.mark.long),
+        pytest.param(Top(1e-4, 2e-4, 1e-9), marks=pytest.mark.long),
     ],
-    ids=["hanging", "weightless", "heavy", "disc", "flat"],
+    ids=["disc", "weightless", "heavy", "flat"],
 )
 def test_of_another_top_claims_fail_in_words(top):
-    claims = check_claims(top)
-    assert len(claims) == len(check_claims(TOP))
-    broken = [claim for claim in claims if not claim.holds]
-    assert broken
+    broken = [claim for claim in check_claims(top) if not claim.holds]
+    assert len(broken) > 20
     assert all(claim.sentence.endswith(".") for claim in broken)
 
 
 def test_a_claim_without_a_root_says_so():
-    lost = fall_is_fastest_at_zero_acceleration(cusps(HANGING_DISC))
+    lost = momentum_does_not_close(cusps(HANGING_DISC), regular(HANGING_DISC))
     assert (lost.holds, lost.verdict) == (False, "FAIL")
     assert lost.measured == "cannot be measured: f(a) and f(b) must have different signs"
