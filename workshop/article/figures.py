@@ -211,7 +211,9 @@ def draw_parabola_downward() -> Figure:
     for place, word in ((low - 75, "rises"), ((low + high) / 2, "falls"), (high + 75, "rises")):
         axes.text(place, 7.0, f"it {word}", ha="center", style="italic")
     axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ ($10^3$ rad/s$^2$)", xmargin=0)
-    axes.set_title(f"a disc, $I_z > I_x$: roots {low:.0f} and {high:.2f} rad/s")
+    moments = f"$I_x$ = {DISC.Ix:g}, $I_z$ = {DISC.Iz:g} kg m$^2$, $Mgl$ = {DISC.Mgl:g} J"
+    given = rf"$\theta$ = {THETA} rad, $\dot\psi$ = {PSI_DOT:g} rad/s"
+    axes.set_title(f"a disc: {moments}\n{given}: roots {low:.0f} and {high:.2f} rad/s")
     return figure
 
 

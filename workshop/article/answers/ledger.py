@@ -196,9 +196,8 @@ def plot_ledger(axes: Axes, ledger: KickLedger) -> None:
         heights = [group.bars[name] for group in groups]
         places = np.arange(len(groups)) + 0.27 * (k - 1)
         bars = axes.bar(places, heights, 0.25, color=color, label=name)
-        axes.bar_label(
-            bars, [f"{height:+.3g}" if height else "0" for height in heights], fontsize=8, padding=2
-        )
+        labels = [f"{height:+#.3g}" if height else "0" for height in heights]
+        axes.bar_label(bars, labels, fontsize=8, padding=2)
     axes.set_axisbelow(True)
     axes.axhline(0.0, color=INK, lw=0.9)
     axes.set_xticks(range(len(groups)), ["just after the kick", "after half a nutation"])
