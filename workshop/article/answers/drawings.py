@@ -46,7 +46,8 @@ def draw_cusp_story() -> Figure:
     upper.set_xticks(list(all_marks.values()), list(all_marks))
     for label in upper.get_xticklabels():  # t1 is close to T/4, and t2 to 3T/4
         words = label.get_text()
-        label.set_horizontalalignment("right" if words.endswith(" ") else "left" if words[0] == " " else "center")
+        if words != words.strip():
+            label.set_horizontalalignment("left" if words[0] == " " else "right")
     return figure
 
 
