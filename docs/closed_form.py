@@ -119,7 +119,7 @@ def solve(
     found = []
     for is_A, s in ((True, -2 * abs(A) ** 2), (False, 2 * abs(B) ** 2), (False, energy / beta)):
         d = b_minus_au - a * s
-        g1, g2, g3 = (abs(s - root) for root in (s1, s2, s3))
+        g1, g2, g3 = distances(is_A, d**2 / beta, [abs(s - root) for root in (s1, s2, s3)])
         if not m:  # [8] regular precession: the quotients are constant
             found.append((lambda t: 1 + 0 * t, d / (2 * g1) if g1 else mpf(0)))
             continue
@@ -134,6 +134,15 @@ def solve(
         shift = (Kc - y) * (sign(d) or 1)
         found.append((quotient(is_A, shift), mean_rate(is_A, d, g1, g2, g3, k, beta)))
     return found
+
+
+def distances(is_A: bool, product: Real, g: list[Real]) -> list[Real]:
+    """Return g1, g2, g3, the one that may be small from the product of all three [3]."""
+    near = 0 if is_A else 1 if g[1] < g[2] else 2
+    one, other = (g[k] for k in range(3) if k != near)
+    if one and other:
+        g[near] = product / (one * other)
+    return g
 
 
 def roots(a2: Real, a1: Real, a0: Real) -> list[Real]:

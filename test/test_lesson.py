@@ -21,6 +21,8 @@ from symtop_ros.panel import main as panel
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.lesson import read_lesson
 from workshop import main as report
+from workshop.article.answers.ledger import hold_decides, hurry_ledger
+from workshop.article.motions import HANGING_DISC, SLOW_ROOT_HURRIED, TOP
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import DRAWS, picture_of, run_step, write_lesson
 from workshop.load.domains import claim_domain
@@ -84,6 +86,32 @@ def test_the_angle_that_is_computed_by_hand_is_that_of_the_motion():
         assert f"= {shown}" in STEPS[2].seen
 
 
+def test_the_numbers_of_the_push_that_makes_cusps_are_those_of_the_motion():
+    Ix, Iz, Mgl = 0.000228, 0.0000572, 0.068
+    push = max(np.roots([Iz * np.cos(0.5), Iz * 200.0, -2 * Mgl]))
+    p_psi = Iz * (200.0 + push * np.cos(0.5))
+    u = np.cos(0.5) + Ix * push * np.sin(0.5) ** 2 / p_psi
+    start = State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=push)
+    motion = Motion(Top(Ix, Iz, Mgl), start)
+    assert np.arccos(u) == pytest.approx(motion.turning_angles[0], abs=1e-14)
+    assert motion.kind == "cusps"
+    for shown in (f"p = {push:.3f}", f"{p_psi:.4f}", f"u = {u:.3f}", f"{np.arccos(u):.3f} rad"):
+        assert shown in STEPS[5].seen
+    assert f"= {Mgl / (Iz * 200):.2f} rad/s, the" in STEPS[3].seen
+
+
+def test_the_energies_and_accelerations_of_the_kicks_are_those_of_the_claims():
+    found = hurry_ledger(TOP, SLOW_ROOT_HURRIED, "spin_rate")
+    values = (found.far.weight, found.kick.rest, -found.far.precession)
+    for shown in (*(f"{value:.2f} mJ" for value in values), f"{found.kick.spin:.1f} mJ"):
+        assert shown in STEPS[7].answer
+    disc, words = hold_decides(HANGING_DISC), STEPS[10].seen
+    assert disc.holds
+    for number in ("-592 rad/s^2", "+901 rad/s^2"):
+        assert number in disc.measured
+        assert number in words
+
+
 def test_the_commands_that_need_no_ros_are_options_of_their_programs():
     assert panel._parser().parse_args(["--lesson"]).lesson
     assert report._parser().parse_args(["lesson", "--sheets"]).sheets
@@ -97,7 +125,8 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
     node = "--node /disc " if "/disc" in step.commands[-1] else ""
     state = json.loads(do(tops, f"top_ctl {node}state --json"))
     drawn = [run.pieces[-1][1] for run in run_step(step).values()]
-    motion = drawn[0] if "hurry" in step.commands[-1] else drawn[-1]
+    # the last of a step with kicks is the motion that was not kicked
+    motion = drawn[-2] if step.acts[-1].hurry else drawn[-1]
     assert state["kind"] == motion.kind
     # a kick at a different time is rounded differently
     assert state["turning_angles"] == pytest.approx(motion.turning_angles, abs=1e-12)

@@ -49,9 +49,10 @@ class Actions:
 
     # What is done to the motion
 
-    def kick(self, factor: float) -> None:
-        """Multiply the precession rate."""
-        self.request("kick", {"precession_rate_factor": factor})
+    def kick(self, factor: float, hold: object = None) -> None:
+        """Multiply the precession rate, with psi' held or what is named."""
+        held = {} if hold is None else {"hold": hold}
+        self.request("kick", {"precession_rate_factor": factor, **held})
 
     def push(self, way: str) -> None:
         """Push the axle up or down, along its precession or back."""

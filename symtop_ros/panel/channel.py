@@ -125,7 +125,7 @@ class Pages:
     def _do(self, page: str, message: Message) -> dict[str, Any] | None:
         actions = self._actions
         acts: dict[str, Callable[[], Any]] = {
-            "kick": lambda: actions.kick(_number(message, "factor")),
+            "kick": lambda: actions.kick(_number(message, "factor"), message.get("hold")),
             "pause": actions.toggle_pause,
             "run": lambda: actions.request("pause", False),
             "rest": self._rest,

@@ -15,13 +15,16 @@ const makeLesson = ({ find, make, send, chooseLayers }, steps) => {
       send({ act: "run" });
       for (const button of hurries) button.disabled = false;
     };
-    const buttons = acts.map(({ button: textContent, start, hurry }) => {
+    const buttons = acts.map(({ button: textContent, start, hurry, hold }) => {
       const button = make("button", { textContent, disabled: !start });
       if (!start) hurries.push(button);
       // A second hurry would not be that of the step: the motion has to be started again before it.
       button.onclick = () => {
         if (start) begin(start);
-        else { send({ act: "kick", factor: hurry }); button.disabled = true; }
+        else {
+          send({ act: "kick", factor: hurry, hold });
+          for (const each of hurries) each.disabled = true;
+        }
       };
       return button;
     });

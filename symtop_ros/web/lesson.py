@@ -7,6 +7,8 @@ from pathlib import Path
 
 import yaml
 
+from symtop_ros.physics import Hold
+
 FILE = Path(__file__).with_name("lesson.yaml")
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
 NODES = {"cusps": "", "perry_fails": "--node /disc "}
@@ -19,12 +21,17 @@ class Act:
     button: str
     start: Mapping[str, float | str] | None = None  # fields of ~/set_initial_conditions
     hurry: float | None = None  # factor of the precession rate
+    hold: Hold = "spin_rate"  # the quantity that the hurry leaves unchanged
 
     @property
     def command(self) -> str:
         """The words for top_ctl."""
         fields = [f"{name}={value}" for name, value in (self.start or {}).items()]
-        return " ".join(["start", *fields]) if fields else "hurry"
+        if fields:
+            return " ".join(["start", *fields])
+        if self.hold == "spin_rate":
+            return "hurry"
+        return f"kick precession_rate_factor={self.hurry} hold={self.hold}"
 
 
 @dataclass(frozen=True, slots=True)

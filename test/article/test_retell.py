@@ -39,7 +39,7 @@ def without_files(monkeypatch):
 
 def test_every_claim_holds(claims):
     assert [claim for claim in claims if not claim.holds] == []
-    assert len(claims) == 57
+    assert len(claims) == 71
 
 
 def test_every_claim_is_a_sentence_with_a_number_an_equation_and_a_tolerance(claims):
@@ -111,8 +111,8 @@ def _curve(exhibit):
 @pytest.mark.usefixtures("without_files")
 def test_the_claims_are_written_and_printed(tmp_path, capsys):
     assert retell(tmp_path) == 0
-    assert capsys.readouterr().out.endswith("57 of 57 claims hold.\n")
-    assert (tmp_path / "claims.md").read_text().endswith("57 of 57 claims hold.\n")
+    assert capsys.readouterr().out.endswith("71 of 71 claims hold.\n")
+    assert (tmp_path / "claims.md").read_text().endswith("71 of 71 claims hold.\n")
 
 
 @pytest.mark.usefixtures("without_files")

@@ -3,13 +3,16 @@
 from pathlib import Path
 
 from workshop.load import node_cost
-from workshop.speed import filters, testset
+from workshop.speed import derivatives, filters, testset
 from workshop.speed.publish import find_section, publish, replace_section
 
 ROOT = Path(__file__).parents[2]
 TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-SECTIONS = ("chapters", "summary", filters.NAME, testset.NAME, node_cost.NAME)
+SECTIONS = (
+    *("chapters", "summary"),
+    *(each.NAME for each in (derivatives, filters, testset, node_cost)),
+)
 
 
 def test_each_table_of_a_command_stands_in_one_page():

@@ -1,10 +1,15 @@
 """A claim of the article with the value that was measured for it, and tables of claims."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import wraps
 from textwrap import wrap
+from typing import ParamSpec
+
+import numpy as np
 
 WIDTH = 96  # characters in a line
+Arguments = ParamSpec("Arguments")
 # Characters that Markdown would read as cell borders or emphasis
 ESCAPES = str.maketrans({character: f"\\{character}" for character in "\\|*_"})
 
@@ -23,6 +28,24 @@ class Claim:
     def verdict(self) -> str:
         """Return "pass" or "FAIL"."""
         return "pass" if self.holds else "FAIL"
+
+
+def claim(check: Callable[Arguments, Claim]) -> Callable[Arguments, Claim]:
+    """Decorate a check so that one that cannot be made is a claim that fails.
+
+    For a falsified constant a root may not be bracketed, or an extremum may not exist.
+    """
+
+    @wraps(check)
+    def attempt(*args: Arguments.args, **keywords: Arguments.kwargs) -> Claim:
+        try:
+            with np.errstate(all="ignore"):  # what is not a number does not hold
+                return check(*args, **keywords)
+        except (ValueError, ArithmeticError, IndexError) as reason:
+            sentence = (check.__doc__ or check.__name__).partition("\n")[0]
+            return Claim(sentence, f"cannot be measured: {reason}", holds=False)
+
+    return attempt
 
 
 def table(claims: Sequence[Claim]) -> str:

@@ -15,6 +15,9 @@ from symtop_ros.physics import (
 from workshop.article.angles import draw_euler_angles
 from workshop.article.answers.drawings import draw_cusp_story, draw_release
 from workshop.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
+from workshop.article.answers.ledger import draw_energy_ledger
+from workshop.article.answers.resolution import draw_resolution
+from workshop.article.answers.starts import draw_map_of_kinds
 from workshop.article.kinds import DISC
 from workshop.article.motions import (
     FAST,
@@ -208,7 +211,9 @@ def draw_parabola_downward() -> Figure:
     for place, word in ((low - 75, "rises"), ((low + high) / 2, "falls"), (high + 75, "rises")):
         axes.text(place, 7.0, f"it {word}", ha="center", style="italic")
     axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel=r"$\ddot\theta$ ($10^3$ rad/s$^2$)", xmargin=0)
-    axes.set_title(f"a disc, $I_z > I_x$: roots {low:.0f} and {high:.2f} rad/s")
+    moments = f"$I_x$ = {DISC.Ix:g}, $I_z$ = {DISC.Iz:g} kg m$^2$, $Mgl$ = {DISC.Mgl:g} J"
+    given = rf"$\theta$ = {THETA} rad, $\dot\psi$ = {PSI_DOT:g} rad/s"
+    axes.set_title(f"a disc: {moments}\n{given}: roots {low:.0f} and {high:.2f} rad/s")
     return figure
 
 
@@ -247,4 +252,7 @@ FIGURES: dict[str, Callable[[], Figure]] = {
     "release": draw_release,
     "fictitious_torques": draw_fictitious_torques,
     "four_masses": draw_four_masses,
+    "energy_ledger": draw_energy_ledger,
+    "map_of_kinds": draw_map_of_kinds,
+    "resolution": draw_resolution,
 }

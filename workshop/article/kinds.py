@@ -14,7 +14,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import (
     FAST,
     HANGING_DISC,
@@ -48,6 +48,7 @@ def claims_on_kinds(top: Top) -> list[Claim]:
     ]
 
 
+@claim
 def six_rates_have_kinds(top: Top) -> Claim:
     """Check the kind of each of the six motions by phi' at both turning angles."""
     words, agrees = [], []
@@ -69,6 +70,7 @@ def six_rates_have_kinds(top: Top) -> Claim:
     )
 
 
+@claim
 def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
     """Check that two starts have the same three accelerations and different kinds.
 
@@ -81,8 +83,8 @@ def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
     kinds = [motion.kind for motion in motions]
     lowest = [motion.turning_angles[1] for motion in motions]
     return Claim(
-        "The accelerations at the start do not say which kind of motion follows "
-        f"(phi' = {phi_dot:g} and {partner:.2f} rad/s).",
+        "The accelerations at the start alone, without the velocities, do not say which kind of "
+        f"motion follows (phi' = {phi_dot:g} and {partner:.2f} rad/s).",
         f"theta'' = {first[1]:.4g} rad/s^2 for both within {off:.0e}, phi'' = psi'' = 0; but one "
         f"is {kinds[0]} down to {lowest[0]:.3f} rad, and the other {kinds[1]} down to "
         f"{lowest[1]:.3f} rad",
@@ -92,6 +94,7 @@ def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
     )
 
 
+@claim
 def constants_decide(top: Top) -> Claim:
     """Check that the effective potential alone gives the turning angles that the motion has."""
     offs, words = [], []
@@ -112,6 +115,7 @@ def constants_decide(top: Top) -> Claim:
     )
 
 
+@claim
 def parabola_opens_downward(name: str, top: Top, theta: float) -> Claim:
     """Check the sign rule of the roots, and rising and falling, for (Ix - Iz) cos(theta) < 0."""
     sentence = (

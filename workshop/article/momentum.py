@@ -7,7 +7,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import (
     Slope,
     accelerations,
@@ -65,6 +65,7 @@ CONSTANTS: dict[str, tuple[Callable[[Top, State], Any], str]] = {
 }
 
 
+@claim
 def is_constant(name: str, motions: Sequence[Motion]) -> Claim:
     """Check one of the `CONSTANTS` over ten seconds of each motion."""
     drifts, (compute, equation) = [], CONSTANTS[name]
@@ -80,6 +81,7 @@ def is_constant(name: str, motions: Sequence[Motion]) -> Claim:
     )
 
 
+@claim
 def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
     """Check that the torque has no component along the axis or the vertical."""
     states = motion.at(TIMES)
@@ -93,7 +95,8 @@ def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
     }
     largest = {name: float((part / size).max()) for name, part in parts.items()}
     return Claim(
-        "Gravity's torque is along the line of nodes, so that it changes neither L_z nor L_z'.",
+        "Gravity's torque is along the line of nodes: it has no component along the axis, and none "
+        "along the vertical, so that L_z' is constant.",
         "of its size, at most " + ", ".join(f"{part:.0e} {name}" for name, part in largest.items()),
         max(largest.values()) < ACROSS,
         "torque = Mgl sin(theta) (cos(phi), sin(phi), 0)",
@@ -101,6 +104,7 @@ def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
     )
 
 
+@claim
 def momentum_changes_by_gravity(motion: Motion) -> Claim:
     """Check that dL/dt in the world frame is gravity's torque."""
     times = TIMES[::10]
@@ -111,6 +115,7 @@ def momentum_changes_by_gravity(motion: Motion) -> Claim:
     return _compare(sentence, equation, found, expected, ("dL/dt is", "torque"))
 
 
+@claim
 def equations_hold(motion: Motion) -> Claim:
     """Check that phi'', theta'' and psi'' of the motion obey the article's equations."""
     times = TIMES[::10]
@@ -140,6 +145,7 @@ def _compare(
     )
 
 
+@claim
 def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
     """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude."""
     times = TIMES[::10]

@@ -11,7 +11,7 @@ from scipy.signal import find_peaks
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion, Top
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import (
     PSI_DOT,
     RATES,
@@ -59,6 +59,7 @@ def count_maxima(values: Real) -> int:
     return len(find_peaks(values, prominence=max(swing / 2, ROUNDING * size))[0])
 
 
+@claim
 def momentum_swings_with_the_tilt(motions: Sequence[Motion]) -> Claim:
     """Check that the squared horizontal part of L has as many maxima as theta."""
     tilts = [np.asarray(motion.at(DENSE_TIMES).euler_angles.theta) for motion in motions]
@@ -74,6 +75,7 @@ def momentum_swings_with_the_tilt(motions: Sequence[Motion]) -> Claim:
     )
 
 
+@claim
 def precession_stops_at_the_cusps(motion: Motion) -> Claim:
     """Check that the precession rate vanishes at the smallest theta, and nowhere else."""
     sentence = "At cusps phi' vanishes exactly where theta is smallest, and nowhere else."
@@ -111,6 +113,7 @@ def times_of_smallest_tilt(motion: Motion) -> Real:
     return np.array([brentq(rate, times[k], times[k + 1], xtol=1e-15) for k in rising])
 
 
+@claim
 def fall_is_fastest_at_zero_acceleration(motion: Motion) -> Claim:
     """Check that theta'' vanishes when theta' is largest, off the quarter period."""
     period = motion.nutation_period
@@ -147,6 +150,7 @@ def _theta_acceleration(motion: Motion, time: float) -> float:
     return float(accelerations(motion.top, motion.at([time]))[0, 1])
 
 
+@claim
 def precession_is_fastest_when_lowest(motion: Motion) -> Claim:
     """Check that phi' and theta are both largest after half a nutation."""
     times = np.linspace(0.0, motion.nutation_period, 2001)
@@ -162,6 +166,7 @@ def precession_is_fastest_when_lowest(motion: Motion) -> Claim:
     )
 
 
+@claim
 def spin_falls_with_the_axis(motion: Motion) -> Claim:
     """Check that psi' falls as theta grows, although L_z is constant."""
     states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
@@ -180,6 +185,7 @@ def spin_falls_with_the_axis(motion: Motion) -> Claim:
     )
 
 
+@claim
 def spin_decides_the_direction(top: Top) -> Claim:
     """Check that a top released with psi' < 0 precesses backwards, as a mirror image."""
     forward, backward = cusps(top), Motion(top, start(0.0, -PSI_DOT))
@@ -195,6 +201,7 @@ def spin_decides_the_direction(top: Top) -> Claim:
     )
 
 
+@claim
 def momentum_does_not_close(nodding: Motion, steady: Motion) -> Claim:
     """Check that the horizontal part of L returns after a turn only in regular precession."""
     gaps, counts = [], []
@@ -214,6 +221,7 @@ def momentum_does_not_close(nodding: Motion, steady: Motion) -> Claim:
     )
 
 
+@claim
 def momentum_is_smallest_when_highest(top: Top) -> Claim:
     """Check that L^2 is smallest where theta is smallest, and largest there for Mgl < 0."""
     offs, extremes = [], []

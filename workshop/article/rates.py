@@ -17,7 +17,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import (
     DISC_HURRIED,
     FAST_ROOT_HURRIED,
@@ -119,6 +119,7 @@ def _direction(change: float, rounding: float) -> Direction:
     return "rises" if change < 0 else "falls"
 
 
+@claim
 def roots_are_as_printed(top: Top) -> Claim:
     """Check the rates of regular precession to the digits that the article prints."""
     roots = _roots(top)
@@ -134,6 +135,7 @@ def roots_are_as_printed(top: Top) -> Claim:
     )
 
 
+@claim
 def printed_roots_keep_the_tilt(top: Top) -> Claim:
     """Check that the article's digits are enough to see no nutation."""
     widths = []
@@ -149,6 +151,7 @@ def printed_roots_keep_the_tilt(top: Top) -> Claim:
     )
 
 
+@claim
 def rate_decides(top: Top, rate: Rate) -> Claim:
     """Check the article's statement on one of the six rates, by the equation and by the motion."""
     departure = Departure.of(Motion(top, start(rate.phi_dot)))
@@ -161,6 +164,7 @@ def rate_decides(top: Top, rate: Rate) -> Claim:
     )
 
 
+@claim
 def acceleration_is_a_parabola(top: Top) -> Claim:
     """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots."""
     measured = np.array(
@@ -182,6 +186,7 @@ def acceleration_is_a_parabola(top: Top) -> Claim:
     )
 
 
+@claim
 def hurrying_decides(top: Top, case: HurryCase) -> Claim:
     """Check what a hurried regular precession does, and that `perrys_rule` agrees."""
     holds = case.direction == "rises"
@@ -207,6 +212,7 @@ def hurrying_decides(top: Top, case: HurryCase) -> Claim:
     )
 
 
+@claim
 def sign_decides(root: Root, top: Top) -> Claim:
     """Check the exact rule for a small hurry, on random tops of both signs and on this one.
 

@@ -6,7 +6,11 @@ from symtop_ros.drawing.style import write_figures
 from symtop_ros.physics import Top
 from workshop.article.answers.corrections import claims_on_corrections
 from workshop.article.answers.fictitious import claims_on_fictitious_forces
+from workshop.article.answers.ledger import claims_on_energy
 from workshop.article.answers.release import claims_on_release
+from workshop.article.answers.resolution import claims_on_resolution
+from workshop.article.answers.starts import claims_on_starts
+from workshop.article.answers.statements import claims_on_statements
 from workshop.article.claims import Claim, markdown, table
 from workshop.article.figures import FIGURES
 from workshop.article.kinds import claims_on_kinds
@@ -42,4 +46,8 @@ def check_claims(top: Top = TOP) -> list[Claim]:
         *claims_on_fictitious_forces(top),
         *claims_on_release(top),
         *claims_on_corrections(top),
+        *claims_on_energy(top),
+        *claims_on_starts(top),
+        *claims_on_resolution(top),
+        *claims_on_statements(top),
     ]

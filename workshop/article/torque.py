@@ -8,7 +8,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import FAST, SLOW, cusps, regular, slope, start
 
 COUNT, SEED = 500, 20210329  # random states, the same every time
@@ -78,6 +78,7 @@ def inertia_change(top: Top, states: State) -> Real:
     return np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, -t * s2]]), -1, 0)
 
 
+@claim
 def inertia_has_its_components(top: Top) -> Claim:
     """Check the components of I' = S I_b S^-1 against their formulas on random states."""
     states = draw_states()
@@ -98,6 +99,7 @@ def inertia_has_its_components(top: Top) -> Claim:
     )
 
 
+@claim
 def fixed_frame_agrees_with_euler(top: Top) -> Claim:
     """Check dL/dt in the fixed frame from I' and dI'/dt against Euler's equations.
 
@@ -139,6 +141,7 @@ def split_torque(motion: Motion, times: Real) -> dict[str, Real]:
     return {name: np.asarray((vectors * nodes).sum(axis=1)) for name, vectors in parts.items()}
 
 
+@claim
 def inertial_torque_is_the_difference(motion: Motion) -> Claim:
     """Check that the body sees a different dL/dt, by the inertial torque -omega x L."""
     parts = split_torque(motion, TIMES)
@@ -158,6 +161,7 @@ def inertial_torque_is_the_difference(motion: Motion) -> Claim:
     )
 
 
+@claim
 def precession_alone_balances_gravity(steady: Motion, nodding: Motion) -> Claim:
     """Check that only regular precession is at rest in the frame of the line of nodes."""
     off, elsewhere = (_imbalance(motion) for motion in (steady, nodding))
@@ -179,6 +183,7 @@ def _imbalance(motion: Motion) -> float:
     return float(np.abs(turning - torque).max() / np.abs(torque).max())
 
 
+@claim
 def torque_is_across_momentum(motion: Motion) -> Claim:
     """Check that in regular precession the torque turns L and changes neither of their sizes."""
     states = motion.at(TIMES)
@@ -197,6 +202,7 @@ def torque_is_across_momentum(motion: Motion) -> Claim:
     )
 
 
+@claim
 def one_torque_has_two_momenta(top: Top) -> Claim:
     """Check that one attitude and one torque have two regular precessions with different L."""
     starts = [start(rate) for rate in (SLOW, FAST)]

@@ -30,9 +30,9 @@ def _write_step(number: int, step: LessonStep) -> str:
             _wrap(f"Predict: {step.predict}"),
             *map(_wrap, filter(None, step.compute.split("\n"))),
             f"```sh\n{commands}\n```",
-            _wrap(f"Look: {step.look}{_name_view(step)}"),
+            _wrap(f"Observe: {step.look}{_name_view(step)}"),
             f"![{step.picture}](lesson/step_{number:02}.png)",
-            *map(_wrap, filter(None, step.seen.split("\n"))),
+            *map(_wrap, filter(None, f"Explain: {step.seen}".split("\n"))),
             _wrap(f"Question: {step.question} (The article's {step.source}.)") + "\n",
         ]
     )

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.drawing.fictitious import torques_of
-from symtop_ros.drawing.style import BLUE, GREY, INK, RED, new_figure
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -26,6 +26,7 @@ from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import LessonStep, read_lesson
 from workshop.article.answers.fictitious import plot_torques
+from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import DEPTH
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
 from workshop.lesson.sheets import write_teacher_sheet, write_worksheet
@@ -35,7 +36,9 @@ KICK = 0.4  # s
 TRACE, TURNS = 1.0, 2.0  # s, and turns of the precession: whichever is shorter is drawn
 SHORT = 0.08  # s in which the fast precession makes most of a turn
 SPAN = 0.8  # s of the plots
-LOOKS = ((BLUE, "-"), (RED, "--"), (INK, ":"))
+LOOKS = ((BLUE, "-"), (RED, "--"), (GOLD, "-."), (INK, ":"))
+NOT_KICKED = "not kicked"
+HELD = {"spin_rate": r"$\dot\psi$", "spin_momentum": r"$p_\psi$"}
 CHAIN, SHORTEST = (GREY, BLUE, RED, INK), 0.01  # colours as over phi'; of the largest torque
 Runs = dict[str, KickedMotion]
 
@@ -45,9 +48,12 @@ def run_step(step: LessonStep) -> Runs:
     settings, runs = Settings.from_scene(step.scene), Runs()
     for act in step.acts:
         if act.hurry is not None:
-            _, run = runs.popitem()
-            runs["hurried"] = run.kick(KICK, partial(hurry, factor=act.hurry))
-            runs["not kicked"] = run
+            label, run = runs.popitem()
+            runs.pop(NOT_KICKED, None)
+            change = partial(hurry, factor=act.hurry, hold=act.hold)
+            rate = run.pieces[0][1].start.euler_rates.phi
+            runs[f"from {rate:.3g} rad/s, {HELD[act.hold]} held"] = run.kick(KICK, change)
+            runs[NOT_KICKED] = run
         else:
             start = initial_state(settings.top, settings.initial, act.start or {})
             rates = start.euler_rates
@@ -144,14 +150,16 @@ def draw_tilt(axes: Axes, runs: Runs) -> None:
     times = np.linspace(0.0, SPAN, 1601)
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
         axes.plot(times, run.at(times).euler_angles.theta, color=color, ls=dash, label=label)
-    if "hurried" in runs:
+    if NOT_KICKED in runs:
         axes.axvline(KICK, color=GREY, lw=0.9, ls=":")
     low, high = axes.get_ylim()
     room = max(high - low, 0.003)  # regular precession is a line, not rounding
     axes.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)")
     axes.set_ylim(low - 0.05 * room, low + 1.45 * room)
-    axes.set_title(r"smaller $\theta$: higher", loc="right")
-    axes.legend(loc="upper left")
+    hangs = any(run.pieces[0][1].top.Mgl < 0 for run in runs.values())
+    words = "higher axis, lower body" if hangs else "higher"
+    axes.set_title(rf"smaller $\theta$: {words}", loc="right")
+    axes.legend(loc="upper left", fontsize=8)
 
 
 def draw_momentum(axes: Axes, runs: Runs) -> None:
@@ -232,17 +240,30 @@ def draw_turning(axes: Axes, runs: Runs) -> None:
         text_in_inset.set_visible(False)
 
 
+def draw_ledger(axes: Axes, runs: Runs) -> None:
+    """Draw the changes of energy by the first kick, with the energy that it puts into the spin."""
+    first = next(iter(runs.values()))
+    (_, before), (_, after) = first.pieces
+    ledger = KickLedger.of(after.top, before.start, after.start)
+    plot_ledger(axes, ledger)
+    axes.set_ylabel("change (mJ)")
+    axes.set_title(rf"$\dot\psi$ held; into the spin: {ledger.kick.spin:+.1f} mJ", fontsize=9)
+    axes.legend(loc="lower left", fontsize=8)
+
+
 DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a step
     "tilt": draw_tilt,
     "momentum": draw_momentum,
     "potential": draw_potential,
     "turning": draw_turning,
     "fictitious": draw_fictitious,
+    "ledger": draw_ledger,
 }
 # What is drawn left of these; all others: the end of the axis from above.
 LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {
     draw_turning: _draw_turned,
     draw_fictitious: _draw_chains,
+    draw_ledger: draw_tilt,
 }
 
 

@@ -62,12 +62,12 @@ def _ask(number: int, step: LessonStep) -> str:
 def _act(step: LessonStep) -> str:
     compute = _say("Compute", step.compute) if step.compute else ""
     buttons = ", then ".join(act.button for act in step.acts)
-    return f"{compute}{_say('Press', buttons)}{_say('Look', step.look)}"
+    return f"{compute}{_say('Press', buttons)}{_say('Observe', step.look)}"
 
 
 def _room(step: LessonStep) -> str:
     lines = LINES * (2 if step.compute else 1)  # more to write where something is computed
-    return f"{_say('What you saw', '')}{lines}{_say('Question', step.question)}{LINES}"
+    return f"{_say('What you saw, and why', '')}{lines}{_say('Question', step.question)}{LINES}"
 
 
 def _picture(step: LessonStep, picture: bytes) -> str:
@@ -78,7 +78,7 @@ def _picture(step: LessonStep, picture: bytes) -> str:
 def _answers(step: LessonStep) -> str:
     commands = "; ".join(step.commands)
     return (
-        f"{_say('What happens', step.seen)}{_say('Question', step.question)}"
+        f"{_say('Explain', step.seen)}{_say('Question', step.question)}"
         f"{_say('Answer', step.answer)}{_say('In the article', step.source)}"
         f"<p><b>With ROS:</b> <code>{escape(commands)}</code></p>\n"
     )

@@ -91,6 +91,15 @@ def draw_motions(results: Results, looks: Looks) -> Figure:
     for axes, name in zip(grid, names, strict=True):
         _draw_curves(axes, [c for c in results.curves if c.motion == name], looks)
         axes.set_title(name)
+    # Not every package was measured on every motion
+    found = {
+        label: handle
+        for axes in grid
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(
+        list(found.values()), list(found), loc="outside lower center", ncols=4, fontsize=8
+    )
     return figure
 
 

@@ -42,7 +42,7 @@ from symtop_ros.physics.times import ExactTimes
 class ClosedFormMotion:
     """A, B and omega_xy = omega_x + i omega_y at any time, for Mgl > 0 and an axis that moves.
 
-    u(t) = u1 + (u2 - u1) sn(v)^2 with v = v0 + Omega t (Whittaker, section 72). The phase of the
+    u(t) = u1 + (u2 - u1) sn(v)^2 with v = v0 + Omega t (DLMF 22.2). The phase of the
     nutation is x = pi v/K; x = 0 is the lower turning point u1, x = pi the upper one.
 
     `moments` are Ix and Iz in kg m^2 and Mgl > 0 in J, `orientation` is (w, x, y, z) at t = 0, and

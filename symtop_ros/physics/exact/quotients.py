@@ -5,9 +5,9 @@ omega_xy = omega_x + i omega_y across the axis, all have the form
 
     C  th_k(v + i shift)/th4(v)  exp(i rate t),        v = v0 + Omega t
 
-(Klein & Sommerfeld, The Theory of the Top, chapter VI; Whittaker, Analytical Dynamics, sections
-72-73; the argument holds for the third function as well). Each vanishes at one height u_P of the
-axis: A at the lower pole u = -1, B at the upper pole u = 1, omega_xy at u = alpha/beta, where the
+(Klein & Sommerfeld, The Theory of the Top, chapter VI; Whittaker, Analytical Dynamics, chapter VI;
+the argument holds for the third function as well). Each vanishes at one height u_P of the axis:
+A at the lower pole u = -1, B at the upper pole u = 1, omega_xy at u = alpha/beta, where the
 whole energy would be potential. There f(u_P) = -d^2 with d = b - a u_P (Goldstein's a and b, see
 `nutation`). Shift and rate follow from d and from the distances of u_P to the three roots of f, in
 the same way for all three.

@@ -27,3 +27,13 @@ def test_about_an_axis_that_is_not_principal_the_momentum_leans(monkeypatch):
     bent = np.array([0.0, 1e-9, 0.0])
     monkeypatch.setattr(Top, "body_angular_momentum", lambda *given: right(*given) + bent)
     assert not corrections.line_of_nodes_is_principal(TOP).holds
+
+
+def test_off_the_solutions_the_sums_are_those_of_euler(monkeypatch):
+    right = corrections._change_momentum
+    monkeypatch.setattr(corrections, "_change_momentum", lambda *given: 1.0001 * right(*given))
+    assert not corrections.printed_equations_hold(TOP).holds
+
+
+def test_the_force_on_the_tilting_top_is_that_of_its_weight():
+    assert not corrections.line_of_nodes_is_principal(Top(TOP.Ix, TOP.Iz, 1.01 * TOP.Mgl)).holds

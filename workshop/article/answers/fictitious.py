@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.drawing.style import BLUE, GREY, INK, RED, new_figure
+from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 
 PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
@@ -28,6 +28,7 @@ def claims_on_fictitious_forces(top: Top) -> list[Claim]:
     return [three_torques_raise_or_lower(top), masses_feel_the_same(top), body_frame_has_one(top)]
 
 
+@claim
 def three_torques_raise_or_lower(top: Top) -> Claim:
     """Check that the three torques are Ix theta'' of the closed form, with the signs of Perry's."""
     rates = np.array(PHI_DOTS)
@@ -52,6 +53,7 @@ def three_torques_raise_or_lower(top: Top) -> Claim:
     )
 
 
+@claim
 def masses_feel_the_same(top: Top) -> Claim:
     """Check the Coriolis and the centrifugal torque as sums over mass elements."""
     masses, places = point_masses(top)
@@ -77,6 +79,7 @@ def masses_feel_the_same(top: Top) -> Claim:
     )
 
 
+@claim
 def body_frame_has_one(top: Top) -> Claim:
     """Check that in the body frame nothing moves, and the centrifugal torque is -omega x L."""
     masses, places = point_masses(top)
@@ -140,29 +143,38 @@ def plot_torques(axes: Axes) -> None:
 
 
 def draw_four_masses() -> Figure:
-    """Draw Barker's four masses: the Coriolis forces on a ring that spins and precesses.
+    """Draw four masses, after Barker: the Coriolis forces on a ring that spins and precesses.
 
     The ring is seen from the end of the axle, the line of nodes to the right. In the precessing
     frame a mass moves along the ring; the part of Omega across the axis, upwards here, makes a
     force along the axis in proportion to its velocity along the line of nodes.
     """
-    figure = new_figure(3.6)
+    figure = new_figure(4.2)
     axes = figure.subplots()
     axes.plot(np.cos(SWEEP), np.sin(SWEEP), color=GREY, lw=1.5)
     axes.axhline(0.0, color=INK, lw=0.9, ls=":")
-    axes.text(1.95, 0.06, "line of nodes", ha="right")
-    axes.annotate("", (0, 0.62), (0, 0), arrowprops={"arrowstyle": "->", "color": INK})
-    axes.text(0.06, 0.4, r"$\dot\phi \sin\theta$")
+    axes.text(2.25, 0.07, "line of nodes $N$", ha="right")
+    _point(axes, (0, 0), (0, 0.62), INK)
+    axes.text(0.06, 0.4, r"$\dot\phi \sin\theta$, up")
     for x, y in zip(np.cos(CORNERS), np.sin(CORNERS), strict=True):
-        axes.annotate(
-            "", (x - 0.5 * y, y + 0.5 * x), (x, y), arrowprops={"arrowstyle": "->", "color": BLUE}
-        )
+        _point(axes, (x, y), (x - 0.5 * y, y + 0.5 * x), BLUE)
         axes.plot(x, y, "o", color=INK, ms=9)
         if abs(y) > abs(x):  # it moves along the line of nodes
             mark = r"$\otimes$ to the pivot" if y > 0 else r"$\odot$ away from the pivot"
-            axes.text(x + 0.12, y + 0.1 * np.sign(y), mark, color=RED, va="center")
-    words = "blue: velocity\nred: Coriolis force\ntogether: the axis rises"
-    axes.text(-1.95, 1.25, words, va="top")
-    axes.set(xlim=(-2, 2), ylim=(-1.3, 1.3), aspect="equal")
+            axes.text(x + 0.12, y + 0.12 * np.sign(y), mark, color=RED, va="center")
+    for y, reach, color, name in ((-0.2, 0.6, GOLD, "gravity's"), (-0.5, -0.6, RED, "Coriolis'")):
+        _point(axes, (0, y), (reach, y), color)
+        side = "right" if reach > 0 else "left"
+        axes.text(-0.1 * reach, y, f"{name} torque", va="center", ha=side)
+    view = "Seen from the end of\nthe axle: the pivot is\nbehind the ring."
+    axes.text(-2.25, 1.35, view, va="top")
+    words = "blue: velocity\nred: Coriolis force;\nits torque raises the axis,\ngravity's lowers it"
+    axes.text(-2.25, -1.35, words, va="bottom")
+    axes.set(xlim=(-2.3, 2.3), ylim=(-1.4, 1.4), aspect="equal")
     axes.axis("off")
     return figure
+
+
+def _point(axes: Axes, tail: tuple[float, float], tip: tuple[float, float], color: str) -> None:
+    look = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+    axes.annotate("", tip, tail, arrowprops=look)

@@ -5,7 +5,7 @@ from scipy.integrate import solve_ivp
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates, theta_acceleration
-from workshop.article.claims import Claim
+from workshop.article.claims import Claim, claim
 from workshop.article.motions import FAST, PSI_DOT, THETA, cusps, start
 
 SPINS = (0.0, 20.0, 60.0, 100.0, 200.0, 400.0)  # rad/s
@@ -31,6 +31,7 @@ def largest_tilt(top: Top, psi_dot: float) -> float:
     return float(np.arccos(ratio - np.sqrt(ratio**2 - 2 * ratio * np.cos(THETA) + 1)))
 
 
+@claim
 def spin_limits_the_fall(top: Top) -> Claim:
     """Check how far an axis falls that is let go at rest, for several spin rates."""
     motions = [Motion(top, start(0.0, spin)) for spin in SPINS]
@@ -51,6 +52,7 @@ def spin_limits_the_fall(top: Top) -> Claim:
     )
 
 
+@claim
 def spin_has_three_cases(top: Top) -> Claim:
     """Check when psi' falls, falls and rises, or rises while the axis falls from its cusp."""
     cases = ((THETA, PSI_DOT, "falls"), (THETA, 60.0, "falls, then rises"), (2.0, PSI_DOT, "rises"))
@@ -76,6 +78,7 @@ def spin_has_three_cases(top: Top) -> Claim:
     )
 
 
+@claim
 def regular_precession_needs_spin(top: Top) -> Claim:
     """Check the least spin rate with regular precession, and that below it every top falls."""
     least = 2 * np.sqrt((top.Ix - top.Iz) * top.Mgl * np.cos(THETA)) / top.Iz
@@ -123,6 +126,7 @@ def integrate_torque(motion: Motion, times: Real) -> State:
     )
 
 
+@claim
 def torque_suffices(motion: Motion) -> Claim:
     """Check that torque = dL/dt alone, integrated, gives the motion and keeps the constants."""
     times, top = np.linspace(0.0, SPAN, 21), motion.top

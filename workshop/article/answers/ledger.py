@@ -1,0 +1,205 @@
+"""Where the energy of a kick goes: into the spin, the weight, the precession, and E'.
+
+E' = E - p_psi^2/(2 Iz) is what the spin does not keep. A kick at theta' = 0 puts energy into the
+precession and, if it holds psi', into the spin; afterwards weight and precession exchange it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from symtop_ros.drawing.style import BLUE, GOLD, INK, new_figure
+from symtop_ros.physics import (
+    Hold,
+    Motion,
+    State,
+    Top,
+    hurry,
+    regular_precession_rates,
+    theta_acceleration,
+)
+from workshop.article.claims import Claim, claim
+from workshop.article.motions import (
+    DISC_HURRIED,
+    FAST_ROOT_HURRIED,
+    HANGING_DISC,
+    SLOW_ROOT_HURRIED,
+    THETA,
+    TOP,
+    HurryCase,
+    start,
+)
+from workshop.article.rates import FACTOR
+
+MILLI = 1e3  # mJ in a J
+CLOSED = 1e-13  # of the energy; sums of rounded parts. Measured: 4e-16
+HOLDS: dict[Hold, str] = {"spin_rate": "psi' held", "spin_momentum": "p_psi held"}
+CASES: dict[str, tuple[Top, HurryCase]] = {
+    "the top at its slow root": (TOP, SLOW_ROOT_HURRIED),
+    "the top at its fast root": (TOP, FAST_ROOT_HURRIED),
+    "the hanging disc at its slow root": (HANGING_DISC, DISC_HURRIED),
+}
+COLORS = {"weight": GOLD, "precession": BLUE, "E'": INK}
+
+
+@dataclass(frozen=True, slots=True)
+class Ledger:
+    """Energy of a state in mJ, by what has it."""
+
+    spin: float  # p_psi^2/(2 Iz)
+    weight: float  # Mgl cos(theta)
+    precession: float  # Ix phi'^2 sin^2(theta)/2
+    nutation: float  # Ix theta'^2/2
+
+    @classmethod
+    def of(cls, top: Top, state: State) -> "Ledger":
+        """Return the energies of a state."""
+        theta, rates = state.euler_angles.theta, state.euler_rates
+        return cls(
+            spin=MILLI * float(top.axial_momentum(state)) ** 2 / (2 * top.Iz),
+            weight=MILLI * top.Mgl * float(np.cos(theta)),
+            precession=MILLI * top.Ix * float(rates.phi * np.sin(theta)) ** 2 / 2,
+            nutation=MILLI * top.Ix * float(rates.theta) ** 2 / 2,
+        )
+
+    def __sub__(self, other: "Ledger") -> "Ledger":
+        """Return the changes from another state to this one."""
+        return Ledger(
+            self.spin - other.spin,
+            self.weight - other.weight,
+            self.precession - other.precession,
+            self.nutation - other.nutation,
+        )
+
+    @property
+    def rest(self) -> float:
+        """E' = E - p_psi^2/(2 Iz)."""
+        return self.weight + self.precession + self.nutation
+
+    @property
+    def bars(self) -> dict[str, float]:
+        """Return the energies that are drawn, by name."""
+        return {"weight": self.weight, "precession": self.precession, "E'": self.rest}
+
+
+@dataclass(frozen=True, slots=True)
+class KickLedger:
+    """Changes since before a kick in mJ: just after it, and at the far turning angle."""
+
+    kick: Ledger
+    far: Ledger
+    total: float  # energy after the kick, by `Top.energy`; the sum of the parts should be it
+    missed: float  # largest difference of that sum, relative
+
+    @classmethod
+    def of(cls, top: Top, before: State, after: State) -> "KickLedger":
+        """Return the ledger of a kick from one state to another with theta' = 0."""
+        motion = Motion(top, after)
+        far = motion.at(motion.nutation_period / 2)
+        first, second, third = (Ledger.of(top, state) for state in (before, after, far))
+        total = MILLI * float(top.energy(after))
+        sums = [part.spin + part.rest for part in (second, third)]
+        missed = max(abs(each / total - 1) for each in sums)
+        return cls(second - first, third - first, total, missed)
+
+
+def hurry_ledger(top: Top, case: HurryCase, hold: Hold) -> KickLedger:
+    """Return the ledger of a regular precession that is hurried."""
+    before = start(regular_precession_rates(top, THETA, case.psi_dot)[case.root], case.psi_dot)
+    return KickLedger.of(top, before, hurry(before, FACTOR, hold))
+
+
+def claims_on_energy(top: Top) -> list[Claim]:
+    """Return the claims on the energy of a kick, for what it holds."""
+    return [
+        precession_lifts(top, "spin_rate"),
+        precession_lifts(top, "spin_momentum"),
+        hold_decides(HANGING_DISC),
+    ]
+
+
+# At the slow root, hurried by 1.4, in mJ: what the weight gains, the push puts into E', and the
+# precession had; and what the push puts into the spin.
+PRINTED: dict[Hold, tuple[str, str, str, str]] = {
+    "spin_rate": ("1.93", "1.06", "0.87", "27.0"),
+    "spin_momentum": ("1.90", "1.06", "0.84", "0.0"),
+}
+
+
+@claim
+def precession_lifts(top: Top, hold: Hold) -> Claim:
+    """Check how much of what lifts the hurried top comes from the push."""
+    found = hurry_ledger(top, SLOW_ROOT_HURRIED, hold)
+    lift, push, spin = found.far.weight, found.kick.rest, abs(found.kick.spin)
+    words = f"{lift:.2f}", f"{push:.2f}", f"{-found.far.precession:.2f}", f"{spin:.1f}"
+    gained, put, had, into = PRINTED[hold]
+    return Claim(
+        f"Hurried from the slow root with {HOLDS[hold]}, the top gains {gained} mJ of height: the "
+        f"push put {put} mJ of it into E', and {had} mJ were energy of the precession before. The "
+        f"spin, which keeps its energy, gets {into} mJ.",
+        f"at the highest point weight {lift:+.3f}, precession {found.far.precession:+.3f}, E' "
+        f"{found.far.rest:+.3f} mJ since before the kick; spin {found.kick.spin:+.3f} mJ; the "
+        f"parts sum up to E within {found.missed:.0e}",
+        words == PRINTED[hold] and found.missed < CLOSED,
+        "E = p_psi^2/(2 Iz) + E', E' = Ix theta'^2/2 + Ix phi'^2 sin^2(theta)/2 + Mgl cos(theta)",
+        f"{CLOSED:g}: rounding of a sum of four parts; the digits of the sentence",
+    )
+
+
+@claim
+def hold_decides(disc: Top) -> Claim:
+    """Check the disc at its fast root: the axis rises with psi' held, and falls with p_psi held."""
+    rate = regular_precession_rates(disc, THETA, DISC_HURRIED.psi_dot)[1]
+    words, heights = [], []
+    for hold in HOLDS:
+        after = hurry(start(rate, DISC_HURRIED.psi_dot), FACTOR, hold)
+        rates = after.euler_rates
+        found = float(theta_acceleration(disc, THETA, rates.phi, rates.psi))
+        low, high = Motion(disc, after).turning_angles
+        heights.append(disc.Mgl * (low + high - 2 * THETA) < 0)
+        words.append(f"{found:+.0f}")
+    return Claim(
+        "What a kick holds decides at the fast root of the hanging disc: hurried by 1.4 with psi' "
+        "held its centre of mass falls, pushed on the axle (p_psi held) it rises.",
+        f"theta'' just after the kick at {rate:.2f} rad/s: {words[0]} rad/s^2 with psi' held, "
+        f"{words[1]} rad/s^2 with p_psi held; below the pivot the centre of mass rises as theta "
+        "grows",
+        words == ["-592", "+901"] and heights == [False, True],
+        "theta'' = sin(theta)/Ix (k - 1) a f^2 (k - s/f), a = (Ix - Iz) cos(theta) with psi' held "
+        "and Ix cos(theta) with p_psi held: the sign of Mgl (Ix - Iz) cos(theta), or of Mgl "
+        "cos(theta), decides",
+        "none: digits and signs",
+    )
+
+
+def draw_energy_ledger() -> Figure:
+    """Draw the changes of energy by the kick of each case, for both holds."""
+    figure = new_figure(6.4)
+    grid = figure.subplots(len(CASES), len(HOLDS), sharey="row", squeeze=False)
+    for line, name in zip(grid, CASES, strict=True):
+        for axes, (hold, words) in zip(line, HOLDS.items(), strict=True):
+            ledger = hurry_ledger(*CASES[name], hold)
+            plot_ledger(axes, ledger)
+            axes.set_title(f"{name},\n{words}: spin {ledger.kick.spin:+.1f} mJ", fontsize=9)
+        line[0].set_ylabel("change (mJ)")
+    handles = grid[0][0].get_legend_handles_labels()
+    figure.legend(*handles, loc="outside upper center", ncols=3)
+    return figure
+
+
+def plot_ledger(axes: Axes, ledger: KickLedger) -> None:
+    """Plot weight, precession and E' just after a kick and at the far turning angle."""
+    groups = (ledger.kick, ledger.far)
+    for k, (name, color) in enumerate(COLORS.items()):
+        heights = [group.bars[name] for group in groups]
+        places = np.arange(len(groups)) + 0.27 * (k - 1)
+        bars = axes.bar(places, heights, 0.25, color=color, label=name)
+        labels = [f"{height:+#.3g}" if height else "0" for height in heights]
+        axes.bar_label(bars, labels, fontsize=8, padding=2)
+    axes.set_axisbelow(True)
+    axes.axhline(0.0, color=INK, lw=0.9)
+    axes.set_xticks(range(len(groups)), ["just after the kick", "after half a nutation"])
+    axes.grid(visible=False, axis="x")
+    axes.margins(y=0.2)
