@@ -196,7 +196,7 @@ def plot_ledger(axes: Axes, ledger: KickLedger) -> None:
         heights = [group.bars[name] for group in groups]
         places = np.arange(len(groups)) + 0.27 * (k - 1)
         bars = axes.bar(places, heights, 0.25, color=color, label=name)
-        labels = [f"{height:+#.3g}" if height else "0" for height in heights]
+        labels = [f"{height:+.3g}" if height else "0" for height in heights]
         axes.bar_label(bars, labels, fontsize=8, padding=2)
     axes.set_axisbelow(True)
     axes.axhline(0.0, color=INK, lw=0.9)
