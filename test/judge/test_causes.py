@@ -71,13 +71,14 @@ def describe(log):
     return f"{log[0]}-{log[2]}-{log[3]}-{fields}"
 
 
-def choose_marks(log):
-    """Leave logs with noise, for which more has to be tried, to the long trials."""
-    return [pytest.mark.long] if log[1].noise else []
+def choose_marks(number, log):
+    """Leave logs with noise, for which more has to be tried, to the long trials, and each second."""
+    return [pytest.mark.long] if log[1].noise or number % 2 else []
 
 
 @pytest.mark.parametrize(
-    "log", [pytest.param(log, marks=choose_marks(log), id=describe(log)) for log in LOGS]
+    "log",
+    [pytest.param(log, marks=choose_marks(k, log), id=describe(log)) for k, log in enumerate(LOGS)],
 )
 def test_the_cause_of_a_made_log_is_named_and_nothing_else(log):
     scene, made, change, level, parameters = log

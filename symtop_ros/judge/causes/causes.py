@@ -85,10 +85,11 @@ class Search:
 
     def find(self) -> Finding:
         """Return the simplest of all explanations."""
-        found = list(self.list_causes())
-        start = next(each for each in found if each.kind == ("", "none", ()))
+        causes = self.list_causes()
+        start = next(each for each in causes if each.kind == ("", "none", ()))  # the first one
         if self.is_still():
             return Finding(start, (), tuple(self.hidden), explained=False, still=True)
+        found = [start, *causes]
         best, others = self.choose(found)
         if "delay" in best.parameters and self.fit.loses_delay(best.offset):
             self.hidden.append("delay")
