@@ -72,7 +72,7 @@ def describe(log):
 
 
 def choose_marks(number, log):
-    """Leave logs with noise, for which more has to be tried, to the long trials, and each second."""
+    """Leave logs with noise, which take longest, and every second one to the long trials."""
     return [pytest.mark.long] if log[1].noise or number % 2 else []
 
 
