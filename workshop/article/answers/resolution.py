@@ -70,7 +70,7 @@ def resolution_converges(motion: Motion) -> Claim:
         and abs(orders[1] - 2) < ORDER
         and f"{second[-1]:.1e}" == "2.4e-06",
         "L += torque dt at fixed attitude, then free motion for dt; error ~ dt^order",
-        f"{ORDER:g} of an order, which is found from two steps; the digits of the smallest error",
+        f"{ORDER:g} of an order: it is found from two steps; the digits of the smallest error",
     )
 
 

@@ -26,7 +26,7 @@ EQUATION = (
     "2 Mgl/p_psi; regular if theta'' = 0"
 )
 PHI_DOTS, PSI_DOTS = (-60.0, 120.0), (-400.0, 400.0)  # rad/s, of the map
-KINDS = {"unidirectional": "#f3ede0", "looping": "#b9d3ea"}
+KINDS = {"unidirectional": "#f3ede0", "looping": "#cfe1f2"}
 POINTS = 900  # along a side of the map
 LOOKS: dict[str, Any] = {
     "cusps": {"color": RED, "lw": 1.8},
