@@ -76,7 +76,7 @@ def test_wrong_usage_is_status_2(arguments):
 def test_a_missing_node_is_reported_after_the_time_out():
     result = ctl("--node", "/missing", "--timeout", "1", "hurry")
     assert result.returncode == 1
-    assert "no answer from /missing within 1 s: is top_node running" in result.stderr
+    assert "no answer from /missing within 1 s" in result.stderr
     assert result.stderr.count("\n") == 1
 
 

@@ -103,10 +103,9 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
     monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
     assert measure(tmp_path, SMALL, "make report") == 1
-    assert capsys.readouterr().err.splitlines() == [
-        "1 of 1: a peer: model",
-        "workshop: above the limit: a peer: the model is a different top",
-    ]
+    progress, failure = capsys.readouterr().err.splitlines()
+    assert progress == "1 of 1: a peer: model"
+    assert failure.startswith("workshop: above the limit: a peer: ")
 
 
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
