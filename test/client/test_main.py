@@ -53,7 +53,7 @@ def test_two_nodes_of_one_name_are_named_next_to_the_answer():
         while not (result := ctl("state")).stderr:
             assert time.monotonic() < deadline, "the second node was not found"
         assert result.returncode == 0
-        assert result.stderr.startswith("top_ctl: 2 nodes have the name /top, and one of them has")
+        assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
     with Listener(DOMAIN) as listener:  # until the second one is gone
         names = listener.node.get_fully_qualified_node_names
         listener.spin_until(lambda: names().count("/top") == 1)
