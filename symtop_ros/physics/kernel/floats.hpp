@@ -268,54 +268,6 @@ Float<N> operator-(const Float<N>& a, const Float<N>& b) {
   return a + -b;
 }
 
-// The first 106 bits of a mantissa, as a sum of two doubles.
-inline void split_mantissa(const Float<3>& a, double& high, double& low) {
-  const uint64_t top = a.limbs[2];
-  high = static_cast<double>(top >> 11) * 0x1p-53;
-  low = static_cast<double>((top & 2047) << 42 | a.limbs[1] >> 22) * 0x1p-106;
-}
-
-// The reciprocal by Newton's method, from a double; each step doubles the digits. The first step is
-// made in doubles: what is left of 1 is formed without rounding.
-inline Float<3> invert(const Float<3>& a) {
-  Float<3> mantissa = a;
-  mantissa.exponent = 0;
-  mantissa.sign = 1;
-  double high, low;
-  split_mantissa(a, high, low);
-  const double estimate = 1.0 / high;
-  const double rest = __builtin_fma(-high, estimate, 1.0) - low * estimate;
-  const Float<3> first = Float<3>(estimate) + Float<3>(estimate * rest);
-  const Float<2> error(Float<3>(1.0) - mantissa * first);
-  Float<3> result = first + Float<3>(Float<2>(first) * error);
-  result.exponent -= a.exponent;
-  result.sign = a.sign;
-  return result;
-}
-
-inline Float<3> operator/(const Float<3>& a, const Float<3>& b) { return a * invert(b); }
-
-// The square root, from the reciprocal of the root, as above.
-inline Float<3> root(const Float<3>& a) {
-  if (a.sign <= 0) return Float<3>();
-  Float<3> mantissa = a;
-  const int odd = a.exponent & 1;
-  mantissa.exponent = odd;
-  double high, low;
-  split_mantissa(a, high, low);
-  if (odd) high *= 2, low *= 2;
-  const double inverse = 1.0 / std::sqrt(high);
-  const double square = inverse * inverse, below = __builtin_fma(inverse, inverse, -square);
-  const double product = high * square, lost = __builtin_fma(high, square, -product);
-  const double rest = (1.0 - product) - lost - high * below - low * square;
-  const Float<3> first = Float<3>(inverse) + Float<3>(inverse * (0.5 * rest));
-  // The root itself is corrected, by half of what its square lacks.
-  const Float<3> estimate = mantissa * first;
-  const Float<2> lacking(mantissa - estimate * estimate);
-  const Float<3> result = estimate + Float<3>((lacking * Float<2>(first)).scale(-1));
-  return result.scale((a.exponent - odd) / 2);
-}
-
 template <int N>
 Float<N> size(const Float<N>& a) {
   return a.sign < 0 ? -a : a;

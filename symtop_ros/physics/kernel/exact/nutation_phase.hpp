@@ -110,7 +110,7 @@ inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, 
   phase.origin.y = rest_of(origin, phase.origin.x);
   if (phase.is_stretched && mean.sign) {
     int count;
-    const Precise ratio = iterate_mean(modulus, nullptr, count) / mean;
+    const Precise ratio = iterate_mean<3>(modulus, nullptr, count) / mean;
     phase.ratio = ratio.to_double();
     split_short(ratio, phase.ratio_high, phase.ratio_low);
     phase.root_of_nome = exponential(-(TWO_PI * ratio).scale(-2));
