@@ -139,11 +139,9 @@ class Motion(Setting):
         super().__init__(top, start, friction, validate_torque(torque), pure)
         self.shape: tuple[int, ...] = ()
         self.engine = "closed form"
-        # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
-        self._is_turned_over = top.Mgl < 0
-        self._arguments = self._collect_arguments()
-        self._spin = self._arguments[2][2]
-        self._is_free = is_free(*self._arguments)
+        self._orientation: Quaternion = tuple(start.given_orientation.tolist())
+        self._omega: Vector = tuple(start.angular_velocity.tolist())
+        self._is_free = is_free(top.moments, self._orientation, self._omega)
         if self._is_free:
             self.engine = "free"
         self._driven: DrivenMotion | None = None
@@ -153,18 +151,19 @@ class Motion(Setting):
             )
             self.engine = "taylor"
 
-    def _collect_arguments(self) -> tuple[Vector, Quaternion, Vector]:
-        """Return what an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
-        w, x, y, z = self.start.given_orientation.tolist()
-        wx, wy, wz = self.start.angular_velocity.tolist()
-        orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
-        return (self.top.Ix, self.top.Iz, abs(self.top.Mgl)), orientation, (wx, wy, wz)
-
     @cached_property
     def _engine(self) -> Engine:
+        # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
+        (w, x, y, z), top = self._orientation, self.top
+        moments = top.Ix, top.Iz, abs(top.Mgl)
+        orientation = (-x, w, -z, y) if self._is_turned_over else self._orientation
         solver = FreeMotion if self._is_free else ClosedFormMotion
         with localcontext(PRECISE):
-            return solver(*self._arguments)
+            return solver(moments, orientation, self._omega)
+
+    @property
+    def _is_turned_over(self) -> bool:
+        return self.top.Mgl < 0
 
     @cached_property
     def _compiled(self) -> CompiledMotion | None:
@@ -172,8 +171,8 @@ class Motion(Setting):
         kernel = find_kernel(self._pure)
         if not kernel:
             return None
-        arguments = self.top, self.start, self.friction, self.applied_torque
-        return CompiledMotion(kernel, *arguments)
+        state = self.top.moments, self._orientation, self._omega
+        return CompiledMotion(kernel, *state, self.friction, self.applied_torque)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -217,7 +216,7 @@ class Motion(Setting):
             return State.wrap(*self._driven.at(time))
         state = self._compiled.at(time) if self._compiled else None
         if state is None:
-            state = (*self._evaluate(time), self._spin)
+            state = (*self._evaluate(time), self._omega[2])
         return State.wrap(np.array(state[:4]), np.array(state[4:]))
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
@@ -244,7 +243,7 @@ class Motion(Setting):
 
     def _fill_in_blocks(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> None:
         """Write the states at times (n,) by NumPy, in blocks that fit into a processor's cache."""
-        omega[:, 2] = self._spin
+        omega[:, 2] = self._omega[2]
         for first in range(0, len(orientation), BLOCK):
             block = slice(first, first + BLOCK)
             part = times.select(block) if isinstance(times, ExactTimes) else times[block]

@@ -3,12 +3,11 @@
 from fractions import Fraction
 from typing import Any, get_args
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Quaternion, Real, Vector
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.exact.rates import Rates
-from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
-from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.top import Friction
 
 # States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 STATES = 2**16
@@ -27,12 +26,16 @@ class CompiledMotion:
     """
 
     def __init__(
-        self, kernel: Any, top: Top, start: State, friction: Friction, torque: Vector
+        self,
+        kernel: Any,
+        moments: Vector,
+        orientation: Quaternion,
+        omega: Vector,
+        friction: Friction,
+        torque: Vector,
     ) -> None:
-        orientation = tuple(start.given_orientation.tolist())
-        omega = tuple(start.angular_velocity.tolist())
         coefficients = friction.axial, friction.transverse
-        self._motion = kernel.Motion(top.moments, orientation, omega, coefficients, torque)
+        self._motion = kernel.Motion(moments, orientation, omega, coefficients, torque)
 
     def at(self, t: float) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at a time in s, or None if it is too far."""

@@ -10,7 +10,6 @@ from physics.driven_families import list_cases
 from physics.tops import random_case
 
 from symtop_ros.physics import Motion, accelerated
-from symtop_ros.physics.exact.phases import ROWS
 
 SOURCE = Path(__file__).with_name("print_states.cpp")
 OPTIONS = ["-O2", "-std=c++17", "-ffp-contract=off"]
