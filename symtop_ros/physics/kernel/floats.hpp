@@ -5,6 +5,13 @@
 
 #include "lanes.hpp"
 
+// Sums and products are calls in WebAssembly: inlined they would make a module twice as large.
+#ifdef __wasm__
+#define SYMTOP_CALL __attribute__((noinline))
+#else
+#define SYMTOP_CALL
+#endif
+
 namespace symtop {
 
 typedef unsigned __int128 Wide;
@@ -17,7 +24,7 @@ struct Float {
 
   Float() = default;
 
-  Float(double x) {
+  SYMTOP_CALL Float(double x) {
     if (x == 0) return;
     sign = x < 0 ? -1 : 1;
     uint64_t bits;
@@ -39,7 +46,7 @@ struct Float {
   }
 
   // The nearest double; the even one of two.
-  double to_double() const {
+  SYMTOP_CALL double to_double() const {
     if (!sign) return 0.0;
     bool is_more = false;
     for (int i = 0; i < N - 1; i++) is_more |= limbs[i] != 0;
@@ -78,7 +85,7 @@ int compare_sizes(const Float<N>& a, const Float<N>& b) {
 }
 
 template <int N>
-int compare(const Float<N>& a, const Float<N>& b) {
+SYMTOP_CALL int compare(const Float<N>& a, const Float<N>& b) {
   return a.sign != b.sign ? (a.sign < b.sign ? -1 : 1) : a.sign * compare_sizes(a, b);
 }
 
@@ -108,7 +115,7 @@ Float<N> operator*(const Float<N>& a, const Float<N>& b) {
 }
 
 // The same for three limbs, from six of the nine products: those left out are below the last bit.
-inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
+SYMTOP_CALL inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
   Float<3> result;
   result.sign = a.sign * b.sign;
   if (!result.sign) return result;
@@ -204,7 +211,7 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
 }
 
 // The same for three limbs, in two halves of 128 bits, of which the lowest 64 are the guard limb.
-inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
+SYMTOP_CALL inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
   if (!x.sign) return y;
   if (!y.sign) return x;
   const auto upper = [](const Float<3>& f) { return static_cast<Wide>(f.limbs[2]) << 64 | f.limbs[1]; };
@@ -264,7 +271,7 @@ inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
 }
 
 template <int N>
-Float<N> operator-(const Float<N>& a, const Float<N>& b) {
+SYMTOP_CALL Float<N> operator-(const Float<N>& a, const Float<N>& b) {
   return a + -b;
 }
 

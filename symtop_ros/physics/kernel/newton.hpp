@@ -54,7 +54,7 @@ inline Float<3> root(const Float<3>& a) {
 
 // The same with N limbs, from three: each step doubles the digits.
 template <int N>
-Float<N> invert(const Float<N>& a) {
+inline Float<N> invert(const Float<N>& a) {
   Float<N> result(invert(Float<3>(a)));
   const Float<N> one(1.0);
   for (int limbs = 3; limbs < N; limbs *= 2) result = result + result * (one - a * result);
@@ -62,7 +62,7 @@ Float<N> invert(const Float<N>& a) {
 }
 
 template <int N>
-Float<N> root(const Float<N>& a) {
+inline Float<N> root(const Float<N>& a) {
   if (a.sign <= 0) return Float<N>();
   Float<N> inverse(invert(root(Float<3>(a))));
   const Float<N> one(1.0);
@@ -73,7 +73,7 @@ Float<N> root(const Float<N>& a) {
 }
 
 template <int N>
-Float<N> operator/(const Float<N>& a, const Float<N>& b) {
+SYMTOP_CALL Float<N> operator/(const Float<N>& a, const Float<N>& b) {
   return a * invert(b);
 }
 

@@ -25,7 +25,7 @@ inline Start normalize(Start s) {
 
 // c = wz (Ix - Iz)/Ix, by which the body turns about its axis in addition to a nutation's mean
 template <int N>
-Float<N> find_turning_rate(const Start& s) {
+inline Float<N> find_turning_rate(const Start& s) {
   const Float<N> Ix(s.Ix);
   return Float<N>(s.wz) * (Ix - Float<N>(s.Iz)) / Ix;
 }
@@ -43,7 +43,7 @@ typedef NutationOf<3> Nutation;
 // _sum_exactly: each sum times its denominators, so that nothing is divided before the end. With
 // beta = 2 Mgl/Ix and a = Iz wz/Ix.
 template <int N>
-void sum_exactly(const Start& start, NutationOf<N>& nutation) {
+inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   typedef Float<N> Rounded;
   const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
@@ -64,7 +64,7 @@ void sum_exactly(const Start& start, NutationOf<N>& nutation) {
 
 // CANCELLED, as the quotient of two doubles
 template <int N>
-bool is_cancelled(const Float<N>& sum, const Float<N>& terms) {
+inline bool is_cancelled(const Float<N>& sum, const Float<N>& terms) {
   return sum * Float<N>(1e10) <= terms;
 }
 
@@ -72,13 +72,13 @@ const int LOST_BITS = 133;  // LOST_DIGITS
 
 // is_lost
 template <int N>
-bool is_lost(const Float<N>& value, const Float<N>& term, int power = 1) {
+inline bool is_lost(const Float<N>& value, const Float<N>& term, int power = 1) {
   return value.sign && term.sign && value.exponent < term.exponent - power * LOST_BITS;
 }
 
 // Nutation.of
 template <int N>
-NutationOf<N> find_nutation(const Start& start) {
+inline NutationOf<N> find_nutation(const Start& start) {
   typedef Float<N> P;
   const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
@@ -128,7 +128,7 @@ const int MOST_STEPS = 60;
 
 // _estimate_largest_root
 template <int N>
-Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
+inline Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
   const double a2 = cubic.a2.to_double(), a1 = cubic.a1.to_double(), a0 = cubic.a0.to_double();
   for (int step = 0; step < MOST_STEPS; step++) {
     const double value = ((s + a2) * s + a1) * s + a0, slope = (3 * s + 2 * a2) * s + a1;
@@ -140,7 +140,7 @@ Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
 
 // _find_largest_root
 template <int N>
-Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
+inline Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
   const Float<N> converged = half_of_digits<N>(9);
   if (!cubic.a0.sign && cubic.a1.sign > 0 && cubic.a2.sign > 0) return Float<N>();
   const Float<N> three(3.0), estimate = estimate_largest_root(cubic, s.to_double());
@@ -156,7 +156,7 @@ Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
 
 // _distances_from_pole
 template <int N>
-void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1, RootsOf<N>& roots) {
+inline void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1, RootsOf<N>& roots) {
   const Float<N> scale = n.beta * v1, per_scale = invert(scale);
   const Float<N> product = n.b_minus_a * n.b_minus_a * per_scale;
   const Float<N> excess = n.alpha_minus_beta - n.a * n.b_minus_a;
@@ -173,7 +173,7 @@ void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1, RootsO
 
 // _roots_from_lowest
 template <int N>
-RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>& cubic) {
+inline RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>& cubic) {
   RootsOf<N> roots;
   const Cubic<N> reflected = {-cubic.a2, cubic.a1, -cubic.a0};
   roots.s1 = -find_largest_root(reflected, n.one_plus_u);
@@ -191,7 +191,7 @@ RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>& cubic)
 
 // _roots_from_highest
 template <int N>
-RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>& cubic) {
+inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>& cubic) {
   RootsOf<N> roots;
   const Float<N> zero;
   Float<N> bound = (cubic.a2.sign < 0 ? -cubic.a2 : zero) +
@@ -214,7 +214,7 @@ RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>& cubic
 }
 
 template <int N>
-RootsOf<N> find_roots(const NutationOf<N>& n) {
+inline RootsOf<N> find_roots(const NutationOf<N>& n) {
   const Float<N> per_beta = invert(n.beta);
   const Cubic<N> cubic = {n.u().scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
                        n.u_dot_dot.scale(1) * per_beta, n.u_dot * n.u_dot * per_beta};

@@ -17,7 +17,7 @@ typedef ZeroOf<3> Zero;
 
 // _zero_below
 template <int N>
-ZeroOf<N> find_zero_below(const NutationOf<N>& n, const RootsOf<N>& roots) {
+inline ZeroOf<N> find_zero_below(const NutationOf<N>& n, const RootsOf<N>& roots) {
   const Float<N>& d = n.b_plus_a;
   const Float<N> from_u2 = n.one_plus_u + roots.s2, from_u3 = n.one_plus_u + roots.s3;
   return {true, d, d * d / (n.beta * from_u2 * from_u3), from_u2, from_u3};
@@ -25,7 +25,7 @@ ZeroOf<N> find_zero_below(const NutationOf<N>& n, const RootsOf<N>& roots) {
 
 // _zero_above
 template <int N>
-ZeroOf<N> find_zero_above(const NutationOf<N>& n, const Float<N>& d, const Float<N>& from_u1,
+inline ZeroOf<N> find_zero_above(const NutationOf<N>& n, const Float<N>& d, const Float<N>& from_u1,
                           Float<N> from_u2, Float<N> from_u3) {
   const Float<N> product = d * d / (n.beta * from_u1);
   if (!(from_u2 + from_u3).sign)
@@ -38,7 +38,7 @@ ZeroOf<N> find_zero_above(const NutationOf<N>& n, const Float<N>& d, const Float
 }
 
 template <int N>
-void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots, ZeroOf<N> zeros[FUNCTIONS]) {
+inline void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots, ZeroOf<N> zeros[FUNCTIONS]) {
   const Float<N> above = n.omega_xy_squared / n.beta;
   Float<N> d = n.b_minus_au_highest, from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
   if (roots.s32 * Float<N>(1e10) < n.one_minus_u) {  // CANCELLED
@@ -54,7 +54,7 @@ void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots, ZeroOf<N> zeros
 
 // _iterate_mean
 template <int N>
-Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) {
+inline Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) {
   const Float<N> converged = half_of_digits<N>(16);
   Float<N> a(1.0), b = k;
   count = 0;
@@ -70,7 +70,7 @@ Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) {
 
 // _third_kind
 template <int N>
-Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root_near, const Float<N>& k,
+inline Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root_near, const Float<N>& k,
                               const Float<N>& mean, const Float<N>* products, int count) {
   const Float<N> near = root_near * root_near, one(1.0);
   Float<N> c = one + near, d = (one + k).scale(1), p = zero.is_below ? one + k * near : k + near;
@@ -86,7 +86,7 @@ const int MOST_MEANS = 64;
 
 // compute_mean_rates
 template <int N>
-Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros[], const Float<N>& k,
+inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros[], const Float<N>& k,
                             Float<N> means[FUNCTIONS]) {
   if (!k.sign) {
     for (int i = 0; i < FUNCTIONS; i++)
