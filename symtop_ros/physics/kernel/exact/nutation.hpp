@@ -62,10 +62,11 @@ inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   nutation.alpha_minus_beta = Rounded(squared * Ix * norm - (Mgl * lower).scale(2)) / product;
 }
 
-// CANCELLED, as the quotient of two doubles
+const double PER_CANCELLED = 1e10;  // 1/CANCELLED
+
 template <int N>
 inline bool is_cancelled(const Float<N>& sum, const Float<N>& terms) {
-  return sum * Float<N>(1e10) <= terms;
+  return sum * Float<N>(PER_CANCELLED) <= terms;
 }
 
 const int LOST_BITS = 133;  // LOST_DIGITS

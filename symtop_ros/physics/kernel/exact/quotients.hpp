@@ -41,7 +41,7 @@ template <int N>
 inline void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots, ZeroOf<N> zeros[FUNCTIONS]) {
   const Float<N> above = n.omega_xy_squared / n.beta;
   Float<N> d = n.b_minus_au_highest, from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
-  if (roots.s32 * Float<N>(1e10) < n.one_minus_u) {  // CANCELLED
+  if (roots.s32 * Float<N>(PER_CANCELLED) < n.one_minus_u) {
     const Float<N> lift = n.alpha_minus_beta / n.beta;
     d = n.b_minus_a - n.a * lift;
     from_u2 = roots.below_pole + lift, from_u3 = roots.above_pole - lift;
