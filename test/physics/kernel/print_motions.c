@@ -16,8 +16,8 @@ static size_t read_count(void) {
   return (size_t)number;
 }
 
-static void* allocate(size_t count) {
-  void* memory = malloc(8 * count + 8);
+static double* allocate(size_t count) {
+  double* memory = (double*)malloc(8 * count + 8);
   if (!memory) exit(2);
   return memory;
 }
@@ -74,7 +74,7 @@ static void print_states_of_clock(symtop_motion* motion) {
   size_t count, written;
   read_all(&clock, 5);
   count = read_count();
-  stamps = allocate(count), orientation = allocate(4 * count), omega = allocate(3 * count);
+  stamps = (int64_t*)allocate(count), orientation = allocate(4 * count), omega = allocate(3 * count);
   read_all(stamps, count);
   demand(symtop_states_of_clock(motion, &clock, stamps, count, INFINITY, orientation, omega,
                                 &written));
