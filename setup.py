@@ -143,6 +143,11 @@ setup(
             "web/*.js",
             "web/*.html",
             "web/*.yaml",
+            "web/*.wasm",
+            # the kernel for programs in C, C++ and Rust
+            "physics/kernel/*.h*",
+            "physics/kernel/*.cpp",
+            "physics/kernel/*/*.hpp",
             "wording/en.json",
         ],
         f"{NAME}.testset": [

@@ -146,9 +146,7 @@ class Motion(Setting):
             self.engine = "free"
         self._driven: DrivenMotion | None = None
         if self.is_driven:
-            self._driven = DrivenMotion(
-                top, start, friction, self.applied_torque, self._compiled
-            )
+            self._driven = DrivenMotion(top, start, friction, self.applied_torque, self._compiled)
             self.engine = "taylor"
 
     @cached_property
@@ -215,9 +213,8 @@ class Motion(Setting):
         if self._driven:
             return State.wrap(*self._driven.at(time))
         state = self._compiled.at(time) if self._compiled else None
-        if state is None:
-            state = (*self._evaluate(time), self._omega[2])
-        return State.wrap(np.array(state[:4]), np.array(state[4:]))
+        numbers = np.array(state or (*self._evaluate(time), self._omega[2]))
+        return State.wrap(numbers[:4], numbers[4:])
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at many times into arrays; the times are not validated.

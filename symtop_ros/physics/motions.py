@@ -228,7 +228,7 @@ class Motions(Setting):
     @property
     def spin_reverses(self) -> NDArray[np.bool_]:
         """True where psi' takes both signs in a nutation."""
-        return self._find_rates("spin_reverses") != 0
+        return np.asarray(self._find_rates("spin_reverses") != 0)
 
     @property
     def fast_top_precession_rate(self) -> Real:

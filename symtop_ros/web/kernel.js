@@ -1,8 +1,8 @@
 // The kernel in WebAssembly: motions of the top in a page, with the bits of Python and no server.
 
 /**
- * What a motion starts from, in SI units. Friction is axial and transverse; the torque is in the world
- * frame.
+ * What a motion starts from, in SI units. Friction is axial and transverse; the torque is in the
+ * world frame.
  * @typedef {object} Start
  * @property {number} Ix
  * @property {number} Iz
@@ -22,8 +22,10 @@
  * @property {(status: number) => number} symtop_describe_status
  * @property {(start: number, motion: number) => number} symtop_new
  * @property {(motion: number) => void} symtop_free
- * @property {(motion: number, t: number, torque: number, continued: number) => number} symtop_continue
- * @property {(motion: number, t: number, orientation: number, omega: number) => number} symtop_state
+ * @property {(motion: number, t: number, torque: number, continued: number) => number}
+ *   symtop_continue
+ * @property {(motion: number, t: number, orientation: number, omega: number) => number}
+ *   symtop_state
  * @property {(motion: number, times: number, count: number, steps: number, orientation: number,
  *   omega: number, written: number) => number} symtop_states
  * @property {(motion: number, t: number, steps: number, reached: number) => number} symtop_reach
@@ -70,7 +72,10 @@ export class Kernel {
    */
   motion({ Ix, Iz, Mgl, orientation, angular_velocity, friction = [0, 0], torque = [0, 0, 0] }) {
     const numbers = [Ix, Iz, Mgl, ...orientation, ...angular_velocity, ...friction, ...torque];
-    if (numbers.length !== NUMBERS) throw new RangeError("orientation, angular_velocity, friction and torque must have 4, 3, 2 and 3 numbers");
+    if (numbers.length !== NUMBERS) {
+      const names = "orientation, angular_velocity, friction and torque";
+      throw new RangeError(`${names} must have 4, 3, 2 and 3 numbers`);
+    }
     this.doubles(this.place, NUMBERS).set(numbers);
     const result = this.place + 8 * NUMBERS;
     this.demand(this.exports.symtop_new(this.place, result));

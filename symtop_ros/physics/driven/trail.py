@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from functools import partial
 from threading import Lock
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -113,7 +113,7 @@ def refuse_too_fast(t: float, end: float) -> ValueError:
 
 
 class CompiledTrail:
-    """The trails of the kernel: in sums of two doubles, so that they have the same bits everywhere."""
+    """The trails of the kernel: in sums of two doubles, with the same bits everywhere."""
 
     def __init__(self, motion: CompiledMotion) -> None:
         self._motion = motion

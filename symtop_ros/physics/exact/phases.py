@@ -16,13 +16,11 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real
 from symtop_ros.physics.exact.elementary import Number, Pair, round_to_integer
 from symtop_ros.physics.exact.precise import (
-    ONE,
     PRECISE,
     TWO,
     TWO_PI,
     TWO_PI_HIGH,
     TWO_PI_LOW,
-    ZERO,
     compute_cosine,
     split,
 )

@@ -1,5 +1,5 @@
-// Many states of one motion: LANES at a time where all of them lie after the first instants, else one
-// by one. Both are the same templates of exact/closed_form.hpp.
+// Many states of one motion: LANES at a time where all of them lie after the first instants, else
+// one by one. Both are the same templates of exact/closed_form.hpp.
 #pragma once
 
 #include "clock.hpp"

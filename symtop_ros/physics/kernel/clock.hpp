@@ -127,8 +127,8 @@ class ClockSteps {
   int count_;
   uint64_t steps_[FUNCTIONS][STEP_LIMBS], starts_[FUNCTIONS];
 
-  // The phase at stamp 0. Each part of the elapsed time is rounded down to 2^-256 of a turn, of which
-  // 64 bits are kept.
+  // The phase at stamp 0. Each part of the elapsed time is rounded down to 2^-256 of a turn, of
+  // which 64 bits are kept.
   static uint64_t find_start(const Steps& steps, int k, const Clock& clock) {
     uint64_t sum[STEP_LIMBS] = {}, part[STEP_LIMBS];
     for (double elapsed : clock.elapsed) {

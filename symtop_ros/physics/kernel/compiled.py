@@ -76,7 +76,8 @@ class CompiledMotion:
     @property
     def kind(self) -> Kind:
         """Name of the motion."""
-        return KINDS[self._motion.kind()]
+        code: int = self._motion.kind()
+        return KINDS[code]
 
     @property
     def turning_angles(self) -> tuple[float, float]:
@@ -87,12 +88,12 @@ class CompiledMotion:
     @property
     def rates(self) -> Rates:
         """Nutation period, mean rates, and whether the spin reverses."""
-        *numbers, spin_reverses = self._motion.rates()
-        return Rates(*numbers, bool(spin_reverses))
+        period, precession, spin, turns, reverses = self._motion.rates()
+        return Rates(period, precession, spin, turns, bool(reverses))
 
 
 def _find_clock(times: ExactTimes) -> Clock | None:
-    """Return factor and elapsed time as doubles, or None if that takes too many or too large ones."""
+    """Return factor and elapsed time as doubles, or None if these are too many or too large."""
     parts, left = [0.0] * PARTS, times.elapsed
     for place in range(PARTS):
         if not left:

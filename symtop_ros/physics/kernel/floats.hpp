@@ -171,8 +171,8 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   const Float<N>&a = is_first ? x : y, &b = is_first ? y : x;
   const int distance = a.exponent - b.exponent;
   if (distance >= 64 * N + 2) return a;
-  // One more limb below, so that a bit that is lost in the shift is no bit of the result. The smaller
-  // number lies between limbs of zero, of which the shift is a choice.
+  // One more limb below, so that a bit that is lost in the shift is no bit of the result. The
+  // smaller number lies between limbs of zero, of which the shift is a choice.
   uint64_t large[N + 1] = {}, small[N + 1], between[2 * N + 3] = {};
   std::memcpy(large + 1, a.limbs, sizeof a.limbs);
   std::memcpy(between + 1, b.limbs, sizeof b.limbs);

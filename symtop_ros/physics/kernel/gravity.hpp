@@ -1,4 +1,5 @@
-// A motion under gravity alone: circular functions where no torque turns the axis, else elliptic ones.
+// A motion under gravity alone: circular functions where no torque turns the axis, else elliptic
+// ones.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,6 @@
-// The functions of symtop.h as a module of Python, symtop_ros.physics.kernel._kernel, with the stable
-// interface of Python 3.11: one build serves all later versions. Arrays are C-contiguous buffers.
+// The functions of symtop.h as a module of Python, symtop_ros.physics.kernel._kernel, with the
+// stable interface of Python 3.11: one build serves all later versions. Arrays are C-contiguous
+// buffers.
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030b0000
 #include <Python.h>

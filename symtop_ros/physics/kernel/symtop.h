@@ -1,16 +1,17 @@
 /* The motion of the heavy symmetric top, for C, C++, Rust, WebAssembly and Python.
  *
- * A motion belongs to a top, a start, and the friction and the torque that act on it. Without friction
- * and torque its states are exact at any time, by elliptic functions; with them they are integrated,
- * by Taylor series. The bits are those of Python's symtop_ros.physics, on every processor.
+ * A motion belongs to a top, a start, and the friction and the torque that act on it. Without
+ * friction and torque its states are exact at any time, by elliptic functions; with them they are
+ * integrated, by Taylor series. The bits are those of Python's symtop_ros.physics, on every
+ * processor.
  *
- * Quaternions are (w, x, y, z), body to world; angular velocities are in the body frame, in rad/s. The
- * z axis of the world points up, that of the body along the axis of the top, away from the pivot.
- * Units are kg m^2, J, s, rad/s, N m, and N m s for friction.
+ * Quaternions are (w, x, y, z), body to world; angular velocities are in the body frame, in rad/s.
+ * The z axis of the world points up, that of the body along the axis of the top, away from the
+ * pivot. Units are kg m^2, J, s, rad/s, N m, and N m s for friction.
  *
  * There is no global state. Threads may use different motions, and the same one, at the same time.
- * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. Without that option a
- * compiler may fuse products and sums, and the last bits are others.
+ * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. Without that option
+ * a compiler may fuse products and sums, and the last bits are others.
  */
 #ifndef SYMTOP_H
 #define SYMTOP_H
@@ -29,7 +30,7 @@ typedef struct {
                                  distance: negative for a top that hangs below its pivot */
   double orientation[4];      /* at t = 0; of norm 1 within 1e-3: it is normalised */
   double angular_velocity[3]; /* at t = 0 */
-  double friction[2];         /* coefficients >= 0: axial and transverse torque per rate, in N m s */
+  double friction[2];         /* coefficients >= 0: axial and transverse torque per rate, N m s */
   double torque[3];           /* applied torque in the world frame, constant */
 } symtop_start;
 
@@ -44,7 +45,7 @@ typedef enum {
   SYMTOP_BAD_TIME,
   SYMTOP_TOO_FAR,   /* more than 1e15 turns from the start */
   SYMTOP_TOO_FAST,  /* the driven motion becomes too fast on the way */
-  SYMTOP_TOO_STIFF, /* friction stops the top in so short a time that the way takes too many steps */
+  SYMTOP_TOO_STIFF, /* friction stops the top so soon that the way takes too many steps */
   SYMTOP_MORE_STEPS /* the allowed steps did not suffice: call again, and the integration goes on */
 } symtop_status;
 
@@ -66,16 +67,16 @@ symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4
                            double angular_velocity[3]);
 
 /* States at `count` times in s, in any order; driven motions take least time if they lead away from
- * the start. Orientations are (count, 4), angular velocities (count, 3). Driven motions take at most
- * `most_steps` steps, INFINITY for as many as are needed. *written is the number of states written,
- * from the first on: all of them, or those before the one that the status is about. */
+ * the start. Orientations are (count, 4), angular velocities (count, 3). Driven motions take at
+ * most `most_steps` steps, INFINITY for as many as are needed. *written is the number of states
+ * written, from the first on: all of them, or those before the one that the status is about. */
 symtop_status symtop_states(symtop_motion* motion, const double* times, size_t count,
                             double most_steps, double* orientation, double* angular_velocity,
                             size_t* written);
 
-/* Exact times: integers in ns, of at most 63 bits. The time of the motion is the sum of `elapsed`, in
- * ns, and factor times the stamp. Nothing of it is rounded. The factor and the parts of `elapsed` are
- * 0 or, in size, from 1e-100 to 1e100. */
+/* Exact times: integers in ns, of at most 63 bits. The time of the motion is the sum of `elapsed`,
+ * in ns, and factor times the stamp. Nothing of it is rounded. The factor and the parts of `elapsed`
+ * are 0 or, in size, from 1e-100 to 1e100. */
 typedef struct {
   double factor;
   double elapsed[4];
@@ -86,8 +87,8 @@ symtop_status symtop_states_of_clock(symtop_motion* motion, const symtop_clock* 
                                      double* orientation, double* angular_velocity,
                                      size_t* written);
 
-/* Integrate towards a time in at most so many steps. *reached is the time in s up to which states now
- * take no integration; for a motion that is not driven it is the time itself. */
+/* Integrate towards a time in at most so many steps. *reached is the time in s up to which states
+ * now take no integration; for a motion that is not driven it is the time itself. */
 symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps, double* reached);
 
 typedef enum {

@@ -77,7 +77,8 @@ static void call_all(symtop_motion* motion, int oddness) {
   check(symtop_reach(motion, times[0], 40, &reached), 0);
   check(symtop_state(motion, reached, orientation, omega), 0);
   check(symtop_continue(motion, reached, torque, &continued), 0);
-  if (continued) check(symtop_states(continued, times, TIMES, 40, orientation, omega, &written), written);
+  if (continued)
+    check(symtop_states(continued, times, TIMES, 40, orientation, omega, &written), written);
   symtop_free(continued);
   if ((unsigned)symtop_find_kind(motion) > SYMTOP_DRIVEN) exit(1);
   symtop_find_turning_angles(motion, angles);

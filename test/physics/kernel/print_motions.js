@@ -78,8 +78,10 @@ async function print_motions(Kernel, kinds, module, samples) {
   const kernel = await Kernel.load(decode(module));
   const reader = new Reader(decode(samples));
   const numbers = [];
-  for (let count = reader.number(); count > 0; count--) numbers.push(...describe(kernel, kinds, reader));
+  const count = reader.number();
+  for (let n = 0; n < count; n++) numbers.push(...describe(kernel, kinds, reader));
   let text = "";
-  for (const byte of new Uint8Array(Float64Array.from(numbers).buffer)) text += String.fromCharCode(byte);
+  const bytes = new Uint8Array(Float64Array.from(numbers).buffer);
+  for (const byte of bytes) text += String.fromCharCode(byte);
   return btoa(text);
 }

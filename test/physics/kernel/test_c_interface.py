@@ -66,7 +66,10 @@ def test_a_program_in_c_has_the_bits_of_python(tmp_path, kernel):
 @needs_compiler
 def test_a_program_that_uses_the_kernel_needs_no_python(tmp_path, kernel):
     libraries = subprocess.run(
-        ["ldd", build("print_motions.c", tmp_path, kernel)], capture_output=True, text=True, check=True
+        ["ldd", build("print_motions.c", tmp_path, kernel)],
+        capture_output=True,
+        text=True,
+        check=True,
     ).stdout
     assert "libc.so" in libraries
     assert "python" not in libraries

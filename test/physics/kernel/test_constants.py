@@ -12,6 +12,7 @@ from symtop_ros.physics.driven import series as driven_series
 from symtop_ros.physics.driven import trail as driven_trail
 from symtop_ros.physics.exact import elementary, phases
 from symtop_ros.physics.exact.nutation import CANCELLED, LOST_DIGITS
+from symtop_ros.physics.exact.nutation_phase import NEAR_POLE
 from symtop_ros.physics.exact.precise import PI_LOW, PRECISE, TWO_PI
 from symtop_ros.physics.kernel import compiled
 
@@ -34,6 +35,7 @@ ELSEWHERE = {
     ("exact/nutation.hpp", "START_ROUNDING"): values.START_ROUNDING,
     ("exact/nutation.hpp", "PER_CANCELLED"): 1 / float(CANCELLED),
     ("exact/nutation.hpp", "LOST_BITS"): round(LOST_DIGITS * 3.3219280948873626),
+    ("exact/nutation_phase.hpp", "PER_NEAR_POLE"): 1 / float(NEAR_POLE),
     ("gravity.hpp", "WEIGHTLESS"): arguments.WEIGHTLESS,
     ("driven/series.hpp", "DRIVEN_TERMS"): driven_series.TERMS,
     ("driven/motion.hpp", "MOST_DECAYS"): driven_trail.MOST_DECAYS,
@@ -54,8 +56,7 @@ OWN = {
     "FACTORS": "of the equations of a driven motion",
     "KEPT": "fewer than in Python: see trail.hpp",
     "RECENT": "fewer than in Python: see trail.hpp",
-    # Sums of two doubles are cheaper than extended precision in NumPy: more terms have it, and steps
-    # are shorter.
+    # Sums of two doubles are cheaper than extended precision in NumPy: more terms have it.
     "EXTENDED_TERMS": "more than in Python",
     "LAST": "less than in Python",
     "LARGEST_TURN": "less than in Python",

@@ -3,12 +3,10 @@
 import hashlib
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
 import sysconfig
-from decimal import Decimal, localcontext
 from fractions import Fraction
 from pathlib import Path
 
@@ -17,9 +15,6 @@ import pytest
 from physics.tops import random_case, seeds
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated
-from symtop_ros.physics.exact import elementary
-from symtop_ros.physics.exact.phases import PER_TURN
-from symtop_ros.physics.exact.precise import PRECISE, TWO_PI
 
 FOLDER = Path(__file__).parents[1]
 ROOT = FOLDER.parents[1]

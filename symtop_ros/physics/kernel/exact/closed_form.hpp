@@ -1,9 +1,11 @@
 // Twin of physics/exact/closed_form.py.
 //
-// Each header of this folder is the twin of the file of its name, function by function and in the
-// same order of operations: what is computed here with Precise is computed there with Decimal. Read
-// the Python first; it says where each formula comes from and why it is written so. The names are
-// the same.
+// Each header of this folder is the twin of the Python file of its name, with the same formulas in
+// the same order. What is computed here with Precise, in 57 digits, is computed there with Decimal,
+// in 50: where such numbers become doubles they are the same, and all else is doubles in the same
+// order of operations. Where a function has another name, a comment gives that of Python. theta.py
+// has its twin in `compute_series`, rates.py in ../gravity.hpp. Read the Python first; it says
+// where each formula comes from and why it is written so.
 #pragma once
 
 #include "first_instants.hpp"
@@ -38,8 +40,8 @@ inline Precise add_rates(const Precise& mean, const Precise& half_c) {
   return is_lost(rate, half_c) ? Precise() : rate;
 }
 
-// A motion whose axis moves under gravity, with Mgl > 0. It is solved in three stages: what kind and
-// turning angles need, what states need, and what the first instants need.
+// A motion whose axis moves under gravity, with Mgl > 0. It is solved in three stages: what kind
+// and turning angles need, what states need, and what the first instants need.
 struct ClosedForm {
   Start start;
   bool is_turned_over;

@@ -7,9 +7,7 @@ namespace symtop {
 
 // 10^-30 and 10^-680: shares of the largest term below which a sum keeps no KEPT = 20 of 50 and of
 // 700 digits.
-inline Precise find_lost_share() {
-  return invert(Precise(1e15) * Precise(1e15));
-}
+inline Precise find_lost_share() { return invert(Precise(1e15) * Precise(1e15)); }
 inline Longest find_last_lost_share() {
   const Longest e17(1e17), e34 = e17 * e17, e68 = e34 * e34, e136 = e68 * e68;
   return invert(e136 * e136 * e136 * e136 * e136);
@@ -50,7 +48,9 @@ inline MeanRates find_mean_rates(const ClosedForm& motion) {
   if (has_precession && has_spin) return {sums.precession, sums.spin};
   const MeanSums<37> longer = compute_long_means(motion.start);
   const Longest last = longer.largest * find_last_lost_share();
-  const auto keep = [&last](const Longest& sum) { return size(sum) >= last ? Precise(sum) : Precise(); };
+  const auto keep = [&last](const Longest& sum) {
+    return size(sum) >= last ? Precise(sum) : Precise();
+  };
   return {keep(longer.precession), keep(longer.spin)};
 }
 
