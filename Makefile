@@ -103,8 +103,9 @@ lesson: $(VENV)/report  ## the pictures of the lesson; ARGS=--sheets: sheets to 
 maps: $(VENV)/report  ## where hurrying the precession raises the top
 	$(WORKSHOP) maps $(ARGS)
 
-pictures: $(VENV)/report $(VENV)/vulkan  ## all pictures in docs/, and the steps of docs/lesson.md
+pictures: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium  ## the pictures in docs/ but plots of measurements, and the steps of docs/lesson.md
 	$(WORKSHOP) pictures $(ARGS)
+	@PYTHONPATH=test $(BIN)/python test/panel/draw_page.py $(ARGS)
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
 	@$(BIN)/python -m workshop.load.stress $(ARGS)

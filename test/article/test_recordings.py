@@ -7,9 +7,12 @@ from symtop_ros.physics import perrys_rule
 from symtop_ros.playback.view import entities
 from workshop.article.motions import RATES
 from workshop.article.recordings import (
+    EYE,
     KICK,
     MOTIONS,
+    NARROW,
     SCENES,
+    TARGET,
     kicked_and_not_kicked,
     six_rates,
     write_recordings,
@@ -59,6 +62,26 @@ def test_the_attitude_does_not_jump_at_the_kick():
         around = exhibit.run.at(np.array([KICK - 1e-9, KICK]))
         # a billionth of a second at 250 rad/s
         assert np.abs(np.diff(around.orientation, axis=0)).max() < 1e-6
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_tops_of_a_scene_are_seen_from_the_same_side_and_in_the_picture(name):
+    pivots = np.array([(*exhibit.place, 0.0) for exhibit in SCENES[name]()])
+    away = pivots - EYE
+    directions = away / np.linalg.norm(away, axis=1)[:, None]
+    # 18 degrees; 65 with the eye of 55 degrees that was near enough to fill the picture
+    assert np.arccos((directions @ directions.T).min()) < np.radians(20)
+    forward = (TARGET - EYE) / np.linalg.norm(TARGET - EYE)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    around = np.linspace(0.0, 2 * np.pi, 73)
+    equator = np.stack([np.cos(around), np.sin(around), 0 * around], axis=1)
+    # of each top the equator, and its label
+    points = (pivots[:, None] + [*equator, (0.0, 0.0, 1.45)]).reshape(-1, 3) - EYE
+    half = np.tan(NARROW / 2) * (points @ forward)
+    assert np.abs(points @ np.cross(right, forward) / half).max() < 1.0
+    # the scene has five sevenths of the height: a window of 4 to 3 is wide enough
+    assert np.abs(points @ right / half).max() < 1.95
 
 
 @pytest.fixture(scope="module")

@@ -1,19 +1,26 @@
-"""Draw the pictures of the page in docs/: PYTHONPATH=test python test/panel/draw_page.py."""
+"""Draw the pictures of the page in docs/: PYTHONPATH=test python test/panel/draw_page.py.
+
+`make pictures` runs it. A folder as argument takes the place of docs/.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import io
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from browser import running_browser
+from PIL import Image
 
 from symtop_ros.panel.actions import Actions
 from symtop_ros.panel.page import Page
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.panel.source import LocalTop
+from workshop.pictures.pack import pack_shaded
 
 DOCS = Path(__file__).parents[2] / "docs"
 STEPS = 64  # of a nutation, so that the trace is smooth
@@ -59,13 +66,15 @@ PICTURES = (
 LESSON = Picture("panel_lesson", 1280, 720, "cusps", lambda _: None, (4.0, 0.0))
 
 
-def main() -> None:
-    """Draw all pictures."""
+def main(folder: Path) -> None:
+    """Draw all pictures into a folder."""
     for picture in PICTURES:
         with opened(picture) as (page, tab):
             draw(picture, page, tab)
+            save(picture, tab, folder)
     with opened(LESSON) as (page, tab):
         draw_lesson(page, tab)
+        save(LESSON, tab, folder)
 
 
 @contextlib.contextmanager
@@ -86,7 +95,7 @@ def opened(picture: Picture) -> Iterator[tuple[Page, Any]]:
 
 
 def draw_lesson(page: Page, tab: Any) -> None:
-    """Press a button of a step of the lesson, and save what is seen some time later."""
+    """Press a button of a step of the lesson, and let some time pass."""
     tab.goto(f"{page.server.url}/#lesson=10")
     tab.frame_locator("iframe").locator("canvas").first.wait_for(timeout=TIMEOUT * 1000)
     tab.get_by_label("Your prediction").fill("The centrifugal torque lifts it, more and more.")
@@ -95,11 +104,10 @@ def draw_lesson(page: Page, tab: Any) -> None:
     page.actions.request("pause", True)
     page.actions.request("reset")
     move(page, LESSON.nutations[0])
-    save(LESSON, tab)
 
 
 def draw(picture: Picture, page: Page, tab: Any) -> None:
-    """Play what a picture shows, and save it."""
+    """Play what a picture shows."""
     tab.goto(page.server.url)
     tab.wait_for_selector("#headline:not(:empty)", timeout=TIMEOUT * 1000)
     tab.frame_locator("iframe").locator("canvas").first.wait_for(timeout=TIMEOUT * 1000)
@@ -111,16 +119,16 @@ def draw(picture: Picture, page: Page, tab: Any) -> None:
         picture.act(page.actions)
         move(page, after)
     tab.get_by_role("tab", name=picture.tab).click()
-    save(picture, tab)
 
 
-def save(picture: Picture, tab: Any) -> None:
+def save(picture: Picture, tab: Any, folder: Path) -> None:
     """Save what the window shows."""
     tab.mouse.move(picture.width / 2, 5)
     tab.wait_for_timeout(3000)  # the browser may be some frames behind
-    path = DOCS / f"{picture.name}.png"
-    tab.screenshot(path=path)
-    print(f"wrote docs/{path.name}")
+    path = folder / f"{picture.name}.png"
+    with Image.open(io.BytesIO(tab.screenshot())) as shot:
+        path.write_bytes(pack_shaded(shot))
+    print(f"wrote {path}")
 
 
 def move(page: Page, nutations: float) -> None:
@@ -149,4 +157,4 @@ def is_drawn(page: Page) -> bool:
 
 
 if __name__ == "__main__":
-    main()
+    main(Path(sys.argv[1]) if sys.argv[1:] else DOCS)

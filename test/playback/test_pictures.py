@@ -14,6 +14,7 @@ from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import EYE_UPPER_HALF, EYE_WHOLE_SPHERE
 from symtop_ros.playback.view.view import View
+from workshop.pictures import viewer
 from workshop.pictures.viewer import pause_at, picture, running_viewer, view_named, views
 
 VIEWS = 14
@@ -57,6 +58,23 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
         assert [each.reports for each in views(client, VIEWS).values()] == [[]] * VIEWS
         drawn = picture(client, found["the top"])
     assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500  # shaded bodies, not an empty view
+
+
+@pytest.mark.parametrize("size", ["1280x720", pytest.param("1600x900", marks=pytest.mark.long)])
+def test_the_chart_of_the_potential_is_not_cut(size, tmp_path, monkeypatch):
+    monkeypatch.setattr(viewer, "SIZE", size)
+    target = tmp_path / "hurried.rrd"
+    replay(TopLog(McapFile(SCENES["hurried"].write(tmp_path))), target)
+    with running_viewer(target) as (client, _):
+        chart = view_named(client, "effective potential (J)")
+        pause_at(client, entities.TIMELINE, duration=1.2)
+        shot = picture(client, chart).astype(int)
+    drawn = np.abs(shot - entities.BACKGROUND).max(axis=2) > 20
+    rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
+    # the labels below the box end above the edge of the view, and little room is lost
+    assert min(rows[0], columns[0]) > 0
+    assert max(rows[-1] - len(drawn), columns[-1] - drawn.shape[1]) < -1
+    assert rows[-1] - rows[0] > 0.8 * len(drawn)
 
 
 def projected(point, eye, target, shape):

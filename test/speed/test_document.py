@@ -5,11 +5,12 @@ import pytest
 from workshop.speed.ahead import FRICTION, TABLES, list_ahead
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
 from workshop.speed.document import (
+    CONDITIONS,
     Environment,
     _format_ahead,
     _format_other_motions,
+    format_chapters,
     format_document,
-    format_table,
 )
 from workshop.speed.many import ManyCost
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
@@ -21,11 +22,6 @@ def curve(peer, motion):
     return Curve(peer, motion, 10.0, (Measurement(0.0, 1e-9, 1e-9, 9, 1e-3, 0.0),), "finest")
 
 
-def test_a_table_has_as_many_cells_in_each_row():
-    lines = format_table(["", "a"], [["b", "1"], ["c", "2"]]).splitlines()
-    assert lines == ["|  | a |", "| --- | --: |", "| b | 1 |", "| c | 2 |"]
-
-
 def test_the_table_of_other_motions_has_a_row_for_each_peer():
     problem = Reference.read().article[0]
     curves = [curve(peer, name) for name in ("looping", "sleeping") for peer in ("a", "b")]
@@ -33,6 +29,17 @@ def test_the_table_of_other_motions_has_a_row_for_each_peer():
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert rows[0] == "|  | looping | sleeping |"
     assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
+
+
+def test_the_conditions_of_a_report_are_a_list():
+    environment = Environment("make report", "a machine", {"numpy": "2"}, ["drake"], 4.0)
+    text = format_chapters(Results(), Reference.read().article[0], environment)
+    first, empty, *lines = text.partition("\n\n## ")[0].splitlines()
+    assert (first, empty) == ("Conditions:", "")
+    assert all(line.startswith("- ") for line in lines)
+    # the command, the machine, the versions, what is missing, and what a figure means
+    for part in ("make report", "a machine", "numpy 2", "drake", *CONDITIONS):
+        assert sum(part in line for line in lines) == 1
 
 
 @pytest.mark.parametrize("by", ["peer", "motion"])

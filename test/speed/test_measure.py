@@ -17,6 +17,7 @@ from workshop.speed.benchmarks import (
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import NAMES
+from workshop.speed.publish import COLUMNS
 from workshop.speed.reference import Reference
 
 
@@ -84,6 +85,7 @@ def test_the_document_has_every_chapter_and_its_plots(folder):
     assert named == [name for name in NAMES if name != "motions"]  # only one was measured
     for line in (line for line in text.splitlines() if line.startswith("|")):
         assert line.endswith("|")
+        assert line.count("|") - 1 <= COLUMNS
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -22,7 +22,7 @@ from workshop.load.bare import TOPICS
 from workshop.load.listener import Listener, Traffic
 from workshop.load.processes import domain, run_program, running, script, top_node
 from workshop.speed.measure import find_machine
-from workshop.speed.publish import publish
+from workshop.speed.publish import format_list, format_tables, publish
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -34,7 +34,16 @@ TOP_FIFO, BARE_FIFO = "top_node, SCHED_FIFO", "bare rclpy, SCHED_FIFO"
 PRIORITY = 50
 CPU, LATE_SAMPLES, JITTER = "CPU, % (one core)", "late samples, %", "jitter p99, ms"
 KICK, SLOW_KICK = "kick to first sample, ms", "kick to first sample p99, ms"
-HIGHEST = f"highest rate with < {LATE:.1%} late, Hz"
+HIGHEST = f"highest rate with < {100 * LATE:g} % late, Hz"
+CONDITIONS = (
+    f"Each node publishes the same {len(TOPICS)} messages, with one subscriber for each topic. A "
+    "bare rclpy node publishes them from a timer and computes nothing; a second one publishes "
+    "bytes that it has prepared.",
+    "A sample is late if it comes more than a period after its time. Lost samples are late.",
+    "The time from a kick to its first sample contains on average half a period of waiting for the "
+    "next stamp.",
+    f"Highest rate: of {', '.join(f'{rate:g}' for rate in RATES)} Hz.",
+)
 
 Command = Callable[[float], list[str]]  # command line for a rate in Hz
 NAME = "node cost"  # of the table in the documentation
@@ -134,26 +143,31 @@ def _measure_all(node: str, command: Command, seconds: float) -> Iterator[tuple[
 
 
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
-    """Return the table of docs/reliability.md by its name."""
+    """Return the conditions and the table of docs/reliability_tables.md by its name."""
     runs: Runs = facts["runs"]
-    source = f"`make node-cost` on {facts['machine']}"
-    spread = f"medians of {facts['count']} runs (lowest to highest), {len(TOPICS)} topics"
-    table = _format_table(runs, tuple(dict.fromkeys(node for row in runs.values() for node in row)))
-    return {NAME: f"{source}: {spread} with one subscriber each.\n\n{table}"}
+    conditions = format_list(
+        [
+            f"Command: `make node-cost`; machine: {facts['machine']}.",
+            f"Figures: medians of {facts['count']} runs (lowest to highest).",
+            *CONDITIONS,
+        ]
+    )
+    nodes = tuple(dict.fromkeys(node for row in runs.values() for node in row))
+    rows = [[row, *(_format_cell(row, of.get(node)) for node in nodes)] for row, of in runs.items()]
+    return {NAME: f"{conditions}\n\n{format_tables(['', *nodes], rows)}"}
 
 
-def _format_table(runs: Runs, nodes: tuple[str, ...]) -> str:
-    lines = [f"| | {' | '.join(nodes)} |", f"|---{'|--:' * len(nodes)}|"]
-    for row, values in runs.items():
-        cells = [_format_cell(values.get(node)) for node in nodes]
-        lines.append(f"| {row} | {' | '.join(cells)} |")
-    return "\n".join(lines)
-
-
-def _format_cell(values: list[float] | None) -> str:
+def _format_cell(row: str, values: list[float] | None) -> str:
     if not values:
         return ""
-    return f"{median(values):.3g} ({min(values):.3g} to {max(values):.3g})"
+    middle, *ends = (_format_value(row, each(values)) for each in (median, min, max))
+    return middle if set(ends) == {middle} else f"{middle} ({' to '.join(ends)})"
+
+
+def _format_value(row: str, value: float) -> str:
+    if row == HIGHEST:
+        return f"{value:g}" if value else f"below {RATES[0]:g}"
+    return f"{value:.3g}"
 
 
 @contextlib.contextmanager

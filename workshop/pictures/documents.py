@@ -1,15 +1,23 @@
-"""All pictures of the documents that show motions, and the steps of docs/lesson.md."""
+"""The pictures of the documents that show motions, and the steps of docs/lesson.md.
 
+Those of the page, which need a browser, are drawn by test/panel/draw_page.py; the plots of what was
+measured are written with their tables.
+"""
+
+import io
 import sys
 from pathlib import Path
 from unittest import SkipTest
 
 from workshop.article.figures import FIGURES
+from workshop.article.maps import draw_map, map_spin
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import write_lesson
-from workshop.pictures.pack import pack_figure
+from workshop.pictures.pack import pack, pack_figure
 from workshop.pictures.replay import write_replays
 from workshop.pictures.traces import draw_traces
+
+POINTS = 1000  # along each side of the map of Perry's rule
 
 
 def write_pictures(docs: Path) -> int:
@@ -21,6 +29,10 @@ def write_pictures(docs: Path) -> int:
         (docs / f"article/{name}.png").write_bytes(pack_figure(draw))
     print(f"wrote {len(FIGURES)} figures to {docs / 'article'}")
     write_lesson(docs / "lesson")
+    drawn = io.BytesIO()
+    draw_map(map_spin(POINTS), drawn)
+    (docs / "perry.png").write_bytes(pack(drawn))
+    print(f"wrote {docs / 'perry.png'}")
     try:
         write_replays(docs)
     except SkipTest as reason:  # no program that renders without a screen

@@ -12,6 +12,7 @@ from PIL import Image
 from symtop_ros.drawing.style import SETTINGS
 
 RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
+SHADES, ROUNDS = 256, 10  # colours for shaded bodies, and rounds in which they are chosen
 
 
 def pack_figure(draw: Callable[[], Figure]) -> bytes:
@@ -27,4 +28,14 @@ def pack(file: Path | IO[bytes]) -> bytes:
     packed = io.BytesIO()
     with Image.open(file) as picture:
         picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
+    return packed.getvalue()
+
+
+def pack_shaded(picture: Image.Image) -> bytes:
+    """Return the packed PNG of a picture with shaded bodies."""
+    packed = io.BytesIO()
+    # This method keeps rare colours, which those of a legend are.
+    method = Image.Quantize.MAXCOVERAGE
+    palette = picture.convert("RGB").quantize(SHADES, method=method, kmeans=ROUNDS)
+    palette.save(packed, "PNG", optimize=True)
     return packed.getvalue()

@@ -15,6 +15,7 @@ from symtop_ros.simulation.changes.outcomes import Start
 from symtop_ros.simulation.segment import Segment
 from workshop.article.motions import PSI_DOT, THETA, TOP
 from workshop.article.recordings import sample, six_rates, write_scene
+from workshop.pictures.pack import pack_shaded
 from workshop.pictures.viewer import pause_at, picture, running_viewer, views
 
 CUSPS = State.from_euler(theta=THETA, psi_dot=PSI_DOT)
@@ -22,7 +23,6 @@ KICK, END = 1_520_000_000, 3_000_000_000  # ns
 PERIOD = 2_000_000  # ns between samples
 MENU = 37  # rows of pixels
 PATIENCE = 8.0  # s until the viewer's own notes are gone
-COLORS = 256
 
 
 def write_replay(file: Path) -> None:
@@ -46,7 +46,7 @@ def render(recording: Path, seconds: float, target: Path) -> None:
         pause_at(client, entities.TIMELINE, duration=seconds)
         time.sleep(PATIENCE)
         shot = Image.fromarray(picture(client)[MENU:])
-    shot.quantize(COLORS).save(target, optimize=True)
+    target.write_bytes(pack_shaded(shot))
     print(f"wrote {target}")
 
 

@@ -16,8 +16,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.speed.document import format_table
-from workshop.speed.publish import write_results
+from workshop.speed.publish import format_table, write_results
 
 FILE = Path(__file__).with_name("derivatives.json")
 NAME = "derivatives"  # of the files, and of the section in the documentation

@@ -25,8 +25,7 @@ from symtop_ros.quaternions import invert
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.settings import Settings
 from workshop.pictures.pack import pack
-from workshop.speed.document import format_table
-from workshop.speed.publish import track, write_results
+from workshop.speed.publish import format_table, track, write_results
 
 RATE, SPAN = 1000, 20  # Hz, s
 SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")

@@ -1,12 +1,14 @@
-"""Tables of the documentation: a command writes them anew, the text around them is written by hand.
+"""Tables in Markdown, and their places in the documentation, which commands write anew.
 
-A table stands between two comments that name it, `<!-- figures: NAME -->` and
+Tables are narrow enough to be read without scrolling sideways. One that is written into a page of
+the documentation stands between two comments that name it, `<!-- figures: NAME -->` and
 `<!-- end of figures -->`.
 """
 
 import json
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,6 +16,35 @@ from tqdm import tqdm
 
 Work = TypeVar("Work")
 END = "<!-- end of figures -->"
+COLUMNS = 7  # of one table at most
+
+
+def format_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table; the first column is aligned left, the others right."""
+    lines = [head, ["---", *["--:"] * (len(head) - 1)], *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+def format_tables(head: Sequence[str], rows: Sequence[Sequence[str]], kept: int = 1) -> str:
+    """Return a table, as several ones below each other if it has more than `COLUMNS` columns.
+
+    Each of these begins with the columns that are kept, and has about as many others.
+    """
+    others = len(head) - kept
+    count = max(1, -(-others // (COLUMNS - kept)))
+    bounds = [kept + others * part // count for part in range(count + 1)]
+    return "\n\n".join(
+        format_table(
+            [*head[:kept], *head[first:last]],
+            [[*row[:kept], *row[first:last]] for row in rows],
+        )
+        for first, last in pairwise(bounds)
+    )
+
+
+def format_list(lines: Iterable[str]) -> str:
+    """Return a list with a line for each entry."""
+    return "\n".join(f"- {line}" for line in lines)
 
 
 def find_section(text: str, name: str) -> str | None:

@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.testset.score import FILE, read_problems
-from workshop.speed.document import format_table
 from workshop.speed.peers import CLOSED_FORM, find_peers
 from workshop.speed.peers.peer import Peer
-from workshop.speed.publish import replace_section, track, write_results
+from workshop.speed.publish import format_table, replace_section, track, write_results
 from workshop.speed.reference import ReferenceMotion, read_testset
 from workshop.speed.sweep import Measurement, sweep
 

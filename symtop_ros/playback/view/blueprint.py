@@ -11,6 +11,7 @@ import numpy as np
 import rerun.blueprint as rrb
 from rerun.blueprint.archetypes import PlotBackground
 
+from symtop_ros.drawing.chart import HEIGHT, WIDTH
 from symtop_ros.physics import Motion
 from symtop_ros.playback.view import entities
 from symtop_ros.simulation.segment import Segment
@@ -25,6 +26,9 @@ TRACE_NUTATIONS = 12  # longest trace in nutations, if one turn of the precessio
 PLOT_NUTATIONS = 30  # nutations on each side of the cursor
 LEAST_SPAN = 0.02  # of the size of a quantity: what a plot spans at least
 HORIZON = 1.65  # rad; slightly below the horizontal plane of the pivot
+# What a chart shows around its box, in heights of it: at the sides and above, and below. The angles
+# stand below the potential's box; in a window of 1280 x 720 they end at 0.25.
+MARGIN, BELOW = 0.06, 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +169,12 @@ def create_space_view(framing: Framing) -> rrb.Spatial3DView:
 
 
 def _chart(entity: str, name: str) -> rrb.Spatial2DView:
-    return rrb.Spatial2DView(origin=entity, name=name, background=entities.BACKGROUND)
+    bounds = rrb.VisualBounds2D(
+        x_range=(-MARGIN, WIDTH + MARGIN), y_range=(-HEIGHT - MARGIN, BELOW)
+    )
+    return rrb.Spatial2DView(
+        origin=entity, name=name, background=entities.BACKGROUND, visual_bounds=bounds
+    )
 
 
 def around_cursor(first: float, last: float) -> rrb.VisibleTimeRanges:

@@ -1,0 +1,23 @@
+"""Pictures are packed, and keep their colours."""
+
+import io
+
+import numpy as np
+from PIL import Image
+
+from workshop.pictures.pack import pack_shaded
+
+TEAL, BLUE = (2, 148, 108), (10, 70, 180)
+
+
+def test_a_shaded_picture_keeps_the_rare_colours_of_its_legend():
+    across, down = np.meshgrid(np.linspace(0, 1, 640), np.linspace(0, 1, 480))
+    light = 30 + 200 * across * down
+    drawn = np.stack([light, light * (0.6 + 0.3 * down), light * (0.4 + 0.5 * across)], axis=2)
+    drawn = drawn.astype(np.uint8)
+    drawn[470:474, 10:28], drawn[470:474, 40:58] = TEAL, BLUE
+    with Image.open(io.BytesIO(pack_shaded(Image.fromarray(drawn)))) as picture:
+        assert picture.mode == "P"
+        kept = np.asarray(picture.convert("RGB"), dtype=int)
+    assert np.abs(kept[470:474, 10:28] - TEAL).max() <= 1
+    assert np.abs(kept[470:474, 40:58] - BLUE).max() <= 1
