@@ -213,7 +213,7 @@ class Motion(Setting):
         if self._driven:
             return State.wrap(*self._driven.at(time))
         state = self._compiled.at(time) if self._compiled else None
-        numbers = np.array(state or (*self._evaluate(time), self._omega[2]))
+        numbers = np.array(state or [*self._evaluate(time), self._omega[2]])
         return State.wrap(numbers[:4], numbers[4:])
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:

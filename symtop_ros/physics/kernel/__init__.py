@@ -1,4 +1,4 @@
-"""The compiled kernel, if it was built and is wanted: the same states as from Python, much faster.
+"""The compiled kernel, if it was built and is wanted: the same motions as from Python, much faster.
 
 Python is the reference; `exact` and `driven` describe and test what the kernel computes. Without a
 compiler the package is installed without it. The environment variable SYMTOP_PURE=1 selects Python
