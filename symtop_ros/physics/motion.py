@@ -213,8 +213,9 @@ class Motion(Setting):
         if self._driven:
             return State.wrap(*self._driven.at(time))
         state = self._compiled.at(time) if self._compiled else None
-        numbers = np.array(state or [*self._evaluate(time), self._omega[2]])
-        return State.wrap(numbers[:4], numbers[4:])
+        numbers = state or [*self._evaluate(time), self._omega[2]]
+        # Two arrays, not views of one: `base` of a view could be written to.
+        return State.wrap(np.array(numbers[:4]), np.array(numbers[4:]))
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at many times into arrays; the times are not validated.
