@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels clean FORCE
+.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -119,6 +119,9 @@ node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9
 wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM, in dist/ (2 minutes)
 	@$(VENV)/zig/bin/python workshop/wheels.py dist
 
+kernel-wasm: $(VENV)/zig/done  ## the kernel in WebAssembly, symtop_ros/web/kernel.wasm (1 minute)
+	@$(VENV)/zig/bin/python workshop/kernel_wasm.py
+
 clean:  ## remove the environment and all that was built; logs/ and report/ stay
 	rm -rf $(VENV) site build dist install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find symtop_ros test workshop examples docs -name __pycache__ -prune -exec rm -rf {} +
@@ -183,7 +186,7 @@ $(VENV)/aarch64: test/get_aarch64.sh $(VENV)/bin/activate
 
 # Pinned: another Zig is another compiler.
 $(VENV)/zig/done: $(VENV)/bin/activate
-	@echo "Setting up $(VENV)/zig: a compiler for wheels (about 400 MB, once) ..."
+	@echo "Setting up $(VENV)/zig: a compiler for wheels and WebAssembly (about 400 MB, once) ..."
 	@$(TICK) $(BIN)/python -m venv --clear $(VENV)/zig
 	@$(TICK) $(VENV)/zig/bin/python -m pip install 'ziglang==0.15.2' 'setuptools>=70.1'
 	@touch $@

@@ -101,8 +101,8 @@ LIMITED = not sysconfig.get_config_var("Py_GIL_DISABLED")
 # every machine.
 KERNEL = Extension(
     f"{NAME}.physics.kernel._kernel",
-    sources=[f"{NAME}/physics/kernel/module.cpp"],
-    depends=glob(f"{NAME}/physics/kernel/**/*.hpp", recursive=True),
+    sources=[f"{NAME}/physics/kernel/{name}.cpp" for name in ("module", "symtop")],
+    depends=glob(f"{NAME}/physics/kernel/**/*.h*", recursive=True),
     language="c++",
     extra_compile_args=[
         *("-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),
@@ -143,6 +143,11 @@ setup(
             "web/*.js",
             "web/*.html",
             "web/*.yaml",
+            "web/*.wasm",
+            # the kernel for programs in C, C++ and Rust
+            "physics/kernel/*.h*",
+            "physics/kernel/*.cpp",
+            "physics/kernel/*/*.hpp",
             "wording/en.json",
         ],
         f"{NAME}.testset": [

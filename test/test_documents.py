@@ -103,10 +103,10 @@ def test_the_program_in_cpp_scores_as_an_rk4_does(tmp_path):
     assert score.angles.max() < 1e-7
 
 
-def find_commands(beginning):
-    """The lines of docs/truth.md that begin with a command, and the line that they print."""
+def find_commands(name):
+    """The commands of docs/truth.md that run a program, and the line that they print."""
     text = (ROOT / "docs/truth.md").read_text()
-    (block,) = (each for each in text.split("```console\n") if each.startswith(f"$ {beginning}"))
+    (block,) = (each for each in text.split("```console\n") if f" {name} " in each.split("\n")[0])
     lines = block.partition("```")[0].splitlines()
     return [line[2:] for line in lines if line.startswith("$ ")], lines[-1]
 
@@ -120,7 +120,7 @@ def test_the_commands_of_the_page_give_a_first_score(language, name, program, tm
     assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     ((code, _),) = blocks(ROOT / "docs/truth.md", language)
     (tmp_path / name).write_text(code)
-    commands, shown = find_commands(program)
+    commands, shown = find_commands(name)
     for command in commands:
         done = subprocess.run(
             command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=True

@@ -3,12 +3,14 @@
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Quaternion, Real, Vector
+from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.physics.exact.rates import Rates
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -146,6 +148,15 @@ class Setting:
 
 
 @dataclass(frozen=True, slots=True)
+class Constants:
+    """What is constant in n motions."""
+
+    kinds: NDArray[np.str_]  # (n,)
+    angles: Real  # (n, 2): smallest and largest theta in rad
+    rates: Real  # (n, 5): the numbers of `Rates`
+
+
+@dataclass(frozen=True, slots=True)
 class Arguments:
     """Arguments of n motions."""
 
@@ -187,12 +198,11 @@ class Arguments:
     def fill(self, kernel: Any, times: Real, orientation: Real, omega: Real) -> NDArray[np.bool_]:
         """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3), with the kernel.
 
-        Returns (n, m), True for the states that are left: those of motions that are driven or need
-        no elliptic functions, and those at times that are too far.
+        Returns (n, m), True for the states that are left: those of driven motions, and those from a
+        time on that is too far.
         """
         left = np.ones((len(self.moments), times.size), np.bool_)
-        kept = np.flatnonzero(~(self._are_driven | self._are_free))
-        starts, is_turned_over = self._turn_over()
+        kept, starts = np.flatnonzero(~self._are_driven), self._list_starts()
         rows = max(1, STATES // (times.size + STATES_OF_SETUP))
         for first in range(0, len(kept), rows):
             some = kept[first : first + rows]
@@ -200,39 +210,37 @@ class Arguments:
             place: Any = slice(some[0], some[-1] + 1) if whole else some
             # In place if the motions are neighbours: an indexed array would be a copy.
             parts = orientation[place], omega[place], left[place]
-            kernel.fill_many(starts[some], is_turned_over[some], times, *parts)
+            kernel.fill_many(starts[some], times, *parts)
             if not whole:
                 orientation[place], omega[place], left[place] = parts
         return left
+
+    def describe(self, kernel: Any) -> Constants:
+        """Return the constants of the motions, from the kernel."""
+        count, starts = len(self.moments), self._list_starts()
+        codes, angles = np.empty(count, np.uint8), np.empty((count, 2))
+        rates = np.empty((count, len(Rates._fields)))
+        rows = STATES // STATES_OF_SETUP
+        for first in range(0, count, rows):
+            part = slice(first, first + rows)
+            kernel.describe_many(starts[part], codes[part], angles[part], rates[part])
+        return Constants(np.array(get_args(Kind))[codes], angles, rates)
 
     @property
     def _are_driven(self) -> NDArray[np.bool_]:
         return np.asarray(self.friction.any(axis=1) | self.torque.any(axis=1))
 
-    @property
-    def _are_free(self) -> NDArray[np.bool_]:
-        with np.errstate(under="ignore"):  # of a rate far below the weight
-            free = is_free(self.moments.T, self.orientation.T, self.omega.T)
-        return np.asarray(free)
-
-    def _turn_over(self) -> tuple[Real, NDArray[np.bool_]]:
-        """Return (n, 10) arguments of the closed form, which wants Mgl > 0, and those turned."""
-        is_turned_over = self.moments[:, 2] < 0
-        moments, q = self.moments.copy(), self.orientation
-        moments[:, 2] = np.abs(moments[:, 2])
-        turned = np.stack([-q[:, 1], q[:, 0], -q[:, 3], q[:, 2]], axis=1)
-        q = np.where(is_turned_over[:, np.newaxis], turned, q)
-        return np.concatenate([moments, q, self.omega], axis=1), is_turned_over
+    def _list_starts(self) -> Real:
+        """Return (n, 15) numbers: those of `symtop_start`."""
+        parts = self.moments, self.orientation, self.omega, self.friction, self.torque
+        return np.concatenate(parts, axis=1)
 
 
-def is_free(moments: Any, orientation: Any, omega: Any) -> Any:
-    """Return True if no torque turns the axis: for circular functions instead of elliptic ones.
-
-    The arguments are numbers, or arrays (3, n), (4, n) and (3, n) of many motions.
-    """
+def is_free(moments: Vector, orientation: Quaternion, omega: Vector) -> bool:
+    """Return True if no torque turns the axis: for circular functions instead of elliptic ones."""
     (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, omega
-    is_vertical = ((w == 0) & (z == 0)) | ((x == 0) & (y == 0))
-    free, weight = (wx == 0) & (wy == 0) & is_vertical, abs(Mgl) / Ix
-    for rate in (wx, wy, Iz / Ix * wz):  # not wz: a rod may spin fast
-        free |= weight <= WEIGHTLESS * rate * rate
-    return free
+    if wx == wy == 0 and (w == z == 0 or x == y == 0):
+        return True
+    # Not wz, but Iz/Ix wz: a rod may spin fast.
+    weight = abs(Mgl) / Ix
+    return any(weight <= WEIGHTLESS * rate * rate for rate in (wx, wy, Iz / Ix * wz))

@@ -28,6 +28,7 @@ from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
 from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.physics.exact.precise import PRECISE
+from symtop_ros.physics.exact.rates import Rated, Rates, find_rates
 from symtop_ros.physics.kernel import PURE, find_kernel
 from symtop_ros.physics.kernel.compiled import CompiledMotion
 from symtop_ros.physics.state import State
@@ -39,36 +40,16 @@ from symtop_ros.physics.values import ignore_underflow, refuse, validate_array, 
 BLOCK = 12288
 
 
-class Engine(Protocol):
+class Engine(Rated, Protocol):
     """A solved motion with Mgl >= 0, no friction and no applied torque."""
 
     nutation_rate: Decimal  # 2 pi over the period of theta in rad/s; 0 if it does not return
 
-    @property
-    def kind(self) -> Kind:
-        """Name of the motion."""
-
     def cayley_klein(self, t: Number | ExactTimes) -> Components:
         """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
 
-    @property
-    def nutation_period(self) -> float:
-        """Period of theta in s."""
-
     def turning_angles(self, from_below: bool) -> tuple[float, float]:
         """Return the smallest and the largest angle in rad from the upper or the lower pole."""
-
-    @property
-    def mean_rates(self) -> tuple[float, float]:
-        """Mean phi' and psi' in rad/s."""
-
-    @property
-    def precession_per_nutation(self) -> float:
-        """Turns of the precession in a nutation."""
-
-    @property
-    def spin_reverses(self) -> bool:
-        """True if psi' takes both signs."""
 
 
 class Motion(Setting):
@@ -158,36 +139,38 @@ class Motion(Setting):
         super().__init__(top, start, friction, validate_torque(torque), pure)
         self.shape: tuple[int, ...] = ()
         self.engine = "closed form"
-        # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
-        self._is_turned_over = top.Mgl < 0
-        self._arguments = self._collect_arguments()
-        self._spin = self._arguments[2][2]
-        self._is_free = bool(is_free(*self._arguments))
+        self._orientation: Quaternion = tuple(start.given_orientation.tolist())
+        self._omega: Vector = tuple(start.angular_velocity.tolist())
+        self._is_free = is_free(top.moments, self._orientation, self._omega)
         if self._is_free:
             self.engine = "free"
         self._driven: DrivenMotion | None = None
         if self.is_driven:
-            self._driven = DrivenMotion(top, start, friction, self.applied_torque, pure)
+            self._driven = DrivenMotion(top, start, friction, self.applied_torque, self._compiled)
             self.engine = "taylor"
-
-    def _collect_arguments(self) -> tuple[Vector, Quaternion, Vector]:
-        """Return what an engine starts from: (Ix, Iz, |Mgl|), orientation and angular velocity."""
-        w, x, y, z = self.start.given_orientation.tolist()
-        wx, wy, wz = self.start.angular_velocity.tolist()
-        orientation: Quaternion = (-x, w, -z, y) if self._is_turned_over else (w, x, y, z)
-        return (self.top.Ix, self.top.Iz, abs(self.top.Mgl)), orientation, (wx, wy, wz)
 
     @cached_property
     def _engine(self) -> Engine:
+        # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
+        (w, x, y, z), top = self._orientation, self.top
+        moments = top.Ix, top.Iz, abs(top.Mgl)
+        orientation = (-x, w, -z, y) if self._is_turned_over else self._orientation
         solver = FreeMotion if self._is_free else ClosedFormMotion
         with localcontext(PRECISE):
-            return solver(*self._arguments)
+            return solver(moments, orientation, self._omega)
+
+    @property
+    def _is_turned_over(self) -> bool:
+        return self.top.Mgl < 0
 
     @cached_property
     def _compiled(self) -> CompiledMotion | None:
-        """The kernel's engine, for states alone."""
-        kernel = None if self._is_free else find_kernel(self._pure)
-        return CompiledMotion(kernel, self._arguments, self._is_turned_over) if kernel else None
+        """The motion in the kernel, if that is to be used."""
+        kernel = find_kernel(self._pure)
+        if not kernel:
+            return None
+        state = self.top.moments, self._orientation, self._omega
+        return CompiledMotion(kernel, *state, self.friction, self.applied_torque)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -230,8 +213,9 @@ class Motion(Setting):
         if self._driven:
             return State.wrap(*self._driven.at(time))
         state = self._compiled.at(time) if self._compiled else None
-        w, x, y, z, wx, wy = state or self._evaluate(time)
-        return State.wrap(np.array((w, x, y, z)), np.array((wx, wy, self._spin)))
+        numbers = state or [*self._evaluate(time), self._omega[2]]
+        # Two arrays, not views of one: `base` of a view could be written to.
+        return State.wrap(np.array(numbers[:4]), np.array(numbers[4:]))
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at many times into arrays; the times are not validated.
@@ -245,26 +229,19 @@ class Motion(Setting):
         angular_velocity : ndarray (n, 3)
             Receives the angular velocities.
         """
-        if self._driven:
-            parts = times.split_seconds if isinstance(times, ExactTimes) else (times, 0.0 * times)
-            seconds, rests = (each.reshape(-1) for each in parts)
-            self._driven.fill(seconds, rests, orientation, angular_velocity)
-            return
         flat = times.ravel()
-        if not self._compiled:
-            self._fill_in_blocks(flat, orientation, angular_velocity)
+        if self._driven:
+            self._driven.fill(flat, orientation, angular_velocity)
             return
-        far = self._compiled.fill(flat, orientation, angular_velocity)
-        if far.size:  # a few, or all of them; the others are written
-            late, rates = np.empty((far.size, 4)), np.empty((far.size, 3))
-            self._fill_in_blocks(
-                flat.select(far) if isinstance(flat, ExactTimes) else flat[far], late, rates
-            )
-            orientation[far], angular_velocity[far] = late, rates
+        written = self._compiled.fill(flat, orientation, angular_velocity) if self._compiled else 0
+        if written < len(orientation):  # without the kernel, or from a time on that is too far
+            left = slice(written, None)
+            rest = flat.select(left) if isinstance(flat, ExactTimes) else flat[left]
+            self._fill_in_blocks(rest, orientation[left], angular_velocity[left])
 
     def _fill_in_blocks(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> None:
         """Write the states at times (n,) by NumPy, in blocks that fit into a processor's cache."""
-        omega[:, 2] = self._spin
+        omega[:, 2] = self._omega[2]
         for first in range(0, len(orientation), BLOCK):
             block = slice(first, first + BLOCK)
             part = times.select(block) if isinstance(times, ExactTimes) else times[block]
@@ -371,7 +348,7 @@ class Motion(Setting):
 
     @cached_property
     def _derivatives(self) -> GravityDerivatives | SleepingDerivatives:
-        if self._kind_under_gravity == "sleeping":
+        if self.kind == "sleeping":
             return SleepingDerivatives(self)
         return GravityDerivatives(self, self._engine.nutation_rate)
 
@@ -385,22 +362,30 @@ class Motion(Setting):
         vertical). The article calls a unidirectional motion spiralling. With friction or an applied
         torque it is "driven": the angles then change, and phi' at them.
         """
-        return "driven" if self._driven else self._kind_under_gravity
-
-    @property
-    def _kind_under_gravity(self) -> Kind:
+        if self._driven:
+            return "driven"
+        if self._compiled:
+            return self._compiled.kind
         with localcontext(PRECISE):
             return self._engine.kind
+
+    @cached_property
+    def _rates(self) -> Rates:
+        if self._compiled:
+            return self._compiled.rates
+        with localcontext(PRECISE):
+            return find_rates(self._engine, self._is_turned_over)
 
     @property
     def nutation_period(self) -> float:
         """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
-        with localcontext(PRECISE):
-            return self._engine.nutation_period
+        return self._rates.nutation_period
 
     @property
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
+        if self._compiled:
+            return self._compiled.turning_angles
         with localcontext(PRECISE):
             return self._engine.turning_angles(self._is_turned_over)
 
@@ -411,24 +396,12 @@ class Motion(Setting):
         It is nan for an axis that rests on the vertical, and for one that passes through a pole:
         there phi jumps by half a turn, to the left or to the right as rounding will have it.
         """
-        rate = self._mean_rates[0]
-        return -rate if self._is_turned_over else rate
+        return self._rates.mean_precession_rate
 
     @property
     def mean_spin_rate(self) -> float:
         """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
-        return self._mean_rates[1]
-
-    @property
-    def _mean_rates(self) -> tuple[float, float]:
-        if self._is_undefined:
-            return math.nan, math.nan
-        with localcontext(PRECISE):
-            return self._engine.mean_rates
-
-    @property
-    def _is_undefined(self) -> bool:
-        return self._kind_under_gravity in ("sleeping", "through the pole")
+        return self._rates.mean_spin_rate
 
     @property
     def precession_per_nutation(self) -> float:
@@ -445,11 +418,7 @@ class Motion(Setting):
         >>> round(motion.precession_per_nutation, 6)
         0.168557
         """
-        if self._is_undefined:
-            return math.nan
-        with localcontext(PRECISE):
-            turns = self._engine.precession_per_nutation
-        return -turns if self._is_turned_over else turns
+        return self._rates.precession_per_nutation
 
     @property
     def spin_reverses(self) -> bool:
@@ -463,8 +432,7 @@ class Motion(Setting):
         >>> Motion(top, start).spin_reverses
         True
         """
-        with localcontext(PRECISE):
-            return self._engine.spin_reverses
+        return self._rates.spin_reverses
 
     @property
     def nutation_rate(self) -> float:

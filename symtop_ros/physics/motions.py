@@ -13,6 +13,7 @@ from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     Arguments,
+    Constants,
     Setting,
     find_shape,
     validate_times,
@@ -20,6 +21,7 @@ from symtop_ros.physics.arguments import (
     validate_types,
     wrap_states,
 )
+from symtop_ros.physics.exact.rates import Rates
 from symtop_ros.physics.kernel import PURE, find_kernel
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
@@ -171,48 +173,62 @@ class Motions(Setting):
         """Methods of solution, as in `Motion.engine`."""
         return np.asarray(self._collect(lambda motion: motion.engine, np.str_))
 
+    @cached_property
+    def _constants(self) -> Constants:
+        kernel = find_kernel(self._pure)
+        if kernel:
+            return self._arguments.describe(kernel)
+        rates = [motion._rates for motion in self.members]
+        return Constants(
+            np.array([motion.kind for motion in self.members]),
+            np.array([motion.turning_angles for motion in self.members]).reshape(-1, 2),
+            np.array(rates, np.float64).reshape(-1, len(Rates._fields)),
+        )
+
+    def _find_rates(self, name: str) -> Real:
+        column = self._constants.rates[:, Rates._fields.index(name)]
+        return np.ascontiguousarray(column).reshape(self.shape)
+
     @property
     def kind(self) -> NDArray[np.str_]:
         """Names of the motions, as in `Motion.kind`."""
-        return np.asarray(self._collect(lambda motion: motion.kind, np.str_))
+        return self._constants.kinds.reshape(self.shape)
 
     @property
     def nutation_period(self) -> Real:
         """Periods of theta in s."""
-        return np.asarray(self._collect(lambda motion: motion.nutation_period))
+        return self._find_rates("nutation_period")
 
     @property
     def nutation_rate(self) -> Real:
         """2 pi over the nutation periods in rad/s."""
-        return np.asarray(self._collect(lambda motion: motion.nutation_rate))
+        return 2 * np.pi / self.nutation_period
 
     @property
     def turning_angles(self) -> tuple[Real, Real]:
         """Smallest and largest theta in rad."""
-        return (
-            self._collect(lambda motion: motion.turning_angles[0]),
-            self._collect(lambda motion: motion.turning_angles[1]),
-        )
+        smallest, largest = self._constants.angles.T.copy()
+        return smallest.reshape(self.shape), largest.reshape(self.shape)
 
     @property
     def mean_precession_rate(self) -> Real:
         """Mean phi' in rad/s, as in `Motion.mean_precession_rate`."""
-        return np.asarray(self._collect(lambda motion: motion.mean_precession_rate))
+        return self._find_rates("mean_precession_rate")
 
     @property
     def mean_spin_rate(self) -> Real:
         """Mean psi' in rad/s, as in `Motion.mean_spin_rate`."""
-        return np.asarray(self._collect(lambda motion: motion.mean_spin_rate))
+        return self._find_rates("mean_spin_rate")
 
     @property
     def precession_per_nutation(self) -> Real:
         """Precession in a nutation as a fraction of a turn."""
-        return np.asarray(self._collect(lambda motion: motion.precession_per_nutation))
+        return self._find_rates("precession_per_nutation")
 
     @property
     def spin_reverses(self) -> NDArray[np.bool_]:
         """True where psi' takes both signs in a nutation."""
-        return np.asarray(self._collect(lambda motion: motion.spin_reverses, np.bool_))
+        return np.asarray(self._find_rates("spin_reverses") != 0)
 
     @property
     def fast_top_precession_rate(self) -> Real:

@@ -19,18 +19,22 @@ class Spy:
     def __init__(self, sizes):
         self._kernel, self._sizes = find_kernel(False), sizes
 
-    def ClosedForm(self, *given):
-        motion = self._kernel.ClosedForm(*given)
+    def Motion(self, *given):
+        motion = self._kernel.Motion(*given)
 
         def fill(times, *rest):
             self._sizes.append(len(times))
-            motion.fill(times, *rest)
+            return motion.fill(times, *rest)
 
         return SimpleNamespace(fill=fill)
 
-    def fill_many(self, starts, turned_over, times, *rest):
+    def fill_many(self, starts, times, *rest):
         self._sizes.append(len(starts) * (times.shape[-1] + arguments.STATES_OF_SETUP))
-        self._kernel.fill_many(starts, turned_over, times, *rest)
+        self._kernel.fill_many(starts, times, *rest)
+
+    def describe_many(self, starts, *rest):
+        self._sizes.append(len(starts) * arguments.STATES_OF_SETUP)
+        self._kernel.describe_many(starts, *rest)
 
 
 @pytest.mark.parametrize("pure", [False, True])
@@ -55,8 +59,8 @@ def test_an_integration_that_takes_hours_is_interrupted(t, pure):
 @needs_kernel
 def test_one_call_of_the_kernel_has_some_ten_thousand_states_at_most():
     sizes = []
-    given = (ARTICLE.moments, CUSPS.orientation, CUSPS.angular_velocity)
-    motion = compiled.CompiledMotion(Spy(sizes), given, False)
+    state = tuple(CUSPS.orientation.tolist()), tuple(CUSPS.angular_velocity.tolist())
+    motion = compiled.CompiledMotion(Spy(sizes), ARTICLE.moments, *state, Friction(), (0.0,) * 3)
     count = 3 * compiled.STATES + 1
     motion.fill(np.zeros(count), np.empty((count, 4)), np.empty((count, 3)))
     assert sum(sizes) == count
@@ -68,6 +72,10 @@ def test_one_call_for_many_motions_has_some_ten_thousand_states_at_most(monkeypa
     sizes = []
     monkeypatch.setattr("symtop_ros.physics.motions.find_kernel", lambda pure: Spy(sizes))
     starts = State.from_euler(theta=np.linspace(0.1, 3.0, 2000))
-    Motion(Top(1.0, 1.0, 1.0), starts).at(np.arange(9.0))
+    motions = Motion(Top(1.0, 1.0, 1.0), starts)
+    motions.at(np.arange(9.0))
     assert len(sizes) > 1
+    calls = len(sizes)
+    assert (motions.kind != "driven").all()
+    assert len(sizes) > calls + 1
     assert max(sizes) <= arguments.STATES

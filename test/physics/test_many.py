@@ -189,7 +189,7 @@ def test_only_what_the_kernel_cannot_compute_takes_the_slow_way(odd, monkeypatch
     if odd == "late":
         assert [each.tolist() for each in made] == [[1e17]] * 50
     else:
-        assert [each.top.Mgl for each in made] == [pulls[7]]
+        assert len(made) == (odd == "damped")
 
 
 def test_the_effect_of_hurrying_takes_many_tops():

@@ -6,15 +6,16 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from functools import partial
 from threading import Lock
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.driven.equations import DrivenEquations, Extended
 from symtop_ros.physics.driven.series import Knot, Piece, Stepper
-from symtop_ros.physics.kernel import find_kernel
+from symtop_ros.physics.kernel.compiled import TOO_FAST, CompiledMotion
 from symtop_ros.physics.state import State
+from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
 
@@ -33,20 +34,20 @@ class DrivenMotion:
     """
 
     def __init__(
-        self, top: Top, start: State, friction: Friction, torque: Vector, pure: bool
+        self,
+        top: Top,
+        start: State,
+        friction: Friction,
+        torque: Vector,
+        compiled: CompiledMotion | None,
     ) -> None:
         self._start = start
         self._decay = max(friction.transverse / top.Ix, friction.axial / top.Iz)  # 1/s
         self._lock = Lock()
-        kernel = find_kernel(pure)
         self._trails: dict[int, AnyTrail] = {}  # by direction, made when they are asked for
         self._make: Callable[[int], AnyTrail]
-        if kernel:
-            friction_and_torque = (friction.axial, friction.transverse), torque
-            attitude = tuple(start.given_orientation.tolist())
-            rates = tuple(start.angular_velocity.tolist())
-            arguments = (top.moments, *friction_and_torque, attitude, rates)
-            self._make = partial(CompiledTrail, kernel, arguments)
+        if compiled:
+            self._trails = dict.fromkeys((1, -1), CompiledTrail(compiled))
         else:
             equations = DrivenEquations(top, friction, torque)
             knot = Knot(0.0, equations.start(start))
@@ -65,26 +66,25 @@ class DrivenMotion:
         with self._lock:
             trail = self._find_trail(t)
             self._refuse_stiff(trail, t)
-            orientation, omega = trail.compute_states(np.array([t]), np.zeros(1))
+            orientation, omega = trail.compute_states(np.array([t]))
         return np.asarray(orientation[0], np.float64), np.asarray(omega[0], np.float64)
 
-    def fill(self, times: Real, rests: Real, orientation: Real, angular_velocity: Real) -> None:
-        """Write the states at times (n,) in s into arrays (n, 4) and (n, 3).
-
-        A time is the sum of two doubles, of which the second one is rounding of the first.
-        """
-        order = np.argsort(np.abs(times), kind="stable")
-        for side in (times >= 0, times < 0):
+    def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
+        """Write the states at times (n,) in s or exact times into arrays (n, 4) and (n, 3)."""
+        seconds = times.rough_seconds if isinstance(times, ExactTimes) else times
+        order = np.argsort(np.abs(seconds), kind="stable")
+        for side in (seconds >= 0, seconds < 0):
             sorted_places = order[side[order]]
             for first in range(0, len(sorted_places), BLOCK):
                 places = sorted_places[first : first + BLOCK]
-                last = float(times[places[-1]])
+                last = float(seconds[places[-1]])
                 with self._lock:
                     trail = self._find_trail(last)
                     self._refuse_stiff(trail, last)
-                    states = trail.compute_states(times[places], rests[places])
+                    some = times.select(places) if isinstance(times, ExactTimes) else times[places]
+                    states = trail.compute_states(some)
                 orientation[places], angular_velocity[places] = states
-        orientation[times == 0] = self._start.orientation  # bit for bit
+        orientation[seconds == 0] = self._start.orientation  # bit for bit
 
     def _refuse_stiff(self, trail: "AnyTrail", t: float) -> None:
         """Refuse a time that a strong friction makes too far: each decay time takes a step.
@@ -113,32 +113,33 @@ def refuse_too_fast(t: float, end: float) -> ValueError:
 
 
 class CompiledTrail:
-    """A `Trail` of the kernel: in sums of two doubles, so that it has the same bits everywhere."""
+    """The trails of the kernel: in sums of two doubles, with the same bits everywhere."""
 
-    def __init__(self, kernel: Any, arguments: tuple[Any, ...], direction: int) -> None:
-        self._trail = kernel.Trail(*arguments, direction)
+    def __init__(self, motion: CompiledMotion) -> None:
+        self._motion = motion
 
-    def compute_states(self, times: Real, rests: Real) -> tuple[Real, Real]:
-        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""
-        orientation, omega, first = np.empty((times.size, 4)), np.empty((times.size, 3)), 0
-        while first < times.size:
+    def compute_states(self, times: Real | ExactTimes) -> tuple[Real, Real]:
+        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,), sorted."""
+        count, first = times.shape[0], 0
+        orientation, omega = np.empty((count, 4)), np.empty((count, 3))
+        while first < count:
             left = slice(first, None)
-            count, is_stuck = self._trail.fill(
-                times[left], rests[left], orientation[left], omega[left], STEPS
-            )
-            first += count
-            if is_stuck:
-                t = float(times[first])
-                raise refuse_too_fast(t, self._trail.reach(t, 0)[0])
+            some = times.select(left) if isinstance(times, ExactTimes) else times[left]
+            written, status = self._motion.fill_some(some, orientation[left], omega[left], STEPS)
+            first += written
+            if status == TOO_FAST:
+                seconds = times.rough_seconds if isinstance(times, ExactTimes) else times
+                t = float(seconds[first])
+                raise refuse_too_fast(t, self._motion.reach(t, 0)[0])
         return orientation, omega
 
     def reach(self, t: float, steps: float) -> float:
         """Integrate towards a time in a limited number of steps, or to where it is too fast."""
         while True:
-            reached, is_stuck = self._trail.reach(t, min(steps, STEPS))
+            reached, is_too_fast = self._motion.reach(t, min(steps, STEPS))
             steps -= STEPS
-            if is_stuck or reached == t or steps <= 0:
-                return float(reached)
+            if is_too_fast or reached == t or steps <= 0:
+                return reached
 
 
 class Trail:
@@ -156,9 +157,13 @@ class Trail:
         self._recent: deque[Piece] = deque(maxlen=RECENT)  # the last one is the present piece
         self._count = 0  # pieces before the present one
 
-    def compute_states(self, times: Real, rests: Real) -> tuple[Extended, Extended]:
-        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,) in s, sorted."""
-        exact = times.astype(np.longdouble) + rests
+    def compute_states(self, times: Real | ExactTimes) -> tuple[Extended, Extended]:
+        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,), sorted."""
+        if isinstance(times, ExactTimes):
+            seconds, rests = times.split_seconds
+            exact = seconds.astype(np.longdouble) + rests
+        else:
+            exact = times.astype(np.longdouble)
         return self._equations.read(np.concatenate(list(self.evaluate(exact))))
 
     def evaluate(self, times: Extended) -> Iterator[Extended]:

@@ -4,6 +4,7 @@ import math
 from decimal import Decimal
 from typing import Literal
 
+from symtop_ros.physics.exact.elementary import cosine_and_sine
 from symtop_ros.physics.exact.nutation import Nutation, Roots
 from symtop_ros.physics.exact.quotients import Zeros
 from symtop_ros.physics.values import START_ROUNDING
@@ -68,7 +69,8 @@ def classify_free(tilt_of_momentum: float, cone: float) -> Kind:
     """Return the kind of a motion without torque, whose axis moves on a circle about L."""
     inside, far = tilt_of_momentum - cone, tilt_of_momentum + cone
     rounding = START_ROUNDING * math.pi
-    if min(math.sin(tilt_of_momentum), math.sin(cone)) <= rounding:
+    sines = cosine_and_sine(tilt_of_momentum)[1], cosine_and_sine(cone)[1]
+    if min(sines) <= rounding:
         return "regular"
     if abs(inside) <= rounding or abs(far - math.pi) <= rounding:
         return "through the pole"

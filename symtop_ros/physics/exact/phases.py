@@ -16,13 +16,11 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real
 from symtop_ros.physics.exact.elementary import Number, Pair, round_to_integer
 from symtop_ros.physics.exact.precise import (
-    ONE,
     PRECISE,
     TWO,
     TWO_PI,
     TWO_PI_HIGH,
     TWO_PI_LOW,
-    ZERO,
     compute_cosine,
     split,
 )
@@ -64,23 +62,13 @@ class Phases:
         exponent = math.frexp(fastest)[1] + TICK_BITS if fastest else 0
         exponent = min(max(exponent, -1000), 1000)
         tick = TURN / TWO**exponent  # 2^256 s per tick
-        self._set(exponent, [int(each * tick) for each in turns])
-
-    @classmethod
-    def from_steps(cls, exponent: int, steps: list[int]) -> "Phases":
-        """Return the phases of which 2^exponent ticks are a second, with steps of 2^-256 turns."""
-        phases = cls.__new__(cls)
-        phases._set(exponent, steps)
-        return phases
-
-    def _set(self, exponent: int, steps: list[int]) -> None:
-        self._exponent, self._steps = exponent, steps
+        self._exponent, self._steps = exponent, [int(each * tick) for each in turns]
         self._scaled: tuple[tuple[float, Fraction] | None, list[tuple[Limbs, int]]] = None, []
         self._ticks = 2.0**self._exponent  # per s
         self._limbs = [_split_step(step) for step in self._steps]
         self._rest_rates = [2 * math.pi * (step / 2**TURN_BITS) for step in self._steps]
         self.farthest = math.ldexp(1.0, min(COUNT_BITS - self._exponent, 1023))
-        self._latest = self.farthest * LATEST if any(steps) else math.inf
+        self._latest = self.farthest * LATEST if any(self._steps) else math.inf
 
     def at(self, times: Number | ExactTimes) -> list["Phase"]:
         """Return the phases at times in s, or at exact times."""
@@ -255,16 +243,19 @@ class Phase(NamedTuple):
 
 
 def _list_entries() -> list[tuple[float, float, float, float]]:
-    """Return cosine and sine of whole parts of a turn, and what their rounding left."""
-    entries = []
+    """Return cosine and sine of whole parts of a turn, and what their rounding left.
+
+    A quarter is computed, and the rest is its mirror image, so that zeros are exact.
+    """
     step = TWO_PI / ENTRIES
-    c, s = compute_cosine(step), compute_cosine(TWO_PI / 4 - step)
-    cosine, sine = ONE, ZERO
-    for _ in range(ENTRIES):
-        (high, low), (other_high, other_low) = split(cosine), split(sine)
-        entries.append((high, other_high, low, other_low))
-        cosine, sine = cosine * c - sine * s, cosine * s + sine * c
-    return entries
+    quarter = [split(compute_cosine(n * step)) for n in range(ENTRIES // 4)] + [(0.0, 0.0)]
+    half = quarter + [(-high, 0.0 - low) for high, low in quarter[-2::-1]]
+    cosines = half + half[-2:0:-1]
+    sines = cosines[-(ENTRIES // 4) :] + cosines[: -(ENTRIES // 4)]
+    return [
+        (cosine, sine, rest, other_rest)
+        for (cosine, rest), (sine, other_rest) in zip(cosines, sines, strict=True)
+    ]
 
 
 with localcontext(PRECISE):

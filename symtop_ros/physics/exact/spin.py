@@ -8,11 +8,11 @@ which is quadratic in u. Its largest and smallest values between the turning poi
 turning points, or at its vertex if that is between them.
 """
 
-import math
 from collections.abc import Sequence
 from decimal import Decimal
 from typing import Any
 
+from symtop_ros.physics.exact.elementary import cosine_and_sine, to_floats
 from symtop_ros.physics.exact.kind import ROUNDING, largest_precession
 from symtop_ros.physics.exact.nutation import Nutation, Roots
 from symtop_ros.physics.exact.quotients import Zeros
@@ -40,16 +40,18 @@ def spin_reverses(nutation: Nutation, roots: Roots, zeros: Zeros, omega_z: float
 
 def spin_reverses_free(tilt_of_momentum: float, cone: float, rate: float, omega_z: float) -> bool:
     """Return True if psi' takes both signs in a motion without torque."""
-    low, far = tilt_of_momentum - cone, tilt_of_momentum + cone
+    near = to_floats(cosine_and_sine(tilt_of_momentum - cone))
+    far = to_floats(cosine_and_sine(tilt_of_momentum + cone))
+    half = to_floats(cosine_and_sine(cone))
     # b - a u at the ends, with b = rate cos(tilt) and a = rate cos(cone), by the addition theorem:
     # the difference would cancel for a narrow cone.
-    across = rate * math.sin(cone)
+    across = rate * half[1]
     ends = [
-        omega_z * math.sin(far) ** 2 - math.cos(far) * across * math.sin(far),
-        omega_z * math.sin(low) ** 2 + math.cos(low) * across * math.sin(low),
+        omega_z * (far[1] * far[1]) - far[0] * across * far[1],
+        omega_z * (near[1] * near[1]) + near[0] * across * near[1],
     ]
-    a, b = rate * math.cos(cone), rate * math.cos(tilt_of_momentum)
-    vertex = _find_vertex(omega_z, a, b, math.cos(far), math.cos(low))
+    a, b = rate * half[0], rate * float(cosine_and_sine(tilt_of_momentum)[0])
+    vertex = _find_vertex(omega_z, a, b, far[0], near[0])
     return _has_both_signs([*ends, *vertex], START_ROUNDING * (abs(omega_z) + rate))
 
 

@@ -1,4 +1,4 @@
-"""The compiled kernel, if it was built and is wanted: the same states as from Python, much faster.
+"""The compiled kernel, if it was built and is wanted: the same motions as from Python, much faster.
 
 Python is the reference; `exact` and `driven` describe and test what the kernel computes. Without a
 compiler the package is installed without it. The environment variable SYMTOP_PURE=1 selects Python
@@ -9,10 +9,6 @@ import os
 from importlib import import_module
 from typing import Any
 
-import numpy as np
-
-from symtop_ros.physics.exact.phases import ROWS
-
 # True if Python is to compute the states of motions that are not asked for otherwise.
 PURE = os.environ.get("SYMTOP_PURE", "0") not in ("", "0")
 
@@ -20,11 +16,9 @@ PURE = os.environ.get("SYMTOP_PURE", "0") not in ("", "0")
 def _load() -> Any:
     """Return the compiled module, or None."""
     try:
-        module = import_module("symtop_ros.physics.kernel._kernel")
+        return import_module("symtop_ros.physics.kernel._kernel")
     except ImportError:  # it was not built
         return None
-    module.set_rows(np.array(ROWS))
-    return module
 
 
 _KERNEL = _load()

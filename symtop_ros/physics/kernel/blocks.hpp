@@ -1,12 +1,11 @@
-// Many states of one motion: LANES at a time where all of them lie after the first instants, else one
-// by one. Both are the same templates of exact/closed_form.hpp.
+// Many states of one motion: LANES at a time where all of them lie after the first instants, else
+// one by one. Both are the same templates of exact/closed_form.hpp.
 #pragma once
 
-#include "exact/closed_form.hpp"
+#include "clock.hpp"
+#include "exact/free.hpp"
 
 namespace symtop {
-
-enum Place : uint8_t { LATER, IN_FIRST_INSTANTS, AT_START };
 
 struct Target {  // where states are written: orientation (n, 4) and omega (n, 3)
   double *orientation, *omega;
@@ -50,9 +49,9 @@ inline bool are_later(const ClosedForm& motion, const double* times) {
   return are;
 }
 
-// States at times, but for those that are too far, which are marked.
-inline void fill(ClosedForm& motion, const double* times, int64_t count, const Target& to,
-                 uint8_t* is_far) {
+// States at times, up to the first that is too far; returns how many.
+inline int64_t fill(const ClosedForm& motion, const double* times, int64_t count,
+                    const Target& to) {
   uint64_t turns[FUNCTIONS][LANES];
   double rests[FUNCTIONS][LANES];
   for (int64_t i = 0; i < count;) {
@@ -64,40 +63,127 @@ inline void fill(ClosedForm& motion, const double* times, int64_t count, const T
           turns[k][lane] = phases[k].turns, rests[k][lane] = phases[k].rest;
       }
       fill_lanes(motion, times + i, turns, rests, to.from(i));
-      std::memset(is_far + i, 0, LANES);
       i += LANES;
     } else {
-      is_far[i] = motion.is_far(times[i]);
-      if (!is_far[i]) write_state(motion.at(times[i]), motion.start.wz, to.from(i));
+      if (motion.is_far(times[i])) return i;
+      write_state(motion.at(times[i]), motion.start.wz, to.from(i));
       i++;
     }
   }
+  return count;
 }
 
-// States at phases that Python has computed from exact times; turns are (4, n): three phases and
-// that of the first instants, which are prepared.
-inline void fill_phases(const ClosedForm& motion, const double* times, const uint8_t* places,
-                        const uint64_t* turns, int64_t count, const Target& to) {
-  static const double RESTS[FUNCTIONS][LANES] = {};
-  for (int64_t i = 0; i < count;) {
-    if (i + LANES <= count && !(places[i] | places[i + 1] | places[i + 2] | places[i + 3])) {
-      uint64_t block[FUNCTIONS][LANES];
-      for (int k = 0; k < FUNCTIONS; k++)
-        std::memcpy(block[k], turns + k * count + i, sizeof block[k]);
-      fill_lanes(motion, times + i, block, RESTS, to.from(i));
-      i += LANES;
-      continue;
-    }
-    Pair values[FUNCTIONS];
-    const Phase phases[] = {{turns[i], 0.0}, {turns[count + i], 0.0}, {turns[2 * count + i], 0.0}};
-    if (places[i] == LATER)
-      motion.evaluate(times[i], phases, values);
-    else
-      motion.first_instants.compute(times[i], {turns[3 * count + i], 0.0}, values);
-    const Attitude state = motion.complete(places[i] == AT_START ? motion.start_values : values);
-    write_state(state, motion.start.wz, to.from(i));
-    i++;
+inline int64_t fill(const FreeMotion& motion, const double* times, int64_t count,
+                    const Target& to) {
+  for (int64_t i = 0; i < count; i++) {
+    if (motion.is_far(times[i])) return i;
+    write_state(motion.at(times[i]), motion.start.wz, to.from(i));
   }
+  return count;
+}
+
+// Stamps of a clock, with times in s that are right to a few roundings: ExactTimes.rough_seconds.
+struct Stamps {
+  const int64_t* stamps;
+  const Clock& clock;
+  Exact elapsed;
+  double elapsed_seconds;
+
+  Stamps(const int64_t* given, const Clock& of_clock)
+      : stamps(given), clock(of_clock), elapsed(find_elapsed(clock)),
+        elapsed_seconds(to_seconds(elapsed)) {}
+
+  double find_rough_seconds(int64_t i) const {
+    return elapsed_seconds + clock.factor * (static_cast<double>(stamps[i]) * 1e-9);
+  }
+  Exact find_exact_time(int64_t i) const { return find_time(clock, elapsed, stamps[i]); }
+  double find_seconds(int64_t i) const { return to_seconds(find_exact_time(i)); }
+};
+
+// States at stamps. Between the first instants and the first time that is too far, LANES at once.
+class StampedStates {
+ public:
+  StampedStates(const ClosedForm& motion, const Stamps& stamps)
+      : motion_(motion),
+        stamps_(stamps),
+        steps_(motion.steps, FUNCTIONS, stamps.clock),
+        half_turn_(motion.first_instants.half_turn, 1, stamps.clock) {}
+
+  int64_t fill(int64_t count, const Target& to) const {
+    for (int64_t i = 0; i < count;) {
+      if (i + LANES <= count && are_all_later(i)) {
+        fill_later(i, to.from(i));
+        i += LANES;
+      } else {
+        if (std::fabs(stamps_.find_rough_seconds(i)) >= motion_.steps.farthest) return i;
+        write_state(find_state(i), motion_.start.wz, to.from(i));
+        i++;
+      }
+    }
+    return count;
+  }
+
+ private:
+  const ClosedForm& motion_;
+  const Stamps& stamps_;
+  ClockSteps steps_, half_turn_;
+
+  bool are_all_later(int64_t first) const {
+    bool are = true;
+    for (int64_t i = first; i < first + LANES; i++)
+      are &= is_later(motion_, stamps_.find_rough_seconds(i));
+    return are;
+  }
+
+  // The time itself counts on the separatrix only, where no phase grows at a constant rate.
+  double find_own_time(int64_t i) const {
+    return motion_.nutation_phase.is_separatrix ? stamps_.find_seconds(i) : 0.0;
+  }
+
+  void fill_later(int64_t first, const Target& to) const {
+    static const double RESTS[FUNCTIONS][LANES] = {};
+    uint64_t turns[FUNCTIONS][LANES];
+    double times[LANES];
+    for (int lane = 0; lane < LANES; lane++) {
+      Phase phases[FUNCTIONS];
+      steps_.find_phases(stamps_.stamps[first + lane], phases);
+      for (int k = 0; k < FUNCTIONS; k++) turns[k][lane] = phases[k].turns;
+      times[lane] = find_own_time(first + lane);
+    }
+    fill_lanes(motion_, times, turns, RESTS, to);
+  }
+
+  Attitude find_state(int64_t i) const {
+    const double rough = stamps_.find_rough_seconds(i);
+    if (rough == 0) return motion_.complete(motion_.start_values);
+    Phase phases[FUNCTIONS];
+    Pair values[FUNCTIONS];
+    if (motion_.is_first(rough)) {
+      half_turn_.find_phases(stamps_.stamps[i], phases);
+      motion_.first_instants.compute(stamps_.find_seconds(i), phases[0], values);
+    } else {
+      steps_.find_phases(stamps_.stamps[i], phases);
+      motion_.evaluate(find_own_time(i), phases, values);
+    }
+    return motion_.complete(values);
+  }
+};
+
+inline int64_t fill(const ClosedForm& motion, const Stamps& stamps, int64_t count,
+                    const Target& to) {
+  return StampedStates(motion, stamps).fill(count, to);
+}
+
+inline int64_t fill(const FreeMotion& motion, const Stamps& stamps, int64_t count,
+                    const Target& to) {
+  const ClockSteps steps(motion.steps, FUNCTIONS, stamps.clock);
+  for (int64_t i = 0; i < count; i++) {
+    if (motion.is_far(stamps.find_rough_seconds(i))) return i;
+    Phase phases[FUNCTIONS];
+    steps.find_phases(stamps.stamps[i], phases);
+    write_state(motion.at_phases(phases), motion.start.wz, to.from(i));
+  }
+  return count;
 }
 
 }  // namespace symtop

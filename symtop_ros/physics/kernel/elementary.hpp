@@ -103,6 +103,40 @@ SYMTOP_INLINE R exponential_minus_1(R x) {
   return (e.x - 1.0) + e.x * e.y;
 }
 
+// Arc tangents of 0 to 8 eighths, as sums of two doubles.
+const double EIGHTHS_OF_TANGENT[9][2] = {
+    {0.0, 0.0},
+    {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
+    {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+    {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
+    {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+    {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
+    {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+    {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
+    {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
+};
+const double HALF_PI_HIGH = 0x1.921fb54442d18p+0, HALF_PI_LOW = 0x1.1a62633145c07p-54;
+
+// arc_tangent, of two numbers
+inline double arc_tangent(double y, double x) {
+  static const double SERIES[] = {-1.0 / 15, 1.0 / 13, -1.0 / 11, 1.0 / 9, -1.0 / 7, 1.0 / 5,
+                                  -1.0 / 3};
+  const double height = std::fabs(y), width = std::fabs(x);
+  const double large = height > width ? height : width, small = height > width ? width : height;
+  const double ratio = large > 0 ? small / large : 0.0, place = round_to_integer(8.0 * ratio);
+  const double nearest = place * 0.125, z = (ratio - nearest) / (1.0 + ratio * nearest);
+  const double square = z * z;
+  double series = SERIES[0] * square;
+  for (int n = 1; n < 7; n++) series = (series + SERIES[n]) * square;
+  const double* eighth = EIGHTHS_OF_TANGENT[static_cast<int>(place)];
+  double angle = eighth[0] + ((z + z * series) + eighth[1]);
+  if (height > width)
+    angle = (HALF_PI_HIGH - std::copysign(angle, x)) + HALF_PI_LOW;
+  else if (std::signbit(x))
+    angle = (PI - angle) + PI_LOW;
+  return std::copysign(angle, y);
+}
+
 inline double integrate_rf_in_doubles(double x, double y) {
   if (x == 0 && y == 0) return INFINITY;
   double z = 1.0, mean, dx, dy;

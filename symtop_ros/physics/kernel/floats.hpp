@@ -5,6 +5,13 @@
 
 #include "lanes.hpp"
 
+// Sums and products are calls in WebAssembly: inlined they would make a module twice as large.
+#ifdef __wasm__
+#define SYMTOP_CALL __attribute__((noinline))
+#else
+#define SYMTOP_CALL
+#endif
+
 namespace symtop {
 
 typedef unsigned __int128 Wide;
@@ -17,7 +24,7 @@ struct Float {
 
   Float() = default;
 
-  Float(double x) {
+  SYMTOP_CALL Float(double x) {
     if (x == 0) return;
     sign = x < 0 ? -1 : 1;
     uint64_t bits;
@@ -39,7 +46,7 @@ struct Float {
   }
 
   // The nearest double; the even one of two.
-  double to_double() const {
+  SYMTOP_CALL double to_double() const {
     if (!sign) return 0.0;
     bool is_more = false;
     for (int i = 0; i < N - 1; i++) is_more |= limbs[i] != 0;
@@ -78,7 +85,7 @@ int compare_sizes(const Float<N>& a, const Float<N>& b) {
 }
 
 template <int N>
-int compare(const Float<N>& a, const Float<N>& b) {
+SYMTOP_CALL int compare(const Float<N>& a, const Float<N>& b) {
   return a.sign != b.sign ? (a.sign < b.sign ? -1 : 1) : a.sign * compare_sizes(a, b);
 }
 
@@ -108,7 +115,7 @@ Float<N> operator*(const Float<N>& a, const Float<N>& b) {
 }
 
 // The same for three limbs, from six of the nine products: those left out are below the last bit.
-inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
+SYMTOP_CALL inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
   Float<3> result;
   result.sign = a.sign * b.sign;
   if (!result.sign) return result;
@@ -164,8 +171,8 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   const Float<N>&a = is_first ? x : y, &b = is_first ? y : x;
   const int distance = a.exponent - b.exponent;
   if (distance >= 64 * N + 2) return a;
-  // One more limb below, so that a bit that is lost in the shift is no bit of the result. The smaller
-  // number lies between limbs of zero, of which the shift is a choice.
+  // One more limb below, so that a bit that is lost in the shift is no bit of the result. The
+  // smaller number lies between limbs of zero, of which the shift is a choice.
   uint64_t large[N + 1] = {}, small[N + 1], between[2 * N + 3] = {};
   std::memcpy(large + 1, a.limbs, sizeof a.limbs);
   std::memcpy(between + 1, b.limbs, sizeof b.limbs);
@@ -204,7 +211,7 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
 }
 
 // The same for three limbs, in two halves of 128 bits, of which the lowest 64 are the guard limb.
-inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
+SYMTOP_CALL inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
   if (!x.sign) return y;
   if (!y.sign) return x;
   const auto upper = [](const Float<3>& f) { return static_cast<Wide>(f.limbs[2]) << 64 | f.limbs[1]; };
@@ -264,56 +271,8 @@ inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
 }
 
 template <int N>
-Float<N> operator-(const Float<N>& a, const Float<N>& b) {
+SYMTOP_CALL Float<N> operator-(const Float<N>& a, const Float<N>& b) {
   return a + -b;
-}
-
-// The first 106 bits of a mantissa, as a sum of two doubles.
-inline void split_mantissa(const Float<3>& a, double& high, double& low) {
-  const uint64_t top = a.limbs[2];
-  high = static_cast<double>(top >> 11) * 0x1p-53;
-  low = static_cast<double>((top & 2047) << 42 | a.limbs[1] >> 22) * 0x1p-106;
-}
-
-// The reciprocal by Newton's method, from a double; each step doubles the digits. The first step is
-// made in doubles: what is left of 1 is formed without rounding.
-inline Float<3> invert(const Float<3>& a) {
-  Float<3> mantissa = a;
-  mantissa.exponent = 0;
-  mantissa.sign = 1;
-  double high, low;
-  split_mantissa(a, high, low);
-  const double estimate = 1.0 / high;
-  const double rest = __builtin_fma(-high, estimate, 1.0) - low * estimate;
-  const Float<3> first = Float<3>(estimate) + Float<3>(estimate * rest);
-  const Float<2> error(Float<3>(1.0) - mantissa * first);
-  Float<3> result = first + Float<3>(Float<2>(first) * error);
-  result.exponent -= a.exponent;
-  result.sign = a.sign;
-  return result;
-}
-
-inline Float<3> operator/(const Float<3>& a, const Float<3>& b) { return a * invert(b); }
-
-// The square root, from the reciprocal of the root, as above.
-inline Float<3> root(const Float<3>& a) {
-  if (a.sign <= 0) return Float<3>();
-  Float<3> mantissa = a;
-  const int odd = a.exponent & 1;
-  mantissa.exponent = odd;
-  double high, low;
-  split_mantissa(a, high, low);
-  if (odd) high *= 2, low *= 2;
-  const double inverse = 1.0 / std::sqrt(high);
-  const double square = inverse * inverse, below = __builtin_fma(inverse, inverse, -square);
-  const double product = high * square, lost = __builtin_fma(high, square, -product);
-  const double rest = (1.0 - product) - lost - high * below - low * square;
-  const Float<3> first = Float<3>(inverse) + Float<3>(inverse * (0.5 * rest));
-  // The root itself is corrected, by half of what its square lacks.
-  const Float<3> estimate = mantissa * first;
-  const Float<2> lacking(mantissa - estimate * estimate);
-  const Float<3> result = estimate + Float<3>((lacking * Float<2>(first)).scale(-1));
-  return result.scale((a.exponent - odd) / 2);
 }
 
 template <int N>

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
-// Two variants are compiled where the processor may have wider registers. They differ in speed only:
-// nothing is fused, and sums keep their order. A template is inlined into both.
+// Two variants are compiled where the processor may have wider registers. They differ in speed
+// only: nothing is fused, and sums keep their order. A template is inlined into both.
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && __GNUC__ >= 12
 #define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
@@ -79,8 +79,8 @@ SYMTOP_INLINE Integer<R> count_of(R whole) {
   return read_bits_as<Integer<R>>(whole + LARGE) - read_bits_as<uint64_t>(LARGE);
 }
 
-// The nearest double of an integer with sign. The lanes add two parts whose digits are placed behind
-// a 1, which is taken off again: few processors convert lanes of 64 bits.
+// The nearest double of an integer with sign. The lanes add two parts whose digits are placed
+// behind a 1, which is taken off again: few processors convert lanes of 64 bits.
 SYMTOP_INLINE double to_double(uint64_t n) { return static_cast<double>(static_cast<int64_t>(n)); }
 SYMTOP_INLINE Lanes to_double(IntegerLanes n) {
   const Lanes lower = read_bits_as<Lanes>((n & 0xffffffff) | read_bits_as<uint64_t>(0x1p52));

@@ -1,15 +1,14 @@
-// The kernel as a module of Python, symtop_ros.physics.kernel._kernel, with the stable interface of
-// Python 3.11: one build serves all later versions. Arrays are C-contiguous buffers of doubles.
+// The functions of symtop.h as a module of Python, symtop_ros.physics.kernel._kernel, with the
+// stable interface of Python 3.11: one build serves all later versions. Arrays are C-contiguous
+// buffers.
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030b0000
 #include <Python.h>
 
-#include <new>
+#include <cmath>
+#include <cstring>
 
-#include "blocks.hpp"
-#include "driven/trail.hpp"
-
-using namespace symtop;
+#include "symtop.h"
 
 namespace {
 
@@ -40,268 +39,238 @@ class Buffer {
   bool is_valid_;
 };
 
-template <class T>
-struct Holder {  // an object of Python that holds one of ours
+const Py_ssize_t NUMBER = sizeof(double);
+const int NUMBERS = sizeof(symtop_start) / sizeof(double);  // of a start
+
+struct Holder {  // an object of Python that holds a motion
   PyObject_HEAD
-  T* held;
+  symtop_motion* motion;
 };
 
-template <class T>
-T& held(PyObject* self) {
-  return *reinterpret_cast<Holder<T>*>(self)->held;
+symtop_motion* held(PyObject* self) { return reinterpret_cast<Holder*>(self)->motion; }
+
+PyObject* raise(symtop_status status) {
+  if (status == SYMTOP_NO_MEMORY) return PyErr_NoMemory();
+  PyErr_SetString(PyExc_ValueError, symtop_describe_status(status));
+  return nullptr;
 }
 
-template <class T>
+// Motion((Ix, Iz, Mgl), orientation, angular velocity, (axial, transverse), torque)
+PyObject* new_motion(PyTypeObject* type, PyObject* arguments, PyObject*) {
+  symtop_start s;
+  double *q = s.orientation, *w = s.angular_velocity, *f = s.friction, *t = s.torque;
+  if (!PyArg_ParseTuple(arguments, "(ddd)(dddd)(ddd)(dd)(ddd)", &s.Ix, &s.Iz, &s.Mgl, q, q + 1,
+                        q + 2, q + 3, w, w + 1, w + 2, f, f + 1, t, t + 1, t + 2))
+    return nullptr;
+  symtop_motion* motion;
+  const symtop_status status = symtop_new(&s, &motion);
+  if (status != SYMTOP_OK) return raise(status);
+  PyObject* self = reinterpret_cast<allocfunc>(PyType_GetSlot(type, Py_tp_alloc))(type, 0);
+  if (self)
+    reinterpret_cast<Holder*>(self)->motion = motion;
+  else
+    symtop_free(motion);
+  return self;
+}
+
 void dealloc(PyObject* self) {
   PyTypeObject* type = Py_TYPE(self);
-  delete reinterpret_cast<Holder<T>*>(self)->held;
+  symtop_free(held(self));
   reinterpret_cast<freefunc>(PyType_GetSlot(type, Py_tp_free))(self);
   Py_DECREF(type);
 }
 
-template <class T>
-PyObject* allocate(PyTypeObject* type) {
-  PyObject* self = reinterpret_cast<allocfunc>(PyType_GetSlot(type, Py_tp_alloc))(type, 0);
-  if (!self) return nullptr;
-  T* object = new (std::nothrow) T();
-  reinterpret_cast<Holder<T>*>(self)->held = object;
-  if (object) return self;
-  Py_DECREF(self);
-  return PyErr_NoMemory();
-}
-
-Start read_start(const double* s) {
-  return {s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9]};
-}
-
-// ---- ClosedForm ---------------------------------------------------------------------------------
-
-PyObject* new_closed_form(PyTypeObject* type, PyObject* arguments, PyObject*) {
-  double s[10];
-  int is_turned_over;
-  if (!PyArg_ParseTuple(arguments, "(ddd)(dddd)(ddd)p", s, s + 1, s + 2, s + 3, s + 4, s + 5, s + 6,
-                        s + 7, s + 8, s + 9, &is_turned_over))
-    return nullptr;
-  if (!can_solve(read_start(s))) {
-    PyErr_SetString(PyExc_ValueError, "start must be finite, with Mgl > 0 and an axis that moves");
-    return nullptr;
-  }
-  PyObject* self = allocate<ClosedForm>(type);
-  if (self) held<ClosedForm>(self).prepare(read_start(s), is_turned_over);
-  return self;
-}
-
-// at(t): w, x, y, z, omega_x, omega_y, or None if the time is too far
-PyObject* closed_form_at(PyObject* self, PyObject* time) {
+// at(t): the seven numbers of a state, or None if the time is too far
+PyObject* motion_at(PyObject* self, PyObject* time) {
   const double t = PyFloat_AsDouble(time);
   if (PyErr_Occurred()) return nullptr;
-  ClosedForm& motion = held<ClosedForm>(self);
-  if (motion.is_far(t)) Py_RETURN_NONE;
-  const Attitude s = motion.at(t);
-  return Py_BuildValue("(dddddd)", s.w, s.x, s.y, s.z, s.omega_x, s.omega_y);
+  double q[4], omega[3];
+  const symtop_status status = symtop_state(held(self), t, q, omega);
+  if (status == SYMTOP_TOO_FAR) Py_RETURN_NONE;
+  if (status != SYMTOP_OK) return raise(status);
+  return Py_BuildValue("(ddddddd)", q[0], q[1], q[2], q[3], omega[0], omega[1], omega[2]);
 }
 
-// fill(times, orientation, omega, far): far[i] is set to 1 if time i is too far; no state is written
-// for it
-PyObject* closed_form_fill(PyObject* self, PyObject* arguments) {
-  PyObject *times, *orientation, *omega, *far;
-  if (!PyArg_ParseTuple(arguments, "OOOO", &times, &orientation, &omega, &far)) return nullptr;
-  Buffer t(times, false), q(orientation, true), rates(omega, true), f(far, true);
-  const Py_ssize_t count = t.bytes() / static_cast<Py_ssize_t>(sizeof(double));
-  const double* from = t.get<double>(count);
-  double *to = q.get<double>(4 * count), *to_rates = rates.get<double>(3 * count);
-  uint8_t* is_far = f.get<uint8_t>(count);
-  if (PyErr_Occurred()) return nullptr;
-  ClosedForm& motion = held<ClosedForm>(self);
-  motion.prepare_first_instants();  // now, because threads may share the motion
-  Py_BEGIN_ALLOW_THREADS
-  fill(motion, from, count, {to, to_rates}, is_far);
-  Py_END_ALLOW_THREADS
-  Py_RETURN_NONE;
+PyObject* describe_progress(size_t written, symtop_status status) {
+  return Py_BuildValue("(ni)", static_cast<Py_ssize_t>(written), static_cast<int>(status));
 }
 
-// fill_phases(seconds, places, turns, orientation, omega): states at phases that Python has
-// computed from exact times; turns are (4, n): see blocks.hpp.
-PyObject* closed_form_fill_phases(PyObject* self, PyObject* arguments) {
-  PyObject *seconds, *places, *turns, *orientation, *omega;
-  if (!PyArg_ParseTuple(arguments, "OOOOO", &seconds, &places, &turns, &orientation, &omega))
-    return nullptr;
-  Buffer t(seconds, false), p(places, false), n(turns, false), q(orientation, true),
-      rates(omega, true);
-  const Py_ssize_t count = p.bytes();
-  const double* from = t.get<double>(count);
-  const uint8_t* place = p.get<uint8_t>(count);
-  const uint64_t* phase = n.get<uint64_t>(4 * count);
-  double *to = q.get<double>(4 * count), *to_rates = rates.get<double>(3 * count);
-  if (PyErr_Occurred()) return nullptr;
-  ClosedForm& motion = held<ClosedForm>(self);
-  motion.prepare_first_instants();
-  fill_phases(motion, from, place, phase, count, {to, to_rates});
-  Py_RETURN_NONE;
-}
-
-PyObject* describe(const Steps& steps, int count) {
-  return Py_BuildValue("(iy#)", steps.exponent, reinterpret_cast<const char*>(steps.limbs),
-                       static_cast<Py_ssize_t>(count * sizeof steps.limbs[0]));
-}
-
-// steps(): exponent and steps of the three phases, and those of the first instants
-PyObject* closed_form_steps(PyObject* self, PyObject*) {
-  ClosedForm& motion = held<ClosedForm>(self);
-  motion.prepare_first_instants();
-  return Py_BuildValue("(dNN)", motion.first_end, describe(motion.steps, FUNCTIONS),
-                       describe(motion.first_instants.half_turn, 1));
-}
-
-PyMethodDef CLOSED_FORM_METHODS[] = {
-    {"at", closed_form_at, METH_O, nullptr},
-    {"fill", closed_form_fill, METH_VARARGS, nullptr},
-    {"fill_phases", closed_form_fill_phases, METH_VARARGS, nullptr},
-    {"steps", closed_form_steps, METH_NOARGS, nullptr},
-    {nullptr, nullptr, 0, nullptr},
-};
-
-PyType_Slot CLOSED_FORM_SLOTS[] = {
-    {Py_tp_new, reinterpret_cast<void*>(new_closed_form)},
-    {Py_tp_dealloc, reinterpret_cast<void*>(dealloc<ClosedForm>)},
-    {Py_tp_methods, CLOSED_FORM_METHODS},
-    {0, nullptr},
-};
-
-PyType_Spec CLOSED_FORM = {"symtop_ros.physics.kernel._kernel.ClosedForm",
-                           sizeof(Holder<ClosedForm>), 0, Py_TPFLAGS_DEFAULT, CLOSED_FORM_SLOTS};
-
-// ---- Trail --------------------------------------------------------------------------------------
-
-PyObject* new_trail(PyTypeObject* type, PyObject* arguments, PyObject*) {
-  DrivenArguments a;
-  double *f = a.torque, *q = a.orientation, *w = a.omega;
-  int direction;
-  if (!PyArg_ParseTuple(arguments, "(ddd)(dd)(ddd)(dddd)(ddd)i", &a.Ix, &a.Iz, &a.Mgl, &a.axial,
-                        &a.transverse, f, f + 1, f + 2, q, q + 1, q + 2, q + 3, w, w + 1, w + 2,
-                        &direction))
-    return nullptr;
-  PyObject* self = allocate<Trail>(type);
-  if (!self || held<Trail>(self).prepare(a, direction)) return self;
-  Py_DECREF(self);
-  return PyErr_NoMemory();
-}
-
-// reach(t, steps): the time reached, and True if the motion is too fast to go on
-PyObject* trail_reach(PyObject* self, PyObject* arguments) {
-  double t, steps;
-  if (!PyArg_ParseTuple(arguments, "dd", &t, &steps)) return nullptr;
-  Trail& trail = held<Trail>(self);
-  bool is_stuck = false;
-  double reached = 0.0;
-  Py_BEGIN_ALLOW_THREADS
-  reached = trail.reach(t, &steps, &is_stuck);
-  Py_END_ALLOW_THREADS
-  return Py_BuildValue("(dN)", reached, PyBool_FromLong(is_stuck));
-}
-
-// fill(times, rests, orientation, omega, steps): the number of states written, from the first on, and
-// True if the motion is too fast to go on. Less than all are written then, or after so many steps.
-// Times are sums of two doubles, sorted from the start on.
-PyObject* trail_fill(PyObject* self, PyObject* arguments) {
-  PyObject *times, *rests, *orientation, *omega;
+// fill(times, orientation, omega, most_steps): the number of states written, and the status
+PyObject* motion_fill(PyObject* self, PyObject* arguments) {
+  PyObject *times, *orientation, *omega;
   double steps;
-  if (!PyArg_ParseTuple(arguments, "OOOOd", &times, &rests, &orientation, &omega, &steps))
-    return nullptr;
-  Buffer t(times, false), r(rests, false), q(orientation, true), rates(omega, true);
-  const Py_ssize_t count = t.bytes() / static_cast<Py_ssize_t>(sizeof(double));
-  const double *from = t.get<double>(count), *rest = r.get<double>(count);
+  if (!PyArg_ParseTuple(arguments, "OOOd", &times, &orientation, &omega, &steps)) return nullptr;
+  Buffer t(times, false), q(orientation, true), rates(omega, true);
+  const Py_ssize_t count = t.bytes() / NUMBER;
+  const double* from = t.get<double>(count);
   double *to = q.get<double>(4 * count), *to_rates = rates.get<double>(3 * count);
   if (PyErr_Occurred()) return nullptr;
-  Trail& trail = held<Trail>(self);
-  Py_ssize_t written = 0;
-  bool is_stuck = false;
+  size_t written;
+  symtop_status status;
   Py_BEGIN_ALLOW_THREADS
-  for (; written < count; written++) {
-    const double t = from[written];
-    if (trail.reach(t, &steps, &is_stuck) != t) break;
-    trail.read(t, rest[written], to + 4 * written, to_rates + 3 * written);
-  }
+  status = symtop_states(held(self), from, static_cast<size_t>(count), steps, to, to_rates,
+                         &written);
   Py_END_ALLOW_THREADS
-  return Py_BuildValue("(nN)", written, PyBool_FromLong(is_stuck));
+  return describe_progress(written, status);
 }
 
-PyMethodDef TRAIL_METHODS[] = {
-    {"reach", trail_reach, METH_VARARGS, nullptr},
-    {"fill", trail_fill, METH_VARARGS, nullptr},
+// fill_stamps(stamps, (factor, elapsed), orientation, omega, most_steps): the same, at exact times
+PyObject* motion_fill_stamps(PyObject* self, PyObject* arguments) {
+  PyObject *stamps, *orientation, *omega;
+  symtop_clock clock;
+  double steps, *elapsed = clock.elapsed;
+  if (!PyArg_ParseTuple(arguments, "O(d(dddd))OOd", &stamps, &clock.factor, elapsed, elapsed + 1,
+                        elapsed + 2, elapsed + 3, &orientation, &omega, &steps))
+    return nullptr;
+  Buffer t(stamps, false), q(orientation, true), rates(omega, true);
+  const Py_ssize_t count = t.bytes() / static_cast<Py_ssize_t>(sizeof(int64_t));
+  const int64_t* from = t.get<int64_t>(count);
+  double *to = q.get<double>(4 * count), *to_rates = rates.get<double>(3 * count);
+  if (PyErr_Occurred()) return nullptr;
+  size_t written;
+  symtop_status status;
+  Py_BEGIN_ALLOW_THREADS
+  status = symtop_states_of_clock(held(self), &clock, from, static_cast<size_t>(count), steps, to,
+                                  to_rates, &written);
+  Py_END_ALLOW_THREADS
+  return describe_progress(written, status);
+}
+
+// reach(t, most_steps): the time reached, and the status
+PyObject* motion_reach(PyObject* self, PyObject* arguments) {
+  double t, steps, reached;
+  if (!PyArg_ParseTuple(arguments, "dd", &t, &steps)) return nullptr;
+  symtop_status status;
+  Py_BEGIN_ALLOW_THREADS
+  status = symtop_reach(held(self), t, steps, &reached);
+  Py_END_ALLOW_THREADS
+  return Py_BuildValue("(di)", reached, static_cast<int>(status));
+}
+
+PyObject* motion_kind(PyObject* self, PyObject*) {
+  return PyLong_FromLong(symtop_find_kind(held(self)));
+}
+
+PyObject* motion_turning_angles(PyObject* self, PyObject*) {
+  double angles[2];
+  symtop_find_turning_angles(held(self), angles);
+  return Py_BuildValue("(dd)", angles[0], angles[1]);
+}
+
+PyObject* motion_rates(PyObject* self, PyObject*) {
+  symtop_rates r;
+  symtop_find_rates(held(self), &r);
+  return Py_BuildValue("(ddddi)", r.nutation_period, r.mean_precession_rate, r.mean_spin_rate,
+                       r.precession_per_nutation, r.spin_reverses);
+}
+
+PyMethodDef MOTION_METHODS[] = {
+    {"at", motion_at, METH_O, nullptr},
+    {"fill", motion_fill, METH_VARARGS, nullptr},
+    {"fill_stamps", motion_fill_stamps, METH_VARARGS, nullptr},
+    {"reach", motion_reach, METH_VARARGS, nullptr},
+    {"kind", motion_kind, METH_NOARGS, nullptr},
+    {"turning_angles", motion_turning_angles, METH_NOARGS, nullptr},
+    {"rates", motion_rates, METH_NOARGS, nullptr},
     {nullptr, nullptr, 0, nullptr},
 };
 
-PyType_Slot TRAIL_SLOTS[] = {
-    {Py_tp_new, reinterpret_cast<void*>(new_trail)},
-    {Py_tp_dealloc, reinterpret_cast<void*>(dealloc<Trail>)},
-    {Py_tp_methods, TRAIL_METHODS},
+PyType_Slot MOTION_SLOTS[] = {
+    {Py_tp_new, reinterpret_cast<void*>(new_motion)},
+    {Py_tp_dealloc, reinterpret_cast<void*>(dealloc)},
+    {Py_tp_methods, MOTION_METHODS},
     {0, nullptr},
 };
 
-PyType_Spec TRAIL = {"symtop_ros.physics.kernel._kernel.Trail", sizeof(Holder<Trail>), 0,
-                     Py_TPFLAGS_DEFAULT, TRAIL_SLOTS};
+PyType_Spec MOTION = {"symtop_ros.physics.kernel._kernel.Motion", sizeof(Holder), 0,
+                      Py_TPFLAGS_DEFAULT, MOTION_SLOTS};
 
 // ---- Many motions -------------------------------------------------------------------------------
 
-// fill_many(starts, turned_over, times, orientation, omega, far): n motions at the same m times, with
-// 10 numbers for a start; far[i][j] is set to 1 if time j is too far for motion i. A motion without a
-// closed form is not computed: all of its times are far.
+// A motion of an array of starts, freed at the end of its scope; null if it is refused.
+class Member {
+ public:
+  explicit Member(const double* numbers) {
+    symtop_start start;
+    std::memcpy(&start, numbers, sizeof start);
+    symtop_new(&start, &motion);
+  }
+  ~Member() { symtop_free(motion); }
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
+
+  symtop_motion* motion = nullptr;
+};
+
+// fill_many(starts, times, orientation, omega, left): n motions at the same m times. left (n, m) is
+// set to 0 for the states that are written; others are too far.
 PyObject* fill_many(PyObject*, PyObject* arguments) {
-  PyObject *starts, *turned_over, *times, *orientation, *omega, *far;
-  if (!PyArg_ParseTuple(arguments, "OOOOOO", &starts, &turned_over, &times, &orientation, &omega,
-                        &far))
+  PyObject *starts, *times, *orientation, *omega, *left;
+  if (!PyArg_ParseTuple(arguments, "OOOOO", &starts, &times, &orientation, &omega, &left))
     return nullptr;
-  Buffer s(starts, false), o(turned_over, false), t(times, false), q(orientation, true),
-      rates(omega, true), f(far, true);
-  const Py_ssize_t count = o.bytes(), each = t.bytes() / static_cast<Py_ssize_t>(sizeof(double));
-  const double *start = s.get<double>(10 * count), *from = t.get<double>(each);
-  const uint8_t* over = o.get<uint8_t>(count);
+  Buffer s(starts, false), t(times, false), q(orientation, true), rates(omega, true),
+      l(left, true);
+  const Py_ssize_t count = s.bytes() / (NUMBERS * NUMBER), each = t.bytes() / NUMBER;
+  const double *start = s.get<double>(NUMBERS * count), *from = t.get<double>(each);
   double *to = q.get<double>(4 * count * each), *to_rates = rates.get<double>(3 * count * each);
-  uint8_t* is_far = f.get<uint8_t>(count * each);
+  uint8_t* is_left = l.get<uint8_t>(count * each);
   if (PyErr_Occurred()) return nullptr;
   Py_BEGIN_ALLOW_THREADS
-  ClosedForm motion;
   for (Py_ssize_t i = 0; i < count; i++) {
-    const Start given = read_start(start + 10 * i);
-    if (!can_solve(given)) {
-      std::memset(is_far + i * each, 1, each);
-      continue;
-    }
-    motion.has_first_instants = false;
-    motion.prepare(given, over[i]);
-    fill(motion, from, each, {to + 4 * i * each, to_rates + 3 * i * each}, is_far + i * each);
+    const Member member(start + NUMBERS * i);
+    size_t written = 0;
+    if (member.motion)
+      symtop_states(member.motion, from, static_cast<size_t>(each), INFINITY, to + 4 * i * each,
+                    to_rates + 3 * i * each, &written);
+    std::memset(is_left + i * each, 0, written);
   }
   Py_END_ALLOW_THREADS
   Py_RETURN_NONE;
 }
 
-// set_rows(rows): the table of cosines and sines of phases.py
-PyObject* set_rows(PyObject*, PyObject* rows) {
-  Buffer buffer(rows, false);
-  const double* from = buffer.get<double>(4 * ENTRIES);
-  if (!from) return nullptr;
-  std::memcpy(ROWS, from, sizeof ROWS);
+// describe_many(starts, kinds, angles, rates): kinds are (n,) of bytes, turning angles (n, 2), and
+// rates (n, 5) as symtop_rates has them
+PyObject* describe_many(PyObject*, PyObject* arguments) {
+  PyObject *starts, *kinds, *angles, *rates;
+  if (!PyArg_ParseTuple(arguments, "OOOO", &starts, &kinds, &angles, &rates)) return nullptr;
+  Buffer s(starts, false), k(kinds, true), a(angles, true), r(rates, true);
+  const Py_ssize_t count = s.bytes() / (NUMBERS * NUMBER);
+  const double* start = s.get<double>(NUMBERS * count);
+  uint8_t* kind = k.get<uint8_t>(count);
+  double *angle = a.get<double>(2 * count), *rate = r.get<double>(5 * count);
+  if (PyErr_Occurred()) return nullptr;
+  bool is_done = true;
+  Py_BEGIN_ALLOW_THREADS
+  for (Py_ssize_t i = 0; i < count && is_done; i++) {
+    const Member member(start + NUMBERS * i);
+    is_done = member.motion != nullptr;
+    if (!is_done) break;
+    symtop_rates found;
+    kind[i] = static_cast<uint8_t>(symtop_find_kind(member.motion));
+    symtop_find_turning_angles(member.motion, angle + 2 * i);
+    symtop_find_rates(member.motion, &found);
+    const double numbers[] = {found.nutation_period, found.mean_precession_rate,
+                              found.mean_spin_rate, found.precession_per_nutation,
+                              static_cast<double>(found.spin_reverses)};
+    std::memcpy(rate + 5 * i, numbers, sizeof numbers);
+  }
+  Py_END_ALLOW_THREADS
+  if (!is_done) return PyErr_NoMemory();
   Py_RETURN_NONE;
 }
 
 PyMethodDef METHODS[] = {
     {"fill_many", fill_many, METH_VARARGS, nullptr},
-    {"set_rows", set_rows, METH_O, nullptr},
+    {"describe_many", describe_many, METH_VARARGS, nullptr},
     {nullptr, nullptr, 0, nullptr},
 };
 
-int add_type(PyObject* module, PyType_Spec& spec, const char* name) {
-  PyObject* type = PyType_FromSpec(&spec);
+int execute(PyObject* module) {
+  PyObject* type = PyType_FromSpec(&MOTION);
   if (!type) return -1;
-  const int result = PyModule_AddObjectRef(module, name, type);
+  const int result = PyModule_AddObjectRef(module, "Motion", type);
   Py_DECREF(type);
   return result;
-}
-
-int execute(PyObject* module) {
-  if (add_type(module, CLOSED_FORM, "ClosedForm") < 0) return -1;
-  return add_type(module, TRAIL, "Trail");
 }
 
 PyModuleDef_Slot SLOTS[] = {{Py_mod_exec, reinterpret_cast<void*>(execute)}, {0, nullptr}};

@@ -2,12 +2,19 @@
 // decimal digits, which is more than the 50 of the context PRECISE.
 #pragma once
 
-#include "floats.hpp"
+#include "newton.hpp"
 
 namespace symtop {
 
 typedef Float<3> Precise;  // a Decimal of precise.py
+typedef Float<37> Longest;  // a Decimal of 700 digits: see mean_rates.py
 typedef Float<24> Exact;   // sums of products of five doubles, without rounding: a Fraction
+
+// A share below which the square is lost in rounding, but for some bits.
+template <int N>
+Float<N> half_of_digits(int spare) {
+  return Float<N>(1.0).scale(spare - 32 * N);
+}
 
 inline Precise precise(uint64_t high, uint64_t middle, uint64_t low, int exponent) {
   Precise result;

@@ -15,6 +15,8 @@ from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, acceler
 from symtop_ros.physics.driven.equations import ONE, RATES, DrivenEquations
 from symtop_ros.physics.driven.series import Knot, Stepper
 from symtop_ros.physics.driven.trail import DrivenMotion
+from symtop_ros.physics.kernel import find_kernel
+from symtop_ros.physics.kernel.compiled import CompiledMotion
 
 pytestmark = pytest.mark.untraced
 LONG = pytest.mark.long
@@ -35,14 +37,20 @@ def exact(top, start, friction, torque, t):
     return State([float(c) for c in q], [float(c) for c in omega])
 
 
-def integrate(top, start, friction=Friction(), torque=NONE):  # noqa: B008
-    return DrivenMotion(top, start, friction, torque, pure=False)
+# It changes no bit of a state, and makes a motion under gravity one that is integrated.
+HARDLY_ANY = Friction(1e-300, 1e-300)
+
+
+def integrate(top, start, friction=HARDLY_ANY, torque=NONE):
+    kernel = find_kernel(pure=False)
+    state = top.moments, start.given_orientation.tolist(), start.angular_velocity.tolist()
+    compiled = kernel and CompiledMotion(kernel, *map(tuple, state), friction, torque)
+    return DrivenMotion(top, start, friction, torque, compiled)
 
 
 def states(engine, times):
     orientation, angular_velocity = np.empty((len(times), 4)), np.empty((len(times), 3))
-    times = np.asarray(times)
-    engine.fill(times, np.zeros_like(times), orientation, angular_velocity)
+    engine.fill(np.asarray(times, float), orientation, angular_velocity)
     return State.wrap(orientation, angular_velocity)
 
 

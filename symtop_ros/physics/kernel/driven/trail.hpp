@@ -7,8 +7,8 @@
 
 namespace symtop {
 
-// Fewer than in Python, so that the two arrays are no mappings of their own: for a short motion that
-// would take as long as all of its steps.
+// Fewer than in Python, so that the two arrays are no mappings of their own: for a short motion
+// that would take as long as all of its steps.
 const int KEPT = 512, RECENT = 16;
 
 class Trail {
@@ -32,8 +32,8 @@ class Trail {
     std::free(recent_);
   }
 
-  // Trail.reach; *steps is lowered by those taken, and *is_stuck is set if the motion is too fast to
-  // go on.
+  // Trail.reach; *steps is lowered by those taken, and *is_stuck is set if the motion is too fast
+  // to go on.
   double reach(double t, double* steps, bool* is_stuck) {
     go_back(t);
     *is_stuck = false;

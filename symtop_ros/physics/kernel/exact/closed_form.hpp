@@ -1,9 +1,11 @@
 // Twin of physics/exact/closed_form.py.
 //
-// Each header of this folder is the twin of the file of its name, function by function and in the
-// same order of operations: what is computed here with Precise is computed there with Decimal. Read
-// the Python first; it says where each formula comes from and why it is written so. The names are
-// the same.
+// Each header of this folder is the twin of the Python file of its name, with the same formulas in
+// the same order. What is computed here with Precise, in 57 digits, is computed there with Decimal,
+// in 50: where such numbers become doubles they are the same, and all else is doubles in the same
+// order of operations. Where a function has another name, a comment gives that of Python. theta.py
+// has its twin in `compute_series`, rates.py in ../gravity.hpp. Read the Python first; it says
+// where each formula comes from and why it is written so.
 #pragma once
 
 #include "first_instants.hpp"
@@ -16,28 +18,40 @@ struct AttitudeOf {  // a state without omega_z, which is constant
 };
 typedef AttitudeOf<double> Attitude;
 
+// Motion._evaluate
+template <class R>
+SYMTOP_INLINE AttitudeOf<R> complete_attitude(const PairOf<R> values[FUNCTIONS],
+                                              bool is_turned_over) {
+  R w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
+  if (is_turned_over) {
+    const R w_before = w, y_before = y;
+    w = x, x = -w_before, y = z, z = -y_before;
+  }
+  const R upper = w * w + z * z, lower = x * x + y * y;
+  const R step = 0.5 - 0.5 * (upper + lower), share = step * (upper - lower);
+  const R of_B = step - upper * share, of_A = of_B + share;
+  return {w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, values[OF_OMEGA_XY].x,
+          values[OF_OMEGA_XY].y};
+}
+
 // _add
 inline Precise add_rates(const Precise& mean, const Precise& half_c) {
   const Precise rate = mean + half_c;
   return is_lost(rate, half_c) ? Precise() : rate;
 }
 
-// True if the motion has a closed form: else the search for a root would not end.
-inline bool can_solve(const Start& s) {
-  const double numbers[] = {s.Ix, s.Iz, s.Mgl, s.w, s.x, s.y, s.z, s.wx, s.wy, s.wz};
-  for (double each : numbers)
-    if (!std::isfinite(each)) return false;
-  const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
-  const bool has_attitude = s.w != 0 || s.x != 0 || s.y != 0 || s.z != 0;
-  return s.Ix > 0 && s.Iz > 0 && s.Mgl > 0 && has_attitude &&
-         !(is_vertical && s.wx == 0 && s.wy == 0);
-}
-
+// A motion whose axis moves under gravity, with Mgl > 0. It is solved in three stages: what kind
+// and turning angles need, what states need, and what the first instants need.
 struct ClosedForm {
   Start start;
-  bool is_turned_over, has_first_instants = false;
+  bool is_turned_over;
+
+  Nutation nutation;
+  Roots roots;
+  Zero zeros[FUNCTIONS];
+  Precise mean, means[FUNCTIONS], frequency, nutation_rate, half_c;
+
   Pair start_values[FUNCTIONS];
-  Precise half_c;
   double first_end;
   Steps steps;
   NutationPhase nutation_phase;
@@ -46,40 +60,49 @@ struct ClosedForm {
   Pair factors[FUNCTIONS];
   FirstInstants first_instants;
 
-  // ClosedFormMotion.__init__, _series and _factors
-  void prepare(const Start& given, bool turned_over) {
+  // ClosedFormMotion.__init__
+  void solve(const Start& given, bool turned_over) {
     start = given, is_turned_over = turned_over;
-    const Nutation n = find_nutation(start);
-    const Roots roots = find_roots(n);
-    Zero zeros[FUNCTIONS];
-    find_zeros(n, roots, zeros);
-    Precise means[FUNCTIONS];
-    const Precise mean = compute_mean_rates(n, zeros, root(roots.s32 / roots.s31()), means);
-    const Precise frequency = root(n.beta * roots.s31()), nutation_rate = frequency * mean;
-    const Precise Ix(start.Ix), Iz(start.Iz), wz(start.wz);
-    half_c = (wz * (Ix - Iz) / Ix).scale(-1);
+    nutation = find_nutation<3>(start);
+    roots = find_roots(nutation);
+    find_zeros(nutation, roots, zeros);
+    mean = compute_mean_rates(nutation, zeros, root(roots.s32 / roots.s31()), means);
+    frequency = root(nutation.beta * roots.s31());
+    nutation_rate = frequency * mean;
+    half_c = find_turning_rate<3>(start).scale(-1);
+  }
+
+  // _phases, _nutation_phase, _series and _factors
+  void prepare_states() {
     const Precise rates[FUNCTIONS] = {nutation_rate, add_rates(means[OF_A], half_c),
                                       add_rates(means[OF_B], -half_c)};
     steps = find_steps(rates, FUNCTIONS);
-    first_end = 0.1 / find_fastest_rate(start);
-    nutation_phase = find_nutation_phase(n, roots, zeros, mean, frequency);
+    first_end = REACH / find_fastest_rate(start);
+    nutation_phase = find_nutation_phase(nutation, roots, zeros, mean, frequency);
     Shift shifts[FUNCTIONS];
     for (int k = 0; k < FUNCTIONS; k++) {
       const double complement = compute_shift_complement(zeros[k], roots);
       shifts[k] = {zeros[k].is_negative() ? -1.0 : 1.0,
                    nutation_phase.Kc < complement ? nutation_phase.Kc : complement};
     }
-    int winding = 0;
-    if (nutation_rate.sign) {
-      const Precise difference = means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - n.a.scale(-1);
-      winding = static_cast<int>(round_to_integer((difference / nutation_rate).to_double()));
-    }
+    const int winding = count_windings();
     if (nutation_phase.is_direct())
       direct.prepare(nutation_phase.K, nutation_phase.Kc, shifts, winding);
     else
       complementary.prepare(nutation_phase.K, nutation_phase.Kc, shifts, winding,
                             nutation_phase.root_of_nome);
-    find_factors(n, zeros, means);
+    find_factors();
+  }
+
+  void prepare_first_instants() {
+    first_instants.prepare(start, start_values[OF_A], start_values[OF_B], half_c);
+  }
+
+  // _winding
+  int count_windings() const {
+    if (!nutation_rate.sign) return 0;
+    const Precise difference = means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - nutation.a.scale(-1);
+    return static_cast<int>(round_to_integer((difference / nutation_rate).to_double()));
   }
 
   template <class R>
@@ -93,9 +116,8 @@ struct ClosedForm {
   // _initial_values
   void find_initial_values(Pair changes[FUNCTIONS]) {
     const Start& s = start;
-    double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
-    if (std::fabs(norm - 1.0) <= 4 * 0x1p-52) norm = 1.0;
-    const double w = s.w / norm, x = s.x / norm, y = s.y / norm, z = s.z / norm;
+    const Start unit = normalize(s);
+    const double w = unit.w, x = unit.x, y = unit.y, z = unit.z;
     const Pair A = {w, z}, B = {x, y}, omega_xy = {s.wx, s.wy};
     const double spin = 0.5 * s.wz * (s.Iz / s.Ix), weight = 2 * (s.Mgl / s.Ix);
     const Pair of_A = multiply_by_conjugate(B, omega_xy), of_B = multiply(omega_xy, A);
@@ -108,7 +130,8 @@ struct ClosedForm {
   }
 
   // _factors, with Quotient.find_factor
-  void find_factors(const Nutation& n, const Zero zeros[], const Precise means[]) {
+  void find_factors() {
+    const Nutation& n = nutation;
     Pair changes[FUNCTIONS], values[FUNCTIONS];
     find_initial_values(changes);
     changes[OF_OMEGA_XY] = conjugate(changes[OF_OMEGA_XY]);
@@ -124,15 +147,16 @@ struct ClosedForm {
     }
     const double modulus = find_modulus(factors[OF_OMEGA_XY]);
     if (modulus) {
-      const double share = find_modulus_of_third_factor(n, zeros[OF_OMEGA_XY], modulus) / modulus;
+      const double share = find_modulus_of_third_factor(modulus) / modulus;
       factors[OF_OMEGA_XY] = {factors[OF_OMEGA_XY].x * share, factors[OF_OMEGA_XY].y * share};
     }
     factors[OF_OMEGA_XY] = conjugate(factors[OF_OMEGA_XY]);
   }
 
   // _find_modulus_of_third_factor
-  double find_modulus_of_third_factor(const Nutation& n, const Zero& zero,
-                                      double from_start) const {
+  double find_modulus_of_third_factor(double from_start) const {
+    const Nutation& n = nutation;
+    const Zero& zero = zeros[OF_OMEGA_XY];
     double total = 0.0;
     int count = 0;
     const auto add = [&](double estimate) { total += estimate, count++; };
@@ -177,42 +201,25 @@ struct ClosedForm {
         multiply_by_conjugate(factors[OF_OMEGA_XY], series[OF_OMEGA_XY]), turn_omega);
   }
 
-  // Motion._evaluate
   template <class R>
   SYMTOP_INLINE AttitudeOf<R> complete(const PairOf<R> values[FUNCTIONS]) const {
-    R w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
-    if (is_turned_over) {
-      const R w_before = w, y_before = y;
-      w = x, x = -w_before, y = z, z = -y_before;
-    }
-    const R upper = w * w + z * z, lower = x * x + y * y;
-    const R step = 0.5 - 0.5 * (upper + lower), share = step * (upper - lower);
-    const R of_B = step - upper * share, of_A = of_B + share;
-    return {w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, values[OF_OMEGA_XY].x,
-            values[OF_OMEGA_XY].y};
+    return complete_attitude(values, is_turned_over);
   }
+
+  bool is_first(double t) const { return std::fabs(t) <= first_end; }
 
   // True if a time is too long for a count of ticks: Python serves it.
-  bool is_far(double t) {
-    if (std::fabs(t) > first_end) return std::fabs(t) >= steps.farthest;
-    prepare_first_instants();
-    return std::fabs(t) >= first_instants.half_turn.farthest;
-  }
-
-  // Before a time within the first instants.
-  void prepare_first_instants() {
-    if (has_first_instants) return;
-    first_instants.prepare(start, start_values[OF_A], start_values[OF_B], half_c);
-    has_first_instants = true;
+  bool is_far(double t) const {
+    if (t == 0) return false;
+    return std::fabs(t) >= (is_first(t) ? first_instants.half_turn.farthest : steps.farthest);
   }
 
   // ClosedFormMotion.cayley_klein, for a time that is not far
-  Attitude at(double t) {
+  Attitude at(double t) const {
     if (t == 0) return complete(start_values);
     Pair values[FUNCTIONS];
     Phase phases[FUNCTIONS];
-    if (std::fabs(t) <= first_end) {
-      prepare_first_instants();
+    if (is_first(t)) {
       find_phases(first_instants.half_turn, 1, t, phases);
       first_instants.compute(t, phases[0], values);
     } else {

@@ -6,6 +6,7 @@
 namespace symtop {
 
 const int TERMS = 14;
+const double REACH = 0.1, SLOWEST = 1e-290;
 
 struct Series {
   double real[TERMS + 1], imaginary[TERMS + 1];
@@ -47,7 +48,7 @@ inline Pair convolve_with_conjugate(const Series& left, const Series& right, int
 inline double find_fastest_rate(const Start& s) {
   const double rates = find_modulus({s.wx, s.wy}), spin = std::fabs(s.wz) * (s.Iz / s.Ix);
   const double weight = std::sqrt(2 * (s.Mgl / s.Ix));
-  return std::fmax(std::fmax(rates, spin), std::fmax(weight, 1e-290));
+  return std::fmax(std::fmax(rates, spin), std::fmax(weight, SLOWEST));
 }
 
 struct FirstInstants {

@@ -11,17 +11,40 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
   double wx, wy, wz;
 };
 
-struct Nutation {
-  Precise a, beta, one_minus_u, one_plus_u, b_minus_au, u_dot, omega_xy_squared, u_dot_dot,
+const double EPS = 0x1p-52;
+const double NORM_ROUNDING = 4 * EPS;   // of state.py
+const double START_ROUNDING = 64 * EPS;  // of values.py
+
+// normalize
+inline Start normalize(Start s) {
+  const double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
+  if (std::fabs(norm - 1.0) <= NORM_ROUNDING) return s;
+  s.w = s.w / norm, s.x = s.x / norm, s.y = s.y / norm, s.z = s.z / norm;
+  return s;
+}
+
+// c = wz (Ix - Iz)/Ix, by which the body turns about its axis in addition to a nutation's mean
+template <int N>
+inline Float<N> find_turning_rate(const Start& s) {
+  const Float<N> Ix(s.Ix);
+  return Float<N>(s.wz) * (Ix - Float<N>(s.Iz)) / Ix;
+}
+
+template <int N>
+struct NutationOf {
+  Float<N> a, beta, one_minus_u, one_plus_u, b_minus_au, u_dot, omega_xy_squared, u_dot_dot,
       b_minus_a, b_plus_a, b_minus_au_highest, alpha_minus_beta;
 
-  Precise u() const { return (one_plus_u - one_minus_u).scale(-1); }
-  Precise b_minus_au_at(const Precise& s) const { return b_minus_au - a * s; }
+  Float<N> u() const { return (one_plus_u - one_minus_u).scale(-1); }
+  Float<N> b_minus_au_at(const Float<N>& s) const { return b_minus_au - a * s; }
 };
+typedef NutationOf<3> Nutation;
 
 // _sum_exactly: each sum times its denominators, so that nothing is divided before the end. With
-// N = norm, beta = 2 Mgl/Ix and a = Iz wz/Ix.
-inline void sum_exactly(const Start& start, Nutation& nutation) {
+// beta = 2 Mgl/Ix and a = Iz wz/Ix.
+template <int N>
+inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
+  typedef Float<N> Rounded;
   const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
   const Exact upper = w * w + z * z, lower = x * x + y * y, norm = upper + lower;
@@ -29,37 +52,42 @@ inline void sum_exactly(const Start& start, Nutation& nutation) {
   const Exact along = wx * gx + wy * gy, spin = Iz * wz, squared = wx * wx + wy * wy;
   const Exact rise = Ix * ((upper - lower) * norm) * squared, weight = (Mgl * upper * lower).scale(2);
   const Exact highest = (Mgl * along).scale(2) - spin * squared * norm;
-  const Precise N(norm), IxN = Precise(Ix) * N;
-  nutation.b_minus_au = Precise(along).scale(1) / N;
-  nutation.u_dot = Precise(wy * gx - wx * gy).scale(1) / N;
-  nutation.u_dot_dot = Precise((spin * along * norm).scale(1) - rise - weight) / (IxN * N);
-  nutation.b_minus_a = Precise(Ix * along - spin * lower).scale(1) / IxN;
-  nutation.b_plus_a = Precise(Ix * along + spin * upper).scale(1) / IxN;
-  nutation.b_minus_au_highest = Precise(highest) / (Precise(Mgl).scale(1) * N);
-  nutation.alpha_minus_beta = Precise(squared * Ix * norm - (Mgl * lower).scale(2)) / IxN;
+  const Rounded length(norm), product = Rounded(Ix) * length;
+  nutation.b_minus_au = Rounded(along).scale(1) / length;
+  nutation.u_dot = Rounded(wy * gx - wx * gy).scale(1) / length;
+  nutation.u_dot_dot = Rounded((spin * along * norm).scale(1) - rise - weight) / (product * length);
+  nutation.b_minus_a = Rounded(Ix * along - spin * lower).scale(1) / product;
+  nutation.b_plus_a = Rounded(Ix * along + spin * upper).scale(1) / product;
+  nutation.b_minus_au_highest = Rounded(highest) / (Rounded(Mgl).scale(1) * length);
+  nutation.alpha_minus_beta = Rounded(squared * Ix * norm - (Mgl * lower).scale(2)) / product;
 }
 
-inline const Precise& cancelled() {
-  static const Precise SHARE = Precise(1.0) / Precise(1e10);
-  return SHARE;
+const double PER_CANCELLED = 1e10;  // 1/CANCELLED
+
+template <int N>
+inline bool is_cancelled(const Float<N>& sum, const Float<N>& terms) {
+  return sum * Float<N>(PER_CANCELLED) <= terms;
 }
 
 const int LOST_BITS = 133;  // LOST_DIGITS
 
 // is_lost
-inline bool is_lost(const Precise& value, const Precise& term, int power = 1) {
+template <int N>
+inline bool is_lost(const Float<N>& value, const Float<N>& term, int power = 1) {
   return value.sign && term.sign && value.exponent < term.exponent - power * LOST_BITS;
 }
 
 // Nutation.of
-inline Nutation find_nutation(const Start& start) {
-  const Precise Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
+template <int N>
+inline NutationOf<N> find_nutation(const Start& start) {
+  typedef Float<N> P;
+  const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
-  const Precise upper = w * w + z * z, lower = x * x + y * y;
-  const Precise twice = Precise(2.0) / (upper + lower), per_Ix = invert(Ix);
-  const Precise gx = twice * (x * z - w * y), gy = twice * (y * z + w * x);
-  const Precise along_x = wx * gx, along_y = wy * gy;
-  Nutation n;
+  const P upper = w * w + z * z, lower = x * x + y * y;
+  const P twice = P(2.0) / (upper + lower), per_Ix = invert(Ix);
+  const P gx = twice * (x * z - w * y), gy = twice * (y * z + w * x);
+  const P along_x = wx * gx, along_y = wy * gy;
+  NutationOf<N> n;
   n.a = wz * Iz * per_Ix;
   n.beta = Mgl.scale(1) * per_Ix;
   n.one_minus_u = twice * lower;
@@ -67,15 +95,15 @@ inline Nutation find_nutation(const Start& start) {
   n.b_minus_au = along_x + along_y;
   n.u_dot = wy * gx - wx * gy;
   n.omega_xy_squared = wx * wx + wy * wy;
-  const Precise of_spin = n.a * n.b_minus_au, of_rise = n.u() * n.omega_xy_squared;
-  const Precise of_weight = (n.beta * n.one_plus_u * n.one_minus_u).scale(-1);
+  const P of_spin = n.a * n.b_minus_au, of_rise = n.u() * n.omega_xy_squared;
+  const P of_weight = (n.beta * n.one_plus_u * n.one_minus_u).scale(-1);
   n.u_dot_dot = of_spin - of_rise - of_weight;
   n.b_minus_a = n.b_minus_au - n.a * n.one_minus_u;
   n.b_plus_a = n.b_minus_au + n.a * n.one_plus_u;
   n.b_minus_au_highest = n.b_minus_au - n.a * n.omega_xy_squared / n.beta;
   n.alpha_minus_beta = n.omega_xy_squared - n.beta * n.one_minus_u;
-  if (size(n.b_minus_a) <= cancelled() * (size(along_x) + size(along_y)) ||
-      size(n.alpha_minus_beta) <= cancelled() * n.omega_xy_squared ||
+  if (is_cancelled(size(n.b_minus_a), size(along_x) + size(along_y)) ||
+      is_cancelled(size(n.alpha_minus_beta), n.omega_xy_squared) ||
       is_lost(n.u_dot * n.u_dot, n.omega_xy_squared, 2) ||
       is_lost(n.b_minus_au * n.b_minus_au, n.omega_xy_squared, 2) ||
       is_lost(n.b_plus_a, n.b_minus_au) || is_lost(n.b_minus_au_highest, n.b_minus_au) ||
@@ -84,68 +112,76 @@ inline Nutation find_nutation(const Start& start) {
   return n;
 }
 
-struct Roots {
-  Precise s1, s2, s3, s21, s32, below_pole, above_pole;
-  Precise s31() const { return s21 + s32; }
+template <int N>
+struct RootsOf {
+  Float<N> s1, s2, s3, s21, s32, below_pole, above_pole;
+  Float<N> s31() const { return s21 + s32; }
+};
+typedef RootsOf<3> Roots;
+
+template <int N>
+struct Cubic {
+  Float<N> a2, a1, a0;
+  Float<N> at(const Float<N>& s) const { return ((s + a2) * s + a1) * s + a0; }
 };
 
-struct Cubic {
-  Precise a2, a1, a0;
-  Precise at(const Precise& s) const { return ((s + a2) * s + a1) * s + a0; }
-};
+const int MOST_STEPS = 60;
 
 // _estimate_largest_root
-inline Precise estimate_largest_root(const Cubic& cubic, double s) {
-  const double EPS = 0x1p-52;
+template <int N>
+inline Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
   const double a2 = cubic.a2.to_double(), a1 = cubic.a1.to_double(), a0 = cubic.a0.to_double();
-  for (int step = 0; step < 60; step++) {
+  for (int step = 0; step < MOST_STEPS; step++) {
     const double value = ((s + a2) * s + a1) * s + a0, slope = (3 * s + 2 * a2) * s + a1;
     if (!(value > 0 && slope > 0) || value < 4 * EPS * slope * s) break;
     s -= value / slope;
   }
-  return std::isfinite(s) ? Precise(s * (1 + 32 * EPS)) : Precise();
+  return std::isfinite(s) ? Float<N>(s * (1 + 32 * EPS)) : Float<N>();
 }
 
 // _find_largest_root
-inline Precise find_largest_root(const Cubic& cubic, Precise s) {
-  static const Precise CONVERGED = Precise(1e-26);
-  if (!cubic.a0.sign && cubic.a1.sign > 0 && cubic.a2.sign > 0) return Precise();
-  const Precise three(3.0), estimate = estimate_largest_root(cubic, s.to_double());
+template <int N>
+inline Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
+  const Float<N> converged = half_of_digits<N>(9);
+  if (!cubic.a0.sign && cubic.a1.sign > 0 && cubic.a2.sign > 0) return Float<N>();
+  const Float<N> three(3.0), estimate = estimate_largest_root(cubic, s.to_double());
   if (three * estimate > -cubic.a2 && cubic.at(estimate).sign > 0) s = estimate;
   for (;;) {
-    const Precise value = cubic.at(s), slope = (three * s + cubic.a2.scale(1)) * s + cubic.a1;
+    const Float<N> value = cubic.at(s), slope = (three * s + cubic.a2.scale(1)) * s + cubic.a1;
     if (value.sign <= 0 || slope.sign <= 0) return s;
-    const Precise step = value / slope;
-    if (step < CONVERGED * s) return s - step;
+    const Float<N> step = value / slope;
+    if (step < converged * s) return s - step;
     s = s - step;
   }
 }
 
 // _distances_from_pole
-inline void find_distances_from_pole(const Nutation& n, const Precise& v1, Roots& roots) {
-  const Precise scale = n.beta * v1, per_scale = invert(scale);
-  const Precise product = n.b_minus_a * n.b_minus_a * per_scale;
-  const Precise excess = n.alpha_minus_beta - n.a * n.b_minus_a;
-  const Precise half_sum = (product / v1).scale(-1) - excess * per_scale;
-  const Precise half_gap = root(half_sum * half_sum + product);
+template <int N>
+inline void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1, RootsOf<N>& roots) {
+  const Float<N> scale = n.beta * v1, per_scale = invert(scale);
+  const Float<N> product = n.b_minus_a * n.b_minus_a * per_scale;
+  const Float<N> excess = n.alpha_minus_beta - n.a * n.b_minus_a;
+  const Float<N> half_sum = (product / v1).scale(-1) - excess * per_scale;
+  const Float<N> half_gap = root(half_sum * half_sum + product);
   if (half_sum.sign > 0) {
     roots.below_pole = half_sum + half_gap;
     roots.above_pole = product / roots.below_pole;
   } else {
     roots.above_pole = half_gap - half_sum;
-    roots.below_pole = roots.above_pole.sign ? product / roots.above_pole : Precise();
+    roots.below_pole = roots.above_pole.sign ? product / roots.above_pole : Float<N>();
   }
 }
 
 // _roots_from_lowest
-inline Roots find_roots_from_lowest(const Nutation& n, const Cubic& cubic) {
-  Roots roots;
-  const Cubic reflected = {-cubic.a2, cubic.a1, -cubic.a0};
+template <int N>
+inline RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>& cubic) {
+  RootsOf<N> roots;
+  const Cubic<N> reflected = {-cubic.a2, cubic.a1, -cubic.a0};
   roots.s1 = -find_largest_root(reflected, n.one_plus_u);
-  if (roots.s1.sign > 0) roots.s1 = Precise();
-  const Precise total = -(cubic.a2 + roots.s1);
+  if (roots.s1.sign > 0) roots.s1 = Float<N>();
+  const Float<N> total = -(cubic.a2 + roots.s1);
   const bool has_digits = total >= -roots.s1 && (cubic.a0.sign || !roots.s1.sign);
-  const Precise product = has_digits ? cubic.a1 - roots.s1 * total : -cubic.a0 / roots.s1;
+  const Float<N> product = has_digits ? cubic.a1 - roots.s1 * total : -cubic.a0 / roots.s1;
   find_distances_from_pole(n, n.one_minus_u - roots.s1, roots);
   roots.s3 = n.one_minus_u + roots.above_pole;
   roots.s2 = product / roots.s3;
@@ -155,16 +191,17 @@ inline Roots find_roots_from_lowest(const Nutation& n, const Cubic& cubic) {
 }
 
 // _roots_from_highest
-inline Roots find_roots_from_highest(const Nutation& n, const Cubic& cubic) {
-  Roots roots;
-  const Precise zero;
-  Precise bound = (cubic.a2.sign < 0 ? -cubic.a2 : zero) +
+template <int N>
+inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>& cubic) {
+  RootsOf<N> roots;
+  const Float<N> zero;
+  Float<N> bound = (cubic.a2.sign < 0 ? -cubic.a2 : zero) +
                   root(cubic.a1.sign < 0 ? -cubic.a1 : zero);
   if (bound < n.one_minus_u) bound = n.one_minus_u;
   roots.s3 = find_largest_root(cubic, bound);
-  const Precise per_s3 = invert(roots.s3), product = cubic.a0 * per_s3;
-  const Precise half_sum = ((cubic.a1 + product) * per_s3).scale(-1);
-  const Precise half_gap = root(half_sum * half_sum + product);
+  const Float<N> per_s3 = invert(roots.s3), product = cubic.a0 * per_s3;
+  const Float<N> half_sum = ((cubic.a1 + product) * per_s3).scale(-1);
+  const Float<N> half_gap = root(half_sum * half_sum + product);
   roots.s2 = half_sum.sign >= 0 ? half_sum + half_gap : product / (half_gap - half_sum);
   if (half_sum.sign < 0)
     roots.s1 = half_sum - half_gap;
@@ -177,19 +214,20 @@ inline Roots find_roots_from_highest(const Nutation& n, const Cubic& cubic) {
   return roots;
 }
 
-inline Roots find_roots(const Nutation& n) {
-  const Precise per_beta = invert(n.beta);
-  const Cubic cubic = {n.u().scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
+template <int N>
+inline RootsOf<N> find_roots(const NutationOf<N>& n) {
+  const Float<N> per_beta = invert(n.beta);
+  const Cubic<N> cubic = {n.u().scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
                        n.u_dot_dot.scale(1) * per_beta, n.u_dot * n.u_dot * per_beta};
   if (!cubic.a1.sign && !cubic.a0.sign) {
-    const Precise share = n.b_minus_a / n.one_minus_u;
-    Roots roots;
+    const Float<N> share = n.b_minus_a / n.one_minus_u;
+    RootsOf<N> roots;
     roots.below_pole = n.one_minus_u;
     roots.above_pole = share * share * per_beta;
     roots.s3 = roots.s32 = roots.below_pole + roots.above_pole;
     return roots;
   }
-  const Precise mean = -cubic.a2 / Precise(3.0);
+  const Float<N> mean = -cubic.a2 / Float<N>(3.0);
   return cubic.at(mean).sign > 0 ? find_roots_from_lowest(n, cubic)
                                  : find_roots_from_highest(n, cubic);
 }

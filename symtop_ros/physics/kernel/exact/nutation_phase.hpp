@@ -5,6 +5,9 @@
 
 namespace symtop {
 
+const double STRETCHED = 1.5, FARTHEST = 1e6;
+const double PER_NEAR_POLE = 100;  // 1/NEAR_POLE
+
 template <class R>
 struct LocationOf {
   R x, below, above, low;
@@ -12,9 +15,10 @@ struct LocationOf {
 typedef LocationOf<double> Location;
 
 struct NutationPhase {
-  double Omega, K, Kc;
+  double Omega, K, Kc;  // K and K' (DLMF 19.2.8); u(t) has sn(v0 + Omega t)
   bool is_stretched, is_separatrix, from_top;
-  Pair origin;
+  Pair origin;  // the phase at t = 0, as a sum of two doubles
+  // K/K', also as a sum of two doubles, of which the first has 26 bits; exp(-pi K/(2 K'))
   double ratio, ratio_high, ratio_low, root_of_nome;
   Location start;
 
@@ -29,19 +33,24 @@ struct NutationPhase {
 
   template <class R>
   SYMTOP_INLINE LocationOf<R> locate(R t, R high, R low) const {
-    if (is_separatrix) {
-      const R longest = repeat<R>(1e6 / Omega);
+    if (is_separatrix) {  // no period: the phase is the hyperbolic argument itself
+      // Further away both series are at their limits; infinity times zero would be no number.
+      const R longest = repeat<R>(FARTHEST / Omega);
       R seconds = choose(t < longest, t, longest);
       seconds = choose(seconds < -longest, -longest, seconds);
       const R y = origin.x + 2 * Omega * seconds;
       return {0.0 * y, y, repeat<R>(INFINITY), R{}};
     }
+    // Knuth's two-sum, and the whole turns taken off in two parts: x is right to rounding of
+    // itself.
     R total = high + origin.x;
     const R part = total - high;
     R error = (high - (total - part)) + (origin.x - part) + (low + origin.y);
     const R turns = round_to_integer(total / (2 * PI));
     total = total - turns * (2 * PI_HIGH);
     error = error - turns * (2 * PI_LOW);
+    // The distance from the one turning point is that from the other taken off pi, in two parts:
+    // each keeps its digits where it is small.
     const R sign = find_sign(total), distance = find_size(total);
     const PairOf<R> near = {distance, sign * error}, far = {PI_HIGH - distance, PI_LOW - near.y};
     const PairOf<R> below = from_top ? far : near, above = from_top ? near : far;
@@ -54,6 +63,7 @@ struct NutationPhase {
   SYMTOP_INLINE LocationOf<R> stretch(R x, PairOf<R> below, PairOf<R> above) const {
     const R y = x * ratio, rise = (above.x + above.y) * ratio;
     if (!is_stretched) return {x, y, rise, R{}};
+    // Only the nearer turning point needs the rest of its product: the other's terms are small.
     const auto is_upper = rise < find_size(y);
     const R high = choose(is_upper, above.x, -below.x), low = choose(is_upper, above.y, -below.y);
     // find_rest
@@ -75,7 +85,8 @@ inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool i
                       : Precise(integrate_rf_in_doubles(x.to_double(), y.to_double()));
   };
   from_top = false;
-  if (!s21.sign) return Precise();
+  if (!s21.sign) return Precise();  // regular precession: the phase does not matter
+  // From the turning point that is nearer: the integral of the other would be a difference from K.
   if (s2 * s2 * s31 >= s1 * s1 * s32) {
     const Precise v = root(s1 / s21) * integrate(s2 / s21, s3 / s31);
     return n.u_dot.sign < 0 ? -v : v;
@@ -88,9 +99,9 @@ inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool i
 }
 
 inline bool comes_near_a_pole(const Zero zeros[]) {
-  static const Precise NEAR_POLE = Precise(1.0) / Precise(100.0);
-  return zeros[OF_A].from_u1 < NEAR_POLE * zeros[OF_A].from_u2 ||
-         zeros[OF_B].from_u2 < NEAR_POLE * zeros[OF_B].from_u1;
+  const Precise times(PER_NEAR_POLE);
+  return zeros[OF_A].from_u1 * times < zeros[OF_A].from_u2 ||
+         zeros[OF_B].from_u2 * times < zeros[OF_B].from_u1;
 }
 
 // NutationPhase.__init__ and its cached properties
@@ -102,7 +113,8 @@ inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, 
   phase.K = mean.sign ? PI / (2 * mean.to_double()) : INFINITY;
   const Precise modulus = root(roots.s21 / roots.s31());
   phase.Kc = quarter_period(modulus.to_double());
-  phase.is_stretched = 1.5 * phase.Kc < phase.K;
+  phase.is_stretched = STRETCHED * phase.Kc < phase.K;
+  // All digits where the phase is stretched, or where a pole magnifies its error.
   const Precise v = find_starting_phase(n, roots, phase.is_stretched || comes_near_a_pole(zeros),
                                         phase.from_top);
   const Precise origin = ((mean.sign ? mean : Precise(1.0)) * v).scale(1);
@@ -110,7 +122,7 @@ inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, 
   phase.origin.y = rest_of(origin, phase.origin.x);
   if (phase.is_stretched && mean.sign) {
     int count;
-    const Precise ratio = iterate_mean(modulus, nullptr, count) / mean;
+    const Precise ratio = iterate_mean<3>(modulus, nullptr, count) / mean;
     phase.ratio = ratio.to_double();
     split_short(ratio, phase.ratio_high, phase.ratio_low);
     phase.root_of_nome = exponential(-(TWO_PI * ratio).scale(-2));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "quotients.hpp"
+#include "rows.hpp"
 
 namespace symtop {
 
@@ -102,15 +103,12 @@ SYMTOP_INLINE PairOf<R> find_radians(const PhaseOf<R>& phase) {
   return {high, (coarse - high) + small};
 }
 
-const int ENTRIES = 512;
-static double ROWS[ENTRIES][4];  // cosines, sines and their rests: set by the module from phases.py
-
 // Phase.unit
 template <class R>
 SYMTOP_INLINE PairOf<R> find_unit(const PhaseOf<R>& phase) {
   const Integer<R> shifted = phase.turns + (uint64_t(1) << 54);
   R row[4];
-  read_row(ROWS, (shifted >> 55) & (ENTRIES - 1), row);
+  read_row(ROWS.entries, (shifted >> 55) & (ENTRIES - 1), row);
   const Integer<R> part = shifted & ((uint64_t(1) << 55) - 1);
   R angle = to_double(part - (uint64_t(1) << 54)) * (2 * PI * 0x1p-64);
   angle += phase.rest;

@@ -7,25 +7,29 @@ namespace symtop {
 
 enum { OF_A, OF_B, OF_OMEGA_XY, FUNCTIONS };
 
-struct Zero {
+template <int N>
+struct ZeroOf {
   bool is_below;
-  Precise d, from_u1, from_u2, from_u3;
+  Float<N> d, from_u1, from_u2, from_u3;
   bool is_negative() const { return d.sign < 0; }
 };
+typedef ZeroOf<3> Zero;
 
 // _zero_below
-inline Zero find_zero_below(const Nutation& n, const Roots& roots) {
-  const Precise& d = n.b_plus_a;
-  const Precise from_u2 = n.one_plus_u + roots.s2, from_u3 = n.one_plus_u + roots.s3;
+template <int N>
+inline ZeroOf<N> find_zero_below(const NutationOf<N>& n, const RootsOf<N>& roots) {
+  const Float<N>& d = n.b_plus_a;
+  const Float<N> from_u2 = n.one_plus_u + roots.s2, from_u3 = n.one_plus_u + roots.s3;
   return {true, d, d * d / (n.beta * from_u2 * from_u3), from_u2, from_u3};
 }
 
 // _zero_above
-inline Zero find_zero_above(const Nutation& n, const Precise& d, const Precise& from_u1,
-                            Precise from_u2, Precise from_u3) {
-  const Precise product = d * d / (n.beta * from_u1);
+template <int N>
+inline ZeroOf<N> find_zero_above(const NutationOf<N>& n, const Float<N>& d, const Float<N>& from_u1,
+                          Float<N> from_u2, Float<N> from_u3) {
+  const Float<N> product = d * d / (n.beta * from_u1);
   if (!(from_u2 + from_u3).sign)
-    from_u2 = from_u3 = Precise();
+    from_u2 = from_u3 = Float<N>();
   else if (from_u2 <= from_u3)
     from_u2 = product / from_u3;
   else
@@ -33,11 +37,12 @@ inline Zero find_zero_above(const Nutation& n, const Precise& d, const Precise& 
   return {false, d, from_u1, from_u2, from_u3};
 }
 
-inline void find_zeros(const Nutation& n, const Roots& roots, Zero zeros[FUNCTIONS]) {
-  const Precise above = n.omega_xy_squared / n.beta;
-  Precise d = n.b_minus_au_highest, from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
-  if (roots.s32 < cancelled() * n.one_minus_u) {
-    const Precise lift = n.alpha_minus_beta / n.beta;
+template <int N>
+inline void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots, ZeroOf<N> zeros[FUNCTIONS]) {
+  const Float<N> above = n.omega_xy_squared / n.beta;
+  Float<N> d = n.b_minus_au_highest, from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
+  if (roots.s32 * Float<N>(PER_CANCELLED) < n.one_minus_u) {
+    const Float<N> lift = n.alpha_minus_beta / n.beta;
     d = n.b_minus_a - n.a * lift;
     from_u2 = roots.below_pole + lift, from_u3 = roots.above_pole - lift;
   }
@@ -48,12 +53,13 @@ inline void find_zeros(const Nutation& n, const Roots& roots, Zero zeros[FUNCTIO
 }
 
 // _iterate_mean
-inline Precise iterate_mean(const Precise& k, Precise* products, int& count) {
-  static const Precise CONVERGED = Precise(1e-24);
-  Precise a(1.0), b = k;
+template <int N>
+inline Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) {
+  const Float<N> converged = half_of_digits<N>(16);
+  Float<N> a(1.0), b = k;
   count = 0;
-  while (a - b > CONVERGED * a) {
-    const Precise mean = (a + b).scale(-1);
+  while (a - b > converged * a) {
+    const Float<N> mean = (a + b).scale(-1);
     b = root(a * b);
     a = mean;
     count++;
@@ -63,37 +69,39 @@ inline Precise iterate_mean(const Precise& k, Precise* products, int& count) {
 }
 
 // _third_kind
-inline Precise integrate_third_kind(const Zero& zero, const Precise& root_near, const Precise& k,
-                                    const Precise& mean, const Precise* products, int count) {
-  const Precise near = root_near * root_near, one(1.0);
-  Precise c = one + near, d = (one + k).scale(1), p = zero.is_below ? one + k * near : k + near;
+template <int N>
+inline Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root_near, const Float<N>& k,
+                              const Float<N>& mean, const Float<N>* products, int count) {
+  const Float<N> near = root_near * root_near, one(1.0);
+  Float<N> c = one + near, d = (one + k).scale(1), p = zero.is_below ? one + k * near : k + near;
   for (int n = 0; n < count; n++) {
-    const Precise per_p = invert(p), e = products[n] * per_p, next = near * d * per_p + c;
+    const Float<N> per_p = invert(p), e = products[n] * per_p, next = near * d * per_p + c;
     d = (c * e + d).scale(1), c = next, p = near * e + p;
   }
-  const Precise m = mean.scale(count + 1);
+  const Float<N> m = mean.scale(count + 1);
   return (c * m + root_near * d) / (m * (root_near * m + p));
 }
 
 const int MOST_MEANS = 64;
 
 // compute_mean_rates
-inline Precise compute_mean_rates(const Nutation& n, const Zero zeros[], const Precise& k,
-                                  Precise means[FUNCTIONS]) {
+template <int N>
+inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros[], const Float<N>& k,
+                            Float<N> means[FUNCTIONS]) {
   if (!k.sign) {
     for (int i = 0; i < FUNCTIONS; i++)
-      means[i] = zeros[i].is_below ? zeros[i].d / zeros[i].from_u2.scale(1) : Precise();
-    return Precise();
+      means[i] = zeros[i].is_below ? zeros[i].d / zeros[i].from_u2.scale(1) : Float<N>();
+    return Float<N>();
   }
-  Precise products[MOST_MEANS];
+  Float<N> products[MOST_MEANS];
   int count;
-  const Precise mean = iterate_mean(k, products, count);
+  const Float<N> mean = iterate_mean(k, products, count);
   for (int i = 0; i < FUNCTIONS; i++) {
-    const Zero& zero = zeros[i];
-    const Precise rate = root(n.beta * zero.from_u3);
-    const Precise& near = zero.is_below ? zero.from_u2 : zero.from_u1;
-    const Precise nearness = zero.is_below ? zero.from_u1 / near : zero.from_u2 / near;
-    const Precise root_near = rate.sign ? size(zero.d) / (rate * near) : root(nearness);
+    const ZeroOf<N>& zero = zeros[i];
+    const Float<N> rate = root(n.beta * zero.from_u3);
+    const Float<N>& near = zero.is_below ? zero.from_u2 : zero.from_u1;
+    const Float<N> nearness = zero.is_below ? zero.from_u1 / near : zero.from_u2 / near;
+    const Float<N> root_near = rate.sign ? size(zero.d) / (rate * near) : root(nearness);
     means[i] = (mean * rate *
                 integrate_third_kind(zero, root_near, k, mean, products, count)).scale(-1);
     if (zero.is_negative()) means[i] = -means[i];

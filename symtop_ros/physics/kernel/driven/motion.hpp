@@ -1,0 +1,83 @@
+// Twin of DrivenMotion in physics/driven/trail.py: trails in both directions of time.
+#pragma once
+
+#include <memory>
+#include <new>
+
+#include "../blocks.hpp"
+#include "../lock.hpp"
+#include "trail.hpp"
+
+namespace symtop {
+
+const double MOST_DECAYS = 1e5;  // decay times on the way, each of which takes a step
+
+enum Progress { ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, NEEDS_STEPS, HAS_NO_MEMORY };
+
+// A call moves along the pieces of a trail: a lock keeps it whole.
+class DrivenMotion {
+ public:
+  explicit DrivenMotion(const DrivenArguments& given) : given_(given) {
+    Start s = {};
+    s.w = given.orientation[0], s.x = given.orientation[1], s.y = given.orientation[2],
+    s.z = given.orientation[3];
+    start_ = normalize(s);
+  }
+
+  // States at times that are sums of two doubles, as `split` returns them for a place.
+  template <class Split>
+  Progress fill(const Split& split, int64_t count, double steps, const Target& to,
+                int64_t* written) {
+    const Lock lock(mutex_);
+    for (*written = 0; *written < count; ++*written) {
+      const Pair time = split(*written);
+      const Progress progress = read(time.x, time.y, &steps, to.from(*written));
+      if (progress != ARRIVED) return progress;
+    }
+    return ARRIVED;
+  }
+
+  Progress reach(double t, double steps, double* reached) {
+    const Lock lock(mutex_);
+    Trail* trail = find_trail(t);
+    if (!trail) return HAS_NO_MEMORY;
+    bool is_stuck;
+    *reached = trail->reach(t, &steps, &is_stuck);
+    return *reached == t ? ARRIVED : is_stuck ? IS_TOO_FAST : NEEDS_STEPS;
+  }
+
+ private:
+  DrivenArguments given_;
+  Start start_;
+  std::unique_ptr<Trail> forward_, backward_;
+  Mutex mutex_;
+
+  Trail* find_trail(double t) {
+    std::unique_ptr<Trail>& trail = t >= 0 ? forward_ : backward_;
+    if (!trail) {
+      trail.reset(new (std::nothrow) Trail());
+      if (trail && !trail->prepare(given_, t >= 0 ? 1 : -1)) trail.reset();
+    }
+    return trail.get();
+  }
+
+  Progress read(double t, double rest, double* steps, const Target& to) {
+    if (t == 0) {
+      write_state({start_.w, start_.x, start_.y, start_.z, given_.omega[0], given_.omega[1]},
+                  given_.omega[2], to);
+      return ARRIVED;
+    }
+    Trail* trail = find_trail(t);
+    if (!trail) return HAS_NO_MEMORY;
+    bool is_stuck;
+    double none = 0.0;
+    const double before = trail->reach(t, &none, &is_stuck);
+    if (std::fabs(t - before) * trail->decay() > MOST_DECAYS) return IS_TOO_STIFF;
+    if (before != t && trail->reach(t, steps, &is_stuck) != t)
+      return is_stuck ? IS_TOO_FAST : NEEDS_STEPS;
+    trail->read(t, rest, to.orientation, to.omega);
+    return ARRIVED;
+  }
+};
+
+}  // namespace symtop

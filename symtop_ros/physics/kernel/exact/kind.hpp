@@ -1,0 +1,62 @@
+// Twin of physics/exact/kind.py: the sign of phi' at the two turning angles.
+#pragma once
+
+#include "closed_form.hpp"
+
+namespace symtop {
+
+enum Kind {
+  REGULAR, UNIDIRECTIONAL, CUSPS, LOOPING, THROUGH_THE_POLE, ASYMPTOTIC, SLEEPING, DRIVEN
+};
+
+// Zeros.largest_sine_squared
+inline Precise find_largest_sine_squared(const Zero zeros[]) {
+  const Zero &A = zeros[OF_A], &B = zeros[OF_B];
+  const Precise one(1.0), below = A.from_u1 * B.from_u1, above = A.from_u2 * B.from_u2;
+  if (A.from_u1 < one && one < A.from_u2) return one;
+  return below > above ? below : above;
+}
+
+// largest_precession
+inline Precise find_largest_precession(const ClosedForm& motion) {
+  const Nutation& n = motion.nutation;
+  const Precise sine_squared = find_largest_sine_squared(motion.zeros);
+  const Precise rate = root(n.beta * motion.zeros[OF_OMEGA_XY].from_u1);
+  return rate * root(sine_squared) + size(n.a) * sine_squared;
+}
+
+// _is_regular
+inline bool is_regular(const Nutation& n) {
+  const Precise rounding(START_ROUNDING), sine_squared = n.one_plus_u * n.one_minus_u;
+  const Precise centrifugal = n.omega_xy_squared * size(n.u());
+  const Precise gravity = (n.beta * sine_squared).scale(-1), spin = n.a * n.b_minus_au;
+  const bool is_still =
+      n.u_dot * n.u_dot <= rounding * rounding * n.omega_xy_squared * sine_squared;
+  return is_still && size(n.u_dot_dot) <= rounding * (size(spin) + centrifugal + gravity);
+}
+
+// classify
+inline Kind classify(const ClosedForm& motion) {
+  const Nutation& n = motion.nutation;
+  const Zero &A = motion.zeros[OF_A], &B = motion.zeros[OF_B];
+  if (!motion.roots.s32.sign) return ASYMPTOTIC;
+  if (is_regular(n)) return REGULAR;
+  const Precise rounding = Precise(START_ROUNDING) * find_largest_precession(motion);
+  if (size(A.d) <= rounding || (size(B.d) <= rounding && B.from_u2 <= B.from_u3))
+    return THROUGH_THE_POLE;
+  const Precise lower = n.b_minus_au_at(motion.roots.s1), upper = n.b_minus_au_at(motion.roots.s2);
+  if (size(lower) <= rounding || size(upper) <= rounding) return CUSPS;
+  return (lower.sign > 0) == (upper.sign > 0) ? UNIDIRECTIONAL : LOOPING;
+}
+
+// classify_free
+inline Kind classify_free(double tilt_of_momentum, double cone) {
+  const double inside = tilt_of_momentum - cone, far = tilt_of_momentum + cone;
+  const double rounding = START_ROUNDING * PI;
+  const double sine = cosine_and_sine(tilt_of_momentum).y, other = cosine_and_sine(cone).y;
+  if ((sine < other ? sine : other) <= rounding) return REGULAR;
+  if (std::fabs(inside) <= rounding || std::fabs(far - PI) <= rounding) return THROUGH_THE_POLE;
+  return (inside < 0) == (far < PI) ? UNIDIRECTIONAL : LOOPING;
+}
+
+}  // namespace symtop

@@ -1,0 +1,56 @@
+// Twin of physics/exact/spin.py: whether psi' takes both signs in a nutation.
+#pragma once
+
+#include "kind.hpp"
+
+namespace symtop {
+
+// The least and the largest of some values: whether they have both signs, beyond rounding.
+template <class T>
+struct Range {
+  T least, largest;
+
+  explicit Range(const T& first) : least(first), largest(first) {}
+
+  void add(const T& value) {
+    if (value < least) least = value;
+    if (largest < value) largest = value;
+  }
+  bool has_both_signs(const T& rounding) const { return least < -rounding && rounding < largest; }
+
+  // _find_vertex, and a place for it among the values
+  void add_vertex(const T& spin, const T& a, const T& b, const T& low, const T& high) {
+    const T bend = (a - spin) + (a - spin);
+    if (!(bend < T(0.0)) && !(T(0.0) < bend)) return;
+    const T vertex = b / bend;
+    if (low < vertex && vertex < high) add(spin - b * b / (bend + bend));
+  }
+};
+
+// spin_reverses
+inline bool spin_reverses(const ClosedForm& motion) {
+  const Nutation& n = motion.nutation;
+  const Roots& roots = motion.roots;
+  const Zero &A = motion.zeros[OF_A], &B = motion.zeros[OF_B];
+  const Precise spin(motion.start.wz), low = n.u() + roots.s1, high = n.u() + roots.s2;
+  Range<Precise> values(spin * A.from_u1 * B.from_u1 - low * n.b_minus_au_at(roots.s1));
+  values.add(spin * A.from_u2 * B.from_u2 - high * n.b_minus_au_at(roots.s2));
+  values.add_vertex(spin, n.a, n.b_minus_au + n.a * n.u(), low, high);
+  const Precise largest =
+      size(spin) * find_largest_sine_squared(motion.zeros) + find_largest_precession(motion);
+  return values.has_both_signs(Precise(START_ROUNDING) * largest);
+}
+
+// spin_reverses_free
+inline bool spin_reverses_free(double tilt_of_momentum, double cone, double rate, double omega_z) {
+  const Pair low = cosine_and_sine(tilt_of_momentum - cone);
+  const Pair far = cosine_and_sine(tilt_of_momentum + cone), half = cosine_and_sine(cone);
+  const double across = rate * half.y;
+  Range<double> values(omega_z * (far.y * far.y) - far.x * across * far.y);
+  values.add(omega_z * (low.y * low.y) + low.x * across * low.y);
+  const double a = rate * half.x, b = rate * cosine_and_sine(tilt_of_momentum).x;
+  values.add_vertex(omega_z, a, b, far.x, low.x);
+  return values.has_both_signs(START_ROUNDING * (std::fabs(omega_z) + rate));
+}
+
+}  // namespace symtop

@@ -1,0 +1,149 @@
+// A motion under gravity alone: circular functions where no torque turns the axis, else elliptic
+// ones.
+#pragma once
+
+#include <atomic>
+
+#include "blocks.hpp"
+#include "exact/mean_rates.hpp"
+#include "exact/spin.hpp"
+#include "lock.hpp"
+
+namespace symtop {
+
+const double WEIGHTLESS = 1e-200;  // of arguments.py
+
+// is_free
+inline bool is_free(const Start& s) {
+  const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
+  if (s.wx == 0 && s.wy == 0 && is_vertical) return true;
+  const double weight = std::fabs(s.Mgl) / s.Ix;
+  for (double rate : {s.wx, s.wy, s.Iz / s.Ix * s.wz})
+    if (weight <= WEIGHTLESS * rate * rate) return true;
+  return false;
+}
+
+struct Rates {
+  double nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation;
+  bool spin_reverses;
+};
+
+// What is not needed is not computed: each stage is prepared when it is first asked for.
+class GravityMotion {
+ public:
+  explicit GravityMotion(const Start& given) : start_(given) {
+    is_turned_over_ = given.Mgl < 0;
+    if (is_turned_over_) {  // the closed form wants Mgl > 0: see motion.py
+      start_.w = -given.x, start_.x = given.w, start_.y = -given.z, start_.z = given.y;
+      start_.Mgl = -given.Mgl;
+    }
+    is_free_ = is_free(start_);
+  }
+
+  // States at times or stamps, up to the first that is too far; returns how many.
+  template <class... Times>
+  int64_t fill(const Target& to, int64_t count, const Times&... times) {
+    prepare(FIRST_INSTANTS);
+    return is_free_ ? symtop::fill(free_, times..., count, to)
+                    : symtop::fill(closed_, times..., count, to);
+  }
+
+  // False if the time is too far.
+  bool read(double t, const Target& to) {
+    prepare(STATES);
+    if (!is_free_ && t != 0 && closed_.is_first(t)) prepare(FIRST_INSTANTS);
+    if (is_free_ ? free_.is_far(t) : closed_.is_far(t)) return false;
+    write_state(is_free_ ? free_.at(t) : closed_.at(t), start_.wz, to);
+    return true;
+  }
+
+  Kind find_kind() {
+    prepare(SOLVED);
+    return is_free_ ? free_.kind : classify(closed_);
+  }
+
+  void find_turning_angles(double angles[2]) {
+    prepare(SOLVED);
+    if (is_free_) return free_.find_turning_angles(is_turned_over_, angles);
+    const bool from_below = is_turned_over_;
+    const Zero &near = closed_.zeros[from_below ? OF_A : OF_B],
+               &far = closed_.zeros[from_below ? OF_B : OF_A];
+    const double upper = 2 * find_half_angle(near.from_u2, far.from_u2);
+    const double lower = 2 * find_half_angle(near.from_u1, far.from_u1);
+    angles[0] = from_below ? lower : upper, angles[1] = from_below ? upper : lower;
+  }
+
+  Rates find_rates() {
+    prepare(SOLVED);
+    Rates rates = is_free_ ? find_free_rates() : find_closed_rates();
+    if (is_turned_over_) {
+      rates.mean_precession_rate = -rates.mean_precession_rate;
+      rates.precession_per_nutation = -rates.precession_per_nutation;
+    }
+    const Kind kind = find_kind();
+    if (kind == SLEEPING || kind == THROUGH_THE_POLE)
+      rates.mean_precession_rate = rates.mean_spin_rate = rates.precession_per_nutation = NAN;
+    return rates;
+  }
+
+ private:
+  enum Stage { NOTHING, SOLVED, STATES, FIRST_INSTANTS };
+
+  Start start_;
+  bool is_turned_over_, is_free_;
+  ClosedForm closed_;
+  FreeMotion free_;
+  std::atomic<int> stage_{NOTHING};
+  Mutex mutex_;
+
+  // Threads may share the motion: what one has prepared the others see whole.
+  void prepare(Stage stage) {
+    if (stage_.load(std::memory_order_acquire) >= stage) return;
+    const Lock lock(mutex_);
+    for (int next = stage_.load() + 1; next <= stage; next++) {
+      if (!is_free_)
+        prepare_closed(next);
+      else if (next == SOLVED)
+        free_.solve(start_, is_turned_over_);
+      stage_.store(next, std::memory_order_release);
+    }
+  }
+
+  void prepare_closed(int stage) {
+    if (stage == SOLVED)
+      closed_.solve(start_, is_turned_over_);
+    else if (stage == STATES)
+      closed_.prepare_states();
+    else
+      closed_.prepare_first_instants();
+  }
+
+  static double find_half_angle(const Precise& near, const Precise& far) {
+    return arc_tangent(std::sqrt(near.to_double()), std::sqrt(far.to_double()));
+  }
+
+  Rates find_closed_rates() const {
+    const MeanRates mean = symtop::find_mean_rates(closed_);
+    const double rate = closed_.nutation_rate.to_double();
+    const double turns =
+        closed_.nutation_rate.sign ? (mean.precession / closed_.nutation_rate).to_double() : NAN;
+    return {rate ? 2 * PI / rate : INFINITY, mean.precession.to_double(), mean.spin.to_double(),
+            turns, symtop::spin_reverses(closed_)};
+  }
+
+  // FreeMotion's properties
+  Rates find_free_rates() const {
+    const int upper = free_.upper_turns(), lower = free_.lower_turns();
+    const double rate = free_.nutation_rate.to_double();
+    const bool returns = free_.kind != SLEEPING && rate != 0;
+    const Precise half = free_.nutation_rate.scale(-1);
+    const Precise precession = Precise(double(upper + lower)) * half;
+    const Precise spin = Precise(double(upper - lower)) * half + free_.turning_rate;
+    return {returns ? 2 * PI / rate : INFINITY, precession.to_double(), spin.to_double(),
+            free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN,
+            free_.kind != SLEEPING &&
+                spin_reverses_free(free_.tilt, free_.cone, rate, free_.start.wz)};
+  }
+};
+
+}  // namespace symtop

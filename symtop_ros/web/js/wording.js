@@ -1,0 +1,90 @@
+// Twin of wording/templates.py: how a record becomes text, by the templates of wording/en.json.
+
+import { writeNumber } from "./numbers.js";
+
+/** @typedef {"radians" | "degrees"} Variant */
+/** @typedef {{[name: string]: any}} Fields */
+
+const PLACEHOLDER = / ?\{(\w+)(?::(\w+))?\}/g;
+
+export class Writer {
+  /** @param {{[key: string]: string}} templates */
+  constructor(templates) {
+    this.templates = templates;
+  }
+
+  /**
+   * @param {string} name of the template, without the kind of the record
+   * @param {Fields} record
+   * @param {Variant} variant
+   * @returns {string}
+   */
+  write(name, record, variant = "radians") {
+    return this.fill(record.kind ? `${name}.${record.kind}` : name, record, variant);
+  }
+
+  /**
+   * @param {string} key
+   * @param {Variant} variant
+   */
+  find(key, variant) {
+    return this.templates[`${key}@${variant}`] ?? this.templates[key];
+  }
+
+  /**
+   * @param {string} key
+   * @param {Fields} record
+   * @param {Variant} variant
+   * @returns {string}
+   */
+  fill(key, record, variant) {
+    return this.find(key, variant).replace(PLACEHOLDER, (whole, name, form) => {
+      const text = this.writeValue(name, record[name], form ?? "", record, variant);
+      return text && whole.startsWith(" ") ? ` ${text}` : text;
+    });
+  }
+
+  /**
+   * @param {string} name
+   * @param {any} value
+   * @param {string} form
+   * @param {Fields} record
+   * @param {Variant} variant
+   * @returns {string}
+   */
+  writeValue(name, value, form, record, variant) {
+    if (value === null || value === undefined) return "";
+    if (typeof value === "boolean") return this.fill(`${form}.${value}`, record, variant);
+    if (typeof value === "number") return writeNumber(value, form);
+    if (typeof value === "string") return form ? this.fill(`${form}.${value}`, record, variant) : value;
+    if (Array.isArray(value)) return this.writeSeveral(name, value, form, record, variant);
+    return this.write(form || name, value, variant);
+  }
+
+  /**
+   * @param {string} name
+   * @param {any[]} values
+   * @param {string} form
+   * @param {Fields} record
+   * @param {Variant} variant
+   */
+  writeSeveral(name, values, form, record, variant) {
+    if (form in this.templates && values.every((each) => typeof each === "number")) {
+      return this.fillNumbers(form, values, variant);
+    }
+    const texts = values.map((each) => this.writeValue(name, each, form, record, variant));
+    return texts.join(this.templates[`${form}.join`] ?? this.templates.join);
+  }
+
+  /**
+   * @param {string} key
+   * @param {number[]} values
+   * @param {Variant} variant
+   */
+  fillNumbers(key, values, variant) {
+    const forms = [...this.find(key, variant).matchAll(PLACEHOLDER)];
+    const texts = new Set(forms.map(([, place, form]) => writeNumber(values[Number(place)], form)));
+    const record = Object.fromEntries(values.map((value, place) => [String(place), value]));
+    return this.fill(texts.size === 1 ? `${key}.same` : key, record, variant);
+  }
+}

@@ -1,0 +1,56 @@
+"""The programs in C++ and Rust that use the kernel, as docs/truth.md shows them."""
+
+import itertools
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from symtop_ros.physics import Motion, State, Top
+
+ROOT = Path(__file__).parents[2]
+TRUTH = (ROOT / "docs/truth.md").read_text()
+TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+START = State.from_euler(theta=0.5, psi_dot=200.0)
+
+needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
+needs_rust = pytest.mark.skipif(not shutil.which("rustc"), reason="no rustc")
+
+
+def run_block(name, folder):
+    """Run the commands of the block that names a program; return its output, and what is shown."""
+    (block,) = (each for each in re.findall(r"```console\n(.*?)```", TRUTH, re.S) if name in each)
+    lines = block.splitlines()
+    commands = [line.removeprefix("$ ") for line in lines if line.startswith("$ ")]
+    for part in ("symtop_ros", "examples"):
+        (folder / part).symlink_to(ROOT / part)
+    output = ""
+    for command in commands:
+        output += subprocess.run(
+            command, shell=True, cwd=folder, capture_output=True, text=True, check=True, timeout=300
+        ).stdout
+    return output, "".join(f"{line}\n" for line in lines if not line.startswith("$ "))
+
+
+@needs_compiler
+def test_an_integrator_in_cpp_is_compared_with_the_library(tmp_path):
+    output, promised = run_block("integrator_error", tmp_path)
+    assert output == promised
+    errors = [float(each) for each in re.findall(r"attitude (\S+) rad", output)]
+    # Halved steps of order 4 have a sixteenth of the error; two digits of each are printed.
+    assert all(15 < before / after < 32 for before, after in itertools.pairwise(errors))
+
+
+@needs_compiler
+@needs_rust
+def test_a_program_in_rust_prints_the_doubles_of_python(tmp_path):
+    output, promised = run_block("exact_top", tmp_path)
+    assert output == promised
+    motion = Motion(TOP, START)
+    smallest, largest = motion.turning_angles
+    assert f"theta is between {smallest:.6f} and {largest:.6f} rad" in output
+    for t, row in re.findall(r"t = +(\d+) s: \[(.*)\]", output):
+        assert np.array(row.split(", "), float).tolist() == motion.at(float(t)).orientation.tolist()

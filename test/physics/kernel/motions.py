@@ -1,0 +1,106 @@
+"""Random motions of all families, as bytes for a program, and what Python says of them."""
+
+import struct
+from fractions import Fraction
+from typing import get_args
+
+import numpy as np
+from physics.driven_families import FAMILIES as DRIVEN_FAMILIES
+from physics.driven_families import DrivenCase
+from physics.tops import random_case
+
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics.exact.kind import Kind
+
+FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
+# of the time of a case; less than 1e15 turns, which is what the kernel serves
+TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
+STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64)
+ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
+LONGEST = 5.0  # s of a driven motion
+
+
+class Sample:
+    """A motion, the times at which it is compared, and a torque that may act from a time on."""
+
+    def __init__(self, motion, times, torque=None):
+        self.motion, self.times, self.torque = motion, times, torque
+        self.clock = ExactTimes(STAMPS, 1 / 3, ELAPSED)
+        if motion.is_driven:  # stamps within the times
+            t = float(times.max())
+            self.clock = ExactTimes(STAMPS[[0, 1, 6, 3, 4]], 0.3 * t, Fraction(0.01 * t) * 10**9)
+
+    def encode(self):
+        """Return what the program reads."""
+        motion = self.motion
+        friction = motion.friction.axial, motion.friction.transverse
+        state = motion.start.given_orientation, motion.start.angular_velocity
+        high, stamps = float(self.clock.elapsed), self.clock.nanoseconds
+        clock = self.clock.factor, high, float(self.clock.elapsed - Fraction(high)), 0.0, 0.0
+        parts = [*motion.top.moments], *state, friction, motion.applied_torque
+        numbers = [*parts, [len(self.times)], self.times, clock, [len(stamps)]]
+        torque = [0] if self.torque is None else [1, self.times[-1], *self.torque]
+        return (
+            np.concatenate([np.asarray(each, float) for each in numbers]).tobytes()
+            + stamps.tobytes()
+            + struct.pack(f"{len(torque)}d", *torque)
+        )
+
+    def expect(self):
+        """Return what the program writes, as doubles."""
+        motion, rates = self.motion, self.motion._rates
+        kind = get_args(Kind).index(motion.kind)
+        constants = [kind, *motion.turning_angles, *map(float, rates)]
+        one_by_one = [motion.at(float(t)) for t in self.times]
+        states = [*one_by_one, motion.at(self.times), motion.at(self.clock)]
+        if self.torque is not None:
+            t = float(self.times[-1])
+            pushed = Motion(motion.top, motion.at(t), motion.friction, self.torque)
+            states.append(pushed.at(t))
+        rows = [np.concatenate([np.atleast_2d(each) for each in s.parts], axis=1) for s in states]
+        return np.concatenate([constants, np.concatenate(rows).ravel()])
+
+
+def list_gravity(seeds):
+    """Motions under gravity: of each family, weightless ones, and sleeping ones."""
+    for family in FAMILIES:
+        for seed in seeds:
+            case = random_case(50_000 + seed, family)
+            yield Sample(Motion(case.top, case.start), case.t * TIMES)
+    for seed in seeds:
+        case = random_case(60_000 + seed, "any")
+        top = Top(case.top.Ix, case.top.Iz, 0.0)
+        yield Sample(Motion(top, case.start), case.t * TIMES)
+        asleep = State((1, 0, 0, 0), (0, 0, case.start.angular_velocity[2]))
+        if seed % 4 == 0:
+            yield Sample(Motion(case.top, asleep), case.t * TIMES)
+
+
+def list_driven(seeds):
+    """Motions with friction or an applied torque, which changes in some of them."""
+    for family in DRIVEN_FAMILIES:
+        for seed in seeds:
+            case = DrivenCase(family, 700 + seed)
+            t = min(case.t, LONGEST)
+            torque = (1e-3 * case.top.Mgl, 0.0, 0.0) if seed % 2 else None
+            # Back in time friction drives a top: it soon becomes too fast.
+            before = 0.0 if case.friction else -0.1
+            yield Sample(case.motion, t * np.array([0.0, before, 0.01, 0.4, 1.0]), torque)
+    gravity = random_case(0, "pendulum")
+    pushed = (0.0, 0.01 * gravity.top.Mgl, 0.0)
+    yield Sample(Motion(gravity.top, gravity.start, Friction()), gravity.t * TIMES[:7], pushed)
+
+
+def encode(samples):
+    """Return what the program reads from stdin."""
+    return struct.pack("d", len(samples)) + b"".join(each.encode() for each in samples)
+
+
+def expect(samples):
+    """Return what the program writes to stdout; NaN has one set of bits."""
+    return normalize(np.concatenate([each.expect() for each in samples]))
+
+
+def normalize(numbers):
+    """Return the bytes of doubles, with one NaN for all: its sign is not defined."""
+    return np.where(np.isnan(numbers), np.nan, numbers).tobytes()

@@ -1,0 +1,109 @@
+/* A program that knows the kernel by symtop.h alone: it reads motions from stdin and writes what the
+ * kernel says of them to stdout, as doubles and in the order in which they were given. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "symtop.h"
+
+static void read_all(void* to, size_t count) {
+  if (fread(to, 8, count, stdin) != count) exit(1);
+}
+
+static size_t read_count(void) {
+  double number;
+  read_all(&number, 1);
+  return (size_t)number;
+}
+
+static double* allocate(size_t count) {
+  double* memory = (double*)malloc(8 * count + 8);
+  if (!memory) exit(2);
+  return memory;
+}
+
+static void demand(symtop_status status) {
+  if (status == SYMTOP_OK) return;
+  fprintf(stderr, "%s\n", symtop_describe_status(status));
+  exit(3);
+}
+
+static void write_all(const void* from, size_t count) { fwrite(from, sizeof(double), count, stdout); }
+
+static void write_states(const double* orientation, const double* omega, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    write_all(orientation + 4 * i, 4);
+    write_all(omega + 3 * i, 3);
+  }
+}
+
+static void print_constants(symtop_motion* motion) {
+  symtop_rates rates;
+  double numbers[8];
+  symtop_find_rates(motion, &rates);
+  numbers[0] = symtop_find_kind(motion);
+  symtop_find_turning_angles(motion, numbers + 1);
+  numbers[3] = rates.nutation_period;
+  numbers[4] = rates.mean_precession_rate;
+  numbers[5] = rates.mean_spin_rate;
+  numbers[6] = rates.precession_per_nutation;
+  numbers[7] = rates.spin_reverses;
+  write_all(numbers, 8);
+}
+
+/* The number of times, and the times: at each of them alone, and all of them together. */
+static void print_states(symtop_motion* motion) {
+  const size_t count = read_count();
+  double *times = allocate(count), *orientation = allocate(4 * count), *omega = allocate(3 * count);
+  size_t written;
+  read_all(times, count);
+  for (size_t i = 0; i < count; i++) {
+    demand(symtop_state(motion, times[i], orientation, omega));
+    write_states(orientation, omega, 1);
+  }
+  demand(symtop_states(motion, times, count, INFINITY, orientation, omega, &written));
+  write_states(orientation, omega, written);
+  free(times), free(orientation), free(omega);
+}
+
+/* A clock, the number of stamps, and the stamps. */
+static void print_states_of_clock(symtop_motion* motion) {
+  symtop_clock clock;
+  int64_t* stamps;
+  double *orientation, *omega;
+  size_t count, written;
+  read_all(&clock, 5);
+  count = read_count();
+  stamps = (int64_t*)allocate(count), orientation = allocate(4 * count), omega = allocate(3 * count);
+  read_all(stamps, count);
+  demand(symtop_states_of_clock(motion, &clock, stamps, count, INFINITY, orientation, omega,
+                                &written));
+  write_states(orientation, omega, written);
+  free(stamps), free(orientation), free(omega);
+}
+
+/* A time and a torque: the state as long after the torque has changed. */
+static void print_continued(symtop_motion* motion) {
+  double numbers[4], orientation[4], omega[3];
+  symtop_motion* continued;
+  read_all(numbers, 4);
+  demand(symtop_continue(motion, numbers[0], numbers + 1, &continued));
+  demand(symtop_state(continued, numbers[0], orientation, omega));
+  write_states(orientation, omega, 1);
+  symtop_free(continued);
+}
+
+int main(void) {
+  for (size_t count = read_count(); count > 0; count--) {
+    symtop_start start;
+    symtop_motion* motion;
+    read_all(&start, sizeof start / sizeof(double));
+    demand(symtop_new(&start, &motion));
+    print_constants(motion);
+    print_states(motion);
+    print_states_of_clock(motion);
+    if (read_count()) print_continued(motion);
+    symtop_free(motion);
+  }
+  return 0;
+}

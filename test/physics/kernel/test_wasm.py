@@ -1,0 +1,111 @@
+"""The kernel in a browser: the bits of Python, from a module that was built from these sources."""
+
+import base64
+import subprocess
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+import pytest
+from browser import running_browser
+from physics.kernel.motions import encode, expect, list_driven, list_gravity, normalize
+
+from symtop_ros.physics import accelerated
+from symtop_ros.physics.exact.kind import Kind
+from workshop.kernel_wasm import DIGEST, FUNCTIONS, MODULE, SOURCES, digest_sources
+
+ROOT = Path(__file__).parents[3]
+ZIG = ROOT / ".venv/zig/bin/python"
+SCRIPT = Path(__file__).with_name("print_motions.js").read_text()
+KERNEL = (ROOT / "symtop_ros/web/js/kernel.js").read_text()
+
+
+@pytest.fixture(scope="module")
+def page():
+    with running_browser() as browser:
+        tab = browser.new_page()
+        tab.add_script_tag(content=KERNEL + "\nwindow.Kernel = Kernel;", type="module")
+        tab.wait_for_function("Boolean(window.Kernel)")
+        tab.add_script_tag(content=SCRIPT)
+        yield tab
+
+
+def load(page):
+    """Have the page keep a kernel."""
+    page.evaluate(
+        "async (module) => { window.kernel = await Kernel.load(decode(module)); }",
+        to_text(MODULE.read_bytes()),
+    )
+
+
+def to_text(data):
+    return base64.b64encode(data).decode()
+
+
+def compare(page, samples):
+    arguments = [list(get_args(Kind)), to_text(MODULE.read_bytes()), to_text(encode(samples))]
+    result = page.evaluate(
+        "([kinds, module, samples]) => print_motions(Kernel, kinds, module, samples)", arguments
+    )
+    assert normalize(np.frombuffer(base64.b64decode(result))) == expect(samples)
+
+
+def list_samples(gravity, driven):
+    """Python alone has other bits for driven motions: they are compared with the kernel's."""
+    return [*list_gravity(gravity), *(list_driven(driven) if accelerated else ())]
+
+
+def test_the_module_was_built_from_these_sources():
+    # If this fails: `make kernel-wasm`, and commit both files.
+    assert DIGEST.read_text().strip() == digest_sources()
+
+
+def test_the_module_has_every_function_of_the_header():
+    header = (SOURCES / "symtop.h").read_text()
+    for name in FUNCTIONS:
+        assert f"symtop_{name}(" in header
+        assert f"symtop_{name}".encode() in MODULE.read_bytes()
+    assert header.count("(symtop_motion* motion") + header.count("(const symtop_start* s") == 10
+
+
+def test_two_thousand_motions_have_the_bits_of_python(page):
+    samples = list_samples(range(210), range(34))
+    assert len(samples) >= (2000 if accelerated else 1500)
+    compare(page, samples)
+
+
+def test_a_start_that_is_refused_says_why(page):
+    load(page)
+    say = """(start) => { try { kernel.motion(start); return ""; } catch (error) {
+        return `${error.name}: ${error.message}`; } }"""
+    start = {"Ix": 1, "Iz": 3, "Mgl": 1, "orientation": [1, 0, 0, 0], "angular_velocity": [0, 0, 1]}
+    assert page.evaluate(say, start) == (
+        "RangeError: Ix, Iz and Mgl must be finite, 1e-100 to 1e100 in size, with Iz > 0 and at "
+        "most 2 Ix"
+    )
+    assert "must have 4, 3, 2 and 3" in page.evaluate(say, start | {"orientation": [1, 0, 0]})
+
+
+def test_an_integration_goes_on_where_it_was_left(page):
+    load(page)
+    reached = page.evaluate("""() => {
+        const top = {Ix: 0.000228, Iz: 0.0000572, Mgl: 0.068};
+        const start = {orientation: [0.8, 0.6, 0, 0], angular_velocity: [0, 0, 200]};
+        const motion = kernel.motion({...top, ...start, friction: [2e-6, 0]});
+        return [motion.reach(1, 3), motion.reach(1, 3), motion.reach(1, Infinity)];
+    }""")
+    assert 0 < reached[0] < reached[1] < reached[2] == 1.0
+
+
+@pytest.mark.long
+def test_twenty_thousand_motions_have_the_bits_of_python(page):
+    for first in range(1000, 3100, 210):
+        compare(page, list_samples(range(first, first + 210), range(first, first + 34)))
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not ZIG.exists(), reason="make kernel-wasm fetches the compiler")
+def test_the_same_sources_give_the_same_module(tmp_path):
+    built = tmp_path / "kernel.wasm"
+    subprocess.run([ZIG, ROOT / "workshop/kernel_wasm.py", built], check=True)
+    assert built.read_bytes() == MODULE.read_bytes()

@@ -1,0 +1,43 @@
+"""The page's modules in a browser: a tab in which each can be imported."""
+
+import base64
+from pathlib import Path
+
+FOLDER = Path(__file__).parents[2] / "symtop_ros/web"
+SITE = "http://top.test/"
+
+
+def open_tab(browser):
+    """Return a tab of a site that has the modules and the kernel, and nothing else."""
+    tab = browser.new_page()
+    tab.route("**/*", _answer)
+    tab.goto(SITE)
+    return tab
+
+
+def _answer(route):
+    name = route.request.url.removeprefix(SITE)
+    if not name:
+        route.fulfill(body="<!doctype html><title>modules</title>", content_type="text/html")
+    elif (path := FOLDER / "js" / name).is_file():
+        route.fulfill(body=path.read_text(), content_type="text/javascript")
+    else:
+        route.fulfill(status=404)
+
+
+def load_kernel(tab):
+    """Have the tab keep the kernel and the text of its wording as `kernel` and `writer`."""
+    arguments = [
+        base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
+        (FOLDER.parent / "wording/en.json").read_text(),
+    ]
+    tab.evaluate(
+        """async ([module, templates]) => {
+            const { Kernel } = await import("/kernel.js");
+            const { Writer } = await import("/wording.js");
+            const decode = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
+            window.kernel = await Kernel.load(decode(module));
+            window.writer = new Writer(JSON.parse(templates));
+        }""",
+        arguments,
+    )
