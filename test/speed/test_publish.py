@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from workshop.load import node_cost
+from workshop.load import node_cost, stress
 from workshop.speed import derivatives, filters, testset
 from workshop.speed.publish import (
     COLUMNS,
@@ -20,7 +20,7 @@ TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
     *("chapters", "summary"),
-    *(each.NAME for each in (derivatives, filters, testset, node_cost)),
+    *(each.NAME for each in (derivatives, filters, testset, node_cost, stress)),
 )
 
 

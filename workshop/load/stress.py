@@ -1,6 +1,7 @@
 """top_node under load: many clients, many subscribers, slow and late ones, many nodes.
 
-`make stress`, or `python -m workshop.load.stress --seconds 10`.
+`make stress`, or `python -m workshop.load.stress --seconds 10`. With `--docs docs` the figures are
+written into the documentation.
 """
 
 from __future__ import annotations
@@ -10,9 +11,10 @@ import json
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from geometry_msgs.msg import QuaternionStamped
@@ -21,11 +23,20 @@ from workshop.load.clients import SUBSCRIBED_RATE, client_node
 from workshop.load.follower import DEPTH, TIMEOUT, Follower
 from workshop.load.processes import domain, run_program, running, script, top_node
 from workshop.load.usage import cpu_seconds, memory
+from workshop.speed.measure import find_machine
+from workshop.speed.publish import format_list, format_table, publish
 
 FAST, USUAL = 1000.0, SUBSCRIBED_RATE  # Hz
 CLIENTS, SUBSCRIBERS, JOINERS, TOPS = 4, 50, 200, 8
 EVENTS = 20  # latched kicks that every late joiner must receive, after the start
 SETTLING = 1.5  # s; diagnostics come once a second
+NAME = "stress"  # of the table in the documentation
+CONDITIONS = (
+    "Lost: samples that were published and not received. Missed: samples that the node had no time "
+    "to compute, which it counts in `/diagnostics`.",
+    "Unanswered: requests without an answer, or late joiners that did not get every event.",
+    "CPU: of one core, for all nodes together. MB more: growth of their memory.",
+)
 
 
 @dataclass(frozen=True)
@@ -75,6 +86,22 @@ def format_row(outcome: Outcome) -> str:
         f"{o.load:42}{o.rate:7.1f}{o.lost:6}{o.missed:8}{o.unanswered:12}{o.cpu:7.0%}"
         f"{o.growth:9.2f}   {o.figures}"
     )
+
+
+def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) -> str:
+    """Return the conditions, the table and the further figures of some outcomes."""
+    first = f"Command: `make stress`, {seconds:g} s for each load; machine: {machine}."
+    head = ["load", "Hz", "lost", "missed", "unanswered", "CPU", "MB more"]
+    rows = [
+        [
+            *(each.load, f"{each.rate:.1f}", f"{each.lost}", f"{each.missed}"),
+            *(f"{each.unanswered}", f"{100 * each.cpu:.0f} %", f"{each.growth:.1f}"),
+        ]
+        for each in outcomes
+    ]
+    figures = [f"{each.load}: {each.figures}." for each in outcomes if each.figures]
+    parts = format_list([first, *CONDITIONS]), format_table(head, rows), format_list(figures)
+    return "\n\n".join(part for part in parts if part)
 
 
 def stress(seconds: float) -> Iterator[Outcome]:
@@ -179,19 +206,25 @@ def _start(client: str, *numbers: float) -> subprocess.Popen[bytes]:
 def main(args: list[str] | None = None) -> int:
     """Print a line for each load; return the exit status."""
 
+    def add_options(parser: argparse.ArgumentParser) -> None:
+        parser.add_argument("--docs", type=Path, help="folder of the documentation to update")
+
     def run(options: argparse.Namespace) -> bool:
         print(HEAD)
-        good = True
+        outcomes = []
         for outcome in stress(options.seconds):
             print(format_row(outcome), flush=True)
-            good = good and outcome.good
-        return good
+            outcomes.append(outcome)
+        if options.docs:
+            section = format_section(outcomes, options.seconds, find_machine())
+            publish({NAME: section}, options.docs)
+        return all(outcome.good for outcome in outcomes)
 
     description = (
         "top_node under five loads, of some seconds each. CPU is in % of one core. "
         "Exit status 1 if a sample was lost or a request was not answered."
     )
-    return run_program("stress.py", description, 10.0, run, args)
+    return run_program("stress.py", description, 10.0, run, args, add_options)
 
 
 if __name__ == "__main__":
