@@ -8,6 +8,8 @@
     return element;
   };
   const saved = window.SAVED_RUN; // of a file that a run was saved to
+  const content = window.TOP_CONTENT; // of the page as one file, whose top lives in it
+  let top = null; // that top, once its kernel is loaded
   const frame = document.querySelector("iframe");
   const page = Array.from(crypto.getRandomValues(new Uint32Array(4)), (n) => n.toString(36)).join("");
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -159,14 +161,14 @@
     say("why", sentences.why);
     if (saved) return;
     say("pause", facts.running ? "Pause" : "Run");
-    say("record", facts.recording ? "End the recording" : "Record (MCAP)");
+    if (!content) say("record", facts.recording ? "End the recording" : "Record (MCAP)");
     say("pace", facts.running ? "" : "paused");
     const speed = find("speed");
     if (![...speed.options].some((option) => Number(option.value) === facts.factor)) {
       speed.append(make("option", { value: facts.factor, textContent: `${short(facts.factor, 3)} of real time` }));
     }
     if (document.activeElement !== speed) speed.value = facts.factor;
-    find("link").value = location.origin + "/?" + facts.link;
+    find("link").value = content ? `${location.href.split("#")[0]}#${facts.link}` : `${location.origin}/?${facts.link}`;
     find("roots").replaceChildren(
       ...(facts.roots.length ? ["steady at"] : ["no steady precession at this tilt and spin"]),
       ...facts.roots.map((rate, k) => {
@@ -359,6 +361,7 @@
     showScene(isDark);
   };
   const showScene = (isDark) => {
+    if (content) return;
     if (saved) {
       frame.srcdoc = saved.scene.replace("{darkMode:false}", `{darkMode:${isDark}}`);
     } else {
@@ -371,6 +374,10 @@
 
   const send = (message) => {
     refuse("");
+    if (content) {
+      if (top) top.take(message);
+      return;
+    }
     if (socket && socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
     else refuse("the page is not connected: is top_panel still running?");
   };
@@ -391,6 +398,11 @@
       const begin = rows[rows.length - 1][0] - facts.window;
       const old = rows.findIndex((row) => row[0] >= begin);
       if (old > 0) rows = rows.slice(old);
+    }
+    if (message.series) {
+      rows = message.series;
+      drawCharts(rows, message.constants);
+      showTime(message.time);
     }
     if (message.now) {
       const last = rows[rows.length - 1];
@@ -427,10 +439,77 @@
       }
     };
     lesson = makeLesson({ find, make, send, chooseLayers }, steps);
-    if (calm.matches) send({ act: "rest" });
+    if (calm.matches || (content && content.run)) send({ act: "rest" });
+    if (content) { followFragment(); return; }
     followLink(location.search + "&" + location.hash.slice(1), document.documentElement.dataset.trusted === "yes");
   };
+  // The page as one file: nobody else can reach its top, so that a link starts without a question.
+  const followFragment = () => {
+    const text = location.hash.slice(1);
+    if (/^run=|^$/.test(text)) return;
+    const { lesson: step, ...link } = Object.fromEntries(new URLSearchParams(text));
+    if (step !== undefined) { find("tab-lesson").click(); lesson.show(Number(step)); }
+    if (Object.keys(link).length) send({ act: "link", link });
+  };
+  const showTime = ([time, end]) => {
+    const line = find("timeline");
+    if (dragged !== line) Object.assign(line, { max: end, value: time });
+    line.setAttribute("aria-valuetext", `${time.toFixed(3)} s of ${end.toFixed(3)} s`);
+  };
+  const addTimeline = () => {
+    const line = make("input", { id: "timeline", type: "range", min: 0, max: 0, step: "any" });
+    line.setAttribute("aria-label", "time of the run");
+    line.addEventListener("input", () => { dragged = line; send({ act: "seek", time: Number(line.value) }); });
+    for (const end of ["change", "pointerup", "blur"]) line.addEventListener(end, () => { dragged = null; });
+    find("acts").append(make("div", { className: "row" }, line));
+  };
+  const keepFile = (name, type, text) => {
+    const url = URL.createObjectURL(new Blob([text], { type }));
+    make("a", { href: url, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+  };
+  const addSaving = () => {
+    const offer = (text, save) => make("button", { textContent: text, className: "button", onclick: save });
+    const run = () => JSON.stringify(top.run.json);
+    // The page as it was opened, with the events of the run in it; no end of a script is among them.
+    const page = () => window.TOP_SOURCE.replace("/*RUN*/", () => `window.TOP_CONTENT.run = ${run().replaceAll("<", "\\u003c")};`);
+    find("save").replaceChildren(
+      offer("This run as a page (HTML, opens anywhere)", () => keepFile("top.html", "text/html", page())),
+      offer("This run (JSON)", () => keepFile("run.json", "application/json", run())),
+      offer("Series (CSV)", () => keepFile("top.csv", "text/csv", top.csv)),
+      offer("Picture (PNG)", () => make("a", { href: document.querySelector("canvas").toDataURL("image/png"), download: "top.png" }).click()),
+      find("link").labels[0], find("link"),
+      make("p", { className: "dim", textContent: "A run.json or a saved page that is dropped onto this page is opened." }),
+    );
+  };
+  const openFile = async (file) => {
+    const text = await file.text();
+    const found = text.match(/window\.TOP_CONTENT\.run = (\{.*\});/);
+    try {
+      send({ act: "load", run: JSON.parse(found ? found[1] : text) });
+    } catch {
+      refuse(`${file.name} must be a run.json or a saved page`);
+    }
+  };
+  const openTop = async () => {
+    try {
+      top = await window.startTop(content, find("scene"), receive);
+    } catch (error) {
+      refuse(`the top cannot be shown: ${error.message}`);
+      return;
+    }
+    addTimeline();
+    addSaving();
+    document.addEventListener("dragover", (event) => event.preventDefault());
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      const [file] = event.dataTransfer.files;
+      if (file) openFile(file);
+    });
+    top.open();
+  };
   const connect = () => {
+    if (content) { openTop(); return; }
     socket = new WebSocket(`ws://${location.host}/controls/${page}`);
     socket.onmessage = (event) => receive(JSON.parse(event.data));
     socket.onclose = () => {
@@ -529,8 +608,8 @@
     // A button that the mouse has pressed gives the space key back to the page.
     document.addEventListener("click", (event) => { if (event.detail && event.target.closest("button")) event.target.closest("button").blur(); });
     document.addEventListener("keydown", onKey, true);
-    frame.addEventListener("load", () => frame.contentWindow.addEventListener("keydown", onKey, true));
-    addEventListener("hashchange", () => followLink(location.hash.slice(1), window.isSecureContext));
+    if (frame) frame.addEventListener("load", () => frame.contentWindow.addEventListener("keydown", onKey, true));
+    addEventListener("hashchange", () => (content ? followFragment() : followLink(location.hash.slice(1), window.isSecureContext)));
     connect();
   };
   const setUnit = () => {
