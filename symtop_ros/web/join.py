@@ -11,7 +11,9 @@ import re
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.simulation.presets import describe_scenes, load_scene
+from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.presets import describe_scenes
+from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import read_lesson
 from symtop_ros.wording.templates import TEMPLATES
 
@@ -51,19 +53,21 @@ def collect_content() -> dict[str, Any]:
     return {
         "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
         "templates": TEMPLATES,
-        "scenes": [
-            {**scene._asdict(), **_read_values(scene.name)} for scene in describe_scenes()
-        ],
+        "scenes": [{**scene._asdict(), **_read_values(scene.name)} for scene in describe_scenes()],
         "lesson": [dataclasses.asdict(step) for step in read_lesson()],
     }
 
 
 def _read_values(name: str) -> dict[str, Any]:
-    values = load_scene(name)
-    torque = values.pop("steady_torque", None)
-    groups = ("top.", "initial.", "friction.")
-    kept = {key: value for key, value in values.items() if key.startswith(groups)}
-    return {"values": kept} | ({"torque": list(torque)} if torque else {})
+    """Return the motion of a scene, in the exact doubles with which a node starts it."""
+    motion = start_motion(Settings.from_scene(name))
+    return {
+        "top": motion.top.moments,
+        "friction": (motion.friction.axial, motion.friction.transverse),
+        "torque": motion.applied_torque,
+        "orientation": motion.start.given_orientation.tolist(),
+        "angular_velocity": motion.start.angular_velocity.tolist(),
+    }
 
 
 def join_modules() -> str:

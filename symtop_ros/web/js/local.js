@@ -12,7 +12,10 @@ import { State } from "./state.js";
 /** @typedef {import("./state.js").Vector} Vector */
 /** @typedef {import("./kicks.js").Hold} Hold */
 /** @typedef {{[name: string]: any}} Message */
-/** @typedef {{name: string, title: string, story: string, values: {[name: string]: number}, torque?: Vector}} SceneFile */
+/**
+ * @typedef {{name: string, title: string, story: string, top: Vector, friction: [number, number],
+ *   torque: Vector, orientation: import("./state.js").Quaternion, angular_velocity: Vector}} SceneFile
+ */
 
 const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
@@ -27,6 +30,7 @@ const LIMITS = { "friction.axial": 0, "friction.transverse": 0 };
 const CHANGING = new Set(["kick", "push", "torque", "reset", "start", "scene", "set", "restart", "link"]);
 const POINTS = 240; // of trace and charts
 const UNITS = { energy: "J", L_z: "N m s", "L_z'": "N m s" };
+const ANGLES = ["phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"];
 const TOP_NAMES = /** @type {const} */ (["Ix", "Iz", "Mgl"]);
 
 export class LocalTop {
@@ -54,7 +58,6 @@ export class LocalTop {
     this.draw = () => {};
     /** Called when another motion begins. */
     this.begin = () => {};
-    this.scene = content.scenes[0];
     /** The torque of the scene. @type {Vector} */
     this.steady = [0, 0, 0];
   }
@@ -251,9 +254,9 @@ export class LocalTop {
   /**
    * @param {State} state
    * @param {string} request
-   * @param {{top?: import("./precession.js").Top, friction?: [number, number]}} changes
+   * @param {{top: import("./precession.js").Top, friction: [number, number]}} changes
    */
-  start(state, request, { top = this.course.top, friction = this.course.friction } = {}) {
+  start(state, request, { top, friction } = this.course) {
     const course = new Course(this.kernel, top, state, friction, this.steady);
     this.run.add("start", this.time, course, { request });
     this.initial = state;
@@ -264,53 +267,25 @@ export class LocalTop {
   startWith({ theta, phi_dot = 0, psi_dot, precession }) {
     const tilt = Number(theta);
     if (!(tilt >= 0 && tilt <= Math.PI)) throw new RangeError(`theta must be 0 to pi rad, got ${short(tilt)}`);
-    let rate = phi_dot;
-    if (precession) {
-      const roots = findRegularRates(this.course.top, tilt, psi_dot);
-      rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
-      if (rate === undefined) throw new RangeError("spin must be such that a regular precession exists");
-    }
-    const state = State.fromEuler({ theta: tilt }, { phi: rate, psi: psi_dot });
+    const state = createStart(this.course.top, { theta: tilt, phi_dot, psi_dot }, precession);
+    const rate = state.rates.phi;
     this.start(state, `started: theta ${short(tilt)}, phi' ${short(rate)}, psi' ${short(psi_dot)}`);
   }
 
   /** @param {string} name */
-  chooseScene(name) {
-    const scene = this.content.scenes.find((each) => each.name === name);
-    if (!scene) throw new RangeError(`scene must be one of ${this.content.scenes.map((each) => each.name).join(", ")}, got ${name}`);
-    this.scene = scene;
-    this.steady = scene.torque ?? [0, 0, 0];
-    const { top, friction, state } = this.read(scene.values, {});
-    if (this.run.moments.length) this.start(state, scene.title, { top, friction });
-    else {
-      this.run.add("start", this.time, new Course(this.kernel, top, state, friction, this.steady), { request: scene.title });
-      this.initial = state;
-    }
-    this.changed();
+  findScene(name) {
+    const { scenes } = this.content;
+    const scene = scenes.find((each) => each.name === name);
+    if (scene) return scene;
+    throw new RangeError(`scene must be one of ${scenes.map((each) => each.name).join(", ")}, got ${name}`);
   }
 
-  /**
-   * Top, friction and start of names and numbers; what is not named is that of a scene.
-   * @param {{[name: string]: number}} scene
-   * @param {{[name: string]: any}} named
-   */
-  read(scene, named) {
-    const find = (/** @type {string} */ name, /** @type {string} */ group) =>
-      Number(named[name] ?? scene[`${group}.${name}`] ?? 0);
-    const [Ix, Iz, Mgl] = TOP_NAMES.map((name) => find(name, "top"));
-    const top = { Ix, Iz, Mgl };
-    /** @type {[number, number]} */
-    const friction = [find("axial", "friction"), find("transverse", "friction")];
-    const [phi, theta, psi] = ["phi", "theta", "psi"].map((name) => find(name, "initial"));
-    let rate = find("phi_dot", "initial");
-    const spin = find("psi_dot", "initial");
-    const precession = named.precession ?? scene["initial.precession"];
-    if (precession) {
-      const roots = findRegularRates(top, theta, spin);
-      rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
-    }
-    const rates = { phi: rate, theta: find("theta_dot", "initial"), psi: spin };
-    return { top, friction, state: State.fromEuler({ phi, theta, psi }, rates) };
+  /** @param {string} name */
+  chooseScene(name) {
+    const scene = this.findScene(name);
+    this.steady = scene.torque;
+    const { top, friction, start } = readScene(scene);
+    this.start(start, scene.title, { top, friction });
   }
 
   /**
@@ -337,28 +312,24 @@ export class LocalTop {
     this.start(course.start, `again from: ${record.request}`, { top, friction });
   }
 
-  /** @param {{[name: string]: string}} link */
-  followLink({ scene, ...named }) {
-    const chosen = this.content.scenes.find((each) => each.name === scene);
-    if (scene !== undefined && !chosen) throw new RangeError(`scene must be one of ${this.content.scenes.map((each) => each.name).join(", ")}, got ${scene}`);
-    if (chosen) this.steady = chosen.torque ?? [0, 0, 0];
-    const present = this.course;
-    const own = {
-      "top.Ix": present.top.Ix, "top.Iz": present.top.Iz, "top.Mgl": present.top.Mgl,
-      "friction.axial": present.friction[0], "friction.transverse": present.friction[1],
-    };
-    const names = Object.keys(named);
-    // Without initial conditions those of the scene hold; with some of them the others are zero.
-    const isWhole = names.every((name) => /^(Ix|Iz|Mgl|axial|transverse)$/.test(name));
-    const values = chosen ? { ...chosen.values } : own;
-    if (!isWhole) for (const name of Object.keys(values)) if (name.startsWith("initial.")) delete values[/** @type {keyof typeof values} */ (name)];
-    const numbers = Object.fromEntries(Object.entries(named).map(([name, text]) => {
-      const value = name === "precession" ? text : Number(text);
-      if (Number.isNaN(value)) throw new RangeError(`${name} must be a number, got ${text}`);
-      return [name, value];
-    }));
-    const { top, friction, state } = this.read(values, numbers);
-    this.start(state, "from a link", { top, friction });
+  /**
+   * Start the experiment of a link: a scene, parameters of the top, initial conditions.
+   * @param {{[name: string]: string}} link
+   */
+  followLink({ scene: name, ...texts }) {
+    const scene = name === undefined ? null : this.findScene(name);
+    const { precession, ...rest } = texts;
+    const numbers = Object.fromEntries(Object.entries(rest).map(readNumber));
+    if (scene) this.steady = scene.torque;
+    const { top: own, friction: given, start } = scene ? readScene(scene) : this.course;
+    const top = { ...own };
+    for (const each of TOP_NAMES) top[each] = numbers[each] ?? own[each];
+    /** @type {[number, number]} */
+    const friction = [numbers.axial ?? given[0], numbers.transverse ?? given[1]];
+    const isStart = Object.keys(texts).some((each) => ANGLES.includes(each) || each === "precession");
+    const state = isStart ? createStart(top, numbers, precession) : start;
+    const isScene = scene && !Object.keys(texts).length;
+    this.start(state, isScene ? scene.title : "from a link", { top, friction });
   }
 
   /** @param {any} run of run.json */
@@ -388,3 +359,35 @@ export class LocalTop {
 
 /** @param {number} x */
 const short = (x) => String(Number(Number(x).toPrecision(4)));
+
+/** @param {SceneFile} scene */
+const readScene = ({ top: [Ix, Iz, Mgl], friction, orientation, angular_velocity }) => ({
+  top: { Ix, Iz, Mgl }, friction, start: new State(orientation, angular_velocity),
+});
+
+/** @param {[string, string | number]} pair of a link @returns {[string, number]} */
+const readNumber = ([name, text]) => {
+  if (![...TOP_NAMES, "axial", "transverse", ...ANGLES].includes(name)) {
+    throw new RangeError(`name in a link must be one of scene, precession, ${[...TOP_NAMES, "axial", "transverse", ...ANGLES].join(", ")}, got ${name}`);
+  }
+  const value = String(text).trim() ? Number(text) : NaN;
+  if (!Number.isFinite(value)) throw new RangeError(`${name} must be a number, got ${text || "nothing"}`);
+  return [name, value];
+};
+
+/**
+ * A start by Euler's angles and rates; phi' may be that of a regular precession, slow or fast.
+ * @param {import("./precession.js").Top} top
+ * @param {{[name: string]: number}} numbers
+ * @param {string} [precession]
+ */
+const createStart = (top, numbers, precession) => {
+  const { phi = 0, theta = 0, psi = 0, phi_dot = 0, theta_dot = 0, psi_dot = 0 } = numbers;
+  let rate = phi_dot;
+  if (precession) {
+    const roots = findRegularRates(top, theta, psi_dot);
+    if (!roots.length) throw new RangeError("spin must be such that a regular precession exists");
+    rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
+  }
+  return State.fromEuler({ phi, theta, psi }, { phi: rate, theta: theta_dot, psi: psi_dot });
+};
