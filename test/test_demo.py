@@ -139,7 +139,7 @@ def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
 
 def test_states_of_python_alone_are_reported(tmp_path):
     with running_demo(tmp_path, SYMTOP_PURE="1") as (process, _):
-        assert process.stdout.readline() == "states are computed by Python (SYMTOP_PURE is set)\n"
+        assert "by Python (SYMTOP_PURE is set)" in process.stdout.readline()
 
 
 @pytest.fixture
@@ -177,7 +177,8 @@ def test_a_signal_while_the_node_is_started_leaves_none_behind(number, monkeypat
 def test_a_node_that_does_not_start_is_reported(monkeypatch, capsys):
     monkeypatch.setattr(demo, "NODE", "pass")
     assert demo.main() == 1
-    assert capsys.readouterr().err == "demo: top_node ended with status 0\n"
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("demo: top_node ")
 
 
 def test_a_log_that_cannot_be_replayed_is_reported(here, monkeypatch, capsys):

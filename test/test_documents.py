@@ -139,6 +139,18 @@ def test_the_program_in_rust_reads_the_states(tmp_path):
     compile_block("rust", "rustc", ["--edition=2021"], tmp_path)
 
 
+def test_the_readme_activates_an_environment_with_its_programs():
+    (words,) = (words for words, _ in commands(ROOT / "README.md") if words[0] == "source")
+    used = {words[0] for words, _ in commands(ROOT / "README.md")} & {*MODULES, "top_node"}
+    assert used == {"top_node", "top_ctl"}
+    found = subprocess.run(
+        ["bash", "-c", f"source {words[1]} && which {' '.join(sorted(used))} python"],
+        cwd=ROOT, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    folders = {Path(line).parent.resolve() for line in found.stdout.splitlines()}
+    assert folders == {(ROOT / words[1]).parent.resolve()}
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with the files that the commands name, while a node runs."""

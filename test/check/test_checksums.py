@@ -105,5 +105,5 @@ def test_a_check_of_a_run_names_the_damage(log, tmp_path):
     assert findings.mismatches == []
     assert not (findings.foreign and accelerated)  # Python's driven motions are not judged
     first, second = findings.damage
-    assert first.startswith("the index of messages before byte ")
-    assert second == "the checksum of the data is not that of its bytes"
+    assert "index of messages" in first
+    assert "checksum of the data" in second

@@ -53,7 +53,7 @@ def test_two_nodes_of_one_name_are_named_next_to_the_answer():
         while not (result := ctl("state")).stderr:
             assert time.monotonic() < deadline, "the second node was not found"
         assert result.returncode == 0
-        assert result.stderr.startswith("top_ctl: 2 nodes have the name /top, and one of them has")
+        assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
     with Listener(DOMAIN) as listener:  # until the second one is gone
         names = listener.node.get_fully_qualified_node_names
         listener.spin_until(lambda: names().count("/top") == 1)
@@ -76,7 +76,7 @@ def test_wrong_usage_is_status_2(arguments):
 def test_a_missing_node_is_reported_after_the_time_out():
     result = ctl("--node", "/missing", "--timeout", "1", "hurry")
     assert result.returncode == 1
-    assert "no answer from /missing within 1 s: is top_node running" in result.stderr
+    assert "no answer from /missing within 1 s" in result.stderr
     assert result.stderr.count("\n") == 1
 
 

@@ -91,8 +91,8 @@ def test_a_bag_of_sqlite3_is_judged_too(log, tmp_path, capsys):
     ("arguments", "reason"),
     [
         (("--topic", "/nothing"), "--topic must be one of /filter, /imu/data, /text, /top/events"),
-        (("--topic", "/text"), "topic must have a type with an attitude"),
-        (("--topic", "/filter", "--node", "/other"), "no run of a top /other in "),
+        (("--topic", "/text"), "topic must have a type"),
+        (("--topic", "/filter", "--node", "/other"), "no run of a top /other "),
         (("--estimates", "missing.csv"), "cannot open missing.csv: No such file"),
         (("--estimates", "missing.mcap"), "--topic must name the estimates in missing.mcap"),
     ],

@@ -54,7 +54,8 @@ def test_a_mistake_of_the_rates_is_named(heading, mistake):
     good = make_estimates(truth, STAMPS, Rotation.from_rotvec([0.0, 0.0, heading]))
     bad = replace(good, angular_velocities=RATES[mistake](good))
     (note,) = judge(bad, truth, "x").notes
-    assert note == f"likely mistake: the angular velocities are {mistake}"
+    assert note.startswith("likely mistake: the angular ")
+    assert note.endswith(mistake)
 
 
 def test_good_estimates_and_plain_errors_are_no_mistakes():

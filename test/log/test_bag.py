@@ -94,7 +94,8 @@ def test_the_default_node_does_not_depend_on_the_order_of_files(tmp_path):
         log = TopLog(open_run(order))
         assert all(each.largest == 0.0 for each in check_log(log).values())
         assert log.node == "/a"
-        assert log.problems == ["the node is /a; others can be chosen by --node: /b"]
+        (note,) = log.problems
+        assert note.endswith(": /b")
 
 
 def test_the_node_top_is_the_default_wherever_it_stands(tmp_path):
@@ -119,7 +120,7 @@ def test_a_damaged_database_is_read_up_to_the_damage(tmp_path):
     file.write_bytes(data)
     log = TopLog(open_run([file]))
     list(log.batches())
-    assert any("the bag is damaged after the messages that were read" in e for e in log.problems)
+    assert any("damaged" in each for each in log.problems)
 
 
 @pytest.mark.parametrize(

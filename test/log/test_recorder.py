@@ -153,7 +153,8 @@ def test_messages_that_do_not_fit_into_the_queue_are_counted_in_the_file(tmp_pat
     assert len(contents(path)) == 10
     file = McapFile(path)
     list(file.chunks())
-    assert file.problems == ["15 messages were dropped: the disk was too slow"]
+    (problem,) = file.problems
+    assert problem.startswith("15 messages ")
 
 
 def _waiting(method, event):
@@ -218,8 +219,8 @@ def test_a_full_disk_stops_the_recording_and_what_was_written_opens(small_disk):
     found = [message.log_time for chunk in file.chunks() for message in chunk]
     assert len(found) > 100
     assert found == list(range(len(found)))
-    assert len(file.problems) == 1
-    assert "the recording was not finished: messages after" in file.problems[0]
+    (problem,) = file.problems
+    assert "not finished" in problem
     assert [log_time for _, log_time, _ in contents(path)] == found  # a whole file for others
 
 

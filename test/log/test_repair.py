@@ -59,7 +59,7 @@ def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tm
         writer.finish()
     file = McapFile(path)
     assert repair(file, tmp_path / "whole.mcap") == 1
-    assert any("is not described: its messages are lost" in each for each in file.problems)
+    assert any(each.startswith(f"channel {known + 1} ") for each in file.problems)
     with (tmp_path / "whole.mcap").open("rb") as stream:
         found = [message.data for _, _, message in make_reader(stream).iter_messages()]
     assert found == [b"mine"]

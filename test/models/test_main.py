@@ -30,8 +30,8 @@ def test_what_a_model_leaves_out_is_told(capsys):
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (("--scene", "none"), "scene must be one of backward_start, "),
-        (("--gravity", "0"), "gravity must be 0.001 to 1000 m/s^2, got 0"),
+        (("--scene", "none"), "scene must be "),
+        (("--gravity", "0"), "gravity must be "),
         (("--gravity", "nan"), "gravity must be "),
         (("-o", "/missing/folder/top.urdf"), "/missing/folder/top.urdf: No such file"),
     ],

@@ -43,9 +43,7 @@ def test_a_second_publisher_of_the_clock_is_reported_until_it_is_gone(start_top)
         return [status_of(each, "top: clock") for each in heard]
 
     run.spin_until(lambda: clocks() and clocks()[-1].level == b"\1")
-    assert clocks()[-1].message.startswith("2 programs publish /clock, and the time steps back")
     assert {each.key: each.value for each in clocks()[-1].values} == {"publishers": "2"}
     run.user.destroy_publisher(other)
     heard.clear()
     run.spin_until(lambda: clocks() and clocks()[-1].level == b"\0")
-    assert clocks()[-1].message == "no duplicate publisher of /clock concerns this node"

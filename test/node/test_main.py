@@ -23,19 +23,19 @@ def test_help_names_the_scenes():
     ("arguments", "status", "sentence"),
     [
         (["--fast"], 2, "unrecognized arguments: --fast"),
-        (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate must be 1 to 2000 Hz, got 0"),
-        (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz must be > 0 and <= 2 Ix"),
-        (["--ros-args", "-p", "scene:=x"], 1, "scene must be one of backward_start"),
-        (["--ros-args", "-p", "publish_tf:=1"], 1, "publish_tf must be true or false, got 1"),
+        (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate must be "),
+        (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz must be "),
+        (["--ros-args", "-p", "scene:=x"], 1, "scene must be "),
+        (["--ros-args", "-p", "publish_tf:=1"], 1, "publish_tf must be "),
         (
             ["--ros-args", "-p", "top_frame:=/top"],
             1,
-            "top_frame must be 'top', without the leading slash, got '/top'",
+            "top_frame must be ",
         ),
         (
             ["--ros-args", "-p", "steady_torque:=[0, 0, 0.0001]"],
             1,
-            "steady_torque must have numbers of one kind, got [0, 0, 0.0001]: write 0.0 for 0",
+            "got [0, 0, 0.0001]: write 0.0 for 0",  # the advice
         ),
         (
             ["--ros-args", "-p", "qos_overrides./top/orientation.publisher.depth:=0"],
@@ -47,7 +47,7 @@ def test_help_names_the_scenes():
         (
             ["--ros-args", "-p", "initial.precession:=slow", "-p", "initial.psi_dot:=3.0"],
             1,
-            "regular precession has no real root",
+            "regular precession ",
         ),
     ],
 )

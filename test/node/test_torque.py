@@ -193,8 +193,7 @@ def test_a_step_that_would_take_minutes_to_integrate_is_refused(start_top):
     before = json.loads(run.trigger("get_state")[1])
     granted, reason = run.set("step", duration=1e9)
     assert not granted
-    assert "duration must be up to " in reason
-    assert "s in one step under friction or an applied torque, got 1000000000.0" in reason
+    assert reason.startswith("duration must be up to ")
     assert json.loads(run.trigger("get_state")[1])["time"] == before["time"]
     assert run.set("step", duration=1.0)[0]
     assert json.loads(run.trigger("get_state")[1])["time"] == before["time"] + 1.0

@@ -117,7 +117,8 @@ def test_both_tops_send_the_same_events_bit_for_bit(node):
     other = Played(source)
     messages = own.play()
     assert other.play() == messages
-    assert messages == ["theta must be 0 to 3.14159 rad, got 4.0"]
+    (refusal,) = messages
+    assert refusal.startswith("theta must be ")
     assert other.story() == own.story()
     assert len(own.story()) == 15
     assert [event.name for event in own.run.history] == [event.name for event in other.run.history]
@@ -179,10 +180,8 @@ def test_a_node_that_is_gone_and_back_is_reported_once_each(node, monkeypatch):
         source._heard -= SILENCE
         reports = source.reports()
         assert time.monotonic() < deadline
-    assert reports == [
-        f"no samples from /top for {SILENCE:g} s: is top_node running, with the same "
-        "ROS_DOMAIN_ID and --node?"
-    ]
+    (silence,) = reports
+    assert f"/top for {SILENCE:g} s" in silence
     source.batch()
     assert source.reports() == []
     running.top.simulation.tick()
@@ -212,7 +211,7 @@ def test_a_missing_node_is_one_message():
     assert source.name == "/missing"
     granted, answer = source.request("kick", {"precession_rate": 1.0})
     assert not granted
-    assert answer.startswith("no answer from /missing within 0.1 s: is top_node running")
+    assert answer.startswith("no answer from /missing ")
     assert source.log is None
     source.close()
     user.destroy_node()

@@ -111,14 +111,14 @@ def test_a_wrong_log_is_status_1_and_names_the_topic(log, tmp_path, capsys):
     assert re.search(
         r"/top/torque +400 samples, largest difference 0\.9\d+ \(\S+ of its size\)", output
     )
-    assert output.endswith("the samples DO NOT agree with the events\n")
+    assert "DO NOT agree" in output.splitlines()[-1]
 
 
 def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
     run = Run()
     run.messages = [each for each in run.messages if each[0] != "events"]
     assert module.main([str(run.write(tmp_path)), "--check"]) == 1
-    assert "nothing can be checked: no sample follows an event" in capsys.readouterr().err
+    assert "nothing can be checked" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -128,7 +128,7 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
         (["none.mcap", "--check"], "cannot open none.mcap: No such file or directory"),
         (
             ["{log}", "--save", "out.mp4"],
-            "--save must be a name that ends in .rrd or .html, got out.mp4",
+            "--save must be a name that ends in .rrd or .html",
         ),
         (
             ["{log}", "--save", "none/out.rrd"],

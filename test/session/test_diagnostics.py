@@ -9,9 +9,9 @@ from symtop_ros.wire.diagnostics import OK, WARN
 def test_dropped_messages_are_a_warning():
     recorder = SimpleNamespace(path="a.mcap", dropped=7, failure="", running=True)
     status = _log_status(recorder)
-    assert (status.level, status.message) == (WARN, "7 messages dropped: the disk is too slow")
+    assert (status.level, status.values["dropped"]) == (WARN, "7")
     recorder.dropped = 0
-    assert (_log_status(recorder).level, _log_status(recorder).message) == (OK, "recording")
+    assert _log_status(recorder).level == OK
 
 
 @pytest.mark.parametrize(("missed", "level"), [(3, OK), (19, OK), (20, WARN)])

@@ -96,15 +96,14 @@ def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
         run.clock.now += 300 * MS
         run.tick()
     assert run.simulation.ticker.missed == 3 * 199  # 0.1 s of each 0.3 s is caught up
-    assert len(run.sink.warnings) == 1
-    assert run.sink.warnings[0].startswith("no samples for 0.199 s (199 missed): ")
+    (first,) = run.sink.warnings
+    assert "0.199 s (199 missed)" in first
     for _ in range(2 * 60):
         run.clock.now += 1000 * MS
         run.tick()
     assert len(run.sink.warnings) == 3
     missed = 2 * 199 + 60 * 899  # 0.1 s of each second is caught up
-    start = f"no samples for {missed / 1000:.3g} s ({missed} missed) since the last warning"
-    assert run.sink.warnings[1].startswith(start)
+    assert f"{missed / 1000:.3g} s ({missed} missed)" in run.sink.warnings[1]
 
 
 def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_second():
@@ -118,7 +117,7 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
     assert run.sink.warnings == []
     run.clock.now += 102 * MS
     run.tick()
-    assert run.sink.warnings[0].startswith("no samples for 0.1 s (100 missed)")
+    assert "0.1 s (100 missed)" in run.sink.warnings[0]
 
 
 def test_a_torque_acts_until_its_time_out_to_the_nanosecond():

@@ -214,7 +214,7 @@ def test_a_motion_that_becomes_too_fast_for_doubles_is_paused_there(publish_cloc
     # half the spin angle is then 1e15 rad: t^2 = 4e15 Iz/0.398 N m
     assert end == pytest.approx(1.0023e-3, rel=1e-4)
     *slower, last = run.sink.warnings
-    assert last == f"the motion becomes too fast for doubles: {paused.verdict}"
+    assert last.endswith(paused.verdict)
     # a busy machine integrates less in real time, and slows the motion down first
     assert slower == [event.verdict for event in run.sink.events if event.name == "pace"]
     assert paused.state_before() == paused.segment().motion.at(end)

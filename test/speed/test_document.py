@@ -81,6 +81,7 @@ def test_every_case_in_which_a_peer_is_ahead_is_named():
         ],
     )
     lines = [line for line in _format_ahead(results).splitlines() if line.startswith("-")]
+    # the sentences are the result: numbers are compared where they are found
     assert lines == [
         "- cusps: fast reaches 1.0e-09 rad in 0.1 ms, closed form 1.0e-15 in 0.3 ms.",
         "- cusps: exact is more exact, 1.0e-17 against 1.0e-15 rad, in 1e+03 ms.",

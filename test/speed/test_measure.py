@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 from PIL import Image
@@ -17,18 +18,30 @@ from workshop.speed.benchmarks import (
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import NAMES
-from workshop.speed.publish import COLUMNS
+from workshop.speed.publish import COLUMNS, find_section
 from workshop.speed.reference import Reference
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def written(tmp_path_factory):
+    """The folder of a report, and that of the documents into which it is written."""
     folder = tmp_path_factory.mktemp("report") / "made" / "here"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("workshop.speed.peers.peer.RECORDED", 1024)  # a tenth
         patch.setattr("workshop.speed.benchmarks.SPAN", 2.5)  # a quarter
-        assert measure(folder, SMALL, "make report") == 0
-    return folder
+        docs = tmp_path_factory.mktemp("root") / "docs"
+        docs.mkdir()
+        for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
+            (docs / name).write_text((DOCS / name).read_text())
+        assert measure(folder, SMALL, "make report", docs) == 0
+    return folder, docs
+
+
+@pytest.fixture(scope="module")
+def folder(written):
+    return written[0]
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +101,19 @@ def test_the_document_has_every_chapter_and_its_plots(folder):
         assert line.count("|") - 1 <= COLUMNS
 
 
+def test_the_documents_have_the_tables_and_plots_of_the_report(written):
+    folder, docs = written
+    report = (folder / "report.md").read_text().partition("\n\n")[2].strip()
+    page = (docs / "accuracy_tables.md").read_text()
+    assert find_section(page, "chapters") == report
+    summary = find_section((docs / "accuracy.md").read_text(), "summary")
+    assert f"| {CLOSED_FORM} |" in summary
+    for name in ("accuracy.md", "accuracy_tables.md"):  # what is written by hand is not changed
+        before, after = ((each / name).read_text() for each in (DOCS, docs))
+        assert before.partition("<!-- ")[0] == after.partition("<!-- ")[0]
+    assert {path.stem for path in docs.glob("*.png")} == {*NAMES}
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_a_plot_is_a_picture(folder, name):
     assert (folder / f"{name}.svg").read_text().startswith("<?xml")
@@ -103,10 +129,9 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
     monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
     assert measure(tmp_path, SMALL, "make report") == 1
-    assert capsys.readouterr().err.splitlines() == [
-        "1 of 1: a peer: model",
-        "workshop: above the limit: a peer: the model is a different top",
-    ]
+    progress, failure = capsys.readouterr().err.splitlines()
+    assert progress == "1 of 1: a peer: model"
+    assert failure.startswith("workshop: above the limit: a peer: ")
 
 
 def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
