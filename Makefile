@@ -77,6 +77,7 @@ types: $(VENV)/test  ## mypy (strict)
 
 docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warnings are errors
 	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
+	@$(BIN)/top_panel --write site/top.html
 	@echo "wrote site/README.html"
 
 # The workshop: what is written goes to report/, and ARGS=--help lists the options of a target.

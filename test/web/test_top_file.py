@@ -1,4 +1,4 @@
-"""The page as one file, opened from a disk without a network: what is done to its top, in Chromium."""
+"""The page as one file, opened from a disk without a network, in Chromium."""
 
 import json
 import math
