@@ -26,7 +26,7 @@
   const angle = (value) => (inDegrees() ? (value * 180) / Math.PI : value);
   const angleUnit = () => (inDegrees() ? "\u00b0" : "rad");
   const short = (value, digits = 4) => (value === null || value === undefined || Number.isNaN(value) ? "" : String(Number(value.toPrecision(digits))));
-  const fixed = (value) => (Math.abs(value) >= 1e5 ? value.toPrecision(4) : value.toFixed(inDegrees() ? 1 : 3));
+  const fixed = (value) => (Math.abs(value) >= 1e5 ? value.toPrecision(4) : (Math.round(value * 1e4) / 1e4).toFixed(inDegrees() ? 1 : 3));
 
   // Fields: a value is taken over on Enter or when the field is left, never while it is typed
 
@@ -46,9 +46,17 @@
   let asked = null; // the field whose value was sent last
   let dragged = null;
 
-  const parse = (text) => {
-    const plain = text.trim().replace("\u2212", "-").replace(",", ".");
-    return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  // A number with the unit that may follow it: 0.5, 1e-3, pi/4, 30\u00b0, 0.6 rad. An angle without a
+  // unit is in that of the page; a multiple of pi is in rad.
+  const parse = (text, name) => {
+    const plain = text.trim().toLowerCase().replace("\u2212", "-").replace(",", ".").replace("\u03c0", "pi");
+    const [, number, unit] = plain.match(/^(.*?)\s*(\u00b0|deg|degrees|rad)?$/);
+    const [, sign, size, pi, part] = number.match(/^([+-]?)(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?)?\s*\*?\s*(pi)?(?:\s*\/\s*(\d+\.?\d*))?$/) ?? [];
+    if (sign === undefined || (!size && !pi)) return NaN;
+    const value = (Number(size ?? 1) * (pi ? Math.PI : 1) * (sign === "-" ? -1 : 1)) / Number(part ?? 1);
+    if (unit && name !== "theta") return NaN;
+    const isDegrees = unit ? unit !== "rad" : name === "theta" && inDegrees() && !pi;
+    return isDegrees ? (value * Math.PI) / 180 : value;
   };
   const scale = (name) => (name === "theta" && inDegrees() ? 180 / Math.PI : 1);
   const write = (name) => {
@@ -68,7 +76,7 @@
     const { text, label } = FIELDS[name];
     if (typed !== name) return;
     typed = null;
-    const value = parse(text.value) / scale(name);
+    const value = parse(text.value, name);
     if (!Number.isFinite(value)) {
       text.setAttribute("aria-invalid", "true");
       refuse(`${label} must be a number, got ${text.value.trim() || "nothing"}`);
@@ -76,6 +84,10 @@
     }
     asked = name;
     text.removeAttribute("aria-invalid");
+    if (name === "theta" && !(value >= 0 && value <= Math.PI)) {
+      refuse(`tilt theta must be 0 to ${inDegrees() ? "180\u00b0" : "pi rad"}, got ${text.value.trim()}`);
+      return;
+    }
     change(name, value);
   };
   const change = (name, value) => {
@@ -104,7 +116,7 @@
     field.text = make("input", { id, type: "text", inputMode: "text", autocomplete: "off" });
     field.text.addEventListener("keydown", (event) => {
       if (event.key === "Enter") commit(name);
-      if (event.key === "Escape") { typed = null; field.text.blur(); }
+      if (event.key === "Escape") { typed = null; refuse(""); field.text.blur(); }
     });
     field.text.addEventListener("input", () => { typed = name; });
     field.text.addEventListener("blur", () => {
@@ -126,7 +138,7 @@
     });
     field.slider.addEventListener("input", () => {
       dragged = field.slider;
-      const value = Number(Number(field.slider.value).toFixed(step < 0.1 ? 3 : 1));
+      const value = Math.min(Number(Number(field.slider.value).toFixed(step < 0.1 ? 3 : 1)), Number(field.slider.max));
       field.text.value = short(value * scale(name), 6);
       later(() => change(name, value));
     });
@@ -544,12 +556,13 @@
     const isPush = event.key in PUSHES;
     if (isPush && target.closest("input, [role=tab]")) return;
     if (event.key === " " && target.closest("button, a, input, summary")) return;
-    if (!isPush && !(event.key in KEYS)) return;
+    const key = event.key.toLowerCase(); // Caps Lock changes nothing
+    if (!isPush && !(key in KEYS)) return;
     event.preventDefault();
     event.stopImmediatePropagation(); // viser moves the camera with some of these keys
     if (event.repeat && !isPush) return;
     if (isPush) send({ act: "push", way: PUSHES[event.key] });
-    else act(KEYS[event.key]);
+    else act(KEYS[key]);
   };
   const hold = (button) => {
     let timer = null;
@@ -603,6 +616,10 @@
     document.querySelectorAll("[data-push]").forEach((button) => { button.onclick = () => send({ act: "push", way: button.dataset.push }); });
     document.querySelectorAll("[data-hold]").forEach(hold);
     find("picture").href = `/picture.png?page=${page}`;
+    for (const id of ["theme", "unit"]) {
+      find(id).value = readChoice(id) ?? find(id).value;
+      find(id).addEventListener("change", () => keepChoice(id, find(id).value));
+    }
     find("theme").addEventListener("change", setTheme);
     find("unit").addEventListener("change", () => { if (facts) { setUnit(); showFacts(); } });
     // A button that the mouse has pressed gives the space key back to the page.
@@ -612,6 +629,9 @@
     addEventListener("hashchange", () => (content ? followFragment() : followLink(location.hash.slice(1), window.isSecureContext)));
     connect();
   };
+  // Choices are kept by the browser, where it keeps anything: a frame or a file may have no store.
+  const readChoice = (id) => { try { return localStorage.getItem(`symtop.${id}`); } catch { return null; } };
+  const keepChoice = (id, value) => { try { localStorage.setItem(`symtop.${id}`, value); } catch { /* not kept */ } };
   const setUnit = () => {
     const { slider, name } = FIELDS.theta;
     name.textContent = `tilt theta (${angleUnit()})`;
@@ -647,8 +667,8 @@
   };
 
   addLegend();
-  setTheme();
   dark.addEventListener("change", setTheme);
   if (saved) play();
   else { live(); setUnit(); }
+  setTheme();
 })();

@@ -221,7 +221,7 @@ def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened, tmp_path):
     run = opened.read_run(tmp_path)
     opened.tab.click("#tab-start")
     for field, text, refusal in (
-        ("theta", "4", "theta must be 0 to pi rad, got 4"),
+        ("theta", "4", "tilt theta must be 0 to pi rad, got 4"),
         ("theta", "abc", "tilt theta must be a number, got abc"),
         ("top\\.Iz", "1", "Ix, Iz and Mgl must be finite"),
         ("friction\\.axial", "-1", "friction.axial must be >= 0 N m s, got -1"),
@@ -317,4 +317,70 @@ def test_there_is_no_finding_of_axe(browser, path, scheme):
         page.tab.click(f"#tab-{name}")
         found = axe.run(page.tab).response["violations"]
         assert [(each["id"], [n["html"][:120] for n in each["nodes"]]) for each in found] == []
+    page.context.close()
+
+
+def test_an_angle_is_understood_with_its_unit(opened, tmp_path):
+    angles = {
+        "pi/4": math.pi / 4,
+        "π/3": math.pi / 3,
+        "30°": math.pi / 6,
+        "45 deg": math.pi / 4,
+        "0.6 rad": 0.6,
+        "0,7": 0.7,
+        "2*pi/5": 2 * math.pi / 5,
+        "1e-3": 1e-3,
+        "pi": math.pi,
+    }
+    for text, theta in angles.items():
+        opened.tab.click("#tab-start")
+        opened.tab.fill("#field-theta", text)
+        opened.tab.press("#field-theta", "Enter")
+        assert opened.say("refusal") == ""
+        state = read_state(opened.read_run(tmp_path)["events"][-1])
+        assert state.euler_angles.theta == pytest.approx(theta, rel=1e-15)
+
+
+def test_in_degrees_numbers_and_refusals_are_in_degrees(opened, tmp_path):
+    opened.tab.click("#tab-view")
+    opened.tab.select_option("#unit", "deg")
+    opened.tab.click("#tab-start")
+    opened.tab.fill("#field-theta", "200")
+    opened.tab.press("#field-theta", "Enter")
+    assert opened.say("refusal") == "tilt theta must be 0 to 180°, got 200"
+    opened.tab.press("#field-theta", "Escape")
+    assert opened.say("refusal") == ""
+    opened.tab.fill("#field-theta", "60")
+    opened.tab.press("#field-theta", "Enter")
+    state = read_state(opened.read_run(tmp_path)["events"][-1])
+    assert state.euler_angles.theta == pytest.approx(math.pi / 3, rel=1e-15)
+    opened.tab.reload()
+    opened.tab.wait_for_selector("#headline:not(:empty)")
+    assert opened.tab.input_value("#unit") == "deg"  # the choice is kept
+    assert "°" in opened.say("headline")
+
+
+def test_the_slider_reaches_the_lower_vertical(opened, tmp_path):
+    slider = opened.tab.get_by_label("tilt theta").locator("visible=true").last
+    slider.evaluate("(each) => { each.value = 3.15; each.dispatchEvent(new Event('input')); }")
+    opened.until(lambda: "3.142" in opened.say("headline"))
+    assert opened.say("refusal") == ""
+    state = read_state(opened.read_run(tmp_path)["events"][-1])
+    assert state.euler_angles.theta == math.pi
+
+
+def test_caps_lock_disables_no_key(opened):
+    opened.tab.keyboard.press("H")
+    assert "higher" in opened.say("headline")
+
+
+def test_back_is_the_step_before(browser, path):
+    page = Opened(browser, path, "#lesson=2")
+    page.tab.fill("#prediction", "it falls")
+    page.tab.click("#step-next")
+    assert page.tab.input_value("#steps").startswith("3.")
+    page.tab.go_back()
+    page.until(lambda: page.tab.input_value("#steps").startswith("2."))
+    assert page.tab.input_value("#prediction") == "it falls"
+    assert page.problems == []
     page.context.close()
