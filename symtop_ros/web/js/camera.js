@@ -13,7 +13,11 @@ export class Camera {
   /** @param {HTMLElement} element */
   constructor(element) {
     this.element = element;
-    this.place([1.9, -2.2, 1.35], [0, 0, 0.45]);
+    /** @type {Vector} */
+    this.target = [0, 0, 0];
+    this.distance = 3;
+    this.around = 0; // rad from x
+    this.above = 0; // rad over the horizon
     /** @type {Map<number, {x: number, y: number}>} */
     this.pointers = new Map();
     element.addEventListener("pointerdown", (event) => {

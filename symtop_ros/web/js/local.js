@@ -40,10 +40,9 @@ export class LocalTop {
    * @param {{scenes: SceneFile[], lesson: any[], layers: {[layer: string]: boolean}, run?: any}} content
    */
   constructor(kernel, writer, content) {
-    Object.assign(this, { kernel, writer, content });
-    /** @type {Kernel} */ this.kernel;
-    /** @type {Writer} */ this.writer;
-    /** @type {typeof content} */ this.content;
+    this.kernel = kernel;
+    this.writer = writer;
+    this.content = content;
     this.run = new Run(kernel);
     this.time = 0; // s of the run
     this.end = 0; // the latest time that was reached
@@ -58,6 +57,8 @@ export class LocalTop {
     this.draw = () => {};
     /** Called when another motion begins. */
     this.begin = () => {};
+    /** What Reset starts from. */
+    this.initial = State.fromEuler({ theta: 0 });
     /** The torque of the scene. @type {Vector} */
     this.steady = [0, 0, 0];
   }

@@ -39,19 +39,18 @@ export class Course {
    * @param {Vector} torque
    */
   constructor(kernel, top, start, friction = [0, 0], torque = NO_TORQUE) {
-    Object.assign(this, { kernel, top, start, friction, torque });
-    /** @type {Kernel} */ this.kernel;
-    /** @type {Top} */ this.top;
-    /** @type {State} */ this.start;
-    /** @type {[number, number]} */ this.friction;
-    /** @type {Vector} */ this.torque;
+    this.kernel = kernel;
+    this.top = top;
+    this.start = start;
+    this.friction = friction;
+    this.torque = torque;
     const { given: orientation, omega: angular_velocity } = start;
     /** @type {Motion} */
     this.motion = kernel.motion({ ...top, orientation, angular_velocity, friction, torque });
     this.isDriven = [...friction, ...torque].some((each) => each !== 0);
   }
 
-  /** The motion that would follow under gravity alone. */
+  /** The motion that would follow under gravity alone. @returns {Course} */
   get free() {
     return this.isDriven ? new Course(this.kernel, this.top, this.start) : this;
   }

@@ -88,6 +88,11 @@ export class Scene {
     this.pulled = null;
     /** @type {{[name: string]: HTMLElement}} */
     this.names = {};
+    this.bodyKey = "";
+    this.view = -1; // index of `VIEWS`
+    this.torqueScale = 1;
+    /** Labels of this picture. @type {Set<string>} */
+    this.shown = new Set();
     this.follow(canvas);
   }
 
@@ -236,7 +241,7 @@ export class Scene {
       this.names[name].style.borderColor = color;
       this.labels.append(this.names[name]);
     }
-    this.shown?.add(name);
+    this.shown.add(name);
     this.names[name].style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px) translate(-50%, -50%)`;
   }
 
@@ -245,7 +250,7 @@ export class Scene {
   drawTorques(state) {
     const { phi } = state.angles;
     const torques = this.findTorques(state);
-    const sizes = Object.values(torques).map((each) => each / (this.torqueScale ?? 1));
+    const sizes = Object.values(torques).map((each) => each / this.torqueScale);
     if (!sizes.every((each) => Math.abs(each) <= LONGEST)) return;
     let end = 0;
     Object.entries(DEPTHS).forEach(([name, depth], k) => {
