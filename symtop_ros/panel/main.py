@@ -13,6 +13,7 @@ from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES
 from symtop_ros.panel.source import LocalTop, Source
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.validation import one_line
+from symtop_ros.web.join import write_file
 
 PORT = 8015
 SCENE = "hurry_slow"
@@ -33,6 +34,8 @@ def main(args: list[str] | None = None) -> int:
     if rest and not (options.node and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest), 200)}")
     try:
+        if options.write:
+            return _write(options.write)
         ending = threading.Event()
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: ending.set())
@@ -58,6 +61,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--lesson", action="store_true", help="open the lesson: eleven steps for a class"
+    )
+    parser.add_argument(
+        "--write",
+        type=Path,
+        metavar="FILE.html",
+        help="write a page that has its own top, for any browser and without a server, and end",
     )
     parser.add_argument(
         "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"
@@ -109,10 +118,18 @@ def _show(options: argparse.Namespace, source: Source, ending: threading.Event) 
     return 0
 
 
-def _check_target(path: Path | None) -> None:
+def _write(path: Path) -> int:
+    """Write the page that needs no server."""
+    _check_target(path, "--write")
+    path.write_text(write_file(), encoding="utf-8")
+    print(f"wrote {path}; open it in a browser")
+    return 0
+
+
+def _check_target(path: Path | None, option: str = "--save") -> None:
     """Refuse a file that could not be written, before anything is played."""
     if path and (path.suffix != ".html" or not path.parent.is_dir()):
-        raise ValueError(f"--save must be a name that ends in .html in a folder, got {path}")
+        raise ValueError(f"{option} must be a name that ends in .html in a folder, got {path}")
 
 
 def _save(page: Page, path: Path) -> None:

@@ -2,11 +2,18 @@
 "use strict";
 const makeLesson = ({ find, make, send, chooseLayers }, steps) => {
   const select = find("steps");
+  let shown = null; // number of the step
   const field = find("prediction");
   const current = () => select.selectedIndex + 1;
-  // What was written is kept by the browser for this tab, and survives a reload.
-  const keep = (number, text) => history.replaceState({ ...history.state, [number]: text }, "", `#lesson=${number}`);
-  const written = (number) => (history.state ?? {})[number] ?? "";
+  // What was written is kept by the browser for this tab, and survives a reload. A step is an entry of
+  // its history: Back is the step before. A frame of another site may not have one.
+  const predictions = { ...history.state };
+  const keep = (number, text, isNew = false) => {
+    predictions[number] = text;
+    const change = isNew ? "pushState" : "replaceState";
+    try { history[change](predictions, "", `#lesson=${number}`); } catch { /* not kept */ }
+  };
+  const written = (number) => predictions[number] ?? "";
 
   const addActs = ({ acts, scene }) => {
     const hurries = [];
@@ -30,7 +37,9 @@ const makeLesson = ({ find, make, send, chooseLayers }, steps) => {
     });
     find("lesson-acts").replaceChildren(...buttons);
   };
-  const show = (number) => {
+  const show = (number, isBack = false) => {
+    const isNew = shown !== null && shown !== number && !isBack;
+    shown = number;
     const step = steps[number - 1];
     select.selectedIndex = number - 1;
     for (const name of ["predict", "compute", "look", "seen", "question", "answer"]) {
@@ -46,7 +55,7 @@ const makeLesson = ({ find, make, send, chooseLayers }, steps) => {
     find("step-back").disabled = number === 1;
     find("step-next").disabled = number === steps.length;
     addActs(step);
-    keep(number, field.value);
+    keep(number, field.value, isNew);
     send({ act: "rest" }); // nothing moves before the prediction
   };
   const go = (by) => (event) => {
@@ -56,6 +65,10 @@ const makeLesson = ({ find, make, send, chooseLayers }, steps) => {
   };
   select.append(...steps.map(({ title }, k) => make("option", { textContent: `${k + 1}. ${title}` })));
   select.addEventListener("change", () => show(current()));
+  addEventListener("popstate", () => {
+    const [, number] = location.hash.match(/^#lesson=(\d+)$/) ?? [];
+    if (number && Number(number) !== shown) show(Number(number), true);
+  });
   field.addEventListener("input", () => keep(current(), field.value));
   find("step-back").onclick = go(-1);
   find("step-next").onclick = go(1);

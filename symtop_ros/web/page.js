@@ -8,6 +8,8 @@
     return element;
   };
   const saved = window.SAVED_RUN; // of a file that a run was saved to
+  const content = window.TOP_CONTENT; // of the page as one file, whose top lives in it
+  let top = null; // that top, once its kernel is loaded
   const frame = document.querySelector("iframe");
   const page = Array.from(crypto.getRandomValues(new Uint32Array(4)), (n) => n.toString(36)).join("");
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -24,7 +26,7 @@
   const angle = (value) => (inDegrees() ? (value * 180) / Math.PI : value);
   const angleUnit = () => (inDegrees() ? "\u00b0" : "rad");
   const short = (value, digits = 4) => (value === null || value === undefined || Number.isNaN(value) ? "" : String(Number(value.toPrecision(digits))));
-  const fixed = (value) => (Math.abs(value) >= 1e5 ? value.toPrecision(4) : value.toFixed(inDegrees() ? 1 : 3));
+  const fixed = (value) => (Math.abs(value) >= 1e5 ? value.toPrecision(4) : (Math.round(value * 1e4) / 1e4).toFixed(inDegrees() ? 1 : 3));
 
   // Fields: a value is taken over on Enter or when the field is left, never while it is typed
 
@@ -44,9 +46,17 @@
   let asked = null; // the field whose value was sent last
   let dragged = null;
 
-  const parse = (text) => {
-    const plain = text.trim().replace("\u2212", "-").replace(",", ".");
-    return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain) ? Number(plain) : NaN;
+  // A number with the unit that may follow it: 0.5, 1e-3, pi/4, 30\u00b0, 0.6 rad. An angle without a
+  // unit is in that of the page; a multiple of pi is in rad.
+  const parse = (text, name) => {
+    const plain = text.trim().toLowerCase().replace("\u2212", "-").replace(",", ".").replace("\u03c0", "pi");
+    const [, number, unit] = plain.match(/^(.*?)\s*(\u00b0|deg|degrees|rad)?$/);
+    const [, sign, size, pi, part] = number.match(/^([+-]?)(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?)?\s*\*?\s*(pi)?(?:\s*\/\s*(\d+\.?\d*))?$/) ?? [];
+    if (sign === undefined || (!size && !pi)) return NaN;
+    const value = (Number(size ?? 1) * (pi ? Math.PI : 1) * (sign === "-" ? -1 : 1)) / Number(part ?? 1);
+    if (unit && name !== "theta") return NaN;
+    const isDegrees = unit ? unit !== "rad" : name === "theta" && inDegrees() && !pi;
+    return isDegrees ? (value * Math.PI) / 180 : value;
   };
   const scale = (name) => (name === "theta" && inDegrees() ? 180 / Math.PI : 1);
   const write = (name) => {
@@ -66,7 +76,7 @@
     const { text, label } = FIELDS[name];
     if (typed !== name) return;
     typed = null;
-    const value = parse(text.value) / scale(name);
+    const value = parse(text.value, name);
     if (!Number.isFinite(value)) {
       text.setAttribute("aria-invalid", "true");
       refuse(`${label} must be a number, got ${text.value.trim() || "nothing"}`);
@@ -74,6 +84,10 @@
     }
     asked = name;
     text.removeAttribute("aria-invalid");
+    if (name === "theta" && !(value >= 0 && value <= Math.PI)) {
+      refuse(`tilt theta must be 0 to ${inDegrees() ? "180\u00b0" : "pi rad"}, got ${text.value.trim()}`);
+      return;
+    }
     change(name, value);
   };
   const change = (name, value) => {
@@ -102,7 +116,7 @@
     field.text = make("input", { id, type: "text", inputMode: "text", autocomplete: "off" });
     field.text.addEventListener("keydown", (event) => {
       if (event.key === "Enter") commit(name);
-      if (event.key === "Escape") { typed = null; field.text.blur(); }
+      if (event.key === "Escape") { typed = null; refuse(""); field.text.blur(); }
     });
     field.text.addEventListener("input", () => { typed = name; });
     field.text.addEventListener("blur", () => {
@@ -124,7 +138,7 @@
     });
     field.slider.addEventListener("input", () => {
       dragged = field.slider;
-      const value = Number(Number(field.slider.value).toFixed(step < 0.1 ? 3 : 1));
+      const value = Math.min(Number(Number(field.slider.value).toFixed(step < 0.1 ? 3 : 1)), Number(field.slider.max));
       field.text.value = short(value * scale(name), 6);
       later(() => change(name, value));
     });
@@ -159,14 +173,14 @@
     say("why", sentences.why);
     if (saved) return;
     say("pause", facts.running ? "Pause" : "Run");
-    say("record", facts.recording ? "End the recording" : "Record (MCAP)");
+    if (!content) say("record", facts.recording ? "End the recording" : "Record (MCAP)");
     say("pace", facts.running ? "" : "paused");
     const speed = find("speed");
     if (![...speed.options].some((option) => Number(option.value) === facts.factor)) {
       speed.append(make("option", { value: facts.factor, textContent: `${short(facts.factor, 3)} of real time` }));
     }
     if (document.activeElement !== speed) speed.value = facts.factor;
-    find("link").value = location.origin + "/?" + facts.link;
+    find("link").value = content ? `${location.href.split("#")[0]}#${facts.link}` : `${location.origin}/?${facts.link}`;
     find("roots").replaceChildren(
       ...(facts.roots.length ? ["steady at"] : ["no steady precession at this tilt and spin"]),
       ...facts.roots.map((rate, k) => {
@@ -359,6 +373,7 @@
     showScene(isDark);
   };
   const showScene = (isDark) => {
+    if (content) return;
     if (saved) {
       frame.srcdoc = saved.scene.replace("{darkMode:false}", `{darkMode:${isDark}}`);
     } else {
@@ -371,6 +386,10 @@
 
   const send = (message) => {
     refuse("");
+    if (content) {
+      if (top) top.take(message);
+      return;
+    }
     if (socket && socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
     else refuse("the page is not connected: is top_panel still running?");
   };
@@ -391,6 +410,11 @@
       const begin = rows[rows.length - 1][0] - facts.window;
       const old = rows.findIndex((row) => row[0] >= begin);
       if (old > 0) rows = rows.slice(old);
+    }
+    if (message.series) {
+      rows = message.series;
+      drawCharts(rows, message.constants);
+      showTime(message.time);
     }
     if (message.now) {
       const last = rows[rows.length - 1];
@@ -427,10 +451,77 @@
       }
     };
     lesson = makeLesson({ find, make, send, chooseLayers }, steps);
-    if (calm.matches) send({ act: "rest" });
+    if (calm.matches || (content && content.run)) send({ act: "rest" });
+    if (content) { followFragment(); return; }
     followLink(location.search + "&" + location.hash.slice(1), document.documentElement.dataset.trusted === "yes");
   };
+  // The page as one file: nobody else can reach its top, so that a link starts without a question.
+  const followFragment = () => {
+    const text = location.hash.slice(1);
+    if (/^run=|^$/.test(text)) return;
+    const { lesson: step, ...link } = Object.fromEntries(new URLSearchParams(text));
+    if (step !== undefined) { find("tab-lesson").click(); lesson.show(Number(step)); }
+    if (Object.keys(link).length) send({ act: "link", link });
+  };
+  const showTime = ([time, end]) => {
+    const line = find("timeline");
+    if (dragged !== line) Object.assign(line, { max: end, value: time });
+    line.setAttribute("aria-valuetext", `${time.toFixed(3)} s of ${end.toFixed(3)} s`);
+  };
+  const addTimeline = () => {
+    const line = make("input", { id: "timeline", type: "range", min: 0, max: 0, step: "any" });
+    line.setAttribute("aria-label", "time of the run");
+    line.addEventListener("input", () => { dragged = line; send({ act: "seek", time: Number(line.value) }); });
+    for (const end of ["change", "pointerup", "blur"]) line.addEventListener(end, () => { dragged = null; });
+    find("acts").append(make("div", { className: "row" }, line));
+  };
+  const keepFile = (name, type, text) => {
+    const url = URL.createObjectURL(new Blob([text], { type }));
+    make("a", { href: url, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+  };
+  const addSaving = () => {
+    const offer = (text, save) => make("button", { textContent: text, className: "button", onclick: save });
+    const run = () => JSON.stringify(top.run.json);
+    // The page as it was opened, with the events of the run in it; no end of a script is among them.
+    const page = () => window.TOP_SOURCE.replace("/*RUN*/", () => `window.TOP_CONTENT.run = ${run().replaceAll("<", "\\u003c")};`);
+    find("save").replaceChildren(
+      offer("This run as a page (HTML, opens anywhere)", () => keepFile("top.html", "text/html", page())),
+      offer("This run (JSON)", () => keepFile("run.json", "application/json", run())),
+      offer("Series (CSV)", () => keepFile("top.csv", "text/csv", top.csv)),
+      offer("Picture (PNG)", () => make("a", { href: document.querySelector("canvas").toDataURL("image/png"), download: "top.png" }).click()),
+      find("link").labels[0], find("link"),
+      make("p", { className: "dim", textContent: "A run.json or a saved page that is dropped onto this page is opened." }),
+    );
+  };
+  const openFile = async (file) => {
+    const text = await file.text();
+    const found = text.match(/window\.TOP_CONTENT\.run = (\{.*\});/);
+    try {
+      send({ act: "load", run: JSON.parse(found ? found[1] : text) });
+    } catch {
+      refuse(`${file.name} must be a run.json or a saved page`);
+    }
+  };
+  const openTop = async () => {
+    try {
+      top = await window.startTop(content, find("scene"), receive);
+    } catch (error) {
+      refuse(`the top cannot be shown: ${error.message}`);
+      return;
+    }
+    addTimeline();
+    addSaving();
+    document.addEventListener("dragover", (event) => event.preventDefault());
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      const [file] = event.dataTransfer.files;
+      if (file) openFile(file);
+    });
+    top.open();
+  };
   const connect = () => {
+    if (content) { openTop(); return; }
     socket = new WebSocket(`ws://${location.host}/controls/${page}`);
     socket.onmessage = (event) => receive(JSON.parse(event.data));
     socket.onclose = () => {
@@ -465,12 +556,13 @@
     const isPush = event.key in PUSHES;
     if (isPush && target.closest("input, [role=tab]")) return;
     if (event.key === " " && target.closest("button, a, input, summary")) return;
-    if (!isPush && !(event.key in KEYS)) return;
+    const key = event.key.toLowerCase(); // Caps Lock changes nothing
+    if (!isPush && !(key in KEYS)) return;
     event.preventDefault();
     event.stopImmediatePropagation(); // viser moves the camera with some of these keys
     if (event.repeat && !isPush) return;
     if (isPush) send({ act: "push", way: PUSHES[event.key] });
-    else act(KEYS[event.key]);
+    else act(KEYS[key]);
   };
   const hold = (button) => {
     let timer = null;
@@ -524,15 +616,22 @@
     document.querySelectorAll("[data-push]").forEach((button) => { button.onclick = () => send({ act: "push", way: button.dataset.push }); });
     document.querySelectorAll("[data-hold]").forEach(hold);
     find("picture").href = `/picture.png?page=${page}`;
+    for (const id of ["theme", "unit"]) {
+      find(id).value = readChoice(id) ?? find(id).value;
+      find(id).addEventListener("change", () => keepChoice(id, find(id).value));
+    }
     find("theme").addEventListener("change", setTheme);
     find("unit").addEventListener("change", () => { if (facts) { setUnit(); showFacts(); } });
     // A button that the mouse has pressed gives the space key back to the page.
     document.addEventListener("click", (event) => { if (event.detail && event.target.closest("button")) event.target.closest("button").blur(); });
     document.addEventListener("keydown", onKey, true);
-    frame.addEventListener("load", () => frame.contentWindow.addEventListener("keydown", onKey, true));
-    addEventListener("hashchange", () => followLink(location.hash.slice(1), window.isSecureContext));
+    if (frame) frame.addEventListener("load", () => frame.contentWindow.addEventListener("keydown", onKey, true));
+    addEventListener("hashchange", () => (content ? followFragment() : followLink(location.hash.slice(1), window.isSecureContext)));
     connect();
   };
+  // Choices are kept by the browser, where it keeps anything: a frame or a file may have no store.
+  const readChoice = (id) => { try { return localStorage.getItem(`symtop.${id}`); } catch { return null; } };
+  const keepChoice = (id, value) => { try { localStorage.setItem(`symtop.${id}`, value); } catch { /* not kept */ } };
   const setUnit = () => {
     const { slider, name } = FIELDS.theta;
     name.textContent = `tilt theta (${angleUnit()})`;
@@ -568,8 +667,8 @@
   };
 
   addLegend();
-  setTheme();
   dark.addEventListener("change", setTheme);
   if (saved) play();
   else { live(); setUnit(); }
+  setTheme();
 })();

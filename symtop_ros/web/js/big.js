@@ -56,9 +56,9 @@ export class Big {
    * @param {number} bits of every result
    */
   constructor(mantissa, exponent, bits) {
-    Object.assign(this, round(mantissa, exponent, bits));
-    /** @type {bigint} */ this.mantissa;
-    /** @type {number} */ this.exponent;
+    const rounded = round(mantissa, exponent, bits);
+    this.mantissa = rounded.mantissa;
+    this.exponent = rounded.exponent;
     this.bits = bits;
   }
 
@@ -85,10 +85,12 @@ export class Big {
     return this.mantissa > 0n ? 1 : this.mantissa < 0n ? -1 : 0;
   }
 
+  /** @returns {Big} */
   get negative() {
     return new Big(-this.mantissa, this.exponent, this.bits);
   }
 
+  /** @returns {Big} */
   get size() {
     return this.sign < 0 ? this.negative : this;
   }

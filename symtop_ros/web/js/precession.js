@@ -52,7 +52,7 @@ export class TiltQuadratic {
   }
 
   get roots() {
-    return solveQuadratic(...[this.a.number, this.b.number, this.Mgl].map(toLong));
+    return solveQuadratic(toLong(this.a.number), toLong(this.b.number), toLong(this.Mgl));
   }
 }
 

@@ -71,12 +71,11 @@ export class PrecessionChange {
    * @param {number | null} factor null for an angular impulse
    */
   constructor(top, tilt, before, after, factor) {
-    Object.assign(this, { top, tilt, before, after, factor });
-    /** @type {Top} */ this.top;
-    /** @type {TiltAcceleration} */ this.tilt;
-    /** @type {number} */ this.before;
-    /** @type {number} */ this.after;
-    /** @type {number | null} */ this.factor;
+    this.top = top;
+    this.tilt = tilt;
+    this.before = before;
+    this.after = after;
+    this.factor = factor;
     this.change = tilt.quadratic.change(before, after);
     this.isHurried = factor !== null && factor > 1;
   }

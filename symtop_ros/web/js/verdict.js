@@ -10,6 +10,12 @@ import { START_ROUNDING } from "./precession.js";
 /** @typedef {import("./kicks.js").Hold} Hold */
 /** @typedef {import("./rule.js").Direction} Direction */
 /**
+ * Why Perry's rule holds, fails or says nothing.
+ * @typedef {{kind: string, rule: string | null, subject: string, before: number | null,
+ *   after: number | null, theta_ddot_without: number | null, theta_ddot: number | null,
+ *   place: object | null}} Reason
+ */
+/**
  * A motion and what it starts from; `free` is the same under gravity alone.
  * @typedef {{top: Top, start: State, motion: Motion, isDriven: boolean}} Course
  */
@@ -41,6 +47,7 @@ const classifyVertical = (top, state) => {
 /**
  * @param {Top} top
  * @param {State} state
+ * @returns {Reason}
  */
 const explainVertical = (top, state) => ({
   kind: classifyVertical(top, state), rule: null, subject: nameSubject(top), before: null,

@@ -1,0 +1,103 @@
+"""The page as one file: its modules, the kernel, scenes, lesson and wording, joined without Node.
+
+A page that is opened from a disk can import no module and fetch no file. So each module becomes a
+function of one script, which takes what it imports from those before it.
+"""
+
+import base64
+import dataclasses
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.presets import describe_scenes
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.web.lesson import read_lesson
+from symtop_ros.wording.templates import TEMPLATES
+
+FOLDER = Path(__file__).parent
+MODULES = FOLDER / "js"
+MAIN = "start.js"
+IMPORT = re.compile(r'^import \{([^}]*)\} from "\./(\w+)\.js";\n', re.M)
+EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
+# Nothing is loaded from anywhere, whatever a saved run holds.
+POLICY = (
+    '<meta http-equiv="Content-Security-Policy" content="default-src data: blob: '
+    "'unsafe-inline' 'wasm-unsafe-eval'; form-action 'none'\">"
+)
+
+
+def write_file() -> str:
+    """Return the page as one document."""
+    markup, lesson, page = (
+        (FOLDER / name).read_text(encoding="utf-8")
+        for name in ("page.html", "lesson.js", "page.js")
+    )
+    content = json.dumps(collect_content()).replace("<", "\\u003c")  # no end of a script in it
+    parts = [
+        'window.TOP_SOURCE = "<!doctype html>\\n" + document.documentElement.outerHTML;',
+        f"window.TOP_CONTENT = {content};",
+        "/*RUN*/",
+        join_modules(),
+        lesson,
+        page,
+    ]
+    markup = re.sub(r"  <iframe [^\n]*\n", "", markup).replace("<head>", f"<head>\n{POLICY}", 1)
+    return markup.replace("/*SCRIPT*/", "\n".join(parts), 1)
+
+
+def collect_content() -> dict[str, Any]:
+    """Return what the script reads: the kernel, templates, scenes and the lesson."""
+    return {
+        "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
+        "templates": TEMPLATES,
+        "scenes": [{**scene._asdict(), **_read_values(scene.name)} for scene in describe_scenes()],
+        "lesson": [dataclasses.asdict(step) for step in read_lesson()],
+    }
+
+
+def _read_values(name: str) -> dict[str, Any]:
+    """Return the motion of a scene, in the exact doubles with which a node starts it."""
+    motion = start_motion(Settings.from_scene(name))
+    return {
+        "top": motion.top.moments,
+        "friction": (motion.friction.axial, motion.friction.transverse),
+        "torque": motion.applied_torque,
+        "orientation": motion.start.given_orientation.tolist(),
+        "angular_velocity": motion.start.angular_velocity.tolist(),
+    }
+
+
+def join_modules() -> str:
+    """Return all modules as one script, which defines `startTop`."""
+    ordered: list[str] = []
+    _order(MAIN, ordered)
+    functions = [_write_function(name) for name in ordered]
+    return "\n".join([*functions, "window.startTop = module_start.startTop;"])
+
+
+def _order(name: str, ordered: list[str]) -> None:
+    """Add a module after those that it imports."""
+    text = (MODULES / name).read_text(encoding="utf-8")
+    for _, imported in IMPORT.findall(text):
+        if f"{imported}.js" not in ordered:
+            _order(f"{imported}.js", ordered)
+    if name not in ordered:
+        ordered.append(name)
+
+
+def _write_function(name: str) -> str:
+    text = _drop_comments((MODULES / name).read_text(encoding="utf-8"))
+    names = [found for _, found in EXPORT.findall(text)]
+    text = IMPORT.sub(lambda m: f"const {{{m[1]}}} = module_{m[2]};\n", text)
+    text = EXPORT.sub(r"\1 \2", text)
+    stem = name.removesuffix(".js")
+    return f"const module_{stem} = (() => {{\n{text}return {{ {', '.join(names)} }};\n}})();"
+
+
+def _drop_comments(text: str) -> str:
+    """Return a module without the comments that fill whole lines: they are for its readers."""
+    text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
+    return re.sub(r"^ *//[^\n]*\n", "", text, flags=re.M)

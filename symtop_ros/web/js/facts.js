@@ -1,0 +1,174 @@
+// What the page says and plots of a run: sentences, rates, roots, the potential.
+
+import { EffectivePotential } from "./potential.js";
+import { findRegularRates } from "./precession.js";
+import { judge, judgeKick } from "./verdict.js";
+
+/** @typedef {import("./run.js").Run} Run */
+/** @typedef {import("./run.js").Moment} Moment */
+/** @typedef {import("./run.js").Course} Course */
+/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./wording.js").Writer} Writer */
+/** @typedef {import("./wording.js").Variant} Variant */
+
+const CURVE = 241; // points of a potential
+const SEARCHED = 2001; // tilts among which the box of the potential is found
+const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
+const LISTED = 10; // entries of the history
+const TRACE_NUTATIONS = 12; // longest plot, in nutations
+
+/** @param {number[]} numbers */
+const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
+
+/**
+ * Numbers at equal distances.
+ * @param {number} low
+ * @param {number} high
+ * @param {number} count
+ */
+const spread = (low, high, count) =>
+  Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
+
+/** The time in s that the plots show: one turn of the precession, or some nutations. */
+/** @param {Course} course */
+export const chooseWindow = ({ motion }) => {
+  const { mean_precession_rate: rate, nutation_period: period } = motion.rates;
+  const turn = rate ? (2 * Math.PI) / Math.abs(rate) : Infinity;
+  const shown = Math.min(Number.isNaN(turn) ? Infinity : turn, TRACE_NUTATIONS * period);
+  return Number.isFinite(shown) ? Math.min(Math.max(shown, 0.05), 30) : 5;
+};
+
+/** Tilt and rates; on the vertical all of the spin is psi'. @param {State} state */
+export const describeStart = (state) => {
+  if (state.isVertical) return { theta: state.angles.theta, phi_dot: 0, psi_dot: state.omega[2] };
+  const round = (/** @type {number} */ x) => Math.round(x * 1e6) / 1e6;
+  const { phi, psi } = state.rates;
+  return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
+};
+
+/**
+ * What a kick changed at the highest and the lowest point together.
+ * @param {{kind: string}} highest
+ * @param {{kind: string}} lowest
+ */
+const findSwing = (highest, lowest) => {
+  const kinds = new Set([highest.kind, lowest.kind]);
+  kinds.delete("unchanged");
+  if (kinds.size === 2) return highest.kind === "higher" ? "wider" : "narrower";
+  return [...kinds][0] ?? "same";
+};
+
+/** The records of an event: its headline, and why. @param {Moment} moment */
+const findRecords = ({ record, course, before, last }) => {
+  const { free, isDriven } = course;
+  const headline = {
+    kind: record.kind === "start" ? "start" : "changed",
+    subject: course.top.Mgl < 0 ? "axis" : "top",
+    driven: isDriven,
+    motion: free.motion.kind,
+    turning_angles: free.motion.turning_angles,
+    most: 0,
+  };
+  if (record.kind === "start") {
+    const start = { motion: course.motion.kind, verdict: judge(free) };
+    return { headline, name: "start", outcome: start };
+  }
+  if (record.kind !== "kick" || !before || !last) {
+    return { headline, name: "", outcome: null };
+  }
+  const angles = last.continue(before, { friction: [0, 0], torque: [0, 0, 0] }).motion.turning_angles;
+  const after = { top: course.top, start: course.start, motion: free.motion, isDriven };
+  const outcome = { ...judgeKick(after, before, angles, record.hold ?? null), motion: course.motion.kind };
+  headline.kind = findSwing(outcome.highest, outcome.lowest);
+  headline.most = Math.max(outcome.highest.amount, outcome.lowest.amount);
+  return { headline, name: "kick", outcome };
+};
+
+/**
+ * The box of the potential, its curve in it, and the curve before the last change.
+ * @param {Course} course
+ * @param {State} state
+ * @param {Moment} moment
+ */
+const describePotential = (course, state, { before, last }) => {
+  const potential = new EffectivePotential(course.top, state);
+  const angles = course.continue(state, { friction: [0, 0], torque: [0, 0, 0] }).motion.turning_angles;
+  const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
+  const heights = tilts.map((tilt) => potential.at(tilt));
+  const bottom = Math.min(findLeast(heights), potential.energy);
+  const depth = potential.energy - bottom;
+  const least = LEAST * Math.max(Math.abs(course.top.Mgl), Math.abs(depth), 1e-12);
+  const top = potential.energy + Math.max(ABOVE * depth, least);
+  const near = tilts.filter((_, k) => heights[k] <= top);
+  const [low, high] = [Math.min(near[0] ?? angles[0], angles[0]), Math.max(near.at(-1) ?? angles[1], angles[1])];
+  const margin = 0.04 * Math.max(high - low, 0.1);
+  const [left, right] = [Math.max(0, low - margin), Math.min(Math.PI, high + margin)];
+  const shown = [...spread(left, right, CURVE), ...angles].sort((a, b) => a - b);
+  const sample = (/** @type {EffectivePotential} */ each) => ({
+    theta: shown, height: shown.map((tilt) => Math.min(each.at(tilt), top + (top - bottom))),
+  });
+  return {
+    left, right, bottom: bottom - 0.08 * (top - bottom), top, energy: potential.energy, angles,
+    ...sample(potential),
+    before: before && last ? sample(new EffectivePotential(last.top, before)) : null,
+  };
+};
+
+/** @param {Course} course */
+const listRates = ({ motion }) => {
+  const { nutation_period, mean_precession_rate } = motion.rates;
+  const rows = [["motion", motion.kind]];
+  if (Number.isFinite(nutation_period)) rows.push(["nutation period", `${Number(nutation_period.toPrecision(4))} s`]);
+  if (Number.isFinite(mean_precession_rate)) rows.push(["mean phi'", `${Number(mean_precession_rate.toPrecision(4))} rad/s`]);
+  return rows;
+};
+
+/** The part of an address that starts the motion of the last event. @param {Course} course */
+const writeLink = ({ top, friction, start }) => {
+  const { phi, theta, psi } = start.angles;
+  const rates = start.rates;
+  const values = {
+    ...top, axial: friction[0], transverse: friction[1], phi, theta, psi,
+    theta_dot: rates.theta, phi_dot: rates.phi, psi_dot: rates.psi,
+  };
+  return Object.entries(values).map(([name, value]) => `${name}=${Number(value.toPrecision(6))}`).join("&");
+};
+
+/**
+ * All that holds for the motion after the last event.
+ * @param {Run} run
+ * @param {Writer} writer
+ * @param {number} time
+ */
+export const describe = (run, writer, time) => {
+  const moment = run.find(time);
+  const state = run.at(time);
+  const { course } = moment;
+  const past = run.moments.slice(0, run.findPlace(time) + 1);
+  const announced = past.findLast(({ record }) => record.kind !== "torque") ?? moment;
+  const { headline, name, outcome } = findRecords(announced);
+  const say = (/** @type {Variant} */ variant) => ({
+    headline: writer.write("headline", headline, variant),
+    why: outcome ? writer.write(name, outcome, variant) : "",
+  });
+  const start = describeStart(course.start);
+  const isNew = announced.record.kind === "start";
+  return {
+    ...say("radians"),
+    degrees: say("degrees"),
+    top: {
+      "top.Ix": course.top.Ix, "top.Iz": course.top.Iz, "top.Mgl": course.top.Mgl,
+      "friction.axial": course.friction[0], "friction.transverse": course.friction[1],
+    },
+    start,
+    roots: findRegularRates(course.top, start.theta, start.psi_dot),
+    window: chooseWindow(course.free),
+    since: run.findStart(time),
+    marks: run.moments.filter(({ record }) => record.kind === "kick").map(({ record }) => record.time),
+    potential: describePotential(course, course.isDriven ? state : course.start, isNew ? { ...moment, before: null } : announced),
+    table: listRates(course.free),
+    history: run.moments.map(({ record }, k) => [k, record.request ?? record.kind])
+      .filter(([k]) => run.moments[Number(k)].record.kind !== "torque").slice(-LISTED).reverse(),
+    link: writeLink(course),
+  };
+};

@@ -1,0 +1,232 @@
+// WebGL 2 for the scene: lit meshes, and lines as ribbons of equal width on the screen.
+
+/** @typedef {import("./meshes.js").Mesh} Mesh */
+/** @typedef {import("./meshes.js").Color} Color */
+/** @typedef {{array: WebGLVertexArrayObject, count: number}} Model a mesh on the graphics card */
+
+const MESH_VERTEX = `#version 300 es
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 color;
+uniform mat4 view, pose;
+out vec3 at, facing, paint;
+void main() {
+  vec4 place = pose * vec4(position, 1.0);
+  at = place.xyz;
+  facing = mat3(pose) * normal;
+  paint = color;
+  gl_Position = view * place;
+}`;
+// A lamp behind the eye's right shoulder, light from the sky, and a gloss.
+const MESH_FRAGMENT = `#version 300 es
+precision highp float;
+in vec3 at, facing, paint;
+uniform vec3 eye;
+uniform float opacity, flatness;
+out vec4 result;
+void main() {
+  vec3 to_eye = normalize(eye - at), n = normalize(facing);
+  if (dot(n, to_eye) < 0.0) n = -n;
+  vec3 lamp = normalize(vec3(0.55, -0.35, 1.1));
+  float lit = 0.42 + 0.16 * n.z + 0.48 * max(dot(n, lamp), 0.0);
+  float gloss = 0.22 * pow(max(dot(n, normalize(lamp + to_eye)), 0.0), 40.0);
+  vec3 shaded = paint * lit + gloss;
+  result = vec4(mix(shaded, paint, flatness) * opacity, opacity);
+}`;
+// The two ends of a piece, and which corner of its ribbon this is.
+const LINE_VERTEX = `#version 300 es
+layout(location = 0) in vec3 from;
+layout(location = 1) in vec3 to;
+layout(location = 2) in vec2 corner;
+uniform mat4 view, pose;
+uniform vec2 screen;
+uniform float width;
+void main() {
+  vec4 a = view * pose * vec4(from, 1.0), b = view * pose * vec4(to, 1.0);
+  vec2 along = (b.xy / b.w - a.xy / a.w) * screen;
+  vec2 across = length(along) > 1e-6 ? normalize(vec2(-along.y, along.x)) : vec2(0.0, 1.0);
+  vec4 end = corner.x > 0.5 ? b : a;
+  end.xy += across * corner.y * width / screen * end.w;
+  gl_Position = end;
+}`;
+const LINE_FRAGMENT = `#version 300 es
+precision highp float;
+uniform vec4 color;
+out vec4 result;
+void main() { result = vec4(color.rgb * color.a, color.a); }`;
+// A soft shadow: darkest in the middle of its disc.
+const SHADOW_FRAGMENT = `#version 300 es
+precision highp float;
+in vec3 at, facing, paint;
+uniform vec3 middle;
+uniform float opacity, radius;
+out vec4 result;
+void main() {
+  float far = length(at.xy - middle.xy) / radius;
+  result = vec4(0.0, 0.0, 0.0, opacity * pow(max(1.0 - far, 0.0), 1.5));
+}`;
+const CORNERS = [0, -1, 0, 1, 1, -1, 1, 1];
+
+export class Painter {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
+    if (!gl) throw new Error("this browser has no WebGL 2: the scene cannot be drawn");
+    this.gl = gl;
+    this.canvas = canvas;
+    this.meshes = this.link(MESH_VERTEX, MESH_FRAGMENT);
+    this.lines = this.link(LINE_VERTEX, LINE_FRAGMENT);
+    this.shadows = this.link(MESH_VERTEX, SHADOW_FRAGMENT);
+    this.corners = this.fill(new Float32Array(CORNERS));
+    this.pieces = /** @type {WebGLBuffer} */ (gl.createBuffer());
+    gl.enable(gl.DEPTH_TEST);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  }
+
+  /**
+   * @param {string} vertex
+   * @param {string} fragment
+   */
+  link(vertex, fragment) {
+    const { gl } = this;
+    const program = /** @type {WebGLProgram} */ (gl.createProgram());
+    for (const [kind, text] of /** @type {[number, string][]} */ ([[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]])) {
+      const shader = /** @type {WebGLShader} */ (gl.createShader(kind));
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+      throw new Error(`the scene cannot be drawn: ${gl.getProgramInfoLog(program)}`);
+    }
+    return program;
+  }
+
+  /** @param {Float32Array} numbers */
+  fill(numbers) {
+    const { gl } = this;
+    const buffer = /** @type {WebGLBuffer} */ (gl.createBuffer());
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
+    return buffer;
+  }
+
+  /**
+   * @param {Mesh} mesh
+   * @returns {Model}
+   */
+  load({ positions, normals, colors }) {
+    const { gl } = this;
+    const array = /** @type {WebGLVertexArrayObject} */ (gl.createVertexArray());
+    gl.bindVertexArray(array);
+    [positions, normals, colors].forEach((numbers, place) => {
+      this.fill(new Float32Array(numbers));
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+    });
+    gl.bindVertexArray(null);
+    return { array, count: positions.length / 3 };
+  }
+
+  /**
+   * Begin a picture.
+   * @param {number[]} view matrix of the camera
+   * @param {number[]} eye
+   */
+  begin(view, eye) {
+    const { gl, canvas } = this;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((n) => Math.max(1, Math.round(n * ratio)));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.depthMask(true);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    this.ratio = ratio;
+    this.view = view;
+    this.eye = eye;
+  }
+
+  /**
+   * @param {WebGLProgram} program
+   * @param {number[]} pose
+   */
+  use(program, pose) {
+    const { gl } = this;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(gl.getUniformLocation(program, "view"), false, /** @type {number[]} */ (this.view));
+    gl.uniformMatrix4fv(gl.getUniformLocation(program, "pose"), false, pose);
+    return (/** @type {string} */ name) => gl.getUniformLocation(program, name);
+  }
+
+  /**
+   * @param {Model} model
+   * @param {number[]} pose
+   * @param {number} opacity of what lets others through no depth is kept
+   * @param {number} flatness 1 for the plain colour
+   */
+  drawMesh(model, pose, opacity = 1, flatness = 0) {
+    const { gl } = this;
+    const find = this.use(this.meshes, pose);
+    gl.uniform3fv(find("eye"), /** @type {number[]} */ (this.eye));
+    gl.uniform1f(find("opacity"), opacity);
+    gl.uniform1f(find("flatness"), flatness);
+    gl.depthMask(opacity === 1);
+    gl.bindVertexArray(model.array);
+    gl.drawArrays(gl.TRIANGLES, 0, model.count);
+    gl.depthMask(true);
+  }
+
+  /**
+   * @param {Model} disc
+   * @param {number[]} pose
+   * @param {number[]} middle
+   * @param {number} radius
+   * @param {number} opacity
+   */
+  drawShadow(disc, pose, middle, radius, opacity) {
+    const { gl } = this;
+    const find = this.use(this.shadows, pose);
+    gl.uniform3fv(find("middle"), middle);
+    gl.uniform1f(find("radius"), radius);
+    gl.uniform1f(find("opacity"), opacity);
+    gl.depthMask(false);
+    gl.bindVertexArray(disc.array);
+    gl.drawArrays(gl.TRIANGLES, 0, disc.count);
+    gl.depthMask(true);
+  }
+
+  /**
+   * Draw pieces of lines, each from one point to the next: six numbers a piece.
+   * @param {Float32Array} pieces
+   * @param {Color} color
+   * @param {number} width in px
+   * @param {number[]} pose
+   * @param {number} opacity
+   */
+  drawLines(pieces, color, width, pose, opacity = 1) {
+    const { gl, canvas } = this;
+    if (!pieces.length) return;
+    const find = this.use(this.lines, pose);
+    gl.uniform2f(find("screen"), canvas.width / 2, canvas.height / 2);
+    gl.uniform1f(find("width"), (width * (this.ratio ?? 1)) / 2);
+    gl.uniform4f(find("color"), ...color, opacity);
+    gl.bindVertexArray(null);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.pieces);
+    gl.bufferData(gl.ARRAY_BUFFER, pieces, gl.DYNAMIC_DRAW);
+    for (const place of [0, 1]) {
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 24, 12 * place);
+      gl.vertexAttribDivisor(place, 1);
+    }
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
+    gl.enableVertexAttribArray(2);
+    gl.vertexAttribPointer(2, 2, gl.FLOAT, false, 0, 0);
+    gl.vertexAttribDivisor(2, 0);
+    gl.depthMask(opacity === 1);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, pieces.length / 6);
+    gl.depthMask(true);
+  }
+}
