@@ -141,6 +141,7 @@ setup(
             "py.typed",
             "log/definitions.json",
             "web/*.js",
+            "web/js/*.js",
             "web/*.html",
             "web/*.yaml",
             "web/*.wasm",

@@ -144,6 +144,19 @@ def test_pip_installs_the_same_tree(sources, tmp_path):
     assert_tree(tmp_path, tmp_path / "bin")
 
 
+def test_every_file_of_the_package_is_installed(sources, tmp_path):
+    setup = [sys.executable, "setup.py", "-q", "build_py", "-d", str(tmp_path)]
+    subprocess.run(setup, cwd=sources, check=True, timeout=60, capture_output=True)
+    built = ".pyc", ".so"
+    needed, found = (
+        {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+        for folder in (sources / "symtop_ros", tmp_path / "symtop_ros")
+    )
+    # the digest is for those who build the module anew
+    missing = {each for each in needed - found if not each.endswith(built)}
+    assert missing == {"web/kernel.sha256"}
+
+
 def test_an_sdist_has_what_is_installed(sources, tmp_path):
     setup = [sys.executable, "setup.py", "-q", "sdist", "-d", str(tmp_path)]
     subprocess.run(setup, cwd=sources, check=True, timeout=60, capture_output=True)

@@ -45,6 +45,7 @@ def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, c
         if name not in ("symtop_ros.programs",) and ".physics" not in name:
             monkeypatch.delitem(sys.modules, name)
     monkeypatch.setattr(builtins, "__import__", without)
+    monkeypatch.setattr(sys, "argv", [program.__name__])
     assert program() == 1
     assert f"{missing} is missing: {remedy}" in capsys.readouterr().err
 

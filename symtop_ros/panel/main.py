@@ -7,13 +7,15 @@ import sys
 import threading
 import webbrowser
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from symtop_ros.panel.page import Page
-from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES
-from symtop_ros.panel.source import LocalTop, Source
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import write_file
+
+if TYPE_CHECKING:
+    from symtop_ros.panel.page import Page
+    from symtop_ros.panel.source import Source
 
 PORT = 8015
 SCENE = "hurry_slow"
@@ -34,8 +36,10 @@ def main(args: list[str] | None = None) -> int:
     if rest and not (options.node and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest), 200)}")
     try:
-        if options.write:
+        if options.write:  # needs neither viser nor ROS
             return _write(options.write)
+        from symtop_ros.panel.source import LocalTop
+
         ending = threading.Event()
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: ending.set())
@@ -43,6 +47,8 @@ def main(args: list[str] | None = None) -> int:
             return _show_node(options, ["top_panel", *arguments], ending)
         return _show(options, LocalTop(options.scene, SPEED), ending)
     except ModuleNotFoundError as error:
+        if error.name != "rclpy":  # the entry point says what is missing, and what brings it
+            raise
         text = f"{error.name} is missing: source a ROS 2, or pip install '.[ros]' in the checkout"
         print(f"top_panel: {text}", file=sys.stderr)
         return 1
@@ -76,7 +82,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--host",
-        default=LOCAL_HOST,
         help="address to listen on (default: this machine only); who can reach it may kick",
     )
     parser.add_argument(
@@ -93,9 +98,13 @@ def _port(text: str) -> int:
     return port
 
 
-def _show(options: argparse.Namespace, source: Source, ending: threading.Event) -> int:
+def _show(options: argparse.Namespace, source: "Source", ending: threading.Event) -> int:
     """Serve the page of a top until `ending` is set; then write what was asked for."""
+    from symtop_ros.panel.page import Page
+    from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES
+
     _check_target(options.save)
+    options.host = options.host or LOCAL_HOST
     try:
         page = Page(source, options.host, options.port)
     except OSError as error:
@@ -132,7 +141,7 @@ def _check_target(path: Path | None, option: str = "--save") -> None:
         raise ValueError(f"{option} must be a name that ends in .html in a folder, got {path}")
 
 
-def _save(page: Page, path: Path) -> None:
+def _save(page: "Page", path: Path) -> None:
     content = page.save_run()
     if content is None:
         raise ValueError("nothing is saved: no page was open, so that the top did not move")
