@@ -225,14 +225,14 @@ def test_attributes_are_made_in_the_constructor():
                     assert set().union(*made.values()) <= first, (path, node.name)
 
 
-# Files that look names of other programs up: message classes and fields of ROS, arguments of peers.
-FOREIGN = {"node/services.py", "simulation/topics.py", "report/filters.py"}
+# Files that look names of other programs up: message classes and fields of ROS.
+FOREIGN = {"node/services.py", "simulation/topics.py"}
 
 
 def test_no_name_of_this_package_is_looked_up_by_a_string_that_is_computed():
     for path in sorted((ROOT / "symtop_ros").rglob("*.py")):
         name = path.relative_to(ROOT / "symtop_ros").as_posix()
-        if name in FOREIGN or name.startswith(("report/peers/", "physics/")):
+        if name in FOREIGN or name.startswith("physics/"):
             continue
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
