@@ -140,7 +140,7 @@ setup(
         NAME: [
             "py.typed",
             "log/definitions.json",
-            "web/*.js",
+            "web/*.css",
             "web/js/*.js",
             "web/*.html",
             "web/*.yaml",

@@ -31,9 +31,8 @@ POLICY = (
 
 def write_file() -> str:
     """Return the page as one document."""
-    markup, lesson, page = (
-        (FOLDER / name).read_text(encoding="utf-8")
-        for name in ("page.html", "lesson.js", "page.js")
+    markup, style = (
+        (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
     content = json.dumps(collect_content()).replace("<", "\\u003c")  # no end of a script in it
     parts = [
@@ -41,10 +40,8 @@ def write_file() -> str:
         f"window.TOP_CONTENT = {content};",
         "/*RUN*/",
         join_modules(),
-        lesson,
-        page,
     ]
-    markup = re.sub(r"  <iframe [^\n]*\n", "", markup).replace("<head>", f"<head>\n{POLICY}", 1)
+    markup = markup.replace("<head>", f"<head>\n{POLICY}", 1).replace("/*STYLE*/", style, 1)
     return markup.replace("/*SCRIPT*/", "\n".join(parts), 1)
 
 
@@ -71,11 +68,13 @@ def _read_values(name: str) -> dict[str, Any]:
 
 
 def join_modules() -> str:
-    """Return all modules as one script, which defines `startTop`."""
+    """Return all modules as one script, which starts the page."""
     ordered: list[str] = []
     _order(MAIN, ordered)
     functions = [_write_function(name) for name in ordered]
-    return "\n".join([*functions, "window.startTop = module_start.startTop;"])
+    return "\n".join(
+        [*functions, f"module_{MAIN[:-3]}.start(window.TOP_CONTENT, window.TOP_SOURCE);"]
+    )
 
 
 def _order(name: str, ordered: list[str]) -> None:
