@@ -26,8 +26,10 @@ export const start = async (content, source) => {
   const page = new Page(content);
   try {
     const kernel = await Kernel.load(decode(content.kernel));
-    Object.assign(window, { symtop: { motion: kernel.motion.bind(kernel) } });
     const top = new LocalTop(kernel, new Writer(content.templates), { ...content, layers: LAYERS });
+    // For scripts of the page: motions of their own, and the run as in run.json.
+    const symtop = { motion: kernel.motion.bind(kernel), run: () => top.run.json };
+    Object.assign(window, { symtop });
     const scene = new Scene(find("scene"), top);
     top.tell = (message) => page.receive(message);
     top.draw = (state, states) => scene.draw(state, states);
