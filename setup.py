@@ -135,7 +135,7 @@ setup(
         NAME: [
             "py.typed",
             "log/definitions.json",
-            "web/*.js",
+            "web/*.css",
             "web/js/*.js",
             "web/*.html",
             "web/*.yaml",

@@ -36,9 +36,8 @@ def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: st
     It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), and belong
     to a running node, given by its name.
     """
-    markup, lesson, page = (
-        (FOLDER / name).read_text(encoding="utf-8")
-        for name in ("page.html", "lesson.js", "page.js")
+    markup, style = (
+        (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
     content = {**collect_content(), "opening": opening, "node": node}
     parts = [
@@ -46,10 +45,8 @@ def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: st
         f"window.TOP_CONTENT = {_write_data(content)};",
         f"/*RUN*/window.TOP_CONTENT.run = {_write_data(run)};/*END*/",
         join_modules(),
-        lesson,
-        page,
     ]
-    markup = re.sub(r"  <iframe [^\n]*\n", "", markup).replace("<head>", f"<head>\n{POLICY}", 1)
+    markup = markup.replace("<head>", f"<head>\n{POLICY}", 1).replace("/*STYLE*/", style, 1)
     return markup.replace("/*SCRIPT*/", "\n".join(parts), 1)
 
 
@@ -81,11 +78,13 @@ def _read_values(name: str) -> dict[str, Any]:
 
 
 def join_modules() -> str:
-    """Return all modules as one script, which defines `startTop`."""
+    """Return all modules as one script, which starts the page."""
     ordered: list[str] = []
     _order(MAIN, ordered)
     functions = [_write_function(name) for name in ordered]
-    return "\n".join([*functions, "window.startTop = module_start.startTop;"])
+    return "\n".join(
+        [*functions, f"module_{MAIN[:-3]}.start(window.TOP_CONTENT, window.TOP_SOURCE);"]
+    )
 
 
 def _order(name: str, ordered: list[str]) -> None:
