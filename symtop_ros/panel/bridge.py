@@ -116,7 +116,7 @@ class Bridge:
             if argument is not None and not isinstance(argument, dict | bool):
                 raise RefusedError(f"argument must be named values, true or false, for {name}")
             with self._calls:  # one at a time: two pages may ask at once
-                granted, text = self._connection.request(name, argument)
+                granted, text = self._connection.request(name, _to_doubles(argument))
         except (RefusedError, UnreachableError) as error:
             granted, text = False, str(error)
         except (TypeError, ValueError, AttributeError) as error:  # a value that ROS has no type for
@@ -252,3 +252,12 @@ class Bridge:
         self._ending.set()
         self._thread.join(timeout=2.0)
         self._executor.shutdown(timeout_sec=0.0)
+
+
+def _to_doubles(value: Any) -> Any:
+    """Return a value with doubles for integers: JSON writes 200.0 as 200, and ROS is strict."""
+    if isinstance(value, dict):
+        return {name: _to_doubles(each) for name, each in value.items()}
+    if isinstance(value, list):
+        return [_to_doubles(each) for each in value]
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value

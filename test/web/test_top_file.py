@@ -9,6 +9,7 @@ import pytest
 from browser import running_browser
 
 from symtop_ros.physics import (
+    ExactTimes,
     Motion,
     State,
     Top,
@@ -98,6 +99,11 @@ def read_motion(event):
     return Motion(Top(*event["top"]), read_state(event))
 
 
+def find_time(before, event):
+    """The exact time between two events, which is a whole number of nanoseconds."""
+    return ExactTimes(round(event["time"] * 1e9) - round(before["time"] * 1e9))
+
+
 def test_the_file_is_small(path):
     assert path.stat().st_size < LARGEST
 
@@ -107,7 +113,7 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened, tmp_path):
     opened.tab.click("#hurry")
     why = opened.say("why")
     start, kick = opened.read_run(tmp_path)["events"]
-    before = read_motion(start).at(kick["time"] - start["time"])
+    before = read_motion(start).at(find_time(start, kick))
     after = hurry(before, 1.4)
     assert kick["orientation"] == after.given_orientation.tolist()
     assert kick["angular_velocity"] == after.angular_velocity.tolist()
@@ -405,6 +411,6 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
         assert round(event["time"] * 1e9) / 1e9 == event["time"]
     assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
     assert along["act"] == {"precession_rate_change": 1, "hold": "spin_momentum"}
-    before = read_motion(kick).at(round((up["time"] - kick["time"]) * 1e9) / 1e9)
+    before = read_motion(kick).at(find_time(kick, up))
     after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
     assert up["angular_velocity"] == after.angular_velocity.tolist()
