@@ -2,7 +2,7 @@
 
 import time
 
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import ExactTimes, Motion, State, Top
 
 TIMEOUT = 20.0  # s; ends a test that hangs, and is never waited for
 NO_REQUESTS = "file:", "blob:", "data:"
@@ -89,3 +89,8 @@ def read_state(event):
 
 def read_motion(event):
     return Motion(Top(*event["top"]), read_state(event))
+
+
+def find_time(before, event):
+    """Return the exact time between two events, which is a whole number of nanoseconds."""
+    return ExactTimes(round(event["time"] * 1e9) - round(before["time"] * 1e9))

@@ -4,9 +4,17 @@ import math
 
 import numpy as np
 import pytest
-from web.opened import read_motion, read_state
+from web.opened import find_time, read_motion, read_state
 
-from symtop_ros.physics import Motion, Top, apply_impulse, hurry, kick_verdict, perrys_rule
+from symtop_ros.physics import (
+    ExactTimes,
+    Motion,
+    Top,
+    apply_impulse,
+    hurry,
+    kick_verdict,
+    perrys_rule,
+)
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
@@ -18,7 +26,7 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
     opened.tab.click("#hurry")
     why = opened.say("why")
     start, kick = opened.read_run()["events"]
-    before = read_motion(start).at(kick["time"] - start["time"])
+    before = read_motion(start).at(find_time(start, kick))
     after = hurry(before, 1.4)
     assert kick["orientation"] == after.given_orientation.tolist()
     assert kick["angular_velocity"] == after.angular_velocity.tolist()
@@ -74,7 +82,8 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
     head, *rows = opened.save("Series (CSV)", tmp_path).read_text().splitlines()
     assert head == "time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"
     table = np.array([row.split(",") for row in rows], float)
-    states = read_motion(event).at(table[:, 0] - event["time"])
+    stamps = np.rint(table[:, 0] * 1e9).astype(np.int64)
+    states = read_motion(event).at(ExactTimes(stamps))
     assert table[:, 1].tolist() == states.euler_angles.theta.tolist()
     assert table[:, 2] == pytest.approx(states.euler_rates.phi, rel=1e-14)
 
@@ -116,6 +125,6 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
         assert round(event["time"] * 1e9) / 1e9 == event["time"]
     assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
     assert along["act"] == {"precession_rate_change": 1, "hold": "spin_momentum"}
-    before = read_motion(kick).at(round((up["time"] - kick["time"]) * 1e9) / 1e9)
+    before = read_motion(kick).at(find_time(kick, up))
     after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
     assert up["angular_velocity"] == after.angular_velocity.tolist()

@@ -23,7 +23,7 @@ def test_a_saved_page_holds_the_run_and_goes_on(opened, open_page, tmp_path):
     grown = saved.stat().st_size - len(write_file().encode())
     assert grown < 20_000
     other = open_page(file=saved)
-    assert other.read_run() == wanted
+    assert other.read_run()["events"] == wanted["events"]
     other.tab.click("#hurry")
     events = other.read_run()["events"]
     assert events[:-1] == wanted["events"]
@@ -43,7 +43,7 @@ def test_a_run_that_is_dropped_is_opened(opened):
         json.dumps(run),
     )
     opened.until(lambda: "higher" in opened.say("headline"))
-    assert opened.read_run() == run
+    assert opened.read_run()["events"] == run["events"]
 
 
 def test_a_frame_of_another_site_shows_the_top(browser, path):
@@ -100,5 +100,5 @@ def test_the_picture_moves_and_can_be_saved(opened, tmp_path):
 def test_the_run_is_saved_as_json(opened, tmp_path):
     opened.tab.click("#hurry")
     saved = json.loads(opened.save("This run (JSON)", tmp_path).read_text())
-    assert saved == opened.read_run()
+    assert saved["events"] == opened.read_run()["events"]
     assert [event["kind"] for event in saved["events"]] == ["start", "kick"]

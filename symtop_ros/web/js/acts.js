@@ -27,10 +27,7 @@ const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
  * @param {State} after
  * @param {import("./run.js").Asked} asked
  */
-const addKick = (top, after, asked) => {
-  top.run.add("kick", top.time, top.course.continue(after), asked);
-  top.changed();
-};
+const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
 
 /** @param {LocalTop} top @param {Message} message */
 const kick = (top, { factor, hold = "spin_rate" }) => {
@@ -82,18 +79,23 @@ export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
 };
 
 /**
- * A torque about the vertical beside that of the scene.
+ * The torque of the buttons, about the vertical, in N m.
+ * @param {Course} course
+ */
+export const findTorque = ({ top: { Ix, Mgl } }) => TORQUE_SHARE * (Math.abs(Mgl) || Ix);
+
+/**
+ * Apply a torque about the vertical together with that of the scene.
  * @param {LocalTop} top
  * @param {number} sign 0 for no torque
  */
 export const holdTorque = (top, sign) => {
-  const { Ix, Mgl } = top.course.top;
   const [x, y, z] = top.steady;
   /** @type {Vector} */
-  const torque = [x, y, z + sign * TORQUE_SHARE * (Math.abs(Mgl) || Ix)];
+  const torque = [x, y, z + sign * findTorque(top.course)];
   top.torqueUntil = sign ? performance.now() + TORQUE_LASTS : 0;
   if (top.course.torque[2] === torque[2]) return;
-  top.run.add("torque", top.time, top.course.continue(top.state, { torque }));
+  top.add("torque", top.course.continue(top.state, { torque }));
   top.tellFacts();
 };
 
@@ -103,10 +105,8 @@ export const holdTorque = (top, sign) => {
  * @param {string} request
  */
 const begin = (top, { top: own, friction, start }, request) => {
-  const course = new Course(top.kernel, own, start, friction, top.steady);
-  top.run.add("start", top.time, course, { request });
+  top.add("start", new Course(top.kernel, own, start, friction, top.steady), { request });
   top.initial = start;
-  top.changed();
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -149,16 +149,13 @@ const setParameter = (top, { name, value }) => {
   if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
   const course = top.course.continue(top.state, { top: own, friction });
-  top.run.add("change", top.time, course, { request: `${key} changed to ${writeShort(value)}` });
-  top.changed();
+  top.add("change", course, { request: `${key} changed to ${writeShort(value)}` });
 };
 
 /** @param {LocalTop} top */
 const step = (top) => {
-  top.isRunning = false;
   const length = Math.min(top.course.free.motion.nutation_period / STEPS, LONGEST_STEP);
-  top.time += Math.round(length * NANO);
-  top.end = Math.max(top.end, top.time);
+  top.step(Math.round(length * NANO));
 };
 
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
@@ -182,22 +179,14 @@ const EVENTS = {
 const VIEWS = {
   step,
   load: (top, { run }) => top.load(run),
-  pause: (top) => {
-    top.isRunning = !top.isRunning;
-  },
-  rest: (top) => {
-    top.isRunning = false;
-  },
-  run: (top) => {
-    top.isRunning = true;
-  },
+  pause: (top) => top.setRunning(!top.isRunning),
+  rest: (top) => top.setRunning(false),
+  run: (top) => top.setRunning(true),
   seek: (top, { time }) => top.seek(Math.round(time * NANO)),
   show: (top, { layer, shown }) => {
     top.layers[layer] = shown;
   },
-  speed: (top, { factor }) => {
-    top.speed = factor;
-  },
+  speed: (top, { factor }) => top.setSpeed(factor),
 };
 
 /** Do what a page asks for; a refusal is thrown. @type {Act} */

@@ -1,6 +1,7 @@
 // What the page says and plots of a run: sentences, rates, roots, the potential.
 
 import { NANO } from "./course.js";
+import { listHistory } from "./history.js";
 import { EffectivePotential } from "./potential.js";
 import { findRegularRates } from "./precession.js";
 import { judge, judgeKick } from "./verdict.js";
@@ -19,7 +20,6 @@ import { judge, judgeKick } from "./verdict.js";
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
-const LISTED = 10; // entries of the history
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** @param {number[]} numbers */
@@ -160,21 +160,6 @@ const writeLink = ({ top, friction, start }) => {
   return Object.entries(values)
     .map(([name, value]) => `${name}=${Number(value.toPrecision(6))}`)
     .join("&");
-};
-
-/**
- * The last entries of the history: their places in the run, and what was asked for.
- * @param {Run} run
- * @returns {[number, string][]}
- */
-const listHistory = ({ moments }) => {
-  const places = moments
-    .map((_, place) => place)
-    .filter((place) => moments[place].kind !== "torque");
-  return places
-    .slice(-LISTED)
-    .reverse()
-    .map((place) => [place, moments[place].asked.request ?? moments[place].kind]);
 };
 
 /**

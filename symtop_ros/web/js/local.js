@@ -38,6 +38,7 @@ export class LocalTop {
     this.end = 0; // ns; the latest time that was reached
     this.window = 1; // s that trace and charts show
     this.isRunning = true;
+    this.isRecording = false; // a node can record
     this.speed = SPEED;
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
@@ -60,6 +61,11 @@ export class LocalTop {
     if (run) this.load(run);
     this.tellFacts();
     this.tell({ hello: { scenes, layers, lesson } });
+    this.animate();
+  }
+
+  /** Advance and draw with every frame from now on. */
+  animate() {
     let before = performance.now();
     const step = (/** @type {number} */ now) => {
       this.advance(now - before, now);
@@ -86,6 +92,34 @@ export class LocalTop {
     this.time = time + course.reach(wanted - time, MOST_STEPS);
     this.end = Math.max(this.end, this.time);
     if (this.course !== course) this.changed();
+  }
+
+  /**
+   * Add an event at the present time.
+   * @param {import("./run.js").Kind} kind
+   * @param {import("./course.js").Course} course that follows
+   * @param {import("./run.js").Asked} [asked]
+   */
+  add(kind, course, asked) {
+    this.run.add(kind, this.time, course, asked);
+    this.changed();
+  }
+
+  /** @param {boolean} isRunning */
+  setRunning(isRunning) {
+    this.isRunning = isRunning;
+  }
+
+  /** @param {number} speed of real time */
+  setSpeed(speed) {
+    this.speed = speed;
+  }
+
+  /** Pause, and advance by a part of a motion. @param {number} length ns */
+  step(length) {
+    this.isRunning = false;
+    this.time += length;
+    this.end = Math.max(this.end, this.time);
   }
 
   /** Go to a time of the run. @param {number} time ns */
@@ -116,7 +150,8 @@ export class LocalTop {
     return Array.from({ length: POINTS + 1 }, (_, n) => {
       const time =
         n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS);
-      return { time, state: this.run.at(time), ghost: this.run.findGhost(time) };
+      const state = n === POINTS ? this.state : this.run.at(time);
+      return { time, state, ghost: this.run.findGhost(time) };
     });
   }
 
@@ -148,9 +183,8 @@ export class LocalTop {
 
   tellFacts() {
     const facts = describe(this.run, this.writer, this.time);
-    this.tell({
-      facts: { ...facts, running: this.isRunning, factor: this.speed, recording: false },
-    });
+    const { isRunning: running, speed: factor, isRecording: recording } = this;
+    this.tell({ facts: { ...facts, running, factor, recording } });
   }
 
   /**
@@ -168,10 +202,16 @@ export class LocalTop {
     this.tellFacts();
   }
 
+  /** What run.json holds. */
+  get json() {
+    return { ...this.run.json, end: this.end / NANO };
+  }
+
   /** @param {any} run of run.json */
   load(run) {
     this.run.load(run);
-    this.time = this.end = this.run.moments[this.run.moments.length - 1].time;
+    const last = this.run.moments[this.run.moments.length - 1].time;
+    this.time = this.end = Math.max(last, Math.round((run.end ?? 0) * NANO));
     this.initial = this.run.moments[0].course.start;
     this.isRunning = false;
     this.changed();

@@ -25,11 +25,11 @@ import { drawWell } from "./well_chart.js";
 /** @typedef {{[name: string]: any}} Message */
 /**
  * A top of the page: it takes messages, and its answers are told.
- * @typedef {{take: (message: Message) => void, run: {json: object}, csv: string}} Top
+ * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
  */
 
 export class Page {
-  /** @param {{node?: boolean, run?: any}} content of the file */
+  /** @param {{node?: string, opening?: string, run?: any}} content of the file */
   constructor(content) {
     this.content = content;
     /** @type {Top | null} */
@@ -110,7 +110,19 @@ export class Page {
     const lesson = new Lesson(steps, this.send.bind(this), this.layers.choose.bind(this.layers));
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (!this.content.node && (isCalm || this.content.run)) this.send({ act: "rest" });
-    followAddress(lesson.open.bind(lesson), (link) => this.send({ act: "link", link }));
+    const { opening = "" } = this.content;
+    followAddress(opening, lesson.open.bind(lesson), (link) => this.followLink(link));
+  }
+
+  /**
+   * Start what the address asks for. Any page may have led here: others watch a node, so that its
+   * user is asked.
+   * @param {{[name: string]: string}} link
+   */
+  followLink(link) {
+    const fields = Object.entries(link).map((pair) => pair.join(" = "));
+    const question = `A link asks ${this.content.node} for this start: ${fields.join(", ")}. Start it?`;
+    if (!this.content.node || confirm(question)) this.send({ act: "link", link });
   }
 
   /** @param {Facts} facts */

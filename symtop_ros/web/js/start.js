@@ -2,6 +2,7 @@
 
 import { Kernel } from "./kernel.js";
 import { LocalTop } from "./local.js";
+import { NodeTop } from "./node.js";
 import { refuse } from "./notices.js";
 import { Page } from "./page.js";
 import { LAYERS, Scene } from "./scene.js";
@@ -9,10 +10,10 @@ import { find } from "./document.js";
 import { Writer } from "./wording.js";
 
 /**
- * What the file holds: the module in base64, the templates, scenes and the lesson; a run, if one
- * was saved; and whether it shows a running node.
+ * What the file holds: the module in base64, the templates, scenes and the lesson; what it opens as
+ * the end of an address does; a run, if one was saved; and the name of a node, if it shows one.
  * @typedef {{kernel: string, templates: {[key: string]: string}, scenes: any[], lesson: any[],
- *   run?: any, node?: boolean}} Content
+ *   opening?: string, run?: any, node?: string}} Content
  */
 
 /** @param {string} text base64 */
@@ -26,9 +27,10 @@ export const start = async (content, source) => {
   const page = new Page(content);
   try {
     const kernel = await Kernel.load(decode(content.kernel));
-    const top = new LocalTop(kernel, new Writer(content.templates), { ...content, layers: LAYERS });
+    const Top = content.node ? NodeTop : LocalTop;
+    const top = new Top(kernel, new Writer(content.templates), { ...content, layers: LAYERS });
     // For scripts of the page: motions of their own, and the run as in run.json.
-    const symtop = { motion: kernel.motion.bind(kernel), run: () => top.run.json };
+    const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
     Object.assign(window, { symtop });
     const scene = new Scene(find("scene"), top);
     top.tell = (message) => page.receive(message);
