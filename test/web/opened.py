@@ -35,7 +35,9 @@ class Opened:
         assert all(request.startswith(NO_REQUESTS) for request in self.requests)
 
     def say(self, name):
-        return self.tab.text_content(f"#{name}")
+        """Return a text as it was before its symbols became formulas."""
+        place = self.tab.locator(f"#{name}")
+        return place.get_attribute("data-text") or place.text_content()
 
     def open_tab(self, name):
         self.tab.click(f"#tab-{name}")
@@ -47,6 +49,11 @@ class Opened:
             self.open_tab("start")
         field.fill(text)
         field.press("Enter")
+
+    def press(self, key):
+        """Press a key while no field has the focus."""
+        self.tab.evaluate("document.activeElement.blur()")
+        self.tab.keyboard.press(key)
 
     def save(self, text, folder):
         """Download what a button of the tab Save gives; return its path."""

@@ -53,7 +53,8 @@ def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened):
         ("theta", "4", "tilt theta must be 0 to pi rad, got 4"),
         ("theta", "abc", "tilt theta must be a number, got abc"),
         ("top\\.Iz", "1", "Ix, Iz and Mgl must be finite"),
-        ("friction\\.axial", "-1", "friction.axial must be >= 0 N m s, got -1"),
+        ("top\\.Ix", "0", "Ix, across the axis (kg m²) must be positive, got 0"),
+        ("friction\\.axial", "-1", "friction, axial (N m s) must be 0 or more, got -1"),
     ):
         opened.tab.fill(f"#field-{field}", text)
         opened.tab.press(f"#field-{field}", "Enter")
@@ -73,3 +74,26 @@ def test_the_slider_reaches_the_lower_vertical(opened):
 def test_caps_lock_disables_no_key(opened):
     opened.tab.keyboard.press("H")
     assert "higher" in opened.say("headline")
+
+
+def test_keys_that_move_through_the_list_of_scenes_start_none(opened):
+    events = opened.read_run()["events"]
+    opened.tab.focus("#scenes")
+    opened.tab.keyboard.press("L")
+    assert opened.tab.input_value("#scenes") == "looping"
+    assert "phi' changes sign" in opened.say("story")
+    assert opened.read_run()["events"] == events
+    opened.tab.keyboard.press("Enter")
+    assert opened.say("headline").startswith("The top precesses in loops")
+    opened.tab.wait_for_timeout(1200)  # the browser takes letters that follow at once for one word
+    opened.tab.keyboard.press("W")
+    assert opened.say("headline").startswith("The top precesses in loops")
+    opened.tab.click("#start-scene")
+    assert not opened.say("headline").startswith("The top precesses in loops")
+
+
+def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
+    opened.tab.dispatch_event("#scenes", "pointerdown")
+    opened.tab.select_option("#scenes", "looping")
+    assert opened.say("headline").startswith("The top precesses in loops")
+    assert not opened.tab.is_visible("#start-scene")

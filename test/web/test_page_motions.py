@@ -49,6 +49,7 @@ def test_every_scene_starts_with_the_doubles_of_a_node(opened):
     for name in scene_names():
         opened.tab.click("#tab-start")
         opened.tab.select_option("#scenes", name)
+        opened.tab.click("#start-scene")
         assert opened.say("refusal") == ""
         event, motion = (
             opened.read_run()["events"][-1],

@@ -1,11 +1,12 @@
 // The beginning of the page: the kernel, the top, its scene, and the page around it.
 
+import { LAYERS } from "./colors.js";
 import { Kernel } from "./kernel.js";
 import { LocalTop } from "./local.js";
 import { NodeTop } from "./node.js";
 import { refuse } from "./notices.js";
 import { Page } from "./page.js";
-import { LAYERS, Scene } from "./scene.js";
+import { Scene } from "./scene.js";
 import { find } from "./document.js";
 import { Writer } from "./wording.js";
 
