@@ -2,7 +2,7 @@
 
 import { applyImpulse, hurry, setPrecessionRate } from "./kicks.js";
 import { Course, NANO } from "./course.js";
-import { createStart, findScene, readLink, readScene, writeShort } from "./links.js";
+import { createStart, findScene, readLink, readScene } from "./links.js";
 
 /** @typedef {import("./local.js").LocalTop} LocalTop */
 /** @typedef {import("./state.js").State} State */
@@ -17,8 +17,6 @@ const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
 const TORQUE_LASTS = 150; // ms after the last message of a button that is held
 const STEPS = 24; // of a nutation
 const LONGEST_STEP = 0.05; // s of the motion
-/** @type {{[name: string]: number}} */
-const LEAST = { "friction.axial": 0, "friction.transverse": 0 };
 /** @type {{[way: string]: number}} */
 const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
 
@@ -31,18 +29,18 @@ const addKick = (top, after, asked) => top.add("kick", top.course.continue(after
 
 /** @param {LocalTop} top @param {Message} message */
 const kick = (top, { factor, hold = "spin_rate" }) => {
-  const request = `${factor > 1 ? "hurried" : "delayed"}: phi' times ${writeShort(factor)}`;
   const after = hurry(top.state, factor, hold);
-  addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold, request });
+  addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold });
 };
 
 /**
  * @param {LocalTop} top
  * @param {Vector} impulse N m s, in the world frame
- * @param {string} request
+ * @param {string} kind of the request
  */
-const addImpulse = (top, impulse, request) => {
+const addImpulse = (top, impulse, kind) => {
   const after = applyImpulse(top.course.top, top.state, impulse);
+  const request = top.writer.write("request", { kind });
   addKick(top, after, { act: { angular_impulse: impulse }, hold: null, request });
 };
 
@@ -52,16 +50,12 @@ const push = (top, { way }) => {
   if (way === "along" || way === "back") {
     const hold = "spin_momentum";
     const after = setPrecessionRate(top.state, top.state.rates.phi + change, hold);
-    addKick(top, after, {
-      act: { precession_rate_change: change, hold },
-      hold,
-      request: `pushed ${way}`,
-    });
+    addKick(top, after, { act: { precession_rate_change: change, hold }, hold });
     return;
   }
   const size = top.course.top.Ix * change;
   const { phi } = top.state.angles;
-  addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], `pushed ${way}`);
+  addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], way);
 };
 
 /**
@@ -102,19 +96,18 @@ export const holdTorque = (top, sign) => {
 /**
  * @param {LocalTop} top
  * @param {Beginning} beginning
- * @param {string} request
+ * @param {string} [request]
  */
 const begin = (top, { top: own, friction, start }, request) => {
-  top.add("start", new Course(top.kernel, own, start, friction, top.steady), { request });
+  const course = new Course(top.kernel, own, start, friction, top.steady);
+  top.add("start", course, request === undefined ? {} : { request });
   top.initial = start;
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
   const start = createStart(top.course.top, { theta: Number(theta), phi_dot, psi_dot }, precession);
-  const rate = writeShort(start.rates.phi);
-  const request = `started: theta ${writeShort(theta)}, phi' ${rate}, psi' ${writeShort(psi_dot)}`;
-  begin(top, { ...top.course, start }, request);
+  begin(top, { ...top.course, start });
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -129,27 +122,30 @@ const followLink = (top, { link: { scene: name, ...texts } }) => {
   const scene = name === undefined ? null : findScene(top.content.scenes, name);
   const beginning = readLink(texts, scene ? readScene(scene) : top.course);
   if (scene) top.steady = scene.torque;
-  begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : "from a link");
+  begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : undefined);
+};
+
+/** @param {LocalTop} top */
+const reset = (top) => {
+  const request = top.writer.write("request", { kind: "reset" });
+  begin(top, { ...top.course, start: top.initial }, request);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const restart = (top, { entry }) => {
   const { course, asked } = top.run.moments[entry];
-  begin(top, course, `again from: ${asked.request}`);
+  begin(top, course, asked.request);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const setParameter = (top, { name, value }) => {
   const [group, key] = name.split(".");
-  if (!(value >= (LEAST[name] ?? -Infinity))) {
-    throw new RangeError(`${name} must be >= ${LEAST[name]} N m s, got ${writeShort(value)}`);
-  }
   const friction = /** @type {[number, number]} */ ([...top.course.friction]);
   const own = { ...top.course.top };
   if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
-  const course = top.course.continue(top.state, { top: own, friction });
-  top.add("change", course, { request: `${key} changed to ${writeShort(value)}` });
+  const request = top.writer.write("request", { kind: "parameter", name: key, value });
+  top.add("change", top.course.continue(top.state, { top: own, friction }), { request });
 };
 
 /** @param {LocalTop} top */
@@ -166,9 +162,8 @@ const EVENTS = {
   push,
   restart,
   link: followLink,
-  pull: (top, { end }) =>
-    addImpulse(top, findPull(top.course, top.state, end), "pulled by the ball"),
-  reset: (top) => begin(top, { ...top.course, start: top.initial }, "started again"),
+  pull: (top, { end }) => addImpulse(top, findPull(top.course, top.state, end), "pull"),
+  reset,
   scene: chooseScene,
   set: setParameter,
   start: startWith,

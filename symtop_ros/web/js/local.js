@@ -3,6 +3,7 @@
 import { holdTorque, perform } from "./acts.js";
 import { NANO } from "./course.js";
 import { chooseWindow, describe } from "./facts.js";
+import { nameRequest } from "./history.js";
 import { findConstants } from "./potential.js";
 import { Run } from "./run.js";
 import { State } from "./state.js";
@@ -81,8 +82,20 @@ export class LocalTop {
    */
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
-    if (this.isRunning) this.move(Math.min(passed, LONGEST_FRAME) / 1000);
+    if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
     this.show();
+  }
+
+  /** Move, or wait at the end of what the kernel computes. @param {number} passed s of the clock */
+  tryToMove(passed) {
+    try {
+      this.move(passed);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.isRunning = false;
+      this.tellFacts();
+      this.tell({ refused: error.message });
+    }
   }
 
   /** @param {number} passed s of the clock */
@@ -98,10 +111,11 @@ export class LocalTop {
    * Add an event at the present time.
    * @param {import("./run.js").Kind} kind
    * @param {import("./course.js").Course} course that follows
-   * @param {import("./run.js").Asked} [asked]
+   * @param {import("./run.js").Asked} asked
    */
-  add(kind, course, asked) {
-    this.run.add(kind, this.time, course, asked);
+  add(kind, course, asked = {}) {
+    const request = nameRequest(this.writer, kind, asked, course);
+    this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
     this.changed();
   }
 

@@ -176,7 +176,9 @@ export class NodeTop extends LocalTop {
  */
 const listChanges = (before, after) => {
   const [old, wanted] = [listParameters(before), listParameters(after)];
-  const changed = Object.entries(wanted).filter(([name, value]) => String(value) !== String(old[name]));
+  const changed = Object.entries(wanted).filter(
+    ([name, value]) => String(value) !== String(old[name]),
+  );
   return Object.fromEntries(changed);
 };
 
