@@ -152,7 +152,7 @@ setup(
             "wording/en.json",
         ],
         f"{NAME}.testset": [
-            *("*.md", "*.json", "*.csv", "*.mjs", "*.cpp", "LICENSE", "SHA256SUMS", "models/*"),
+            *("*.md", "*.xz", "*.mjs", "*.cpp", "LICENSE"),
         ],
     },
     data_files=[
