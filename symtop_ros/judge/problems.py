@@ -9,10 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
-from symtop_ros.models.formats import FORMATS
-from symtop_ros.models.free import FREE_FORMATS
-from symtop_ros.models.snippets import format_snippets
-from symtop_ros.models.world_snippets import format_world_snippets
+from symtop_ros.models.formats import FORMATS, FREE_FORMATS
+from symtop_ros.models.snippets import format_snippets, format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.testset import score
 from symtop_ros.testset.tables import VERSION, format_problems, tabulate

@@ -7,7 +7,7 @@ import pytest
 
 from symtop_ros.panel.actions import Actions, impulse_of_pull, read_link
 from symtop_ros.panel.source import LocalTop
-from symtop_ros.session.answers import Answer
+from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.web.facts import write_link

@@ -9,7 +9,7 @@ from exact_log import assert_exact
 from symtop_ros.log.reader import McapFile
 from symtop_ros.panel import source
 from symtop_ros.panel.source import LONGEST_STEP, LocalTop
-from symtop_ros.session.answers import Answer
+from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.changes.timeline import Change
 
 SECOND = 1_000_000_000

@@ -23,8 +23,7 @@ from testset.write_testset import (
     limits,
 )
 
-from symtop_ros.models.formats import FORMATS
-from symtop_ros.models.free import FREE_FORMATS
+from symtop_ros.models.formats import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
 from symtop_ros.testset.score import main, read_problems
 from symtop_ros.testset.tables import FORCES, TABLES, WORLD
