@@ -29,7 +29,7 @@ help:  ## show this list
 demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 	@$(BIN)/python -m symtop_ros.demo
 
-panel: $(VENV)/panel  ## a page in the browser to play with a top; needs no ROS
+panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 	@$(BIN)/top_panel
 
 test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
@@ -140,8 +140,8 @@ $(VENV)/ros: $(SOURCES) $(VENV)/compiler
 	@touch $@
 
 $(VENV)/panel: $(SOURCES) $(VENV)/compiler
-	@echo "Setting up .venv: the page of top_panel (about 300 MB, once) ..."
-	$(INSTALL) '.[panel]'
+	@echo "Setting up .venv: NumPy, SciPy and this package (about 200 MB, once) ..."
+	$(INSTALL) .
 	@touch $@
 
 $(VENV)/report: setup.py $(VENV)/ros
@@ -156,12 +156,12 @@ $(VENV)/peers: setup.py $(VENV)/ros
 
 $(VENV)/test: setup.py $(VENV)/ros
 	@echo "Setting up .venv: test tools (once) ..."
-	$(INSTALL) '.[ros,playback,panel,report,test,lint,docs]'
+	$(INSTALL) '.[ros,playback,report,test,lint,docs]'
 	@touch $@
 
 $(VENV)/docs: setup.py $(VENV)/ros
 	@echo "Setting up .venv: Sphinx (once) ..."
-	$(INSTALL) '.[ros,playback,panel,docs]'
+	$(INSTALL) '.[ros,playback,docs]'
 	@touch $@
 
 $(NUMPY1)/test: setup.py $(VENV)/bin/activate

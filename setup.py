@@ -40,11 +40,6 @@ PLAYBACK = [
     "mcap>=1.5",
     "rerun-sdk>=0.41",
 ]
-# The page of top_panel, and the logs that it records. Needs no ROS.
-PANEL = [
-    "mcap>=1.5",
-    "viser>=1.1",  # 3D and controls in the browser; 1.1 has panels that can be docked
-]
 # Figures and tables: of top_judge, and of the workshop in a checkout.
 REPORT = [
     "matplotlib>=3.8",
@@ -140,7 +135,7 @@ setup(
         NAME: [
             "py.typed",
             "log/definitions.json",
-            "web/*.js",
+            "web/*.css",
             "web/js/*.js",
             "web/*.html",
             "web/*.yaml",
@@ -176,7 +171,6 @@ setup(
         "kilted": KILTED,
         "jazzy": JAZZY,
         "playback": PLAYBACK,
-        "panel": PANEL,
         "report": REPORT,
         "peers": PEERS,
         "test": TEST,

@@ -14,7 +14,6 @@ TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 PYPI = {"mcap", "numpy", "scipy", "yaml"}  # packages that pip installs under one name
 EXTRAS = {
     **dict.fromkeys(("rerun", "rerun_cli"), "playback"),
-    **dict.fromkeys(("viser", "websockets", "imageio"), "panel"),
     **dict.fromkeys(("matplotlib", "tqdm", "pyarrow", "PIL"), "report"),
     "ahrs": "peers",
 }
@@ -32,7 +31,7 @@ def top_ctl() -> int:
 
 
 def top_replay() -> int:
-    """Play, check or repair a log (needs Rerun only to play)."""
+    """Play, check, repair or convert a log or a run (needs Rerun only to play)."""
     return run("top_replay", "symtop_ros.playback.main", interruptible=True)
 
 
@@ -42,7 +41,7 @@ def top_live() -> int:
 
 
 def top_panel() -> int:
-    """Serve a page to play with a top (needs viser, and ROS only for a running node)."""
+    """Write, open or serve the page (needs ROS only for a running node)."""
     return run("top_panel", "symtop_ros.panel.main")
 
 

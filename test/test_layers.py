@@ -21,20 +21,21 @@ ARROWS = {
     "simulation": ({"__init__", "physics", "wire", "wording"}, {*NUMERICAL, "yaml"}),
     "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
-    # what pages show, live and saved; viser
-    "web": (
-        {"drawing", "log", "physics", "session", "simulation", "wording"},
-        {"numpy", "viser", "yaml"},
-    ),
+    # the page as one file
+    "web": ({"physics", "simulation", "wording"}, {"yaml"}),
     # of session what it says of a motion
     "check": (
         {"__init__", "log", "models", "physics", "session", "simulation", "wire"},
         {"numpy", "mcap"},
     ),
-    "playback": ({"check", "drawing", "log", "physics", "simulation", "web"}, {"numpy", *RERUN}),
+    # of session the log that a node would have written of a run of the page
+    "playback": (
+        {"check", "drawing", "log", "physics", "session", "simulation", "web"},
+        {"numpy", *RERUN},
+    ),
     "session": (
         {"__init__", "log", "models", "physics", "simulation", "wire", "wording"},
-        set(),
+        {"numpy"},
     ),
     "node": (
         {
@@ -56,15 +57,9 @@ ARROWS = {
         {"rclpy", "rerun"},
     ),
     "panel": (
-        # client, live and rclpy: only in node_source.py, which main.py imports for --node
-        {
-            *("client", "live", "log", "physics", "session"),
-            *("shutdown", "simulation", "web", "wire"),
-        },
-        {
-            *("numpy", "viser", "websockets", "imageio"),
-            *("rclpy", "geometry_msgs"),
-        },
+        # client, live and rclpy: only in bridge.py, which main.py imports for --node
+        {"client", "live", "shutdown", "simulation", "web"},
+        {"rclpy", "geometry_msgs"},
     ),
     "models": ({"physics", "simulation"}, set()),
     "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),

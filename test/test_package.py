@@ -55,7 +55,7 @@ def assert_tree(prefix, programs):
     installed = (prefix / "share/symtop_ros/config").iterdir()
     assert sorted(path.name for path in installed) == CONFIG
     (package,) = prefix.glob("lib/python*/site-packages/symtop_ros")
-    web = ("web/page.html", "web/page.js", "web/lesson.js", "web/lesson.yaml")
+    web = ("web/page.html", "web/page.css", "web/js/start.js", "web/lesson.yaml")
     for name in ("py.typed", "log/definitions.json", *web):
         assert (package / name).is_file()
     for name in (

@@ -29,7 +29,7 @@ ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
         (programs.top_ctl, "rclpy", ROS),
         (programs.top_live, "rclpy", ROS),
         (programs.top_live, "rerun", "pip install '.[playback]' in the checkout"),
-        (programs.top_panel, "viser", "pip install '.[panel]' in the checkout"),
+        (programs.top_panel, "yaml", "pip install pyyaml"),
         (programs.top_replay, "mcap", "pip install mcap"),
     ],
 )

@@ -111,6 +111,11 @@ class Recorder:
         else:
             self.dropped += 1
 
+    def await_room(self) -> None:
+        """Wait until half of the queue is free, for a caller that would rather wait than drop."""
+        while self.running and len(self._queue) > QUEUE_LENGTH // 2:
+            time.sleep(WRITE_PERIOD)
+
     @contextmanager
     def put_first(self, channel: int) -> Iterator[None]:
         """Write messages of one channel before all others that are added in this context."""

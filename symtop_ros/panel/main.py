@@ -1,4 +1,4 @@
-"""Entry point of `top_panel`: a page in the browser to play with a top."""
+"""Entry point of `top_panel`: the page to play with a top, as a file, served, or of a node."""
 
 import argparse
 import os
@@ -7,20 +7,15 @@ import sys
 import threading
 import webbrowser
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from symtop_ros.simulation.presets import scene_names
+from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import write_file
 
-if TYPE_CHECKING:
-    from symtop_ros.panel.page import Page
-    from symtop_ros.panel.source import Source
-
 PORT = 8015
-SCENE = "hurry_slow"
 PERIOD = 0.2  # s between two looks for the end
-SPEED = 0.1  # of real time: nutation is too fast for the eye
+LESSON = "lesson=1"
+FILE = Path("top.html")  # in the folder where the program is started: browsers may not read others
 WARNING = (
     "warning: anyone who can reach {host} may kick this top and change its parameters; "
     "nothing is encrypted"
@@ -28,7 +23,7 @@ WARNING = (
 
 
 def main(args: list[str] | None = None) -> int:
-    """Serve the page until interrupted; return the exit status."""
+    """Write, open or serve the page; return 0 (good), 1 (failed) or 2 (usage)."""
     arguments = sys.argv[1:] if args is None else args
     parser = _parser()
     # The rest belongs to ROS (--ros-args ...), which only --node needs.
@@ -36,58 +31,39 @@ def main(args: list[str] | None = None) -> int:
     if rest and not (options.node and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest), 200)}")
     try:
-        if options.write:  # needs neither viser nor ROS
-            return _write(options.write)
-        from symtop_ros.panel.source import LocalTop
-
-        ending = threading.Event()
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: ending.set())
-        if options.node:
-            return _show_node(options, ["top_panel", *arguments], ending)
-        return _show(options, LocalTop(options.scene, SPEED), ending)
+        return _run(options, arguments)
     except ModuleNotFoundError as error:
-        if error.name != "rclpy":  # the entry point says what is missing, and what brings it
-            raise
         text = f"{error.name} is missing: source a ROS 2, or pip install '.[ros]' in the checkout"
         print(f"top_panel: {text}", file=sys.stderr)
-        return 1
     except Exception as error:
         print(f"top_panel: {one_line(error) or type(error).__name__}", file=sys.stderr)
-        return 1
+    return 1
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="top_panel",
-        description="Play with a top on a page in the browser: a local one, or a running node.",
-    )
-    parser.add_argument(
-        "--scene", default=SCENE, choices=scene_names(), metavar="SCENE", help="scene to start with"
+        description="Play with a top on a page in the browser. The page is a file with a top of "
+        f"its own, {FILE} in this folder, unless it is served or shows a running node.",
     )
     parser.add_argument(
         "--lesson", action="store_true", help="open the lesson: eleven steps for a class"
     )
-    parser.add_argument(
-        "--write",
-        type=Path,
-        metavar="FILE.html",
-        help="write a page that has its own top, for any browser and without a server, and end",
-    )
+    parser.add_argument("--write", type=Path, metavar="FILE.html", help="write the page, and end")
     parser.add_argument(
         "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"
     )
     parser.add_argument(
-        "--port", type=_port, default=PORT, help=f"port of the page (default {PORT}; 0: any)"
+        "--port",
+        type=_port,
+        help=f"serve the page on this port (with --host or --node {PORT} by default; 0: any)",
     )
     parser.add_argument(
         "--host",
-        help="address to listen on (default: this machine only); who can reach it may kick",
+        help=f"serve the page on this address (default {LOCAL_HOST}: this machine only); 0.0.0.0: "
+        "to other machines as well",
     )
-    parser.add_argument(
-        "--save", type=Path, metavar="PAGE.html", help="write the run as a page when it ends"
-    )
-    parser.add_argument("--no-browser", action="store_true", help="print the address only")
+    parser.add_argument("--no-browser", action="store_true", help="open no browser")
     return parser
 
 
@@ -98,63 +74,42 @@ def _port(text: str) -> int:
     return port
 
 
-def _show(options: argparse.Namespace, source: "Source", ending: threading.Event) -> int:
-    """Serve the page of a top until `ending` is set; then write what was asked for."""
-    from symtop_ros.panel.page import Page
-    from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES
+def _run(options: argparse.Namespace, arguments: list[str]) -> int:
+    opening = LESSON if options.lesson else ""
+    if options.write:
+        _write(options.write, opening)
+        print(f"wrote {options.write}; open it in a browser")
+        return 0
+    if options.node:
+        return _show_node(options, ["top_panel", *arguments], opening)
+    if options.port is None and options.host is None:
+        return _open_file(options, opening)
+    return _serve(options, write_file(opening=opening), "a top for each page")
 
-    _check_target(options.save)
-    options.host = options.host or LOCAL_HOST
+
+def _write(path: Path, opening: str) -> None:
+    """Write the page."""
+    if path.suffix != ".html" or not path.parent.is_dir():
+        raise ValueError(f"--write must be a name that ends in .html in a folder, got {path}")
     try:
-        page = Page(source, options.host, options.port)
+        path.write_text(write_file(opening=opening), encoding="utf-8")
     except OSError as error:
-        source.close()
-        raise OSError(_explain(error, options)) from None
-    try:
-        if options.host not in LOCAL_NAMES:
-            print(f"top_panel: {WARNING.format(host=options.host)}", file=sys.stderr)
-        url = page.server.url + ("/#lesson" if options.lesson else "")
-        print(f"{source.name}: open {url} in a browser; Ctrl-C ends it", flush=True)
-        if not options.no_browser and _has_screen():
-            webbrowser.open(url)
-        # With a time-out, because on Windows a wait without one does not see Ctrl-C.
-        while not ending.wait(PERIOD):
-            pass
-        if options.save:
-            _save(page, options.save)
-    finally:
-        page.close()
-    return 0
+        raise OSError(f"cannot write {path}: {error.strerror}") from None
 
 
-def _write(path: Path) -> int:
-    """Write the page that needs no server."""
-    _check_target(path, "--write")
-    path.write_text(write_file(), encoding="utf-8")
-    print(f"wrote {path}; open it in a browser")
-    return 0
-
-
-def _check_target(path: Path | None, option: str = "--save") -> None:
-    """Refuse a file that could not be written, before anything is played."""
-    if path and (path.suffix != ".html" or not path.parent.is_dir()):
-        raise ValueError(f"{option} must be a name that ends in .html in a folder, got {path}")
-
-
-def _save(page: "Page", path: Path) -> None:
-    content = page.save_run()
-    if content is None:
-        raise ValueError("nothing is saved: no page was open, so that the top did not move")
-    path.write_bytes(content.content)
-    print(f"wrote {path}; open it in a browser")
-
-
-def _explain(error: OSError, options: argparse.Namespace) -> str:
-    reason = (os.strerror(error.errno) if error.errno else str(error)).lower()
-    return (
-        f"port must be free on an address of this machine, got {options.host} port {options.port} "
-        f"({reason}); use --port for another port"
+def _open_file(options: argparse.Namespace, opening: str) -> int:
+    """Write the page into this folder and open it; a run that was saved there is kept."""
+    path, number = FILE, 1
+    page = write_file(opening=opening)
+    while path.exists() and path.read_text(encoding="utf-8", errors="replace") != page:
+        number += 1
+        path = FILE.with_stem(f"{FILE.stem}_{number}")
+    _write(path, opening)
+    is_opened = (
+        not options.no_browser and _has_screen() and webbrowser.open(path.absolute().as_uri())
     )
+    print(f"wrote {path}, {'and opened it' if is_opened else 'open it'} in a browser")
+    return 0
 
 
 def _has_screen() -> bool:
@@ -163,22 +118,59 @@ def _has_screen() -> bool:
     return sys.platform in {"darwin", "win32"} or any(os.environ.get(name) for name in names)
 
 
-def _show_node(options: argparse.Namespace, arguments: list[str], ending: threading.Event) -> int:
+def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None = None) -> int:
+    """Serve a page until a signal."""
+    ending = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: ending.set())
+    host = options.host or LOCAL_HOST
+    port = PORT if options.port is None else options.port
+    try:
+        server = PageServer(host, port, page, node)
+    except OSError as error:
+        reason = (os.strerror(error.errno) if error.errno else str(error)).lower()
+        raise OSError(
+            f"port must be free on an address of this machine, got {host} port {port} ({reason}); "
+            "use --port for another port"
+        ) from None
+    if node and host not in LOCAL_NAMES:
+        print(f"top_panel: {WARNING.format(host=host)}", file=sys.stderr)
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    try:
+        print(f"{name}: open {server.url} in a browser; Ctrl-C ends it", flush=True)
+        if not options.no_browser and _has_screen():
+            webbrowser.open(server.url)
+        # With a time-out, because on Windows a wait without one does not see Ctrl-C.
+        while not ending.wait(PERIOD):
+            pass
+    finally:
+        server.shutdown()
+        server.server_close()
+    return 0
+
+
+def _show_node(options: argparse.Namespace, arguments: list[str], opening: str) -> int:
     """Serve the page of a running node."""
     import rclpy
     from rclpy.signals import SignalHandlerOptions
 
-    from symtop_ros.panel.node_source import NodeTop
+    from symtop_ros.panel.bridge import Bridge
     from symtop_ros.shutdown import describe_failure
 
+    bridge = None
     try:
         # Without the handlers of rclpy, which would shut ROS down while the page still uses it.
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("top_panel", start_parameter_services=False)
-        return _show(options, NodeTop(node, options.node), ending)
+        bridge = Bridge(node, options.node)
+        page = write_file(opening=opening, node=bridge.name)
+        return _serve(options, page, bridge.name, bridge)
     except Exception as error:
         raise RuntimeError(describe_failure(error)) from None
     finally:
+        if bridge:
+            bridge.close()
         rclpy.try_shutdown()
 
 

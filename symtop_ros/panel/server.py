@@ -1,126 +1,176 @@
-"""The server of the page: its address, who may connect, and the links that start an experiment.
+"""The server of the page: one file, and for a running node what it sends and is asked.
 
-Anyone who can connect can kick the top, and a web page of any origin can open a connection to this
-machine from the user's browser. So a connection is accepted only from a page that this server has
-sent, by three checks: the Host header is an address and no foreign name that was made to point
-here (DNS rebinding), the Origin header of a WebSocket is this Host, and the page may connect to
-no other server, nor stand in a frame of another page.
+A page with a top of its own needs no guard: each has another top. Through a page of a node the node
+can be kicked, and a web page of any origin can send requests to this machine from the user's
+browser. So there the Host header must be an address and no foreign name that was made to point here
+(DNS rebinding), the Origin header of a request must be this Host, and the page stands in no frame.
 """
 
-import asyncio
-import base64
-import contextlib
-import functools
 import gzip
-import hashlib
-import http
-import io
 import ipaddress
-import re
+import json
 import socket
-from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import NamedTuple
-from urllib.parse import parse_qs, urlsplit
+import sys
+from collections.abc import Iterator, Mapping
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any, Protocol
+from urllib.parse import urlsplit
 
-import viser
-from websockets.datastructures import Headers
-from websockets.http11 import Request, Response
-
-from symtop_ros.panel.serving import SCENE, Serve, serving
-from symtop_ros.web.page import HIDING, write_page
-
-LOCAL_HOST = "127.0.0.1"  # viser's default is to listen on all networks
+LOCAL_HOST = "127.0.0.1"
 LOCAL_NAMES = ("localhost", "127.0.0.1", "::1")
 ALL_NETWORKS = ("0.0.0.0", "::")  # no addresses that a browser can open
-# Requests by which a user came to a page from nowhere else; pages of other sites cannot claim it.
-TRUSTED = ("none", "same-origin")
-SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
+MAX_REQUEST = 65_536  # bytes
+# Of what is sent and not yet received: a page behind a slow line would see what was seconds ago.
+SENT = 16_384  # bytes
+# Everything is in the file; only a page of a node connects, and only to its own server.
+POLICY = (
+    "default-src data: blob: 'unsafe-inline' 'wasm-unsafe-eval'; base-uri 'none'; "
+    "form-action 'none'; connect-src 'self'"
+)
+NO_FRAME = {"Content-Security-Policy": f"{POLICY}; frame-ancestors 'none'"}
+PAGE, NEWS, REQUEST = ("/", "/index.html"), "/news", "/request"
 
 
-class File(NamedTuple):
-    """A file that a page loads: its content and its type."""
+class Node(Protocol):
+    """A running node, as the pages see it."""
 
-    content: bytes
-    kind: str
+    def follow(self) -> Iterator[Mapping[str, Any]]:
+        """Yield what is new for one page."""
 
-
-Files = Mapping[str, Callable[[str], File | None]]  # by path; they take the name of the page
-
-
-class PageServer(viser.ViserServer):
-    """Viser's server, on one address and port, for its own pages only."""
-
-    def __init__(self, host: str, port: int, serve: Serve, files: Files) -> None:
-        listener = _listen(host, port)
-        self.url = f"http://{_find_name(host)}:{listener.getsockname()[1]}"  # of the page
-        guard = Guard({host, *LOCAL_NAMES, socket.gethostname()}, files)
-        # Viser takes the next free port if one is taken, and has no argument for the checks: both
-        # are arguments of the call by which it starts its WebSocket server.
-        with serving(listener, guard.answer, serve), contextlib.redirect_stdout(io.StringIO()):
-            super().__init__(host, port, label="Heavy symmetric top", verbose=False)
-
-    def page_of(self, client: int) -> str:
-        """Return the name of the page whose scene a client of viser draws."""
-        connection = self._websock_server._live_connections.get(client)
-        path = connection.request.path if connection and connection.request else ""
-        return path.removeprefix(SCENE)
-
-    def request_share_url(self, verbose: bool = True) -> None:
-        """Do nothing: viser would open a tunnel to a public server when a page asks for it."""
-
-    def stop(self) -> None:
-        """Close all connections."""
-        with contextlib.redirect_stdout(io.StringIO()):
-            super().stop()
+    def answer(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Do what a page asks for; return the answer."""
 
 
-class Guard:
-    """Answers requests for the page and its files, and refuses all that come from elsewhere."""
+class PageServer(ThreadingHTTPServer):
+    """A server of one page, on one address and port; `node` is asked for by its pages."""
 
-    def __init__(self, names: set[str], files: Files) -> None:
-        self._names, self._files = names, files
+    daemon_threads = True
 
-    async def answer(self, request: Request) -> Response | None:
-        """Return the response to a request; None for a WebSocket that may be opened."""
-        # Two headers of one name are an attempt to pass one check with each.
-        hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
-        if len(hosts) != 1 or not self._is_own(hosts[0]):
-            return _respond(http.HTTPStatus.FORBIDDEN, "host must be an address of this server")
-        if "Upgrade" in request.headers or "Sec-WebSocket-Key" in request.headers:
-            if origins != [f"http://{hosts[0]}"]:
-                return _respond(http.HTTPStatus.FORBIDDEN, "origin must be this server's own")
-            return None
-        path = urlsplit(request.path)
-        packed = "gzip" in request.headers.get("Accept-Encoding", "")
-        site = request.headers.get("Sec-Fetch-Site", "")
-        if path.path in {"/", "/index.html"}:
-            return _send_page(_load_page(site in TRUSTED), f"ws://{hosts[0]}", packed, framed=False)
-        if path.path == SCENE.rstrip("/"):
-            return _send_page(_load_scene(), f"ws://{hosts[0]}", packed, framed=True)
-        return await self._send_file(path.path, path.query, site)
+    def __init__(self, host: str, port: int, page: str, node: Node | None = None) -> None:
+        self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        self.page, self.node = page.encode(), node
+        self.packed = gzip.compress(self.page, mtime=0)
+        self.names = {host, *LOCAL_NAMES, socket.gethostname()}
+        super().__init__((host, port), PageHandler)
+        self.url = f"http://{_find_name(host)}:{self.server_address[1]}/"
 
-    def _is_own(self, host: str) -> bool:
-        """Return True for an address in numbers, with or without a port, or a name of this host."""
+    def server_bind(self) -> None:
+        """Bind without a look-up of the name of the host, which takes seconds without a network."""
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        self.socket.bind(self.server_address)
+        self.server_address = self.socket.getsockname()
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Report an unexpected exception in one line; a page that was closed is none."""
+        error = sys.exception() if hasattr(sys, "exception") else sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            print(f"top_panel: a request failed: {error!r}", file=sys.stderr)
+
+
+class PageHandler(BaseHTTPRequestHandler):
+    """Answers one connection."""
+
+    server: PageServer
+    protocol_version = "HTTP/1.1"
+    timeout = 60.0  # s; a connection that asks for nothing is closed
+
+    def do_HEAD(self) -> None:
+        """Answer as to GET, without the content."""
+        self.do_GET()
+
+    def do_GET(self) -> None:
+        """Send the page, or the news of the node."""
+        path, node = urlsplit(self.path).path, self.server.node
+        if node and not self._is_own_host():
+            self._send(HTTPStatus.FORBIDDEN, b"host must be an address of this server")
+        elif path in PAGE:
+            self._send_page()
+        elif node and path == NEWS:
+            self._send_news(node)
+        else:
+            self._send(HTTPStatus.NOT_FOUND, b"not found")
+
+    def do_POST(self) -> None:
+        """Ask the node."""
+        node = self.server.node
+        size = self.headers.get("Content-Length", "")
+        if not node or urlsplit(self.path).path != REQUEST:
+            self._send(HTTPStatus.NOT_FOUND, b"not found", close=True)
+        elif not (self._is_own_host() and self._is_own_origin()):
+            self._send(HTTPStatus.FORBIDDEN, b"origin must be this server's own", close=True)
+        elif not size.isdecimal() or int(size) > MAX_REQUEST:
+            self._send(HTTPStatus.BAD_REQUEST, b"a request must be short", close=True)
+        else:
+            self._send_answer(node, self.rfile.read(int(size)))
+
+    def _send_answer(self, node: Node, data: bytes) -> None:
         try:
-            name = urlsplit(f"//{host}").hostname or ""
+            request = json.loads(data)
+        except (ValueError, RecursionError):
+            request = None
+        if not isinstance(request, dict):
+            self._send(HTTPStatus.BAD_REQUEST, b"a request must be a JSON object")
+            return
+        answer = json.dumps(node.answer(request)).encode()
+        self._send(HTTPStatus.OK, answer, {"Content-Type": "application/json"})
+
+    def _send_page(self) -> None:
+        packed = "gzip" in self.headers.get("Accept-Encoding", "")
+        fields = {
+            "Content-Type": "text/html; charset=utf-8",
+            "Content-Encoding": "gzip" if packed else "identity",
+            "Cache-Control": "no-cache",
+        }
+        fields |= NO_FRAME if self.server.node else {}
+        self._send(HTTPStatus.OK, self.server.packed if packed else self.server.page, fields)
+
+    def _send_news(self, node: Node) -> None:
+        """Send messages, each as soon as the page has taken most of those before it."""
+        self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SENT)
+        self.send_response(HTTPStatus.OK)
+        self.send_header("Content-Type", "text/event-stream")
+        self.send_header("Cache-Control", "no-store")
+        self.end_headers()
+        self.close_connection = True
+        if self.command == "HEAD":
+            return
+        for message in node.follow():
+            self.wfile.write(f"data: {json.dumps(message)}\n\n".encode())
+
+    def _send(
+        self,
+        status: HTTPStatus,
+        content: bytes,
+        fields: Mapping[str, str] | None = None,
+        *,
+        close: bool = False,
+    ) -> None:
+        self.send_response(status)
+        default = {"Content-Type": "text/plain; charset=utf-8", "X-Content-Type-Options": "nosniff"}
+        closing = {"Connection": "close"} if close else {}
+        length = {"Content-Length": str(len(content))}
+        for name, value in {**default, **(fields or {}), **length, **closing}.items():
+            self.send_header(name, value)
+        self.end_headers()
+        if self.command != "HEAD":
+            self.wfile.write(content)
+
+    def _is_own_host(self) -> bool:
+        """Return True for an address in numbers, with or without a port, or a name of this host."""
+        # Two headers of one name are an attempt to pass one check with each.
+        hosts = self.headers.get_all("Host") or []
+        try:
+            name = urlsplit(f"//{hosts[0]}").hostname or "" if len(hosts) == 1 else ""
         except ValueError:  # brackets that hold no address
             return False
-        return name in self._names or _is_address(name)
+        return name in self.server.names or _is_address(name)
 
-    async def _send_file(self, path: str, query: str, site: str) -> Response:
-        """Send what the page offers for download; pages of other sites cannot have it made."""
-        if path not in self._files:
-            return _respond(http.HTTPStatus.NOT_FOUND, "not found")
-        if site not in ("", *TRUSTED):
-            return _respond(http.HTTPStatus.FORBIDDEN, "a file must be asked for by this page")
-        page = parse_qs(query).get("page", [""])[0]
-        loop = asyncio.get_running_loop()
-        file = await loop.run_in_executor(None, self._files[path], page)
-        if file is None:
-            return _respond(http.HTTPStatus.NOT_FOUND, "the file does not exist yet")
-        headers = {"Content-Type": file.kind, "Content-Disposition": "attachment"}
-        return _respond(http.HTTPStatus.OK, file.content, headers)
+    def _is_own_origin(self) -> bool:
+        return self.headers.get_all("Origin") == [f"http://{self.headers['Host']}"]
+
+    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
+        """Log nothing: requests are no news."""
 
 
 def _find_name(host: str) -> str:
@@ -135,71 +185,9 @@ def _find_name(host: str) -> str:
             return LOCAL_HOST
 
 
-def _listen(host: str, port: int) -> socket.socket:
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    return socket.create_server((host, port), family=family)
-
-
 def _is_address(name: str) -> bool:
     try:
         ipaddress.ip_address(name)
     except ValueError:
         return False
     return True
-
-
-def _send_page(page: str, address: str, packed: bool, framed: bool) -> Response:
-    plain, compressed, hashes = _pack(page)
-    # The address of viser's page can name another server to connect to, whose content would
-    # then run with the rights of this page.
-    scripts = "'unsafe-inline' 'wasm-unsafe-eval' blob: data:" if framed else hashes
-    ancestors = "'self'" if framed else "'none'"
-    policy = (
-        f"default-src 'self' data: blob:; script-src 'self' {scripts}; "
-        "style-src 'self' 'unsafe-inline' data:; base-uri 'none'; form-action 'none'; "
-        f"connect-src 'self' {address} data: blob:; frame-ancestors {ancestors}"
-    )
-    headers = {
-        "Content-Type": "text/html; charset=utf-8",
-        "Content-Encoding": "gzip" if packed else "identity",
-        "Content-Security-Policy": policy,
-        "X-Frame-Options": "SAMEORIGIN" if framed else "DENY",
-        "Cross-Origin-Opener-Policy": "same-origin",
-        "Referrer-Policy": "no-referrer",
-        "Cache-Control": "no-store",
-    }
-    return _respond(http.HTTPStatus.OK, compressed if packed else plain, headers)
-
-
-@functools.cache
-def _pack(page: str) -> tuple[bytes, bytes, str]:
-    """Return a page plain and compressed, and the hash of its script for its policy."""
-    plain = page.encode()
-    digests = [hashlib.sha256(script.encode()).digest() for script in SCRIPT.findall(page)]
-    hashes = " ".join(f"'sha256-{base64.b64encode(each).decode()}'" for each in digests[:1])
-    return plain, gzip.compress(plain), hashes
-
-
-@functools.cache
-def _load_page(is_trusted: bool) -> str:
-    """Return the page; it starts what its address asks for only if the user has typed that."""
-    return write_page().replace(
-        "<html ", f'<html data-trusted="{"yes" if is_trusted else "no"}" ', 1
-    )
-
-
-@functools.cache
-def _load_scene() -> str:
-    """Return viser's page without its own panel: the controls are those of this package."""
-    client = Path(viser.__file__).parent / "client" / "build" / "index.html"
-    return client.read_text(encoding="utf-8").replace("<head>", f"<head>{HIDING}", 1)
-
-
-def _respond(
-    status: http.HTTPStatus, content: str | bytes, headers: dict[str, str] | None = None
-) -> Response:
-    body = content.encode() if isinstance(content, str) else content
-    fields = {"Content-Type": "text/plain; charset=utf-8", **(headers or {})}
-    fields |= {"X-Content-Type-Options": "nosniff", "Cross-Origin-Resource-Policy": "same-origin"}
-    all_headers = Headers({**fields, "Content-Length": str(len(body)), "Connection": "close"})
-    return Response(status.value, status.phrase, all_headers, body)

@@ -1,4 +1,4 @@
-"""Entry point of `top_replay`: play a log in Rerun, check it or repair it."""
+"""Entry point of `top_replay`: play a log or a run in Rerun, check, repair or convert it."""
 
 import argparse
 import sys
@@ -8,20 +8,24 @@ from pathlib import Path
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
-from symtop_ros.log.bag import open_run
 from symtop_ros.log.reader import LogError, McapFile, list_problems
 from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.playback.runs import open_file, save_page, write_mcap
+from symtop_ros.session.run_log import RATE
 from symtop_ros.simulation.topics import EVENTS
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.simulation.validation import RefusedError, one_line
 
 
 def main(args: list[str] | None = None) -> int:
     """Replay, check or repair a log; return 0 (success), 1 (failure) or 2 (usage)."""
-    options = _parser().parse_args(args)
+    parser = _parser()
+    options = parser.parse_args(args)
+    if options.rate is not None and not options.mcap:
+        parser.error("--rate goes with --mcap")
     try:
         return _run(options)
-    except LogError as error:
+    except (LogError, RefusedError) as error:
         print(f"top_replay: {one_line(error)}", file=sys.stderr)
         return 1
 
@@ -55,14 +59,16 @@ def view_options(options: argparse.Namespace) -> dict[str, bool]:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="top_replay",
-        description="Play a log of top_node in the Rerun viewer, or save, check or repair it.",
+        description="Play a log of top_node, or a run of the page, in the Rerun viewer; or save, "
+        "check, repair or convert it.",
     )
     parser.add_argument(
         "files",
         type=Path,
         nargs="+",
-        metavar="FILE.mcap",
-        help="a log, complete or damaged; a rosbag2 folder or a .db3 file; several are one run",
+        metavar="FILE.mcap|run.json",
+        help="a log, complete or damaged; a rosbag2 folder or a .db3 file; several are one run; or "
+        "a run that the page has saved",
     )
     parser.add_argument("--node", help="full name of the node if the log has several tops")
     add_view_options(parser)
@@ -83,10 +89,23 @@ def _parser() -> argparse.ArgumentParser:
         metavar="OUT.mcap",
         help="write the readable messages to a complete log",
     )
+    ways.add_argument(
+        "--mcap",
+        type=Path,
+        metavar="OUT.mcap",
+        help="write the log that a node would have written of run.json",
+    )
+    parser.add_argument(
+        "--rate", type=float, help=f"samples per second for --mcap (default {RATE:g})"
+    )
     return parser
 
 
 def _run(options: argparse.Namespace) -> int:
+    if options.mcap:
+        write_mcap(options.files, options.mcap, RATE if options.rate is None else options.rate)
+        print(f"wrote {options.mcap}")
+        return 0
     if options.repair:
         if len(options.files) > 1:
             raise LogError(f"--repair must be given one log, got {len(options.files)}")
@@ -95,7 +114,11 @@ def _run(options: argparse.Namespace) -> int:
         _print_problems(file.problems)
         print(f"wrote {count} messages to {options.repair}")
         return 0
-    log = TopLog(open_run(options.files), options.node)
+    with open_file(options.files, options.node) as log:
+        return _play(log, options)
+
+
+def _play(log: TopLog, options: argparse.Namespace) -> int:
     if options.check:
         return _check(log)
     return _show(log, options)
@@ -154,7 +177,10 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
     from symtop_ros.playback.view.view import ViewOptions
 
     if options.save and options.save.suffix == ".html":
-        return _save_page(log, options.save)
+        save_page(log, options.save)
+        _print_problems(log.problems)
+        print(f"wrote {options.save}; open it in a browser")
+        return 0
     drawn = ViewOptions(**view_options(options))
     save: Path | None = options.save
     if save:
@@ -174,25 +200,6 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         replay(log, recording, drawn)
         _print_problems(log.problems)
         return viewer.show(recording, options.web)
-
-
-def _save_page(log: TopLog, path: Path) -> int:
-    from symtop_ros.web.saved import save_run  # viser, which is needed for nothing else here
-
-    events, end = [], 0
-    for batch in log.batches():
-        events += [event for _, event in batch.events]
-        stamps = [int(columns.stamps[-1]) for columns in batch.columns.values()]
-        end = max([end, *stamps])
-    _print_problems(log.problems)
-    try:
-        path.write_text(save_run(events, end), encoding="utf-8")
-    except ValueError as error:
-        raise LogError(f"{log.file.path}: {error}") from None
-    except OSError as error:
-        raise LogError(f"cannot write {path}: {error.strerror}") from None
-    print(f"wrote {path}; open it in a browser")
-    return 0
 
 
 def _print_problems(problems: list[str]) -> None:

@@ -98,6 +98,10 @@ class Session:
                 statuses = [*collect_statuses(self.simulation, self._recorder), *own]
                 self._outputs.send_diagnostics(self.simulation.stamp, statuses)
 
+    def await_recorder(self) -> None:
+        """Wait while the recorder lags behind: for a run that is faster than its clock."""
+        self._recorder.await_room()
+
     def close(self) -> None:
         """End the recording."""
         self._recorder.stop()

@@ -8,6 +8,7 @@ import base64
 import dataclasses
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -29,23 +30,29 @@ POLICY = (
 )
 
 
-def write_file() -> str:
-    """Return the page as one document."""
-    markup, lesson, page = (
-        (FOLDER / name).read_text(encoding="utf-8")
-        for name in ("page.html", "lesson.js", "page.js")
+def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: str = "") -> str:
+    """Return the page as one document.
+
+    It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), and belong
+    to a running node, given by its name.
+    """
+    markup, style = (
+        (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
-    content = json.dumps(collect_content()).replace("<", "\\u003c")  # no end of a script in it
+    content = {**collect_content(), "opening": opening, "node": node}
     parts = [
         'window.TOP_SOURCE = "<!doctype html>\\n" + document.documentElement.outerHTML;',
-        f"window.TOP_CONTENT = {content};",
-        "/*RUN*/",
+        f"window.TOP_CONTENT = {_write_data(content)};",
+        f"/*RUN*/window.TOP_CONTENT.run = {_write_data(run)};/*END*/",
         join_modules(),
-        lesson,
-        page,
     ]
-    markup = re.sub(r"  <iframe [^\n]*\n", "", markup).replace("<head>", f"<head>\n{POLICY}", 1)
+    markup = markup.replace("<head>", f"<head>\n{POLICY}", 1).replace("/*STYLE*/", style, 1)
     return markup.replace("/*SCRIPT*/", "\n".join(parts), 1)
+
+
+def _write_data(data: Any) -> str:
+    """Return data for a script: no end of a script is in it."""
+    return json.dumps(data).replace("<", "\\u003c")
 
 
 def collect_content() -> dict[str, Any]:
@@ -71,11 +78,13 @@ def _read_values(name: str) -> dict[str, Any]:
 
 
 def join_modules() -> str:
-    """Return all modules as one script, which defines `startTop`."""
+    """Return all modules as one script, which starts the page."""
     ordered: list[str] = []
     _order(MAIN, ordered)
     functions = [_write_function(name) for name in ordered]
-    return "\n".join([*functions, "window.startTop = module_start.startTop;"])
+    return "\n".join(
+        [*functions, f"module_{MAIN[:-3]}.start(window.TOP_CONTENT, window.TOP_SOURCE);"]
+    )
 
 
 def _order(name: str, ordered: list[str]) -> None:

@@ -1,21 +1,26 @@
-"""The program: one message for what cannot be done, and a silent end."""
+"""The program: a file, a server, or a node; one message for what cannot be done."""
 
+import contextlib
 import ipaddress
+import json
 import os
+import re
 import signal
-import socket
 import subprocess
 import sys
+import urllib.request
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from panel.pages import open_pages, running_panel
-from programs import RESOURCE
+from programs import command
 
 from symtop_ros.panel import main as module
 from symtop_ros.panel.server import LOCAL_HOST
+from symtop_ros.web.join import write_file
 
 TIMEOUT = 60.0
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
@@ -26,17 +31,47 @@ def _signals_as_before():
         signal.signal(number, handler)
 
 
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@contextlib.contextmanager
+def running_panel(*words, start=None):
+    """top_panel on any free port, and the address that it prints; it has ended afterwards."""
+    with subprocess.Popen(
+        [*(start or command("top_panel")), "--port", "0", "--no-browser", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    ) as process:
+        try:
+            line = process.stdout.readline()
+            found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
+            assert found, line
+            yield process, found[1]
+        finally:
+            process.terminate()
+            process.wait(timeout=TIMEOUT)
+
+
+def load(url):
+    with urllib.request.urlopen(url, timeout=TIMEOUT) as answer:
+        return answer.read().decode()
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_silently_also_while_a_page_is_open(number):
-    with running_panel("--scene", "looping") as (process, url):
-        with open_pages(url):
-            process.send_signal(number)
-            output, errors = process.communicate(timeout=TIMEOUT)
+def test_a_signal_ends_the_server_silently(number):
+    with running_panel() as (process, url):
+        assert load(url) == write_file()
+        process.send_signal(number)
+        output, errors = process.communicate(timeout=TIMEOUT)
         assert (process.returncode, output, errors) == (0, "", "")
 
 
 def test_a_port_that_is_taken_is_one_message_and_status_1(capsys):
-    with socket.create_server((LOCAL_HOST, 0)) as taken:
+    with contextlib.closing(module.PageServer(LOCAL_HOST, 0, "").socket) as taken:
         port = taken.getsockname()[1]
         assert module.main(["--port", str(port), "--no-browser"]) == 1
     (line,) = capsys.readouterr().err.splitlines()
@@ -45,35 +80,25 @@ def test_a_port_that_is_taken_is_one_message_and_status_1(capsys):
     assert f"got 127.0.0.1 port {port} (address already in use); use --port" in line
 
 
-def test_another_host_is_warned_of():
+def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
     with running_panel("--host", "0.0.0.0") as (process, url):
         process.terminate()
         _, errors = process.communicate(timeout=TIMEOUT)
     host = urlsplit(url).hostname
     ipaddress.ip_address(host)  # other machines may not know the name of this one
     assert host != "0.0.0.0"
-    (warning,) = errors.splitlines()
-    assert warning.startswith("top_panel: warning: ")
-    assert "0.0.0.0" in warning
+    assert errors == ""  # each page has a top of its own
 
 
-def test_it_runs_where_there_is_no_ros(tmp_path):
+def test_it_runs_where_there_is_no_ros_and_no_mcap():
     """As on Windows or macOS, where also termios and fcntl are missing."""
-    missing = ("rclpy", "rerun", "std_srvs", "geometry_msgs", "termios", "fcntl", "tty", "resource")
+    missing = ("rclpy", "rerun", "mcap", "std_srvs", "geometry_msgs", "termios", "fcntl", "tty")
     code = (
         f"import sys; sys.modules.update(dict.fromkeys({missing!r}));"
         "from symtop_ros.panel.main import main; sys.exit(main(sys.argv[1:]))"
     )
-    root = RESOURCE.parent
-    words = [sys.executable, "-c", code, "--port", "0", "--no-browser"]
-    environment = {**os.environ, "PYTHONPATH": str(root)}
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
-        try:
-            with open_pages(process.stdout.readline().split()[3], least=1):
-                pass
-        finally:
-            process.terminate()
-            assert process.wait(timeout=TIMEOUT) == 0
+    with running_panel(start=[sys.executable, "-c", code]) as (_, url):
+        assert "<title>" in load(url)
 
 
 def test_a_node_without_ros_is_one_message(monkeypatch, capsys):
@@ -84,7 +109,51 @@ def test_a_node_without_ros_is_one_message(monkeypatch, capsys):
     )
 
 
-def test_a_browser_is_opened_where_there_is_a_screen(monkeypatch, capsys):
+def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr(module.webbrowser, "open", lambda url: opened.append(url) or True)
+    monkeypatch.setattr(module, "_has_screen", lambda: True)
+    assert module.main([]) == 0
+    assert opened == [Path("top.html").absolute().as_uri()]
+    assert capsys.readouterr().out == "wrote top.html, and opened it in a browser\n"
+    assert Path("top.html").read_text() == write_file()
+
+
+def test_without_a_screen_it_says_which_file_is_to_be_opened(monkeypatch, capsys):
+    monkeypatch.setattr(module, "_has_screen", lambda: False)
+    assert module.main([]) == 0
+    assert capsys.readouterr().out == "wrote top.html, open it in a browser\n"
+
+
+def test_a_saved_run_of_the_same_name_is_kept():
+    Path("top.html").write_text("a run")
+    assert module.main(["--no-browser"]) == 0
+    assert module.main(["--no-browser"]) == 0  # the same page is the same file
+    assert Path("top.html").read_text() == "a run"
+    assert sorted(path.name for path in Path().iterdir()) == ["top.html", "top_2.html"]
+
+
+def test_the_lesson_is_opened_by_the_file_itself():
+    """Some systems drop the fragment of an address of a file."""
+    assert module.main(["--lesson", "--write", "lesson.html"]) == 0
+    assert '"opening": "lesson=1"' in Path("lesson.html").read_text()
+
+
+def test_a_file_is_written_and_the_program_ends(capsys):
+    assert module.main(["--write", "page.html"]) == 0
+    assert capsys.readouterr().out == "wrote page.html; open it in a browser\n"
+    assert Path("page.html").stat().st_size < 700_000
+
+
+@pytest.mark.parametrize("name", ["run.txt", "missing/run.html"])
+def test_a_file_that_cannot_be_written_is_refused(name, capsys):
+    assert module.main(["--write", name]) == 1
+    assert capsys.readouterr().err == (
+        f"top_panel: --write must be a name that ends in .html in a folder, got {name}\n"
+    )
+
+
+def test_a_served_page_is_opened_where_there_is_a_screen(monkeypatch, capsys):
     opened = []
 
     def open_browser(url):
@@ -95,12 +164,7 @@ def test_a_browser_is_opened_where_there_is_a_screen(monkeypatch, capsys):
     monkeypatch.setattr(module, "_has_screen", lambda: True)
     assert module.main(["--port", "0"]) == 0
     (line,) = capsys.readouterr().out.splitlines()
-    assert line == f"local top: open {opened[0]} in a browser; Ctrl-C ends it"
-
-
-def test_the_lesson_is_an_address_of_the_page():
-    with running_panel("--lesson") as (_, url):
-        assert urlsplit(url).fragment == "lesson"
+    assert line == f"a top for each page: open {opened[0]} in a browser; Ctrl-C ends it"
 
 
 @pytest.mark.parametrize(
@@ -114,21 +178,8 @@ def test_a_screen_is_found(platform, display, expected, monkeypatch):
     assert module._has_screen() is expected
 
 
-def test_the_run_is_saved_when_it_ends(tmp_path):
-    path = tmp_path / "run.html"
-    with running_panel("--save", str(path)) as (process, url):
-        with open_pages(url, least=30):
-            process.terminate()
-            output, errors = process.communicate(timeout=TIMEOUT)
-        assert (process.returncode, errors) == (0, "")
-    assert output == f"wrote {path}; open it in a browser\n"
-    assert "window.SAVED_RUN" in path.read_text()
-
-
-@pytest.mark.parametrize("name", ["run.txt", "missing/run.html"])
-def test_a_file_that_cannot_be_written_is_refused_at_the_start(name, tmp_path, capsys):
-    path = tmp_path / name
-    assert module.main(["--port", "0", "--no-browser", "--save", str(path)]) == 1
-    assert capsys.readouterr().err == (
-        f"top_panel: --save must be a name that ends in .html in a folder, got {path}\n"
-    )
+def test_a_run_in_the_page_ends_no_script():
+    page = write_file(run={"format": 1, "events": [{"request": "</script><script>alert(1)"}]})
+    assert page.count("</script>") == 1
+    text = re.search(r"window\.TOP_CONTENT\.run = (.*?);/\*END\*/", page)[1]
+    assert json.loads(text)["events"][0]["request"].startswith("</script>")

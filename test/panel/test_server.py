@@ -1,83 +1,132 @@
-"""Connections that the server accepts, and those that it refuses."""
+"""The server of the page, and what it refuses for a running node."""
 
-import asyncio
 import contextlib
 import gzip
 import http.client
+import json
 import socket
 import threading
 import time
 
 import pytest
-import viser
-import websockets
 from listening import tcp_addresses
-from panel.pages import TIMEOUT, open_pages
-from viser._messages import SetPositionMessage
-from websockets.sync.client import connect
 
-from symtop_ros.panel.server import LOCAL_HOST, File, PageServer
+from symtop_ros.panel.server import LOCAL_HOST, MAX_REQUEST, PageServer
 
-PROTOCOL = websockets.Subprotocol(f"viser-v{viser.__version__}")
+TIMEOUT = 60.0
+PAGE = "<!doctype html><title>Heavy symmetric top</title>"
 
 
-@pytest.fixture(scope="module", name="started")
-def _started():
-    """A server, and the pages that have asked for its file."""
-    asked = []
+class Node:
+    """A node that answers with what it was asked, and sends three messages."""
 
-    async def serve(connection, _):
-        await connection.wait_closed()
+    def __init__(self):
+        self.asked = []
 
-    def write(page):
-        asked.append(page)
-        return File(b"1,2", "text/csv") if page else None
+    def answer(self, request):
+        self.asked.append(request)
+        return {"granted": True, "answer": "yes"}
 
-    server = PageServer(LOCAL_HOST, 0, serve, {"/series.csv": write})
-    yield server, asked
-    server.stop()
+    def follow(self):
+        yield from ({"time": number} for number in range(3))
+
+
+@contextlib.contextmanager
+def serving(node=None):
+    server = PageServer(LOCAL_HOST, 0, PAGE, node)
+    thread = threading.Thread(target=server.serve_forever)
+    thread.start()
+    try:
+        yield server
+    finally:
+        server.shutdown()
+        server.server_close()
+        thread.join()
+
+
+@pytest.fixture(name="static", scope="module")
+def _static():
+    with serving() as server:
+        yield server
+
+
+@pytest.fixture(name="live", scope="module")
+def _live():
+    with serving(Node()) as server:
+        yield server
 
 
 def address(server):
-    return server.url.removeprefix("http://")
+    return server.url.removeprefix("http://").rstrip("/")
 
 
-def ask(server, path="/", method="GET", **headers):
+def ask(server, path="/", method="GET", body=None, **headers):
     """Status, headers and content of the answer to a request."""
-    connection = http.client.HTTPConnection(address(server), timeout=10)
+    connection = http.client.HTTPConnection(address(server), timeout=TIMEOUT)
     named = {name.replace("_", "-"): value for name, value in headers.items()}
-    connection.request(method, path, headers={"Host": address(server), **named})
+    connection.request(method, path, body, headers={"Host": address(server), **named})
     with contextlib.closing(connection):
         answer = connection.getresponse()
         return answer.status, dict(answer.getheaders()), answer.read()
 
 
-def refuses(server, origin, path="/scene/a", **headers):
-    """Return the status with which a WebSocket is refused; None if it is accepted."""
-    try:
-        with connect(
-            f"ws://{address(server)}{path}",
-            origin=origin,
-            subprotocols=[PROTOCOL],
-            compression=None,
-            max_size=None,
-            additional_headers=headers or None,
-        ):
-            return None
-    except websockets.InvalidStatus as refusal:
-        return refusal.response.status_code
+def kick(server, body='{"service": "kick"}', **headers):
+    """Status of a request to the node, with the headers of its page unless others are given."""
+    given = {"Origin": f"http://{address(server)}", **headers}
+    named = {name: value for name, value in given.items() if value is not None}
+    return ask(server, "/request", "POST", body, **named)
 
 
-def test_it_listens_on_this_machine_only(started):
-    server, _ = started
+def test_it_listens_on_this_machine_only(static):
     found = tcp_addresses(threading.main_thread().native_id)
-    assert {host for host, port in found if port == server.get_port()} == {LOCAL_HOST}
+    assert {host for host, port in found if port == static.server_address[1]} == {LOCAL_HOST}
 
 
-def test_its_own_page_is_accepted(started):
-    server, _ = started
-    assert refuses(server, server.url) is None
-    assert refuses(server, server.url, "/controls/a") is None
+def test_a_page_with_its_own_top_may_stand_in_frames_and_be_found_by_any_name(static):
+    status, headers, content = ask(static, Host="teacher.example")
+    assert (status, content) == (200, PAGE.encode())
+    assert "Content-Security-Policy" not in headers
+
+
+@pytest.mark.parametrize("path", ["/news", "/request", "/x", "/../secret", "/%2e%2e/secret"])
+def test_a_page_with_its_own_top_has_nothing_else(static, path):
+    assert ask(static, path)[0] == 404
+    assert ask(static, path, "POST", "{}")[0] == 404
+
+
+def test_compressed_and_plain_pages_are_the_same(static):
+    _, headers, content = ask(static, "/index.html", Accept_Encoding="gzip")
+    assert headers["Content-Encoding"] == "gzip"
+    assert gzip.decompress(content) == PAGE.encode()
+
+
+@pytest.mark.parametrize(("path", "status"), [("/", 200), ("/nowhere", 404)])
+def test_head_is_the_same_answer_without_its_content(live, path, status):
+    found, headers, content = ask(live, path)
+    assert (found, len(content)) == (status, int(headers["Content-Length"]))
+    again, others, nothing = ask(live, path, "HEAD")
+    assert (again, others["Content-Length"], nothing) == (status, headers["Content-Length"], b"")
+
+
+def test_one_connection_serves_several_requests(live):
+    connection = http.client.HTTPConnection(address(live), timeout=TIMEOUT)
+    with contextlib.closing(connection):
+        for _ in range(3):
+            connection.request("GET", "/")
+            assert connection.getresponse().read() == PAGE.encode()
+
+
+def test_a_page_of_a_node_stands_in_no_frame_and_connects_to_its_server_only(live):
+    policy = ask(live)[1]["Content-Security-Policy"]
+    assert "frame-ancestors 'none'" in policy
+    assert "connect-src 'self'" in policy
+
+
+def test_the_page_of_a_node_asks_it(live):
+    status, headers, content = kick(live)
+    assert (status, headers["Content-Type"]) == (200, "application/json")
+    assert json.loads(content) == {"granted": True, "answer": "yes"}
+    assert live.node.asked[-1] == {"service": "kick"}
 
 
 @pytest.mark.parametrize(
@@ -93,16 +142,25 @@ def test_its_own_page_is_accepted(started):
         None,
     ],
 )
-def test_another_origin_is_refused(started, origin):
-    server, _ = started
-    text = origin and origin.format(address=address(server), port=server.get_port())
-    assert refuses(server, text) == 403
-    assert refuses(server, text, "/controls/a") == 403
+def test_a_request_of_another_origin_is_refused(live, origin):
+    before = len(live.node.asked)
+    text = origin and origin.format(address=address(live), port=live.server_address[1])
+    assert kick(live, Origin=text)[0] == 403
+    assert len(live.node.asked) == before
 
 
-def test_a_second_origin_does_not_help(started):
-    server, _ = started
-    assert refuses(server, "http://evil.example", Origin=server.url) == 403
+def test_a_second_origin_does_not_help(live):
+    own = address(live)
+    lines = [
+        "POST /request HTTP/1.1",
+        f"Host: {own}",
+        "Origin: http://evil.example",
+        f"Origin: http://{own}",
+        "Content-Length: 2",
+    ]
+    with socket.create_connection(live.server_address[:2], timeout=TIMEOUT) as connection:
+        connection.sendall("\r\n".join([*lines, "", "{}"]).encode())
+        assert connection.recv(100).startswith(b"HTTP/1.1 403 ")
 
 
 @pytest.mark.parametrize(
@@ -118,133 +176,85 @@ def test_a_second_origin_does_not_help(started):
         ("[::1]:{port}", 200),
     ],
 )
-def test_the_host_must_be_an_address_of_this_server(started, host, status):
-    server, _ = started
-    assert ask(server, Host=host.format(port=server.get_port()))[0] == status
-
-
-def test_the_page_may_connect_to_nobody_else_and_stand_in_no_frame(started):
-    server, _ = started
-    status, headers, content = ask(server)
-    assert status == 200
-    policy = headers["Content-Security-Policy"]
-    assert f"connect-src 'self' ws://{address(server)} data: blob:;" in policy
-    assert "frame-ancestors 'none'" in policy
-    assert "unsafe-eval'" not in policy
-    assert b"<title>Heavy symmetric top</title>" in content
-    scene = ask(server, "/scene")[1]["Content-Security-Policy"]
-    assert f"connect-src 'self' ws://{address(server)} data: blob:;" in scene
-    assert "frame-ancestors 'self'" in scene
-    assert "'unsafe-eval'" not in scene
+@pytest.mark.parametrize("path", ["/", "/news"])
+def test_of_a_node_the_host_must_be_an_address_of_this_server(live, host, status, path):
+    assert ask(live, path, Host=host.format(port=live.server_address[1]))[0] == status
 
 
 @pytest.mark.parametrize(
-    ("site", "trusted"), [("none", "yes"), ("same-origin", "yes"), ("cross-site", "no"), ("", "no")]
+    "body", ["", "[1]", "{", "[" * 60_000, "\udcff".encode(errors="surrogateescape")]
 )
-def test_only_a_page_to_which_no_other_site_has_led_starts_what_its_address_asks_for(
-    started, site, trusted
-):
-    server, _ = started
-    headers = {"Sec-Fetch-Site": site} if site else {}
-    content = ask(server, "/?theta=1", **headers)[2]
-    assert f'data-trusted="{trusted}"'.encode() in content
+def test_a_request_that_is_no_object_is_refused(live, body):
+    before = len(live.node.asked)
+    assert kick(live, body)[0] == 400
+    assert len(live.node.asked) == before
 
 
-def test_compressed_and_plain_pages_are_the_same(started):
-    server, _ = started
-    _, headers, content = ask(server, "/index.html", Accept_Encoding="gzip")
-    assert headers["Content-Encoding"] == "gzip"
-    assert gzip.decompress(content) == ask(server, Accept_Encoding="identity")[2]
+def test_a_long_request_is_not_read(live):
+    assert kick(live, " " * (MAX_REQUEST + 1))[0] == 400
+    assert kick(live, "{}", Content_Length="-1")[0] == 400
 
 
-@pytest.mark.parametrize(("path", "status"), [("/", 200), ("/scene", 200), ("/nowhere", 404)])
-def test_head_is_the_same_answer_without_its_content(started, path, status):
-    server, _ = started
-    found, headers, content = ask(server, path)
-    assert (found, len(content)) == (status, int(headers["Content-Length"]))
-    assert ask(server, path, "HEAD") == (status, headers, b"")
+def test_news_are_messages_of_an_event_stream(live):
+    status, headers, content = ask(live, "/news")
+    assert (status, headers["Content-Type"]) == (200, "text/event-stream")
+    lines = content.decode().split("\n\n")[:-1]
+    assert [json.loads(line.removeprefix("data: ")) for line in lines] == [
+        {"time": number} for number in range(3)
+    ]
 
 
-def test_a_file_is_for_this_page(started):
-    server, asked = started
-    status, headers, content = ask(server, "/series.csv?page=a")
-    assert (status, content, asked) == (200, b"1,2", ["a"])
-    assert headers["Content-Disposition"] == "attachment"
-    assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
-    assert ask(server, "/series.csv")[0] == 404  # as long as there is none
-    assert ask(server, "/series.csv?page=a", **{"Sec-Fetch-Site": "cross-site"})[0] == 403
-    assert asked == ["a", ""]
+def test_a_page_that_is_closed_is_no_error(capsys):
+    begun, ended = threading.Event(), threading.Event()
+
+    class Endless(Node):
+        def follow(self):
+            try:
+                while True:
+                    yield {"text": "x" * 1000}
+                    begun.set()
+            finally:
+                ended.set()
+
+    with serving(Endless()) as server:
+        with socket.create_connection(server.server_address[:2]) as connection:
+            connection.sendall(f"GET /news HTTP/1.1\r\nHost: {address(server)}\r\n\r\n".encode())
+            assert begun.wait(TIMEOUT)
+        assert ended.wait(TIMEOUT)
+    assert capsys.readouterr().err == ""
 
 
-@pytest.mark.parametrize("path", ["/assets/x.js", "/../secret", "/%2e%2e/secret", "/favicon.ico"])
-def test_there_is_nothing_else(started, path):
-    server, _ = started
-    assert ask(server, path)[0] == 404
+def test_a_slow_page_is_sent_little_that_it_has_not_taken():
+    sent = []
+
+    class Fast(Node):
+        def follow(self):
+            while True:
+                sent.append(time.monotonic())
+                yield {"text": "x" * 1000}
+
+    with serving(Fast()) as server, socket.socket() as connection:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        connection.connect(server.server_address[:2])
+        connection.sendall(f"GET /news HTTP/1.1\r\nHost: {address(server)}\r\n\r\n".encode())
+        deadline = time.monotonic() + TIMEOUT
+        while not sent or time.monotonic() < sent[-1] + 0.5:  # until the server waits
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        # The system doubles both buffers; what is in them is at most what a page has to catch up.
+        assert len(sent) < 100
+
+
+def test_an_unexpected_exception_is_one_line(capsys):
+    class Broken(Node):
+        def answer(self, request):
+            raise RuntimeError("a bug")
+
+    with serving(Broken()) as server, pytest.raises(http.client.RemoteDisconnected):
+        kick(server)
+    assert capsys.readouterr().err == "top_panel: a request failed: RuntimeError('a bug')\n"
 
 
 def test_a_port_that_is_taken_is_an_error_and_not_another_port():
     with socket.create_server((LOCAL_HOST, 0)) as taken, pytest.raises(OSError, match="in use"):
-        PageServer(LOCAL_HOST, taken.getsockname()[1], None, {})
-
-
-def test_a_page_cannot_ask_for_a_public_address(started):
-    server, _ = started
-    assert server.request_share_url() is None
-    assert server._share_tunnel is None
-
-
-def test_an_open_page_is_counted_while_it_is_open(started):
-    server, _ = started
-    server.scene.add_frame("/frame")
-    with open_pages(server.url, 2, least=1):
-        deadline = time.monotonic() + TIMEOUT
-        while len(server.get_clients()) != 2:  # a client is counted after its first message
-            assert time.monotonic() < deadline
-            time.sleep(0.02)
-
-
-def test_only_the_loop_wakes_what_waits_for_a_message(started):
-    """A set from another thread may fail, or be lost, while the loop begins to wait."""
-    server, _ = started
-    loop = server.get_event_loop()
-    for buffer in (server._websock_server._broadcast_buffer, made_in(loop)):
-        loop.call_soon_threadsafe(buffer.message_event.clear)
-        waiting = asyncio.run_coroutine_threadsafe(begin(buffer.message_event), loop).result(
-            TIMEOUT
-        )
-        with atomic(buffer):
-            buffer.push(SetPositionMessage("/a", (0.0, 0.0, 0.0)))
-            assert not buffer.message_event.is_set()
-        asyncio.run_coroutine_threadsafe(asyncio.wait_for(waiting, TIMEOUT), loop).result()
-
-
-async def begin(event):
-    return asyncio.ensure_future(event.wait())
-
-
-def made_in(loop):
-    """The messages to one page, as viser makes them."""
-
-    async def make():
-        return viser.infra._infra.AsyncMessageBuffer(loop, persistent_messages=False)
-
-    return asyncio.run_coroutine_threadsafe(make(), loop).result(TIMEOUT)
-
-
-@contextlib.contextmanager
-def atomic(buffer):
-    buffer.atomic_start()
-    yield
-    buffer.atomic_end()
-
-
-def test_a_pose_is_sent_if_it_has_changed_however_little(started):
-    server, _ = started
-    frame = server.scene.add_frame("/moved", position=(1.0, 2.0, 3.0))
-    buffer = server._websock_server._broadcast_buffer
-    before = buffer.message_counter
-    frame.position = (1.0, 2.0, 3.0)
-    assert buffer.message_counter == before
-    frame.position = (1.0, 2.0, 3.0 + 1e-12)
-    assert buffer.message_counter == before + 1
-    assert frame.position.tolist() == [1.0, 2.0, 3.0 + 1e-12]
+        PageServer(LOCAL_HOST, taken.getsockname()[1], PAGE)

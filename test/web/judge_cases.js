@@ -10,7 +10,9 @@ async function judgeCases(cases) {
   const precession = await import("/precession.js");
   const { EffectivePotential, findConstants } = await import("/potential.js");
   const solve = (top, start, driven = {}) => ({
-    top, start, isDriven: Boolean(driven.friction),
+    top,
+    start,
+    isDriven: Boolean(driven.friction),
     motion: kernel.motion({ ...top, orientation: start.given, angular_velocity: start.omega }),
   });
   const makeKick = (top, state, { kind, value, hold }) => {
@@ -36,7 +38,8 @@ async function judgeCases(cases) {
       verdict,
       record,
       texts: ["radians", "degrees"].flatMap((variant) => [
-        writer.write("verdict", verdict, variant), writer.write("kick", record, variant),
+        writer.write("verdict", verdict, variant),
+        writer.write("kick", record, variant),
       ]),
       regular: precession.findRegularRates(top, angles.theta, rates.psi),
       torques: precession.findFrameTorques(top, theta, phi, psi),

@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 from browser import running_browser
 
-from symtop_ros.physics import Motion, State, Top, hurry, kick_verdict, perrys_rule
+from symtop_ros.physics import (
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    hurry,
+    kick_verdict,
+    perrys_rule,
+)
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
@@ -384,3 +392,19 @@ def test_back_is_the_step_before(browser, path):
     assert page.tab.input_value("#prediction") == "it falls"
     assert page.problems == []
     page.context.close()
+
+
+def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
+    opened.wait_for_time(0.01)
+    opened.tab.click("#hurry")
+    opened.tab.click("#tab-push")
+    for way in ("up", "along"):
+        opened.tab.click(f"[data-push={way}]")
+    _, kick, up, along = opened.read_run(tmp_path)["events"]
+    for event in (kick, up, along):
+        assert round(event["time"] * 1e9) / 1e9 == event["time"]
+    assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+    assert along["act"] == {"precession_rate_change": 1, "hold": "spin_momentum"}
+    before = read_motion(kick).at(round((up["time"] - kick["time"]) * 1e9) / 1e9)
+    after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
+    assert up["angular_velocity"] == after.angular_velocity.tolist()

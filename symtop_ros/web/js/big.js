@@ -120,7 +120,10 @@ export class Big {
   over(x) {
     const other = this.take(x);
     // Two bits more than are kept, and a bit for what is left: a half is then told from more.
-    const shift = Math.max(0, this.bits + 3 + countBits(other.size.mantissa) - countBits(this.size.mantissa));
+    const shift = Math.max(
+      0,
+      this.bits + 3 + countBits(other.size.mantissa) - countBits(this.size.mantissa),
+    );
     const scaled = this.size.mantissa << BigInt(shift + 1);
     const quotient = scaled / other.size.mantissa;
     const sticky = quotient * other.size.mantissa === scaled ? 0n : 1n;
@@ -155,6 +158,8 @@ export class Big {
     if (place + 1074 < 1) return 0;
     return exponent < -1000
       ? Number(mantissa) * 2 ** (exponent + 900) * 2 ** -900
-      : exponent > 900 ? Number(mantissa) * 2 ** 900 * 2 ** (exponent - 900) : Number(mantissa) * 2 ** exponent;
+      : exponent > 900
+        ? Number(mantissa) * 2 ** 900 * 2 ** (exponent - 900)
+        : Number(mantissa) * 2 ** exponent;
   }
 }

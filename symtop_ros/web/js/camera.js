@@ -1,6 +1,14 @@
 // The camera: turned by a drag, moved nearer by the wheel or two fingers, by keys with Shift.
 
-import { add, createPerspective, createView, multiplyMatrices, normalize, scale, subtract } from "./matrices.js";
+import {
+  add,
+  createPerspective,
+  createView,
+  multiplyMatrices,
+  normalize,
+  scale,
+  subtract,
+} from "./matrices.js";
 
 /** @typedef {import("./state.js").Vector} Vector */
 
@@ -27,12 +35,18 @@ export class Camera {
     });
     element.addEventListener("pointermove", (event) => this.drag(event));
     for (const name of ["pointerup", "pointercancel"]) {
-      element.addEventListener(name, (event) => this.pointers.delete(/** @type {PointerEvent} */ (event).pointerId));
+      element.addEventListener(name, (event) =>
+        this.pointers.delete(/** @type {PointerEvent} */ (event).pointerId),
+      );
     }
-    element.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.approach(Math.exp(event.deltaY * 0.001));
-    }, { passive: false });
+    element.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.approach(Math.exp(event.deltaY * 0.001));
+      },
+      { passive: false },
+    );
   }
 
   /**
@@ -55,7 +69,8 @@ export class Camera {
     if (this.pointers.size === 1) this.turn(now.x - last.x, now.y - last.y);
     else {
       const other = [...this.pointers].find(([id]) => id !== event.pointerId);
-      const between = (/** @type {{x: number, y: number}} */ p) => Math.hypot(p.x - (other?.[1].x ?? 0), p.y - (other?.[1].y ?? 0));
+      const between = (/** @type {{x: number, y: number}} */ p) =>
+        Math.hypot(p.x - (other?.[1].x ?? 0), p.y - (other?.[1].y ?? 0));
       this.approach(between(last) / Math.max(between(now), 1));
     }
     this.pointers.set(event.pointerId, now);
@@ -79,7 +94,11 @@ export class Camera {
   get eye() {
     const across = Math.cos(this.above);
     /** @type {Vector} */
-    const direction = [across * Math.cos(this.around), across * Math.sin(this.around), Math.sin(this.above)];
+    const direction = [
+      across * Math.cos(this.around),
+      across * Math.sin(this.around),
+      Math.sin(this.above),
+    ];
     return add(this.target, scale(direction, this.distance));
   }
 
@@ -97,7 +116,9 @@ export class Camera {
    */
   project([x, y, z]) {
     const m = this.matrix;
-    const [a, b, w] = [0, 1, 3].map((row) => m[row] * x + m[row + 4] * y + m[row + 8] * z + m[row + 12]);
+    const [a, b, w] = [0, 1, 3].map(
+      (row) => m[row] * x + m[row + 4] * y + m[row + 8] * z + m[row + 12],
+    );
     if (w <= 0) return null;
     const { clientWidth, clientHeight } = this.element;
     return { x: ((a / w + 1) / 2) * clientWidth, y: ((1 - b / w) / 2) * clientHeight, depth: w };
@@ -116,7 +137,8 @@ export class Camera {
     const back = normalize(subtract(this.eye, this.target));
     const right = normalize([-back[1], back[0], 0]);
     const up = [
-      back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+      back[1] * right[2] - back[2] * right[1],
+      back[2] * right[0] - back[0] * right[2],
       back[0] * right[1] - back[1] * right[0],
     ];
     const beside = this.project(add(through, right));

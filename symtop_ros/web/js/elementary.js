@@ -6,11 +6,23 @@
 import { Big, LONG } from "./big.js";
 
 const SINE = [
-  1 / 355687428096000, -1 / 1307674368000, 1 / 6227020800, -1 / 39916800, 1 / 362880, -1 / 5040,
-  1 / 120, -1 / 6,
+  1 / 355687428096000,
+  -1 / 1307674368000,
+  1 / 6227020800,
+  -1 / 39916800,
+  1 / 362880,
+  -1 / 5040,
+  1 / 120,
+  -1 / 6,
 ];
 const VERSINE = [
-  -1 / 20922789888000, 1 / 87178291200, -1 / 479001600, 1 / 3628800, -1 / 40320, 1 / 720, -1 / 24,
+  -1 / 20922789888000,
+  1 / 87178291200,
+  -1 / 479001600,
+  1 / 3628800,
+  -1 / 40320,
+  1 / 720,
+  -1 / 24,
   1 / 2,
 ];
 const ARC_TANGENT = [-1 / 15, 1 / 13, -1 / 11, 1 / 9, -1 / 7, 1 / 5, -1 / 3];
@@ -35,7 +47,13 @@ const EIGHTHS_OF_TANGENT = [
 const LARGEST_ANGLE = 2 ** 15; // rad, of `cosineAndSineOfPart`
 const LARGEST_REDUCED = 1e15; // rad
 // 2 pi in 384 bits.
-const TWO_PI = new Big(BigInt("0x6487ed5110b4611a62633145c06e0e68948127044533e63a0105df531d89cd9128a5043cc71a026ef7ca8cd9e69d218e"), -380, 384);
+const TWO_PI = new Big(
+  BigInt(
+    "0x6487ed5110b4611a62633145c06e0e68948127044533e63a0105df531d89cd9128a5043cc71a026ef7ca8cd9e69d218e",
+  ),
+  -380,
+  384,
+);
 
 /**
  * The nearest integer; the even one of two.

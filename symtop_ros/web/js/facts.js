@@ -1,15 +1,20 @@
 // What the page says and plots of a run: sentences, rates, roots, the potential.
 
+import { NANO } from "./course.js";
 import { EffectivePotential } from "./potential.js";
 import { findRegularRates } from "./precession.js";
 import { judge, judgeKick } from "./verdict.js";
 
 /** @typedef {import("./run.js").Run} Run */
 /** @typedef {import("./run.js").Moment} Moment */
-/** @typedef {import("./run.js").Course} Course */
+/** @typedef {import("./course.js").Course} Course */
 /** @typedef {import("./state.js").State} State */
 /** @typedef {import("./wording.js").Writer} Writer */
 /** @typedef {import("./wording.js").Variant} Variant */
+/**
+ * What holds for a whole motion, and how its top runs.
+ * @typedef {ReturnType<typeof describe> & {running: boolean, factor: number, recording: boolean}} Facts
+ */
 
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
@@ -59,26 +64,29 @@ const findSwing = (highest, lowest) => {
 };
 
 /** The records of an event: its headline, and why. @param {Moment} moment */
-const findRecords = ({ record, course, before, last }) => {
+const findRecords = ({ kind, asked, course, before, last }) => {
   const { free, isDriven } = course;
   const headline = {
-    kind: record.kind === "start" ? "start" : "changed",
+    kind: kind === "start" ? "start" : "changed",
     subject: course.top.Mgl < 0 ? "axis" : "top",
     driven: isDriven,
     motion: free.motion.kind,
     turning_angles: free.motion.turning_angles,
     most: 0,
   };
-  if (record.kind === "start") {
+  if (kind === "start") {
     const start = { motion: course.motion.kind, verdict: judge(free) };
     return { headline, name: "start", outcome: start };
   }
-  if (record.kind !== "kick" || !before || !last) {
+  if (kind !== "kick" || !before || !last) {
     return { headline, name: "", outcome: null };
   }
-  const angles = last.continue(before, { friction: [0, 0], torque: [0, 0, 0] }).motion.turning_angles;
+  const angles = last.continueFree(before).motion.turning_angles;
   const after = { top: course.top, start: course.start, motion: free.motion, isDriven };
-  const outcome = { ...judgeKick(after, before, angles, record.hold ?? null), motion: course.motion.kind };
+  const outcome = {
+    ...judgeKick(after, before, angles, asked.hold ?? null),
+    motion: course.motion.kind,
+  };
   headline.kind = findSwing(outcome.highest, outcome.lowest);
   headline.most = Math.max(outcome.highest.amount, outcome.lowest.amount);
   return { headline, name: "kick", outcome };
@@ -92,7 +100,7 @@ const findRecords = ({ record, course, before, last }) => {
  */
 const describePotential = (course, state, { before, last }) => {
   const potential = new EffectivePotential(course.top, state);
-  const angles = course.continue(state, { friction: [0, 0], torque: [0, 0, 0] }).motion.turning_angles;
+  const angles = course.continueFree(state).motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
   const bottom = Math.min(findLeast(heights), potential.energy);
@@ -100,15 +108,24 @@ const describePotential = (course, state, { before, last }) => {
   const least = LEAST * Math.max(Math.abs(course.top.Mgl), Math.abs(depth), 1e-12);
   const top = potential.energy + Math.max(ABOVE * depth, least);
   const near = tilts.filter((_, k) => heights[k] <= top);
-  const [low, high] = [Math.min(near[0] ?? angles[0], angles[0]), Math.max(near.at(-1) ?? angles[1], angles[1])];
+  const [low, high] = [
+    Math.min(near[0] ?? angles[0], angles[0]),
+    Math.max(near.at(-1) ?? angles[1], angles[1]),
+  ];
   const margin = 0.04 * Math.max(high - low, 0.1);
   const [left, right] = [Math.max(0, low - margin), Math.min(Math.PI, high + margin)];
   const shown = [...spread(left, right, CURVE), ...angles].sort((a, b) => a - b);
   const sample = (/** @type {EffectivePotential} */ each) => ({
-    theta: shown, height: shown.map((tilt) => Math.min(each.at(tilt), top + (top - bottom))),
+    theta: shown,
+    height: shown.map((tilt) => Math.min(each.at(tilt), top + (top - bottom))),
   });
   return {
-    left, right, bottom: bottom - 0.08 * (top - bottom), top, energy: potential.energy, angles,
+    left,
+    right,
+    bottom: bottom - 0.08 * (top - bottom),
+    top,
+    energy: potential.energy,
+    angles,
     ...sample(potential),
     before: before && last ? sample(new EffectivePotential(last.top, before)) : null,
   };
@@ -118,8 +135,10 @@ const describePotential = (course, state, { before, last }) => {
 const listRates = ({ motion }) => {
   const { nutation_period, mean_precession_rate } = motion.rates;
   const rows = [["motion", motion.kind]];
-  if (Number.isFinite(nutation_period)) rows.push(["nutation period", `${Number(nutation_period.toPrecision(4))} s`]);
-  if (Number.isFinite(mean_precession_rate)) rows.push(["mean phi'", `${Number(mean_precession_rate.toPrecision(4))} rad/s`]);
+  if (Number.isFinite(nutation_period))
+    rows.push(["nutation period", `${Number(nutation_period.toPrecision(4))} s`]);
+  if (Number.isFinite(mean_precession_rate))
+    rows.push(["mean phi'", `${Number(mean_precession_rate.toPrecision(4))} rad/s`]);
   return rows;
 };
 
@@ -128,47 +147,77 @@ const writeLink = ({ top, friction, start }) => {
   const { phi, theta, psi } = start.angles;
   const rates = start.rates;
   const values = {
-    ...top, axial: friction[0], transverse: friction[1], phi, theta, psi,
-    theta_dot: rates.theta, phi_dot: rates.phi, psi_dot: rates.psi,
+    ...top,
+    axial: friction[0],
+    transverse: friction[1],
+    phi,
+    theta,
+    psi,
+    theta_dot: rates.theta,
+    phi_dot: rates.phi,
+    psi_dot: rates.psi,
   };
-  return Object.entries(values).map(([name, value]) => `${name}=${Number(value.toPrecision(6))}`).join("&");
+  return Object.entries(values)
+    .map(([name, value]) => `${name}=${Number(value.toPrecision(6))}`)
+    .join("&");
+};
+
+/**
+ * The last entries of the history: their places in the run, and what was asked for.
+ * @param {Run} run
+ * @returns {[number, string][]}
+ */
+const listHistory = ({ moments }) => {
+  const places = moments
+    .map((_, place) => place)
+    .filter((place) => moments[place].kind !== "torque");
+  return places
+    .slice(-LISTED)
+    .reverse()
+    .map((place) => [place, moments[place].asked.request ?? moments[place].kind]);
 };
 
 /**
  * All that holds for the motion after the last event.
  * @param {Run} run
  * @param {Writer} writer
- * @param {number} time
+ * @param {number} time ns
  */
 export const describe = (run, writer, time) => {
   const moment = run.find(time);
   const state = run.at(time);
   const { course } = moment;
   const past = run.moments.slice(0, run.findPlace(time) + 1);
-  const announced = past.findLast(({ record }) => record.kind !== "torque") ?? moment;
+  const announced = past.findLast(({ kind }) => kind !== "torque") ?? moment;
   const { headline, name, outcome } = findRecords(announced);
   const say = (/** @type {Variant} */ variant) => ({
     headline: writer.write("headline", headline, variant),
     why: outcome ? writer.write(name, outcome, variant) : "",
   });
   const start = describeStart(course.start);
-  const isNew = announced.record.kind === "start";
+  const isNew = announced.kind === "start";
   return {
     ...say("radians"),
     degrees: say("degrees"),
     top: {
-      "top.Ix": course.top.Ix, "top.Iz": course.top.Iz, "top.Mgl": course.top.Mgl,
-      "friction.axial": course.friction[0], "friction.transverse": course.friction[1],
+      "top.Ix": course.top.Ix,
+      "top.Iz": course.top.Iz,
+      "top.Mgl": course.top.Mgl,
+      "friction.axial": course.friction[0],
+      "friction.transverse": course.friction[1],
     },
     start,
     roots: findRegularRates(course.top, start.theta, start.psi_dot),
     window: chooseWindow(course.free),
-    since: run.findStart(time),
-    marks: run.moments.filter(({ record }) => record.kind === "kick").map(({ record }) => record.time),
-    potential: describePotential(course, course.isDriven ? state : course.start, isNew ? { ...moment, before: null } : announced),
+    since: run.findStart(time) / NANO,
+    marks: run.moments.filter(({ kind }) => kind === "kick").map((each) => each.time / NANO),
+    potential: describePotential(
+      course,
+      course.isDriven ? state : course.start,
+      isNew ? { ...moment, before: null } : announced,
+    ),
     table: listRates(course.free),
-    history: run.moments.map(({ record }, k) => [k, record.request ?? record.kind])
-      .filter(([k]) => run.moments[Number(k)].record.kind !== "torque").slice(-LISTED).reverse(),
+    history: listHistory(run),
     link: writeLink(course),
   };
 };

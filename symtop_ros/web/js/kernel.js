@@ -36,7 +36,13 @@
 
 // In the order of symtop_kind.
 const KINDS = [
-  "regular", "unidirectional", "cusps", "looping", "through the pole", "asymptotic", "sleeping",
+  "regular",
+  "unidirectional",
+  "cusps",
+  "looping",
+  "through the pole",
+  "asymptotic",
+  "sleeping",
   "driven",
 ];
 const OK = 0;

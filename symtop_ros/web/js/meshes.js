@@ -10,9 +10,8 @@ const SECTORS = 6; // three pairs of colours: after half a turn the colours are 
 const FACETS = 10; // of a sector
 
 /** @param {string} hex @returns {Color} */
-export const readColor = (hex) => /** @type {Color} */ (
-  [1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255)
-);
+export const readColor = (hex) =>
+  /** @type {Color} */ ([1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255));
 const STEEL = readColor("#c4cad2");
 const BRASS = readColor("#deb25c");
 const ENAMEL = readColor("#96202c");
@@ -43,7 +42,14 @@ export const createLathe = (profile, first, second = first) => {
     const [out, up] = [(y - z) / length, (r - s) / length];
     for (let facet = 0; facet < count; facet += 1) {
       const color = Math.floor(facet / FACETS) % 2 ? second : first;
-      for (const [corner, isUpper] of [[0, 0], [1, 0], [0, 1], [1, 0], [1, 1], [0, 1]]) {
+      for (const [corner, isUpper] of [
+        [0, 0],
+        [1, 0],
+        [0, 1],
+        [1, 0],
+        [1, 1],
+        [0, 1],
+      ]) {
         const angle = (2 * Math.PI * (facet + corner)) / count;
         const [c, s1] = [Math.cos(angle), Math.sin(angle)];
         const [radius, height] = isUpper ? [s, y] : [r, z];
@@ -64,17 +70,28 @@ export const createLathe = (profile, first, second = first) => {
 const createRotor = (radius, height) => {
   /** @type {Profile} */
   const shape = [
-    [0.022, -0.2], [0.1, -0.17], [0.35, -0.11], [0.72, -0.06], [0.94, -0.035],
-    [0.94, 0.035], [0.8, 0.05], [0.45, 0.075], [0.16, 0.105], [0.022, 0.14],
+    [0.022, -0.2],
+    [0.1, -0.17],
+    [0.35, -0.11],
+    [0.72, -0.06],
+    [0.94, -0.035],
+    [0.94, 0.035],
+    [0.8, 0.05],
+    [0.45, 0.075],
+    [0.16, 0.105],
+    [0.022, 0.14],
   ];
-  const scaled = shape.map(([r, z]) => /** @type {[number, number]} */ ([Math.max(0.022, r * radius), height + z]));
+  const scaled = shape.map(
+    ([r, z]) => /** @type {[number, number]} */ ([Math.max(0.022, r * radius), height + z]),
+  );
   /** @type {Profile} */
   const rim = Array.from({ length: 9 }, (_, k) => {
     const angle = (Math.PI * k) / 8 - Math.PI / 2;
     return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
   });
   return joinMeshes([
-    createLathe(scaled.slice(0, 5), IVORY, ENAMEL), createLathe(scaled.slice(5), IVORY, ENAMEL),
+    createLathe(scaled.slice(0, 5), IVORY, ENAMEL),
+    createLathe(scaled.slice(5), IVORY, ENAMEL),
     createLathe(rim, BRASS),
   ]);
 };
@@ -88,18 +105,46 @@ export const createBody = ({ Ix, Iz, Mgl }) => {
   const low = Math.min(0, height - 0.22);
   /** @type {Profile} */
   const axle = [
-    [0, low], [0.022, low + 0.03], [0.022, 0.93], [0.034, 0.95], [0.034, 0.985], [0, 1],
+    [0, low],
+    [0.022, low + 0.03],
+    [0.022, 0.93],
+    [0.034, 0.95],
+    [0.034, 0.985],
+    [0, 1],
   ];
   return joinMeshes([createLathe(axle, STEEL), createRotor(radius, height)]);
 };
 
 export const createStand = () =>
-  createLathe([[0.17, -0.32], [0.17, -0.28], [0.05, -0.22], [0.03, -0.03], [0, -0.02]], STONE);
+  createLathe(
+    [
+      [0.17, -0.32],
+      [0.17, -0.28],
+      [0.05, -0.22],
+      [0.03, -0.03],
+      [0, -0.02],
+    ],
+    STONE,
+  );
 
 /** A shaft of length 1 along z, to be scaled, and a head whose tip is the origin. @param {Color} color */
 export const createArrow = (color) => ({
-  shaft: createLathe([[0, 0], [0.013, 0], [0.013, 1]], color),
-  head: createLathe([[0, -0.1], [0.036, -0.1], [0, 0]], color),
+  shaft: createLathe(
+    [
+      [0, 0],
+      [0.013, 0],
+      [0.013, 1],
+    ],
+    color,
+  ),
+  head: createLathe(
+    [
+      [0, -0.1],
+      [0.036, -0.1],
+      [0, 0],
+    ],
+    color,
+  ),
 });
 
 /** A ball of radius 1. @param {Color} color */
@@ -113,4 +158,11 @@ export const createBall = (color) => {
 };
 
 /** A flat disc of radius 1. @param {Color} color */
-export const createDisc = (color) => createLathe([[1, 0], [0, 0]], color);
+export const createDisc = (color) =>
+  createLathe(
+    [
+      [1, 0],
+      [0, 0],
+    ],
+    color,
+  );

@@ -70,7 +70,11 @@ const CORNERS = [0, -1, 0, 1, 1, -1, 1, 1];
 export class Painter {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
-    const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
+    const gl = canvas.getContext("webgl2", {
+      antialias: true,
+      alpha: true,
+      preserveDrawingBuffer: true,
+    });
     if (!gl) throw new Error("this browser has no WebGL 2: the scene cannot be drawn");
     this.gl = gl;
     this.canvas = canvas;
@@ -91,7 +95,10 @@ export class Painter {
   link(vertex, fragment) {
     const { gl } = this;
     const program = /** @type {WebGLProgram} */ (gl.createProgram());
-    for (const [kind, text] of /** @type {[number, string][]} */ ([[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]])) {
+    for (const [kind, text] of /** @type {[number, string][]} */ ([
+      [gl.VERTEX_SHADER, vertex],
+      [gl.FRAGMENT_SHADER, fragment],
+    ])) {
       const shader = /** @type {WebGLShader} */ (gl.createShader(kind));
       gl.shaderSource(shader, text);
       gl.compileShader(shader);
@@ -138,8 +145,11 @@ export class Painter {
   begin(view, eye) {
     const { gl, canvas } = this;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((n) => Math.max(1, Math.round(n * ratio)));
-    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((n) =>
+      Math.max(1, Math.round(n * ratio)),
+    );
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height });
     gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
     gl.depthMask(true);
@@ -156,7 +166,11 @@ export class Painter {
   use(program, pose) {
     const { gl } = this;
     gl.useProgram(program);
-    gl.uniformMatrix4fv(gl.getUniformLocation(program, "view"), false, /** @type {number[]} */ (this.view));
+    gl.uniformMatrix4fv(
+      gl.getUniformLocation(program, "view"),
+      false,
+      /** @type {number[]} */ (this.view),
+    );
     gl.uniformMatrix4fv(gl.getUniformLocation(program, "pose"), false, pose);
     return (/** @type {string} */ name) => gl.getUniformLocation(program, name);
   }

@@ -95,7 +95,13 @@ export class PrecessionChange {
     if (Math.abs(now - was) <= rounding) now = was;
     else if (Math.abs(now) <= rounding) now = 0;
     if (hold === null) {
-      return new PrecessionChange(top, new TiltAcceleration(top, after, "spin_rate"), was, now, null);
+      return new PrecessionChange(
+        top,
+        new TiltAcceleration(top, after, "spin_rate"),
+        was,
+        now,
+        null,
+      );
     }
     const tilt = new TiltAcceleration(top, before, hold);
     return new PrecessionChange(top, tilt, was, now, was ? now / was : 1);

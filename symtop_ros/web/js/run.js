@@ -1,86 +1,38 @@
 // A run in the page: its events, each with the exact doubles from which the motion goes on.
 //
 // Between two events the motion is computed by the kernel, at any time. So a run is its events, and
-// nothing else has to be kept of it.
+// nothing else has to be kept of it. Times are whole nanoseconds, as those of a node.
 
+import { Course, NANO } from "./course.js";
 import { State } from "./state.js";
 
 /** @typedef {import("./kernel.js").Kernel} Kernel */
-/** @typedef {import("./kernel.js").Motion} Motion */
-/** @typedef {import("./precession.js").Top} Top */
 /** @typedef {import("./state.js").Vector} Vector */
 /** @typedef {import("./state.js").Quaternion} Quaternion */
 /** @typedef {import("./kicks.js").Hold} Hold */
+/** @typedef {"start" | "kick" | "change" | "torque"} Kind */
 /**
- * What is kept of an event, as in run.json.
- * @typedef {object} EventRecord
- * @property {"start" | "kick" | "change" | "torque"} kind
- * @property {number} time s of the run
- * @property {[number, number, number]} top Ix, Iz, Mgl
- * @property {Quaternion} orientation
- * @property {Vector} angular_velocity
- * @property {[number, number]} friction
- * @property {Vector} torque
- * @property {Hold | null} [hold] of a kick; null for an angular impulse
- * @property {string} [request] what was asked for, in words
+ * What was asked for: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
+ * impulse, and the request in words.
+ * @typedef {{act?: {[name: string]: any}, hold?: Hold | null, request?: string}} Asked
  */
-
-const FORMAT = 1;
-/** @type {Vector} */
-const NO_TORQUE = [0, 0, 0];
-
-/** The motion from a start, with friction and torque. */
-export class Course {
-  /**
-   * @param {Kernel} kernel
-   * @param {Top} top
-   * @param {State} start
-   * @param {[number, number]} friction
-   * @param {Vector} torque
-   */
-  constructor(kernel, top, start, friction = [0, 0], torque = NO_TORQUE) {
-    this.kernel = kernel;
-    this.top = top;
-    this.start = start;
-    this.friction = friction;
-    this.torque = torque;
-    const { given: orientation, omega: angular_velocity } = start;
-    /** @type {Motion} */
-    this.motion = kernel.motion({ ...top, orientation, angular_velocity, friction, torque });
-    this.isDriven = [...friction, ...torque].some((each) => each !== 0);
-  }
-
-  /** The motion that would follow under gravity alone. @returns {Course} */
-  get free() {
-    return this.isDriven ? new Course(this.kernel, this.top, this.start) : this;
-  }
-
-  /** @param {number} t s since the start */
-  at(t) {
-    const [w, x, y, z, ...omega] = this.motion.at(t);
-    return new State([w, x, y, z], /** @type {Vector} */ (omega));
-  }
-
-  /**
-   * The course that goes on from a state, with what is changed.
-   * @param {State} start
-   * @param {{top?: Top, friction?: [number, number], torque?: Vector}} changes
-   */
-  continue(start, { top = this.top, friction = this.friction, torque = this.torque } = {}) {
-    return new Course(this.kernel, top, start, friction, torque);
-  }
-}
-
 /**
- * A course in a run: its times count from `since`.
+ * An event as in run.json; its time is in s, and whole nanoseconds.
+ * @typedef {{kind: Kind, time: number, top: [number, number, number], orientation: Quaternion,
+ *   angular_velocity: Vector, friction: [number, number], torque: Vector} & Asked} EventRecord
+ */
+/**
+ * A course in a run: its times count from `since`, in ns of the run.
  * @typedef {{course: Course, since: number}} Placed
  */
 /**
- * An event with its motion, the state just before it, the course that it ended, and the ghost: the
- * run without its last kick.
- * @typedef {{record: EventRecord, course: Course, before: State | null, last: Course | null,
- *   ghost: Placed | null}} Moment
+ * An event with its time in ns and its motion, the state just before it, the course that it ended,
+ * and the ghost: the run without its last kick.
+ * @typedef {{kind: Kind, time: number, asked: Asked, course: Course, before: State | null,
+ *   last: Course | null, ghost: Placed | null}} Moment
  */
+
+const FORMAT = 1;
 
 export class Run {
   /** @param {Kernel} kernel */
@@ -92,31 +44,30 @@ export class Run {
 
   /**
    * The last event before a time, or the first one.
-   * @param {number} time
+   * @param {number} time ns
    * @returns {Moment}
    */
   find(time) {
     return this.moments[Math.max(0, this.findPlace(time))];
   }
 
-  /** @param {number} time */
+  /** @param {number} time ns */
   findPlace(time) {
-    return this.moments.findLastIndex(({ record }) => record.time <= time);
+    return this.moments.findLastIndex((moment) => moment.time <= time);
   }
 
-  /** The time of the last start before a time. @param {number} time */
+  /** The time in ns of the last start before a time. @param {number} time ns */
   findStart(time) {
-    const isStart = (/** @type {Moment} */ { record }) => record.kind === "start" && record.time <= time;
-    return this.moments.findLast(isStart)?.record.time ?? 0;
+    return this.moments.findLast((each) => each.kind === "start" && each.time <= time)?.time ?? 0;
   }
 
-  /** @param {number} time of the run */
+  /** @param {number} time ns */
   at(time) {
-    const { course, record } = this.find(time);
-    return course.at(time - record.time);
+    const { course, time: since } = this.find(time);
+    return course.at(time - since);
   }
 
-  /** The state of the ghost, or null. @param {number} time */
+  /** The state of the ghost, or null. @param {number} time ns */
   findGhost(time) {
     const { ghost } = this.find(time);
     return ghost ? ghost.course.at(time - ghost.since) : null;
@@ -124,57 +75,74 @@ export class Run {
 
   /**
    * Add an event; what came after its time is no longer part of the run.
-   * @param {EventRecord["kind"]} kind
-   * @param {number} time
+   * @param {Kind} kind
+   * @param {number} time ns
    * @param {Course} course
-   * @param {{hold?: Hold | null, request?: string}} more
+   * @param {Asked} asked
    */
-  add(kind, time, course, more = {}) {
-    const last = this.moments.length ? this.find(time) : null;
-    const before = last && kind !== "start" ? this.at(time) : null;
-    const ghost = last && kind !== "start" ? this.findNextGhost(kind, time, course, last) : null;
+  add(kind, time, course, asked = {}) {
+    const last = this.moments.length && kind !== "start" ? this.find(time) : null;
+    const before = last ? this.at(time) : null;
+    const ghost = last ? this.findNextGhost(kind, time, course, last) : null;
     this.moments.length = this.findPlace(time) + 1;
-    const { top, start, friction, torque } = course;
-    /** @type {EventRecord} */
-    const record = {
-      kind, time, top: [top.Ix, top.Iz, top.Mgl], orientation: start.given,
-      angular_velocity: start.omega, friction, torque, ...more,
-    };
-    this.moments.push({ record, course, before, last: last?.course ?? null, ghost });
+    this.moments.push({ kind, time, asked, course, before, last: last?.course ?? null, ghost });
   }
 
   /**
-   * @param {EventRecord["kind"]} kind
-   * @param {number} time
+   * @param {Kind} kind
+   * @param {number} time ns
    * @param {Course} course
    * @param {Moment} last
    * @returns {Placed | null}
    */
   findNextGhost(kind, time, course, last) {
-    if (kind === "kick") return { course: last.course, since: last.record.time };
+    if (kind === "kick") return { course: last.course, since: last.time };
     if (!last.ghost) return null;
     const { top, friction, torque } = course;
     const state = last.ghost.course.at(time - last.ghost.since);
     return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
   }
 
-  /** What run.json holds. */
+  /** What run.json holds. @returns {{format: number, events: EventRecord[]}} */
   get json() {
-    return { format: FORMAT, events: this.moments.map(({ record }) => record) };
+    const events = this.moments.map(
+      ({ kind, time, asked, course: { top, start, friction, torque } }) => ({
+        kind,
+        time: time / NANO,
+        top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
+        orientation: start.given,
+        angular_velocity: start.omega,
+        friction,
+        torque,
+        ...asked,
+      }),
+    );
+    return { format: FORMAT, events };
   }
 
   /**
-   * Take over a run of run.json.
+   * Take over a run of run.json; one that cannot be read leaves this run as it is.
    * @param {{format: number, events: EventRecord[]}} json
    */
   load({ format, events }) {
     if (format !== FORMAT || !Array.isArray(events) || !events.length) {
       throw new RangeError(`a run must have format ${FORMAT} and some events`);
     }
-    this.moments = [];
-    for (const { kind, time, top: [Ix, Iz, Mgl], orientation, angular_velocity, friction, torque, ...more } of events) {
+    const read = new Run(this.kernel);
+    for (const {
+      kind,
+      time,
+      top: [Ix, Iz, Mgl],
+      orientation,
+      angular_velocity,
+      friction,
+      torque,
+      ...asked
+    } of events) {
       const start = new State(orientation, angular_velocity);
-      this.add(kind, time, new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque), more);
+      const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
+      read.add(kind, Math.round(time * NANO), course, asked);
     }
+    this.moments = read.moments;
   }
 }

@@ -1,10 +1,19 @@
 // The scene: the top, its arrows and lines, the ghost, and the ball that is pulled.
 
 import { Camera } from "./camera.js";
-import { findFrameTorques } from "./precession.js";
+import { listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
-import { createArrow, createBall, createBody, createDisc, createStand, readColor } from "./meshes.js";
+import {
+  createArrow,
+  createBall,
+  createBody,
+  createDisc,
+  createStand,
+  readColor,
+} from "./meshes.js";
+import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
+import { findTorques, findVectors } from "./vectors.js";
 
 /** @typedef {import("./local.js").LocalTop} LocalTop */
 /** @typedef {import("./state.js").State} State */
@@ -13,9 +22,18 @@ import { Painter } from "./painter.js";
 
 // Colours that are visible on white and on black, and different for colour-blind people.
 const COLORS = {
-  L: "#0a46be", omega: "#009e73", torque: "#d53c0a", gravity: "#d53c0a", Coriolis: "#1e96f0",
-  centrifugal: "#690fff", sum: "#d23ca5", trace: "#e69600", circles: "#ec8c00", nodes: "#963cbe",
-  sphere: "#8c94a2", ball: "#ec8c00",
+  L: "#0a46be",
+  omega: "#009e73",
+  torque: "#d53c0a",
+  gravity: "#d53c0a",
+  Coriolis: "#1e96f0",
+  centrifugal: "#690fff",
+  sum: "#d23ca5",
+  trace: "#e69600",
+  circles: "#ec8c00",
+  nodes: "#963cbe",
+  sphere: "#8c94a2",
+  ball: "#ec8c00",
 };
 const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion
 const FICTITIOUS = "fictitious torques";
@@ -28,35 +46,33 @@ const GRIP = 24; // px around the ball in which a pull begins
 const HORIZON = 1.65; // rad; the axis goes below the pivot: no stand, and the whole sphere
 const GROUND = -0.33;
 /** @type {[Vector, Vector][]} */
-const VIEWS = [[[1.9, -2.2, 1.35], [0, 0, 0.45]], [[2.75, -3.2, 1.3], [0, 0, 0]], [[2.75, -3.2, -1.3], [0, 0, 0]]];
+const VIEWS = [
+  [
+    [1.9, -2.2, 1.35],
+    [0, 0, 0.45],
+  ],
+  [
+    [2.75, -3.2, 1.3],
+    [0, 0, 0],
+  ],
+  [
+    [2.75, -3.2, -1.3],
+    [0, 0, 0],
+  ],
+];
 const STILL = createPose([1, 0, 0, 0]);
 
 export const LAYERS = {
-  L: true, omega: true, torque: true, trace: true, "turning circles": true, "line of nodes": true,
-  ghost: true, sphere: true, handle: true, [FICTITIOUS]: false,
-};
-
-/** @param {Vector[]} points @returns {number[]} pieces between neighbours */
-const listPieces = (points) => points.slice(1).flatMap((point, k) => [...points[k], ...point]);
-
-/** The circle of the unit sphere at a tilt. @param {number} theta */
-const listParallel = (theta) =>
-  listPieces(Array.from({ length: 97 }, (_, k) => {
-    const angle = (2 * Math.PI * k) / 96;
-    return [Math.sin(theta) * Math.cos(angle), Math.sin(theta) * Math.sin(angle), Math.cos(theta)];
-  }));
-
-/** Parallels and meridians. @param {boolean} isWhole */
-const listSphere = (isWhole) => {
-  const depth = isWhole ? Math.PI : Math.PI / 2;
-  const tilts = [2, 4, 6, ...(isWhole ? [8, 10] : [])].map((n) => (n * Math.PI) / 12);
-  const meridians = Array.from({ length: 6 }, (_, n) =>
-    listPieces(Array.from({ length: 65 }, (__, k) => {
-      const tilt = depth * (k / 32 - 1);
-      const phi = (n * Math.PI) / 6;
-      return [Math.sin(tilt) * Math.cos(phi), Math.sin(tilt) * Math.sin(phi), Math.cos(tilt)];
-    })));
-  return new Float32Array([...tilts.flatMap(listParallel), ...meridians.flat()]);
+  L: true,
+  omega: true,
+  torque: true,
+  trace: true,
+  "turning circles": true,
+  "line of nodes": true,
+  ghost: true,
+  sphere: true,
+  handle: true,
+  [FICTITIOUS]: false,
 };
 
 export class Scene {
@@ -68,16 +84,19 @@ export class Scene {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "The top in three dimensions");
-    this.labels = document.createElement("div");
-    place.prepend(canvas, this.labels);
+    const labels = document.createElement("div");
+    place.prepend(canvas, labels);
     this.painter = new Painter(canvas);
     this.camera = new Camera(canvas);
+    this.labels = new Labels(labels, this.camera);
     this.top = top;
     const paint = (/** @type {keyof typeof COLORS} */ name) => readColor(COLORS[name]);
-    this.arrows = Object.fromEntries(["L", "omega", "torque", "ball", ...Object.keys(DEPTHS)].map((name) => {
-      const { shaft, head } = createArrow(paint(/** @type {keyof typeof COLORS} */ (name)));
-      return [name, { shaft: this.painter.load(shaft), head: this.painter.load(head) }];
-    }));
+    this.arrows = Object.fromEntries(
+      ["L", "omega", "torque", "ball", ...Object.keys(DEPTHS)].map((name) => {
+        const { shaft, head } = createArrow(paint(/** @type {keyof typeof COLORS} */ (name)));
+        return [name, { shaft: this.painter.load(shaft), head: this.painter.load(head) }];
+      }),
+    );
     this.stand = this.painter.load(createStand());
     this.ball = this.painter.load(createBall(paint("ball")));
     this.disc = this.painter.load(createDisc([0, 0, 0]));
@@ -86,31 +105,36 @@ export class Scene {
     this.scales = {};
     /** @type {Vector | null} */
     this.pulled = null;
-    /** @type {{[name: string]: HTMLElement}} */
-    this.names = {};
     this.bodyKey = "";
     this.view = -1; // index of `VIEWS`
     this.torqueScale = 1;
-    /** Labels of this picture. @type {Set<string>} */
-    this.shown = new Set();
     this.follow(canvas);
   }
 
   /** The ball at the end of the axle is pulled with the pointer. @param {HTMLElement} canvas */
   follow(canvas) {
-    canvas.addEventListener("pointerdown", (event) => {
-      const ball = this.camera.project(this.axis);
-      if (!ball || !this.top.layers.handle || Math.hypot(event.offsetX - ball.x, event.offsetY - ball.y) > GRIP) return;
-      event.preventDefault();
-      event.stopImmediatePropagation();
-      canvas.setPointerCapture(event.pointerId);
-      this.pulled = this.axis;
-    }, true);
+    canvas.addEventListener(
+      "pointerdown",
+      (event) => {
+        const ball = this.camera.project(this.axis);
+        if (
+          !ball ||
+          !this.top.layers.handle ||
+          Math.hypot(event.offsetX - ball.x, event.offsetY - ball.y) > GRIP
+        )
+          return;
+        event.preventDefault();
+        event.stopImmediatePropagation();
+        canvas.setPointerCapture(event.pointerId);
+        this.pulled = this.axis;
+      },
+      true,
+    );
     canvas.addEventListener("pointermove", (event) => {
       if (this.pulled) this.pulled = this.camera.unproject(event.offsetX, event.offsetY, this.axis);
     });
     canvas.addEventListener("pointerup", () => {
-      if (this.pulled) this.top.pull(this.pulled);
+      if (this.pulled) this.top.take({ act: "pull", end: this.pulled });
       this.pulled = null;
     });
   }
@@ -130,40 +154,23 @@ export class Scene {
     }
     const angles = course.free.motion.turning_angles;
     this.circles = new Float32Array(angles.flatMap(listParallel));
-    for (const [name, vector] of Object.entries(this.findVectors(state))) {
+    for (const [name, vector] of Object.entries(findVectors(this.top.course, state))) {
       const largest = name === "torque" ? Math.abs(course.top.Mgl) : findSize(vector);
-      this.scales[name] = largest ? LENGTHS[/** @type {keyof typeof LENGTHS} */ (name)] / largest : 0;
+      this.scales[name] = largest
+        ? LENGTHS[/** @type {keyof typeof LENGTHS} */ (name)] / largest
+        : 0;
     }
-    const torques = this.findTorques(state);
-    this.torqueScale = Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
+    const torques = findTorques(this.top.course.top, state);
+    this.torqueScale =
+      Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
     const isBelow = course.top.Mgl < 0 || angles[1] > HORIZON;
-    const momentum = this.findVectors(state).L[2];
+    const momentum = findVectors(this.top.course, state).L[2];
     const view = isBelow ? (course.top.Mgl < 0 && momentum < 0 ? 2 : 1) : 0;
     if (view !== this.view) {
       this.view = view;
       this.camera.place(...VIEWS[view]);
       this.sphere = listSphere(view > 0);
     }
-  }
-
-  /** @param {State} state @returns {{L: Vector, omega: Vector, torque: Vector}} */
-  findVectors(state) {
-    const { top: { Ix, Iz, Mgl }, friction, torque } = this.top.course;
-    const [x, y, z] = state.omega;
-    const [a, b] = state.toWorld([0, 0, Mgl]);
-    const damping = state.toWorld([-friction[1] * x, -friction[1] * y, -friction[0] * z]);
-    return {
-      L: state.toWorld([Ix * x, Ix * y, Iz * z]),
-      omega: state.toWorld(state.omega),
-      torque: add(add([-b, a, 0], damping), torque),
-    };
-  }
-
-  /** @param {State} state */
-  findTorques(state) {
-    const { phi, psi } = state.rates;
-    const { gravity, coriolis, centrifugal, total } = findFrameTorques(this.top.course.top, state.angles.theta, phi, psi);
-    return { gravity, Coriolis: coriolis, centrifugal, sum: total };
   }
 
   /**
@@ -173,25 +180,32 @@ export class Scene {
   draw(state, states) {
     const { painter, camera } = this;
     painter.begin(camera.matrix, camera.eye);
-    this.shown = new Set();
+    this.labels.begin();
     const { layers } = this.top;
     const axis = state.toWorld([0, 0, 1]);
     if (this.view === 0) {
-      painter.drawShadow(this.disc, createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]), [0.56 * axis[0], 0.56 * axis[1], 0], 0.6, 0.3);
+      painter.drawShadow(
+        this.disc,
+        createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]),
+        [0.56 * axis[0], 0.56 * axis[1], 0],
+        0.6,
+        0.3,
+      );
       painter.drawMesh(this.stand, STILL);
     }
     const pose = createPose(state.orientation);
     if (this.body) painter.drawMesh(this.body, pose);
     this.drawLines(state, states);
-    const vectors = this.findVectors(state);
+    const vectors = findVectors(this.top.course, state);
     for (const [name, vector] of Object.entries(vectors)) {
       if (layers[name]) this.drawArrow(name, scale(vector, this.scales[name]), [0, 0, 0], name);
     }
     if (layers[FICTITIOUS]) this.drawTorques(state);
     if (layers.handle) this.drawHandle(axis);
     const ghost = layers.ghost ? this.top.run.findGhost(this.top.time) : null;
-    if (ghost && this.body) painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
-    for (const [name, label] of Object.entries(this.names)) label.hidden = !this.shown.has(name);
+    if (ghost && this.body)
+      painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
+    this.labels.end();
   }
 
   /**
@@ -199,12 +213,18 @@ export class Scene {
    * @param {State[]} states
    */
   drawLines(state, states) {
-    const { painter, top: { layers } } = this;
-    if (layers.sphere && this.sphere) painter.drawLines(this.sphere, this.paint("sphere"), 1, STILL, 0.55);
-    if (layers["turning circles"] && this.circles) painter.drawLines(this.circles, this.paint("circles"), 2, STILL);
+    const {
+      painter,
+      top: { layers },
+    } = this;
+    if (layers.sphere && this.sphere)
+      painter.drawLines(this.sphere, this.paint("sphere"), 1, STILL, 0.55);
+    if (layers["turning circles"] && this.circles)
+      painter.drawLines(this.circles, this.paint("circles"), 2, STILL);
     const { phi } = state.angles;
     const turned = createPose([Math.cos(phi / 2), 0, 0, Math.sin(phi / 2)]);
-    if (layers["line of nodes"]) painter.drawLines(new Float32Array([-0.4, 0, 0, 0.4, 0, 0]), this.paint("nodes"), 2, turned);
+    if (layers["line of nodes"])
+      painter.drawLines(new Float32Array([-0.4, 0, 0, 0.4, 0, 0]), this.paint("nodes"), 2, turned);
     const trace = listPieces(states.map((each) => each.toWorld([0, 0, 1])));
     if (layers.trace) painter.drawLines(new Float32Array(trace), this.paint("trace"), 3, STILL);
   }
@@ -223,40 +243,32 @@ export class Scene {
     const tip = add(origin, vector);
     const { shaft, head } = this.arrows[name];
     const size = Math.min(1, length / 0.15);
-    this.painter.drawMesh(shaft, createPose(rotation, [size, size, Math.max(length - 0.1 * size, 0)], origin));
+    this.painter.drawMesh(
+      shaft,
+      createPose(rotation, [size, size, Math.max(length - 0.1 * size, 0)], origin),
+    );
     this.painter.drawMesh(head, createPose(rotation, [size, size, size], tip));
-    if (label) this.drawLabel(label, COLORS[/** @type {keyof typeof COLORS} */ (name)], add(tip, scale(direction, 0.08)));
-  }
-
-  /**
-   * @param {string} name
-   * @param {string} color
-   * @param {Vector} point
-   */
-  drawLabel(name, color, point) {
-    const at = this.camera.project(point);
-    if (!at) return;
-    if (!this.names[name]) {
-      this.names[name] = Object.assign(document.createElement("span"), { className: "label", textContent: name });
-      this.names[name].style.borderColor = color;
-      this.labels.append(this.names[name]);
-    }
-    this.shown.add(name);
-    this.names[name].style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px) translate(-50%, -50%)`;
+    if (label)
+      this.labels.put(
+        label,
+        COLORS[/** @type {keyof typeof COLORS} */ (name)],
+        add(tip, scale(direction, 0.08)),
+      );
   }
 
   /** Arrows along the line of nodes, head to tail: the third ends below the pivot if theta'' is 0. */
   /** @param {State} state */
   drawTorques(state) {
     const { phi } = state.angles;
-    const torques = this.findTorques(state);
+    const torques = findTorques(this.top.course.top, state);
     const sizes = Object.values(torques).map((each) => each / this.torqueScale);
     if (!sizes.every((each) => Math.abs(each) <= LONGEST)) return;
     let end = 0;
     Object.entries(DEPTHS).forEach(([name, depth], k) => {
       const begin = name === "sum" ? 0 : end;
       end = begin + sizes[k];
-      const along = (/** @type {number} */ x) => /** @type {Vector} */ ([x * Math.cos(phi), x * Math.sin(phi), -depth]);
+      const along = (/** @type {number} */ x) =>
+        /** @type {Vector} */ ([x * Math.cos(phi), x * Math.sin(phi), -depth]);
       this.drawArrow(name, subtract(along(end), along(begin)), along(begin), name);
     });
   }

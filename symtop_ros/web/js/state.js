@@ -68,7 +68,8 @@ export class State {
     return new State(
       [c * plus[0], s * minus[0], s * minus[1], c * plus[1]],
       [
-        phiDot * sine * t + thetaDot * d, phiDot * sine * d - thetaDot * t,
+        phiDot * sine * t + thetaDot * d,
+        phiDot * sine * d - thetaDot * t,
         phiDot * cosine + psiDot,
       ],
     );

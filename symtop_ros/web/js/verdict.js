@@ -50,8 +50,14 @@ const classifyVertical = (top, state) => {
  * @returns {Reason}
  */
 const explainVertical = (top, state) => ({
-  kind: classifyVertical(top, state), rule: null, subject: nameSubject(top), before: null,
-  after: null, theta_ddot_without: null, theta_ddot: null, place: null,
+  kind: classifyVertical(top, state),
+  rule: null,
+  subject: nameSubject(top),
+  before: null,
+  after: null,
+  theta_ddot_without: null,
+  theta_ddot: null,
+  place: null,
 });
 
 /**
@@ -74,7 +80,11 @@ const findDirection = (top, state) => {
 
 /** @param {Course} course */
 const findAverage = ({ top, start, motion }) => {
-  const { precession_per_nutation: turns, mean_precession_rate: rate, spin_reverses } = motion.rates;
+  const {
+    precession_per_nutation: turns,
+    mean_precession_rate: rate,
+    spin_reverses,
+  } = motion.rates;
   if (!Number.isFinite(turns)) return null;
   const spin = start.omega[2];
   const least = (2 * Math.sqrt(top.Ix) * Math.sqrt(Math.abs(top.Mgl))) / top.Iz;
@@ -165,7 +175,13 @@ export const judgeKick = (course, before, anglesBefore, hold) => {
     reason,
     highest,
     lowest,
-    contradiction: findContradiction(reason, kick ? kick.expected : null, direction, highest, lowest),
+    contradiction: findContradiction(
+      reason,
+      kick ? kick.expected : null,
+      direction,
+      highest,
+      lowest,
+    ),
     average: isDriven ? null : findAverage(course),
   };
 };

@@ -56,7 +56,8 @@ export class Writer {
     if (value === null || value === undefined) return "";
     if (typeof value === "boolean") return this.fill(`${form}.${value}`, record, variant);
     if (typeof value === "number") return writeNumber(value, form);
-    if (typeof value === "string") return form ? this.fill(`${form}.${value}`, record, variant) : value;
+    if (typeof value === "string")
+      return form ? this.fill(`${form}.${value}`, record, variant) : value;
     if (Array.isArray(value)) return this.writeSeveral(name, value, form, record, variant);
     return this.write(form || name, value, variant);
   }

@@ -1,0 +1,254 @@
+"""A running node behind the page: its events and its attitude to the pages, their acts to it.
+
+Needs ROS. The page computes all else from the events, as it does for a top of its own.
+"""
+
+import contextlib
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import rclpy
+from geometry_msgs.msg import WrenchStamped
+from rclpy.callback_groups import CallbackGroup
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.live.feed import DEPTH, Feed
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.run_file import RunRecorder
+from symtop_ros.simulation.settings import MAX_MOMENT
+from symtop_ros.simulation.topics import STATE_TOPICS
+from symtop_ros.simulation.validation import RefusedError, choice, vector
+
+DRAWN = "orientation"  # topic of the samples that are drawn
+PARAMETERS = "set_parameters_atomically"
+SERVICES = ("set_initial_conditions", "kick", "step", "reset", "pause", "record", PARAMETERS)
+TIMEOUT = 3.0  # s for an answer
+SILENCE = 2.0  # s without samples after which the page says so
+PERIOD = 1 / 60  # s between two messages to a page
+ALIVE = 2.0  # s after which a page without news is sent an empty message: a closed one is noticed
+KEPT = 200  # events of a run that a page is sent when it is opened
+
+Message = dict[str, Any]
+
+
+class Polled(CallbackGroup):
+    """Group of subscriptions that the executor leaves alone.
+
+    For each message an executor rebuilds its wait set, which takes 20 % CPU (one core) at 200 Hz.
+    The bridge takes the messages itself, once for each frame.
+    """
+
+    def can_execute(self, entity: Any) -> bool:
+        """Return False: the executor does not wait for an entity of this group."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Return False, as nothing is executed."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Do nothing, as nothing is executed."""
+
+
+class SharedConnection(Connection):
+    """A connection whose node is spun by another thread."""
+
+    def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
+        """Wait until a condition holds; return False after `timeout` seconds."""
+        deadline = time.monotonic() + timeout
+        while not done() and time.monotonic() < deadline:
+            time.sleep(0.002)
+        return done()
+
+
+@dataclass
+class _Place:
+    """What one page was sent: which run, how many events of it, and the state."""
+
+    run: int = -1
+    count: int = 0
+    state: Message = field(default_factory=dict)
+
+
+class Bridge:
+    """A node for the pages. Methods may be called from any thread."""
+
+    def __init__(self, node: Node, name: str) -> None:
+        self._connection = SharedConnection(node, name, TIMEOUT)
+        self.name = self._connection.name
+        self._connection.prepare(*SERVICES)
+        self._torque = node.create_publisher(WrenchStamped, f"{self.name}/applied_torque", 10)
+        self._node, self._feed = node, Feed(node, self.name, ())
+        self._samples: Subscription | None = None
+        self._calls = threading.Lock()
+        self._news = threading.Condition()  # guards all that follows
+        self._pages = 0
+        self._recorder = RunRecorder()
+        self._events: deque[Message] = deque(maxlen=KEPT)  # of this run, each as a message
+        self._count = 0  # events of this run
+        self._runs = 0  # runs that have begun; a page with another number has an old one
+        self._last: Event | None = None
+        self._sample: Message = {}
+        self._heard, self._lost = time.monotonic(), False
+        self._ending = threading.Event()
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(node)
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+
+    # What pages ask for
+
+    def answer(self, request: Mapping[str, Any]) -> Message:
+        """Do what a page asks for; return the answer of the node."""
+        try:
+            if "torque" in request:
+                self._hold_torque(request["torque"])
+                return {"granted": True, "answer": ""}
+            name = choice("service", request.get("service"), SERVICES)
+            argument = request.get("argument")
+            if argument is not None and not isinstance(argument, dict | bool):
+                raise RefusedError(f"argument must be named values, true or false, for {name}")
+            with self._calls:  # one at a time: two pages may ask at once
+                granted, text = self._connection.request(name, argument)
+        except (RefusedError, UnreachableError) as error:
+            granted, text = False, str(error)
+        except (TypeError, ValueError, AttributeError) as error:  # a value that ROS has no type for
+            granted, text = (
+                False,
+                f"argument must have numbers, words and lists of numbers: {error}",
+            )
+        return {"granted": granted, "answer": text}
+
+    def _hold_torque(self, torque: Any) -> None:
+        """Publish a torque; the node applies it until its time-out."""
+        message = WrenchStamped()
+        axes = message.wrench.torque
+        axes.x, axes.y, axes.z = vector("torque", torque, 3, MAX_MOMENT, "N m, world frame")
+        self._torque.publish(message)
+
+    # What pages are sent
+
+    def follow(self) -> Iterator[Message]:
+        """Yield what is new for one page, as soon as the page has taken what was before.
+
+        A page that does not keep up gets fewer samples, and all events.
+        """
+        place = _Place()
+        with self._news:
+            self._pages += 1
+        try:
+            while not self._ending.is_set():
+                with self._news:
+                    is_new = self._news.wait_for(lambda: self._has_news(place), ALIVE)
+                    message = self._take_news(place) if is_new else {}
+                yield message
+                self._ending.wait(PERIOD)
+        finally:
+            with self._news:
+                self._pages -= 1
+
+    def _has_news(self, place: "_Place") -> bool:
+        return (place.run, place.count, place.state) != (self._runs, self._count, self._state)
+
+    def _take_news(self, place: "_Place") -> Message:
+        """Return what a page has not been sent, which is sent from now on."""
+        message, is_new = {**self._state}, place.run != self._runs
+        missed = self._count if is_new else self._count - place.count
+        if missed:
+            message |= {"new": is_new, "events": [*self._events][-missed:]}
+        place.run, place.count, place.state = self._runs, self._count, self._state
+        return message
+
+    @property
+    def _state(self) -> Message:
+        lost = (
+            f"no samples from {self.name} for {SILENCE:g} s: is top_node running, with the same "
+            "ROS_DOMAIN_ID and --node?"
+        )
+        return {**self._sample, "lost": lost if self._lost else None}
+
+    # The thread of the node
+
+    def _spin(self) -> None:
+        with contextlib.suppress(ExternalShutdownException):
+            while rclpy.ok(context=self._node.context) and not self._ending.is_set():
+                self._executor.spin_once(timeout_sec=PERIOD)
+                self._subscribe(self._pages > 0)
+                self._take()
+
+    def _subscribe(self, wanted: bool) -> None:
+        """Subscribe to the samples while a page is open; an unwatched node sends events only."""
+        if wanted and self._samples is None:
+            topic = STATE_TOPICS[DRAWN]
+            self._heard = time.monotonic()
+            self._samples = self._node.create_subscription(
+                topic.load_message_class(),
+                topic.resolve(self.name),
+                lambda _: None,
+                DEPTH,
+                callback_group=Polled(),
+                raw=True,
+            )
+        elif not wanted and self._samples is not None:
+            self._node.destroy_subscription(self._samples)
+            self._samples = None
+
+    def _take(self) -> None:
+        """Take what has arrived, of the samples the last one, and let the pages know."""
+        if (data := self._take_sample()) is not None:
+            self._feed.receive(DRAWN, data)
+        batch = self._feed.batch()
+        with self._news:
+            for _, event in batch.events:
+                self._follow_event(event)
+            if columns := batch.columns.get(DRAWN):
+                self._follow_sample(int(columns.stamps[-1]), columns.numbers[-1].tolist())
+            running = self._last is None or self._last.segment().running
+            if columns or not running:  # with publish_clock a pause has no samples
+                self._heard = time.monotonic()
+            self._lost = self._samples is not None and time.monotonic() > self._heard + SILENCE
+            self._news.notify_all()
+
+    def _take_sample(self) -> bytes | None:
+        """Return the newest sample that has arrived, without the executor."""
+        newest = None
+        while samples := self._samples:
+            with samples.handle:
+                taken = samples.handle.take_message(samples.msg_type, True)
+            if taken is None:
+                break
+            newest = taken[0]
+        return newest
+
+    def _follow_event(self, event: Event) -> None:
+        if event.number == 1 or self._last is None:  # another node, or the first event that is seen
+            self._recorder, self._runs, self._count = RunRecorder(), self._runs + 1, 0
+            self._events.clear()
+            self._sample = {}
+        self._last, found = event, self._recorder.add(event)
+        segment = event.segment()
+        told = {"running": segment.running, "factor": segment.factor}
+        if event.name == "record":
+            told["recording"] = bool(event.values.get("outcome.kind") == "begun")
+        record = {"record": found.to_json()} if found else {}
+        self._events.append({**record, **told, "said": event.verdict, "name": event.name})
+        self._count += 1
+
+    def _follow_sample(self, stamp: int, numbers: list[float]) -> None:
+        if self._last is None or stamp < self._last.stamp:
+            return  # of the motion before
+        x, y, z, w = numbers
+        self._sample = {"time": self._recorder.time_at(stamp), "orientation": [w, x, y, z]}
+
+    def close(self) -> None:
+        """End the thread and all pages. The node keeps running."""
+        self._ending.set()
+        self._thread.join(timeout=2.0)
+        self._executor.shutdown(timeout_sec=0.0)

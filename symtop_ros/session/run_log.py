@@ -1,0 +1,210 @@
+"""The log that a node would have written of a run of the page: run.json as MCAP.
+
+The run is done again: a session with a clock of its own gets the same starts, kicks and changes at
+the same nanoseconds, and records what it publishes.
+"""
+
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.physics import Motion
+from symtop_ros.session.session import Session
+from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.run_file import RunEvent
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import Topic
+from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wire.diagnostics import Status
+from symtop_ros.wire.layout import NANOSECONDS
+
+NODE, RATE = "/top", 200.0  # name of the node that would have written the log, and its rate in Hz
+# The states of a run are those of other processors and of Python alone too, which may differ by
+# rounding, and an event of a node may be half a nanosecond away from its place in the run.
+ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9
+
+
+class RunClock:
+    """The time of the run, which the writer sets."""
+
+    now, is_simulated = 0, True
+
+
+class Silent:
+    """The host of a session that nobody watches."""
+
+    is_open = True
+
+    def __init__(self) -> None:
+        self.failures: list[str] = []
+
+    def resolve(self, topic: Topic) -> str:
+        """Return the name of a topic of the node."""
+        return topic.resolve(NODE)
+
+    def create_publisher_of(self, topic: Topic) -> None:
+        """Return None: topics are only logged."""
+
+    def watch_sample(self, stamp: int, block: Block) -> None:
+        """Do nothing."""
+
+    def watch_event(self, event: Event) -> None:
+        """Do nothing."""
+
+    def update_statuses(self) -> list[Status]:
+        """Return nothing of its own."""
+        return []
+
+    def inform(self, text: str) -> None:
+        """Do nothing: the log has it."""
+
+    def warn(self, text: str) -> None:
+        """Keep a warning: the motion could not be followed."""
+        self.failures.append(text)
+
+    report_error = warn
+
+
+def write_run_log(events: Sequence[RunEvent], end: int, path: Path, rate: float = RATE) -> None:
+    """Write the log of a run that has reached a time in ns, in samples per second.
+
+    Raises
+    ------
+    RefusedError
+        If an event is not what a node makes of the request, or the motion cannot be followed.
+    OSError
+        If the file cannot be written.
+    """
+    with tempfile.TemporaryDirectory(dir=path.absolute().parent) as folder:
+        again = _Again(events[0], rate, folder)
+        for place, event in enumerate(events):
+            again.go(event.time)
+            again.do(event, f"events[{place}]", is_first=place == 0)
+        again.go(end + 1)  # with the sample at the end
+        os.replace(again.close(), path)
+
+
+class _Again:
+    """A run that is done again."""
+
+    def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
+        self._clock, self._host = RunClock(), Silent()
+        values = _initial_values(first, rate, folder)
+        settings = Settings.from_values(values)
+        environment = {"program": "top_replay"}
+        self._session = Session(settings, self._clock, self._host, "run.json", environment, NODE)
+        self._simulation = self._session.simulation
+        self._told = 0  # s of the last diagnostics
+
+    def go(self, time: int) -> None:
+        """Publish what is due before a time in ns, with diagnostics once a second."""
+        for stamp in self._list_stops(time):
+            self._clock.now = stamp
+            self._publish()
+            if stamp // NANOSECONDS > self._told:
+                self._told = stamp // NANOSECONDS
+                self._session.keep_up()
+
+    def _list_stops(self, time: int) -> Iterator[int]:
+        """Yield times up to the last one before `time`, so near that the recorder keeps up."""
+        step = NANOSECONDS // 4
+        yield from range((self._clock.now // step + 1) * step, time, step)
+        yield max(time - 1, self._clock.now)
+
+    def _publish(self) -> None:
+        while self._simulation.stamp <= self._clock.now:
+            self._simulation.tick()
+            self._session.await_recorder()
+        if self._host.failures:
+            raise RefusedError(f"the run cannot be followed: {self._host.failures[0]}")
+
+    def do(self, event: RunEvent, name: str, *, is_first: bool) -> None:
+        """Do what an event says, at its time."""
+        before = self._simulation.segment
+        if not is_first:
+            self._clock.now = event.time
+            self._simulation.restart_grid(event.time)
+            if changes := _list_changes(before.motion, event.motion):
+                self._session.apply_settings(changes)
+            self._ask(event, name)
+        self._compare(event, name)
+
+    def _ask(self, event: RunEvent, name: str) -> None:
+        if event.kind == "kick":
+            granted, answer = self._session.answer("kick", lambda: event.act)
+        elif event.kind == "start":
+            values = _start_values(event)
+            granted, answer = self._session.answer("set_initial_conditions", lambda: values)
+        else:
+            return
+        if not granted:
+            raise RefusedError(f"{name}: {answer}")
+
+    def _compare(self, event: RunEvent, name: str) -> None:
+        """Refuse an event whose motion is not the one that follows."""
+        right, given = self._simulation.segment.motion.start, event.motion.start
+        rate = float(np.abs(right.angular_velocity).max())
+        near = ROUNDING + HALF_NANOSECOND * rate
+        turned = min(
+            float(np.abs(right.orientation - sign * given.orientation).max()) for sign in (1, -1)
+        )
+        changed = float(np.abs(right.angular_velocity - given.angular_velocity).max())
+        if turned > near or changed > near * max(1.0, rate):
+            got = given.angular_velocity.tolist()
+            condition = (
+                f"the state after the {event.kind} ({right.angular_velocity.tolist()} rad/s)"
+            )
+            raise RefusedError(f"{name}: angular_velocity must be {condition}, got {got}")
+
+    def close(self) -> Path:
+        """End the recording; return the path of its file."""
+        path = self._session.recording.path
+        self._session.close()
+        failure = self._session.recording.unreported_failure
+        if failure or path is None:
+            raise RefusedError(f"the log cannot be written: {failure}")
+        return path
+
+
+def _initial_values(first: RunEvent, rate: float, folder: str) -> dict[str, Any]:
+    start = _start_values(first)
+    return {
+        **_list_values(first.motion),
+        **{f"initial.{name}": value for name, value in start.items()},
+        "publish_rate": rate,
+        "record.enabled": True,
+        "record.directory": folder,
+    }
+
+
+def _start_values(event: RunEvent) -> dict[str, Any]:
+    """Return the fields of ~/set_initial_conditions with the exact doubles of a start."""
+    start = event.motion.start
+    w, x, y, z = start.given_orientation.tolist()
+    return {
+        "orientation": [x, y, z, w],
+        "angular_velocity": start.angular_velocity.tolist(),
+    }
+
+
+def _list_values(motion: Motion) -> dict[str, Any]:
+    """Return the parameters that say what moves, and what acts on it."""
+    Ix, Iz, Mgl = motion.top.moments
+    return {
+        "top.Ix": Ix,
+        "top.Iz": Iz,
+        "top.Mgl": Mgl,
+        "friction.axial": motion.friction.axial,
+        "friction.transverse": motion.friction.transverse,
+        "steady_torque": list(motion.applied_torque),
+    }
+
+
+def _list_changes(before: Motion, after: Motion) -> dict[str, Any]:
+    old = _list_values(before)
+    return {name: value for name, value in _list_values(after).items() if value != old[name]}

@@ -1,0 +1,194 @@
+"""Runs as the page keeps them (`run.json`): events, each with the motion that follows it.
+
+The time of such a run is that of its motion, in whole nanoseconds: pauses and the speed at which a
+top is watched leave no trace in it.
+"""
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from symtop_ros.arrays import Vector
+from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
+from symtop_ros.simulation.changes.kick import FIELDS
+from symtop_ros.simulation.events import RESTARTS, Event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.settings import MAX_MOMENT
+from symtop_ros.simulation.validation import (
+    MAX_RATE,
+    RefusedError,
+    choice,
+    number,
+    one_line,
+    reject,
+    validate_names,
+    vector,
+)
+from symtop_ros.wire.layout import NANOSECONDS
+
+FORMAT = 1
+KINDS = ("start", "kick", "change", "torque")
+MAX_BYTES = 100_000_000
+MAX_TIME = 4e6  # s; up to here a double in s has its own ns
+MOTION = ("top", "friction", "applied_torque", "motion.orientation", "motion.angular_velocity")
+
+
+@dataclass(frozen=True, slots=True)
+class RunEvent:
+    """An event of a run, and the motion that follows it."""
+
+    kind: str  # one of `KINDS`
+    time: int  # ns of the run
+    motion: Motion
+    act: Mapping[str, Any]  # of a kick, the fields of ~/kick; else empty
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the event as it stands in run.json."""
+        motion, start = self.motion, self.motion.start
+        return {
+            "kind": self.kind,
+            "time": self.time / NANOSECONDS,
+            "top": motion.top.moments,
+            "orientation": start.given_orientation.tolist(),
+            "angular_velocity": start.angular_velocity.tolist(),
+            "friction": (motion.friction.axial, motion.friction.transverse),
+            "torque": motion.applied_torque,
+            **({"act": self.act, "hold": self.hold} if self.act else {}),
+        }
+
+    @property
+    def is_act(self) -> bool:
+        """False for a change of the top or of the torque, which another may replace."""
+        return self.kind in ("start", "kick")
+
+    @property
+    def hold(self) -> str | None:
+        """The quantity that a kick leaves unchanged; None for an angular impulse."""
+        return None if "angular_impulse" in self.act else self.act.get("hold", HOLDS[0])
+
+
+class RunRecorder:
+    """Follows the events of a node or of a log, and gives those that belong into run.json."""
+
+    def __init__(self) -> None:
+        self._segment: Segment | None = None
+        self._values: Mapping[str, str] = {}
+        self._begin = Fraction(0)  # time of the run (ns) at which the present motion began
+
+    def add(self, event: Event) -> RunEvent | None:
+        """Follow an event; None if it changes no motion, such as a pause."""
+        segment, previous, values = event.segment(), self._segment, event.values
+        is_new = event.name in RESTARTS or any(values[k] != self._values.get(k) for k in MOTION)
+        if previous and is_new:
+            # Within one motion its own time goes on, in pauses, steps and jumps of the clock too.
+            self._begin += previous.elapsed_at(event.previous_end) - segment.elapsed
+        self._segment, self._values = segment, values
+        if not is_new:
+            return None
+        kind = "start" if previous is None or event.name in RESTARTS else event.name
+        time = max(0, round(self._begin))
+        act = _read_act(event.request) if kind == "kick" else {}
+        return RunEvent(kind if kind in KINDS else "change", time, segment.motion, act)
+
+    def time_at(self, stamp: int) -> int:
+        """Return the time of the run (ns) at a stamp (ns) after the last event."""
+        elapsed = self._segment.elapsed_at(stamp) if self._segment else 0
+        return round(self._begin + elapsed)
+
+
+def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int]:
+    """Return the run of the events of a log, and the time in ns that it has at a stamp (ns)."""
+    recorder, found = RunRecorder(), list[RunEvent]()
+    for event in filter(None, map(recorder.add, events)):
+        # A change of several parameters at once is a sequence of events; the last one holds.
+        if len(found) > 1 and found[-1].time == event.time and not found[-1].is_act:
+            found.pop()
+        found.append(event)
+    return found, max(recorder.time_at(stamp), *(event.time for event in found[-1:]), 0)
+
+
+def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
+    """Return the content of run.json, of a run that has reached a time in ns."""
+    written = [event.to_json() for event in events]
+    return {"format": FORMAT, "events": written, "end": end / NANOSECONDS}
+
+
+def _read_act(request: Mapping[str, str]) -> dict[str, Any]:
+    """Return the fields of a kick from their texts in an event."""
+
+    def read(name: str, text: str) -> Any:
+        if name == "hold":
+            return text
+        values = [float(each) for each in text.split()]
+        return values if name == "angular_impulse" else values[0]
+
+    return {name: read(name, text) for name, text in request.items() if name in FIELDS and text}
+
+
+def read_run(path: Path) -> tuple[list[RunEvent], int]:
+    """Return the events of run.json, and the time in ns that the run has reached.
+
+    Raises
+    ------
+    RefusedError
+        If the file is no run; the text names what is wrong.
+    OSError
+        If it cannot be read.
+    """
+    with path.open("rb") as file:
+        data = file.read(MAX_BYTES)
+    try:
+        content = json.loads(data)
+    except (ValueError, RecursionError):
+        content = None
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise RefusedError(f"{path} must be a run of the page (run.json, format {FORMAT})")
+    given = content.get("events")
+    if not isinstance(given, list) or not given:
+        raise reject("events", "a list with a start at its beginning", given)
+    events = _read_events(given)
+    end = number("end", content.get("end", events[-1].time / NANOSECONDS), "s", 0.0, MAX_TIME)
+    return events, max(events[-1].time, round(end * NANOSECONDS))
+
+
+def _read_events(given: list[Any]) -> list[RunEvent]:
+    events: list[RunEvent] = []
+    for place, each in enumerate(given):
+        try:
+            event = _read_event(each if isinstance(each, dict) else {})
+            earliest = events[-1].time if events else 0
+            if event.time < earliest or not (events or event.kind == "start"):
+                raise RefusedError("a run must begin with a start and be in the order of time")
+        except ValueError as error:  # also of a top and a state
+            raise RefusedError(f"events[{place}]: {one_line(error)}") from None
+        events.append(event)
+    return events
+
+
+def _read_event(given: Mapping[str, Any]) -> RunEvent:
+    kind = choice("kind", given.get("kind"), KINDS)
+    time = number("time", given.get("time"), "s", 0.0, MAX_TIME)
+    w, x, y, z = vector("orientation", given.get("orientation"), 4, 2.0, "w, x, y, z")
+    omega = vector("angular_velocity", given.get("angular_velocity"), 3, MAX_RATE, "rad/s")
+    Ix, Iz, Mgl = vector("top", given.get("top"), 3, MAX_MOMENT, "Ix, Iz, Mgl")
+    axial, transverse = vector("friction", given.get("friction", (0, 0)), 2, MAX_MOMENT, "N m s")
+    torque: Vector = _three(vector("torque", given.get("torque", (0, 0, 0)), 3, MAX_MOMENT, "N m"))
+    motion = Motion(
+        Top(Ix=Ix, Iz=Iz, Mgl=Mgl),
+        State((w, x, y, z), omega),
+        friction=Friction(axial, transverse),
+        torque=torque,
+    )
+    act = given.get("act") if kind == "kick" else {}
+    if not isinstance(act, dict):
+        raise reject("act", "the fields of a kick", act)
+    validate_names(act, FIELDS)
+    return RunEvent(kind, round(time * NANOSECONDS), motion, act)
+
+
+def _three(values: tuple[float, ...]) -> Vector:
+    x, y, z = values
+    return x, y, z

@@ -1,0 +1,38 @@
+// Choices that the browser keeps over a reload, where it keeps anything: a frame may have no store.
+
+import { find } from "./document.js";
+
+/** @param {string} id */
+const read = (id) => {
+  try {
+    return localStorage.getItem(`symtop.${id}`);
+  } catch {
+    return null;
+  }
+};
+
+/**
+ * @param {string} id
+ * @param {string} value
+ */
+const keep = (id, value) => {
+  try {
+    localStorage.setItem(`symtop.${id}`, value);
+  } catch {
+    // There is no store here: the choice is that of this page alone.
+  }
+};
+
+/**
+ * Keep what is chosen in a list, and take over what was.
+ * @param {string} id
+ * @param {() => void} changed
+ */
+export const keepChoice = (id, changed) => {
+  const list = find(id, HTMLSelectElement);
+  list.value = read(id) ?? list.value;
+  list.addEventListener("change", () => {
+    keep(id, list.value);
+    changed();
+  });
+};

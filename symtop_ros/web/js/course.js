@@ -1,0 +1,73 @@
+// A motion from a start, with friction and torque, computed by the kernel at any time.
+
+import { State } from "./state.js";
+
+/** @typedef {import("./kernel.js").Kernel} Kernel */
+/** @typedef {import("./kernel.js").Motion} Motion */
+/** @typedef {import("./precession.js").Top} Top */
+/** @typedef {import("./state.js").Vector} Vector */
+
+export const NANO = 1e9; // ns in a second
+/** @type {[number, number]} */
+const NO_FRICTION = [0, 0];
+/** @type {Vector} */
+const NO_TORQUE = [0, 0, 0];
+
+export class Course {
+  /**
+   * @param {Kernel} kernel
+   * @param {Top} top
+   * @param {State} start
+   * @param {[number, number]} friction
+   * @param {Vector} torque
+   */
+  constructor(kernel, top, start, friction = NO_FRICTION, torque = NO_TORQUE) {
+    this.kernel = kernel;
+    this.top = top;
+    this.start = start;
+    this.friction = friction;
+    this.torque = torque;
+    const { given: orientation, omega: angular_velocity } = start;
+    /** @type {Motion} */
+    this.motion = kernel.motion({ ...top, orientation, angular_velocity, friction, torque });
+    this.isDriven = [...friction, ...torque].some((each) => each !== 0);
+    /** @type {Course | null} */
+    this.undriven = this.isDriven ? null : this;
+  }
+
+  /** The motion that would follow under gravity alone. @returns {Course} */
+  get free() {
+    this.undriven ??= new Course(this.kernel, this.top, this.start);
+    return this.undriven;
+  }
+
+  /** @param {number} passed whole ns since the start */
+  at(passed) {
+    const [w, x, y, z, ...omega] = this.motion.at(passed / NANO);
+    return new State([w, x, y, z], /** @type {Vector} */ (omega));
+  }
+
+  /**
+   * Integrate towards a time in so many steps; returns the time, in ns, up to which states are at hand.
+   * @param {number} passed ns since the start
+   * @param {number} steps
+   */
+  reach(passed, steps) {
+    const reached = this.motion.reach(passed / NANO, steps);
+    return reached < passed / NANO ? Math.floor(reached * NANO) : passed;
+  }
+
+  /**
+   * The course that goes on from a state, with what is changed.
+   * @param {State} start
+   * @param {{top?: Top, friction?: [number, number], torque?: Vector}} changes
+   */
+  continue(start, { top = this.top, friction = this.friction, torque = this.torque } = {}) {
+    return new Course(this.kernel, top, start, friction, torque);
+  }
+
+  /** The course from a state under gravity alone. @param {State} start */
+  continueFree(start) {
+    return new Course(this.kernel, this.top, start);
+  }
+}

@@ -1,0 +1,144 @@
+// The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
+
+import { find, findAll, make, say } from "./document.js";
+
+/**
+ * A button of a step, as in lesson.yaml.
+ * @typedef {{button: string, start: {[name: string]: any} | null, hurry: number | null, hold: string}} Act
+ */
+/**
+ * @typedef {{title: string, acts: Act[], scene: string, charts: string[], layers: string[],
+ *   [text: string]: any}} Step
+ */
+/** @typedef {(message: {[name: string]: any}) => void} Send */
+
+const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
+
+export class Lesson {
+  /**
+   * @param {Step[]} steps
+   * @param {Send} send
+   * @param {(layers: string[]) => void} chooseLayers
+   */
+  constructor(steps, send, chooseLayers) {
+    this.steps = steps;
+    this.send = send;
+    this.chooseLayers = chooseLayers;
+    this.select = find("steps", HTMLSelectElement);
+    this.field = find("prediction", HTMLTextAreaElement);
+    /** Number of the step that is shown. @type {number | null} */
+    this.shown = null;
+    /** @type {HTMLButtonElement[]} */
+    this.hurries = [];
+    // What was written is kept by the browser for this tab, and survives a reload. A step is an
+    // entry of its history: Back is the step before. A frame of another site may not have one.
+    /** @type {{[step: number]: string}} */
+    this.predictions = { ...history.state };
+    this.select.append(
+      ...steps.map(({ title }, k) => make("option", { textContent: `${k + 1}. ${title}` })),
+    );
+    this.listen();
+  }
+
+  listen() {
+    this.select.addEventListener("change", () => this.show(this.current));
+    this.field.addEventListener("input", () => this.keep(this.current, this.field.value));
+    find("step-back").addEventListener("click", (event) => this.go(-1, event));
+    find("step-next").addEventListener("click", (event) => this.go(1, event));
+    find("tab-lesson").addEventListener("click", () => {
+      if (!location.hash.startsWith("#lesson=")) this.show(this.current);
+    });
+    addEventListener("popstate", () => {
+      const [, number] = location.hash.match(/^#lesson=(\d+)$/) ?? [];
+      if (number && Number(number) !== this.shown) this.show(Number(number), true);
+    });
+  }
+
+  get current() {
+    return this.select.selectedIndex + 1;
+  }
+
+  /** Open the tab of the lesson at a step. @param {number} number */
+  open(number) {
+    find("tab-lesson").click();
+    this.show(Math.min(Math.max(Math.round(number) || 1, 1), this.steps.length));
+  }
+
+  /**
+   * @param {number} by
+   * @param {MouseEvent} event
+   */
+  go(by, event) {
+    this.show(this.current + by);
+    if (event.detail) this.select.scrollIntoView();
+    else this.select.focus();
+  }
+
+  /**
+   * @param {number} number
+   * @param {string} text
+   * @param {boolean} isNew
+   */
+  keep(number, text, isNew = false) {
+    this.predictions[number] = text;
+    try {
+      history[isNew ? "pushState" : "replaceState"](this.predictions, "", `#lesson=${number}`);
+    } catch {
+      // The history is not that of this page: what is written lasts as long as the page.
+    }
+  }
+
+  /**
+   * @param {number} number
+   * @param {boolean} isBack
+   */
+  show(number, isBack = false) {
+    const isNew = this.shown !== null && this.shown !== number && !isBack;
+    this.shown = number;
+    const step = this.steps[number - 1];
+    this.select.selectedIndex = number - 1;
+    for (const name of TEXTS) say(`lesson-${name}`, step[name] ?? "");
+    for (const details of find("lesson").querySelectorAll("details")) details.open = false;
+    this.markCharts(step.charts);
+    this.chooseLayers(step.layers);
+    this.field.value = this.predictions[number] ?? "";
+    find("step-back", HTMLButtonElement).disabled = number === 1;
+    find("step-next", HTMLButtonElement).disabled = number === this.steps.length;
+    this.offerActs(step);
+    this.keep(number, this.field.value, isNew);
+    this.send({ act: "rest" }); // nothing moves before the prediction
+  }
+
+  /** @param {string[]} names of the charts to look at, which come first */
+  markCharts(names) {
+    for (const chart of findAll("[data-chart]")) {
+      chart.classList.toggle("looked", names.includes(chart.dataset.chart ?? ""));
+    }
+    find("charts").scrollTop = 0;
+  }
+
+  /** @param {Step} step */
+  offerActs({ acts, scene }) {
+    this.hurries = [];
+    const buttons = acts.map((act) => {
+      const button = make("button", { textContent: act.button, disabled: !act.start });
+      if (!act.start) this.hurries.push(button);
+      button.addEventListener("click", () => this.do(act, scene));
+      return button;
+    });
+    find("lesson-acts").replaceChildren(...buttons);
+  }
+
+  /**
+   * @param {Act} act
+   * @param {string} scene
+   */
+  do({ start, hurry: factor, hold }, scene) {
+    if (start) {
+      this.send({ act: "link", link: { scene, ...start } });
+      this.send({ act: "run" });
+    } else this.send({ act: "kick", factor, hold });
+    // A second hurry would not be that of the step: the motion has to be started again before it.
+    for (const button of this.hurries) button.disabled = !start;
+  }
+}

@@ -1,0 +1,180 @@
+// The page around the scene: what it asks of the top, and what it shows of the answers.
+
+import { followAddress } from "./address.js";
+import { keepChoice } from "./choices.js";
+import { showConstants } from "./constants_table.js";
+import { find, findAll, make, say } from "./document.js";
+import { Fields } from "./fields.js";
+import { offerFiles, openDropped } from "./files.js";
+import { actWhileHeld } from "./hold.js";
+import { listenToKeys } from "./keys.js";
+import { Layers } from "./layers.js";
+import { Lesson } from "./lesson.js";
+import { refuse, showLoss } from "./notices.js";
+import { inDegrees, shorten } from "./quantities.js";
+import { drawRule } from "./rule_chart.js";
+import { offerScenes } from "./scenes.js";
+import { drawSeries } from "./series_charts.js";
+import { SpeedList } from "./speed.js";
+import { addTabs } from "./tabs.js";
+import { followTheme } from "./theme.js";
+import { Timeline } from "./timeline.js";
+import { drawWell } from "./well_chart.js";
+
+/** @typedef {import("./facts.js").Facts} Facts */
+/** @typedef {{[name: string]: any}} Message */
+/**
+ * A top of the page: it takes messages, and its answers are told.
+ * @typedef {{take: (message: Message) => void, run: {json: object}, csv: string}} Top
+ */
+
+export class Page {
+  /** @param {{node?: boolean, run?: any}} content of the file */
+  constructor(content) {
+    this.content = content;
+    /** @type {Top | null} */
+    this.top = null; // while the kernel is loaded
+    /** What holds for a whole motion. @type {Facts | null} */
+    this.facts = null;
+    const send = this.send.bind(this);
+    addTabs();
+    this.fields = new Fields(send);
+    this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
+    this.timeline = new Timeline((time) => send({ act: "seek", time }));
+    this.layers = new Layers(send);
+    followTheme();
+    keepChoice("unit", () => this.showUnit());
+    this.fields.showUnit();
+    this.listen();
+  }
+
+  listen() {
+    const act = (/** @type {string} */ name) => this.act(name);
+    const push = (/** @type {string} */ way) => this.send({ act: "push", way });
+    for (const button of findAll("[data-act]"))
+      button.addEventListener("click", () => act(button.dataset.act ?? ""));
+    for (const button of findAll("[data-push]"))
+      button.addEventListener("click", () => push(button.dataset.push ?? ""));
+    for (const button of findAll("[data-hold]")) {
+      actWhileHeld(button, () => this.send({ act: "torque", sign: Number(button.dataset.hold) }));
+    }
+    listenToKeys(act, push);
+  }
+
+  /**
+   * Show a top from now on.
+   * @param {Top} top
+   * @param {string} source the page as it was opened
+   */
+  connect(top, source) {
+    this.top = top;
+    // A node has the time of its machine, and records there.
+    find("time").hidden = Boolean(this.content.node);
+    find("record").hidden = !this.content.node;
+    offerFiles(top, source);
+    openDropped((run) => this.send({ act: "load", run }));
+  }
+
+  /** @param {Message} message */
+  send(message) {
+    refuse("");
+    this.top?.take(message);
+  }
+
+  /** @param {string} name */
+  act(name) {
+    const { factor } = this.fields.values;
+    if (name === "hurry") this.send({ act: "kick", factor });
+    else if (name === "delay") this.send({ act: "kick", factor: 1 / factor });
+    else this.send({ act: name });
+  }
+
+  /** Show what the top tells. @param {Message} message */
+  receive({ hello, facts, series, constants, time, refused, granted, said, lost }) {
+    if (hello) this.greet(hello);
+    if (facts) this.showFacts(facts);
+    if (series) this.showSeries(series, constants, time);
+    if (refused) {
+      refuse(refused);
+      this.fields.markRefused();
+    }
+    if (granted) this.fields.grant();
+    if (said) refuse(said);
+    if (lost !== undefined) showLoss(lost);
+  }
+
+  /** @param {Message} hello scenes, layers and the steps of the lesson */
+  greet({ scenes, layers, lesson: steps }) {
+    offerScenes(scenes, (name) => this.send({ act: "scene", name }));
+    this.layers.offer(layers);
+    const lesson = new Lesson(steps, this.send.bind(this), this.layers.choose.bind(this.layers));
+    const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (!this.content.node && (isCalm || this.content.run)) this.send({ act: "rest" });
+    followAddress(lesson.open.bind(lesson), (link) => this.send({ act: "link", link }));
+  }
+
+  /** @param {Facts} facts */
+  showFacts(facts) {
+    this.facts = facts;
+    const sentences = inDegrees() ? facts.degrees : facts;
+    say("headline", sentences.headline);
+    say("why", sentences.why);
+    say("pause", facts.running ? "Pause" : "Run");
+    say("record", facts.recording ? "End the recording" : "Record (MCAP)");
+    say("pace", facts.running ? "" : "paused");
+    this.speeds.show(facts.factor);
+    find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
+    this.showRoots(facts.roots);
+    this.showHistory(facts.history);
+    this.fields.show(facts);
+  }
+
+  /** @param {number[]} roots rates of regular precession */
+  showRoots(roots) {
+    const names = roots.length === 2 ? ["slow", "fast"] : ["the"];
+    const buttons = roots.map((rate, k) => {
+      const button = make("button", { textContent: `${names[k]} root ${shorten(rate)} rad/s` });
+      const precession = k ? "fast" : "slow";
+      const { theta, psi_dot } = this.fields.values;
+      button.addEventListener("click", () =>
+        this.send({ act: "start", theta, psi_dot, precession }),
+      );
+      return button;
+    });
+    const text = roots.length ? "steady at" : "no steady precession at this tilt and spin";
+    find("roots").replaceChildren(text, ...buttons);
+  }
+
+  /** @param {[entry: number, text: string][]} history */
+  showHistory(history) {
+    find("entries").replaceChildren(
+      ...history.map(([entry, textContent]) => {
+        const button = make("button", { textContent });
+        button.addEventListener("click", () => this.send({ act: "restart", entry }));
+        return button;
+      }),
+    );
+  }
+
+  /**
+   * @param {import("./local.js").Row[]} rows
+   * @param {import("./constants_table.js").Constants} constants
+   * @param {[time: number, end: number]} times s
+   */
+  showSeries(rows, constants, [time, end]) {
+    const { facts } = this;
+    if (!facts) return;
+    const row = rows[rows.length - 1];
+    Object.assign(document.body.dataset, { time: row[0], theta: row[1] });
+    drawWell(facts.potential, row[1]);
+    drawRule(facts, row, this.fields.values.factor);
+    drawSeries(rows, facts.window, facts.marks);
+    showConstants(facts.table, constants);
+    this.timeline.show(time, end);
+  }
+
+  showUnit() {
+    this.fields.showUnit();
+    if (this.facts) this.showFacts(this.facts);
+  }
+}

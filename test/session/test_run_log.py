@@ -1,0 +1,97 @@
+"""A run of the page as the log that a node would have written."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from simulation.test_run_file import KICK, START, make_run, to_json
+
+from symtop_ros.check.run import check_run
+from symtop_ros.log.bag import open_run
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.physics import ExactTimes, Motion, State, Top
+from symtop_ros.session.run_log import write_run_log
+from symtop_ros.simulation.run_file import RunEvent, record_run
+from symtop_ros.simulation.topics import DIAGNOSTICS
+from symtop_ros.simulation.validation import RefusedError
+
+END = 4_000_000_000  # ns
+
+
+def read(path):
+    return TopLog(open_run([path]))
+
+
+@pytest.fixture(name="path", scope="module")
+def _path(tmp_path_factory):
+    """The log of a run with a kick, friction and a torque."""
+    path = tmp_path_factory.mktemp("log") / "run.mcap"
+    write_run_log(make_run(), END, path)
+    return path
+
+
+def test_the_log_passes_its_check(path):
+    found = check_run(read(path))
+    assert found.samples_agree
+    assert found.mismatches == []
+    assert found.damage == found.missing == []
+    assert {each.largest for each in found.deviations.values()} == {0.0}
+
+
+def test_it_has_the_samples_and_the_diagnostics_of_a_node(path):
+    stamps = np.concatenate(
+        [batch.columns["orientation"].stamps for batch in read(path).batches() if batch.columns]
+    )
+    assert stamps[0] == 0
+    # on the grid of 200 Hz, which begins anew with each event
+    assert np.isin(np.diff(stamps), (5_000_000, 4_567_891, 2_654_321)).all()
+    assert END - stamps[-1] < 5_000_000
+    log = read(path)
+    topics = [
+        log.file.channels[message.channel_id].topic
+        for messages in log.file.chunks()
+        for message in messages
+    ]
+    assert topics.count(DIAGNOSTICS.ros_name) == 4  # once a second
+
+
+def test_a_run_comes_back_from_its_log_to_the_last_bit(path):
+    events, end = record_run(read(path).events(), END)
+    assert to_json(events) == to_json(make_run())
+    assert end == END
+
+
+def test_a_run_may_start_again_with_another_top(tmp_path):
+    hanging = Top(Ix=2.28e-4, Iz=5.72e-5, Mgl=-0.05)
+    other = Motion(hanging, State.from_euler(theta=1.0, phi_dot=2.0, psi_dot=90.0))
+    run = [*make_run(), RunEvent("start", 3_000_000_001, other, {})]
+    path = tmp_path / "run.mcap"
+    write_run_log(run, END, path, rate=50.0)
+    assert check_run(read(path)).mismatches == []
+    events, _ = record_run(read(path).events(), END)
+    assert to_json(events) == to_json(run)
+
+
+def test_a_kick_that_does_not_lead_to_its_state_is_refused(tmp_path):
+    slower = Motion(START.top, START.at(ExactTimes(1_000_000_000)))  # as if nothing had been done
+    run = [RunEvent("start", 0, START, {}), RunEvent("kick", 1_000_000_000, slower, KICK)]
+    with pytest.raises(
+        RefusedError, match=r"events\[1\]: angular_velocity must be the state after"
+    ):
+        write_run_log(run, END, tmp_path / "run.mcap")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_kick_that_no_node_grants_is_refused_with_its_reason(tmp_path):
+    run = [RunEvent("start", 0, START, {}), replace(make_run()[1], act={})]
+    with pytest.raises(RefusedError, match=r"events\[1\]: a request must have one of"):
+        write_run_log(run, END, tmp_path / "run.mcap")
+
+
+def test_a_motion_that_cannot_be_followed_is_refused(tmp_path):
+    wild = Motion(START.top, START.start, torque=(0.0, 0.0, 1e20))
+    run = [RunEvent("start", 0, wild, {})]
+    with pytest.raises(RefusedError, match="the run cannot be followed: "):
+        write_run_log(run, END, tmp_path / "run.mcap")
+    assert json.dumps([path.name for path in tmp_path.iterdir()]) == "[]"

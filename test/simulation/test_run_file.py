@@ -1,0 +1,155 @@
+"""Runs of the page: read, written, and taken from the events of a node."""
+
+import json
+import math
+
+import pytest
+
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, hurry
+from symtop_ros.simulation.changes.timeline import Timeline
+from symtop_ros.simulation.run_file import RunEvent, RunRecorder, read_run, record_run, write_run
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.validation import RefusedError
+
+SECOND = 1_000_000_000
+TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+START = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0))
+KICK = {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+
+
+def make_run():
+    """A start, a kick at an odd nanosecond, and friction with a torque."""
+    kicked = Motion(TOP, hurry(START.at(ExactTimes(1234567891)), 1.4))
+    driven = Motion(TOP, kicked.at(ExactTimes(987654321)), Friction(1e-6, 0.0), (0.0, 0.0, 5e-4))
+    return [
+        RunEvent("start", 0, START, {}),
+        RunEvent("kick", 1234567891, kicked, KICK),
+        RunEvent("torque", 2222222212, driven, {}),
+    ]
+
+
+def to_json(events):
+    return [event.to_json() for event in events]
+
+
+def test_a_run_is_read_as_it_was_written_to_the_last_bit(tmp_path):
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps(write_run(make_run(), 3 * SECOND + 1)))
+    events, end = read_run(path)
+    assert to_json(events) == to_json(make_run())
+    assert end == 3 * SECOND + 1
+
+
+def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps({"format": 1, "events": to_json(make_run())}))
+    assert read_run(path)[1] == 2222222212
+
+
+def change(place, **values):
+    content = json.loads(json.dumps(write_run(make_run(), SECOND)))
+    content["events"][place].update(values)
+    return content
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ([], "must be a run of the page"),
+        ({"format": 2, "events": []}, "must be a run of the page"),
+        ({"format": 1, "events": []}, "events must be "),
+        ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
+        (change(0, kind="kick"), r"events\[0\]: "),
+        (change(0, kind="torque"), "must begin with a start"),
+        (change(1, time=-1.0), r"events\[1\]: time must be "),
+        (change(1, time="soon"), r"events\[1\]: time must be "),
+        (change(2, time=1.0), "in the order of time"),
+        (change(0, orientation=[1, 0, 0]), r"events\[0\]: orientation must have 4 "),
+        (change(0, orientation=[2, 0, 0, 0]), r"events\[0\]: .*norm"),
+        (change(0, angular_velocity=[math.inf, 0, 0]), r"events\[0\]: angular_velocity must be "),
+        (change(0, top=[1, 3, 1]), r"events\[0\]: Iz must be "),
+        (change(0, friction=[-1, 0]), r"events\[0\]: friction.axial must be "),
+        (change(1, act={"speed": 1}), r"events\[1\]: field name must be one of "),
+        (change(1, act=None), r"events\[1\]: act must be "),
+    ],
+)
+def test_a_file_that_is_no_run_is_one_message(content, message, tmp_path):
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps(content))
+    with pytest.raises(RefusedError, match=message):
+        read_run(path)
+
+
+def test_bytes_that_are_no_json_are_one_message(tmp_path):
+    path = tmp_path / "run.json"
+    path.write_bytes(b"\xff" * 100)
+    with pytest.raises(RefusedError, match="must be a run of the page"):
+        read_run(path)
+
+
+class Told:
+    """Events of a timeline, with their numbers."""
+
+    def __init__(self, **values):
+        settings = Settings.from_scene("cusps", **values)
+        self.timeline, self.events = Timeline.begin(settings, SECOND), []
+        self.do(self.timeline.report("start", self.timeline.verdict, {}, SECOND))
+
+    def do(self, change):
+        self.timeline = change.following
+        self.events.append(change.event(len(self.events) + 1))
+
+
+def test_pauses_steps_and_factors_leave_no_trace_in_the_time_of_a_run():
+    told = Told(real_time_factor=0.5)
+    told.do(told.timeline.pause(3 * SECOND, True))  # 1 s of the motion
+    told.do(told.timeline.step(4 * SECOND, 0.25))
+    told.do(told.timeline.pause(5 * SECOND, False))
+    told.do(told.timeline.kick(7 * SECOND, KICK))  # 1 s more
+    told.do(told.timeline.move(8 * SECOND, 99 * SECOND))  # 0.5 s, and a jump of the clock
+    told.do(told.timeline.restart(101 * SECOND))  # 1 s
+    events, end = record_run(told.events, 103 * SECOND)
+    assert [(event.kind, event.time) for event in events] == [
+        ("start", 0),
+        ("kick", 2_250_000_000),
+        ("start", 3_750_000_000),
+    ]
+    assert end == 4_750_000_000
+    assert events[1].act == KICK
+    assert events[1].motion.start.given_orientation.tolist() == [
+        *told.events[4].segment().motion.start.given_orientation
+    ]
+
+
+def test_of_changes_at_one_instant_the_last_one_holds():
+    told = Told()
+    settings = Settings.from_scene("cusps", friction__axial=1e-6, steady_torque=[0, 0, 1e-4])
+    for change in told.timeline.change_settings(settings, 2 * SECOND):
+        told.do(change)
+    assert len(told.events) == 3
+    events, _ = record_run(told.events, 2 * SECOND)
+    (_, changed) = events
+    assert (changed.kind, changed.motion.applied_torque) == ("torque", (0.0, 0.0, 1e-4))
+    assert changed.motion.friction.axial == 1e-6
+
+
+def test_impulses_and_rates_are_kept_as_they_were_asked_for():
+    told = Told()
+    told.do(told.timeline.kick(2 * SECOND, {"angular_impulse": [0.0, 1e-4, -0.1]}))
+    told.do(told.timeline.kick(3 * SECOND, {"precession_rate_change": 0.1}))
+    events, _ = record_run(told.events, 3 * SECOND)
+    assert [event.act for event in events] == [
+        {},
+        {"angular_impulse": [0.0, 1e-4, -0.1]},
+        {"precession_rate_change": 0.1},
+    ]
+    assert [event.hold for event in events[1:]] == [None, "spin_rate"]
+
+
+def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():
+    told = Told()
+    told.do(told.timeline.kick(2 * SECOND, KICK))
+    events, end = record_run(told.events[1:], 3 * SECOND)
+    assert [(event.kind, event.time) for event in events] == [("start", 0)]
+    assert end == SECOND
+    assert RunRecorder().time_at(SECOND) == 0
