@@ -9,7 +9,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.drawing.style import SETTINGS
+from symtop_ros.figures import SETTINGS
 
 RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
 SHADES, ROUNDS = 256, 10  # colours for shaded bodies, and rounds in which they are chosen

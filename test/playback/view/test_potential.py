@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from log_files import ARTICLE
 
-from symtop_ros.drawing.chart import HEIGHT, WIDTH, Chart, frame_cubic, frame_potential
 from symtop_ros.physics import EffectivePotential, Motion, State, Top, regular_precession_rates
+from symtop_ros.playback.view.potential import HEIGHT, WIDTH, Chart, frame_cubic, frame_potential
 
 SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
 MOTIONS = {
