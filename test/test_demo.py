@@ -14,12 +14,12 @@ from listening import udp_addresses
 from log_files import Run
 from programs import running_node
 
-from workshop import demo
 from symtop_ros.check.samples import check_log
 from symtop_ros.distribution import VARIABLES
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
+from workshop import demo
 from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
 
