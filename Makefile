@@ -27,7 +27,7 @@ help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
 
 demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
-	@$(BIN)/python -m symtop_ros.demo
+	@$(BIN)/python -m workshop.demo
 
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 	@$(BIN)/top_panel

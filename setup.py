@@ -93,7 +93,7 @@ LINT = [
 LIMITED = not sysconfig.get_config_var("Py_GIL_DISABLED")
 # The kernel of the physics. It is optional: without a compiler, or without Python's headers, the
 # package is installed without it. No fused products and sums, so that states have the same bits on
-# every machine.
+# every machine (design/fused_products.py).
 KERNEL = Extension(
     f"{NAME}.physics.kernel._kernel",
     sources=[f"{NAME}/physics/kernel/{name}.cpp" for name in ("module", "symtop")],
@@ -147,7 +147,7 @@ setup(
             "wording/en.json",
         ],
         f"{NAME}.testset": [
-            *("*.md", "*.json", "*.csv", "*.mjs", "*.cpp", "LICENSE", "SHA256SUMS", "models/*"),
+            *("*.md", "*.xz", "*.mjs", "*.cpp", "LICENSE"),
         ],
     },
     data_files=[

@@ -14,13 +14,13 @@ from listening import udp_addresses
 from log_files import Run
 from programs import running_node
 
-from symtop_ros import demo
 from symtop_ros.check.samples import check_log
-from symtop_ros.demo import FIRST_PORT, PORTS
 from symtop_ros.distribution import VARIABLES
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
+from workshop import demo
+from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
 
 # All that a user must have set; the home cannot be written to.
@@ -31,7 +31,7 @@ BARE = {"HOME": "/dev/null", "PATH": os.defpath}
 def running_demo(folder, **variables):
     """The demonstration in a folder, with its output in a pipe, and its first lines of output."""
     with subprocess.Popen(
-        bound([sys.executable, "-m", "symtop_ros.demo"]),
+        bound([sys.executable, "-m", "workshop.demo"]),
         cwd=folder,
         env={**BARE, **variables},
         stdout=subprocess.PIPE,

@@ -11,7 +11,7 @@ NUMERICAL = {"numpy", "scipy"}
 MCAP = {"mcap", "lz4", "zstandard"}
 RERUN = {"rerun", "rerun_cli"}
 # Files of the package itself.
-TOP = {"__init__", "arrays", "demo", "distribution", "programs", "quaternions", "shutdown"}
+TOP = {"__init__", "arrays", "distribution", "figures", "programs", "quaternions", "shutdown"}
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
@@ -19,7 +19,6 @@ ARROWS = {
     "physics": ({"wording"}, {"numpy"}),
     "wire": (set(), {"numpy"}),
     "simulation": ({"__init__", "physics", "wire", "wording"}, {*NUMERICAL, "yaml"}),
-    "drawing": ({"physics", "simulation"}, {"numpy", "matplotlib"}),
     "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
     # the page as one file
     "web": ({"physics", "simulation", "wording"}, {"yaml"}),
@@ -30,7 +29,7 @@ ARROWS = {
     ),
     # of session the log that a node would have written of a run of the page
     "playback": (
-        {"check", "drawing", "log", "physics", "session", "simulation", "web"},
+        {"check", "log", "physics", "session", "simulation", "web"},
         {"numpy", *RERUN},
     ),
     "session": (
@@ -66,7 +65,7 @@ ARROWS = {
     "testset": (set(), {"numpy"}),
     "judge": (
         {
-            *("drawing", "log", "models", "physics", "shutdown", "simulation", "testset"),
+            *("figures", "log", "models", "physics", "shutdown", "simulation", "testset"),
             *("wire", "wording"),
         },
         {*NUMERICAL, "matplotlib", "rclpy"},

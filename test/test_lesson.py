@@ -14,8 +14,8 @@ from PIL import Image
 from programs import running_node
 
 from symtop_ros.client import main as client
-from symtop_ros.client.arguments import parse_values
 from symtop_ros.client.connection import Connection
+from symtop_ros.client.main import parse_values
 from symtop_ros.live import main as live
 from symtop_ros.panel import main as panel
 from symtop_ros.physics import Motion, State, Top

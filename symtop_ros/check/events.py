@@ -5,15 +5,14 @@ parameters, the paths of logs, factors of real time, and what a bug of the node 
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from symtop_ros import __version__
-from symtop_ros.check.mismatch import Mismatch, compare_fields
 from symtop_ros.physics import (
     Friction,
     State,
@@ -38,6 +37,7 @@ from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
 
+NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
 ENGINE = ("computed_by",)  # nothing else in a log tells
 MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
@@ -57,6 +57,27 @@ def is_own(event: Event) -> bool:
     """
     has_kernel = accelerated and event.values.get("computed_by") == describe_engine()
     return is_of_this_version(event) and (has_kernel or not event.segment().motion.is_driven)
+
+
+@dataclass(frozen=True, slots=True)
+class Mismatch:
+    """A field of a message that is not as computed."""
+
+    topic: str
+    stamp: int  # ns
+    field: str
+    expected: str
+    got: str
+
+
+def compare_fields(
+    topic: str, stamp: int, expected: Mapping[str, str], got: Mapping[str, str]
+) -> Iterator[Mismatch]:
+    """Yield the fields of a message that differ, are missing or are too many."""
+    for name in dict.fromkeys([*expected, *got]):
+        right, found = expected.get(name, NOTHING), got.get(name, NOTHING)
+        if right != found:
+            yield Mismatch(topic, stamp, name, right, found)
 
 
 def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from symtop_ros.check import checksums, events, texts
 from symtop_ros.check.course import Course
-from symtop_ros.check.mismatch import Mismatch
+from symtop_ros.check.events import Mismatch
 from symtop_ros.check.samples import Deviation, check_log
 from symtop_ros.log.bag import MessageSource, SeveralFiles
-from symtop_ros.log.compressed import CompressedMessages
 from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.rosbag import CompressedMessages
 from symtop_ros.log.top_log import TopLog
 
 

@@ -13,8 +13,7 @@ import numpy as np
 from mcap.records import Message
 
 from symtop_ros.check.course import Course
-from symtop_ros.check.events import is_of_this_version, is_own
-from symtop_ros.check.mismatch import Mismatch, compare_fields
+from symtop_ros.check.events import Mismatch, compare_fields, is_of_this_version, is_own
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top

@@ -1,4 +1,4 @@
-"""The keys of `top_ctl keys`: each one is a request."""
+"""The terminal of `top_ctl`: keys that are requests, and the live line of `top_ctl watch`."""
 
 import json
 import math
@@ -6,14 +6,16 @@ import os
 import select
 import sys
 import termios
+import time
 import tty
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import rclpy
+from sensor_msgs.msg import JointState
 
-from symtop_ros.client.connection import Connection
+from symtop_ros.client.connection import Connection, UnreachableError
 
 Answer = tuple[bool, str]
 DELAY_FACTOR = 1 / 1.4  # of the precession rate; undoes a hurry with the default hurry_factor
@@ -120,3 +122,40 @@ def _split(data: str) -> Iterator[str]:
         length = 3 if data.startswith("\x1b[") else 1
         yield data[:length]
         data = data[length:]
+
+
+UPDATE_PERIOD = 0.1  # s
+
+
+def watch(connection: Connection, seconds: float, timeout: float) -> None:
+    """Show tilt, precession and spin in one line of a terminal, updated 10 times a second."""
+    latest: list[Any] = []
+
+    def take(message: JointState) -> None:
+        latest[:] = [message]
+
+    connection.subscribe(JointState, "euler_angles", take)
+    end = math.inf
+    try:
+        while time.monotonic() < end:
+            latest.clear()
+            if not connection.spin_until(lambda: bool(latest), timeout):
+                raise UnreachableError(f"no samples from {connection.name} within {timeout:g} s")
+            end = min(end, time.monotonic() + seconds)
+            _show(latest[0])
+            connection.spin_until(lambda: False, UPDATE_PERIOD)
+    finally:
+        if sys.stdout.isatty():
+            print()
+
+
+def _show(message: JointState) -> None:
+    phi, theta, _ = message.position
+    phi_dot, theta_dot, psi_dot = message.velocity
+    bar = "".join("|" if i == round(theta / 3.1416 * 24) else "." for i in range(25))
+    line = (
+        f"theta {theta:6.4f} rad [{bar}]  theta' {theta_dot:+8.3f}  phi {phi:+6.3f}  "
+        f"phi' {phi_dot:+8.3f}  psi' {psi_dot:+9.3f} rad/s"
+    )
+    end = "\r" if sys.stdout.isatty() else "\n"
+    print(line, end=end, flush=True)

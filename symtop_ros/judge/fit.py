@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.judge.causes.rotations import fit_rotations, from_vector
+from symtop_ros.judge.causes.search import fit_rotations, from_vector
 from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.scale import Scaling

@@ -98,7 +98,9 @@ def _parser() -> argparse.ArgumentParser:
         help=f"align by a stated model and look for nothing else: {', '.join(MODELS)}",
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
-    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="for JSON and plots")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FOLDER", help="for JSON, plots, problems"
+    )
     parser.add_argument(
         "--max-error", type=_angle, metavar="RAD", help="status 1 if the attitude is further off"
     )
@@ -109,8 +111,8 @@ def _parser() -> argparse.ArgumentParser:
         nargs="?",
         const="",
         metavar="PROBLEM",
-        help="list the problems; with a name: score LOG, a CSV file (all: each PROBLEM/NAME.csv in "
-        "the folder LOG), or copy it (all: each) to -o",
+        help="list the problems, or with -o write the whole set; with a name: score LOG, a CSV "
+        "file (all: each PROBLEM/NAME.csv in the folder LOG), or copy it (all: each) to -o",
     )
     return parser
 

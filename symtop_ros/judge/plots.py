@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from symtop_ros.drawing.style import BLUE, GOLD, INK, RED, new_figure, rows, write_figures
+from symtop_ros.figures import BLUE, GOLD, INK, RED, new_figure, rows, write_figures
 from symtop_ros.judge.compare import Errors
 
 POINTS = 5000

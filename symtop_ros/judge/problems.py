@@ -1,19 +1,23 @@
-"""`top_judge --testset`: problems listed, copied, and scored."""
+"""`top_judge --testset`: problems listed, written, and scored."""
 
 import argparse
 import json
 import re
-import shutil
+from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
-from symtop_ros.judge.scoreboard import TABLES, Entry, format_json, format_table, read_entries
-from symtop_ros.models.snippets import format_snippets
-from symtop_ros.models.world_snippets import format_world_snippets
-from symtop_ros.physics import STANDARD_GRAVITY, Body, State
+from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
+from symtop_ros.models.formats import FORMATS, FREE_FORMATS
+from symtop_ros.models.snippets import format_snippets, format_world_snippets
+from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.testset import score
+from symtop_ros.testset.tables import VERSION, format_problems, tabulate
 
-ALL = "all"  # in place of a name: copies every problem into a folder of its own, or scores them
+ALL = "all"  # in place of a name: writes every problem into a folder of its own, or scores them
+SOURCE = score.FILE.parent
+MODELS = "models"  # the folder of the whole set's models
 README = "README.md"
 SHARED = ("score.py", "score.mjs", "score.cpp", "LICENSE")
 CHECKSUMS = "SHA256SUMS"
@@ -42,17 +46,20 @@ OF_THE_SET = ("Files", "An example: MuJoCo")  # sections that name files that a 
 
 
 def run_testset(options: argparse.Namespace) -> int:
-    """List the problems of the test set, score a trajectory, or copy a problem."""
+    """List the problems of the test set, score a trajectory, or write the set or a problem."""
     problems = score.read_problems()
-    if not options.testset:
-        print(score.list_problems(problems))
-    elif options.files:
+    folder = options.output
+    if options.testset and options.files:
         return _score(problems, options)
-    elif options.testset == ALL:
+    if options.testset == ALL:
         for name in problems:
-            _copy(problems, name, (options.output or Path()) / name)
+            _write_problem(problems, name, (folder or Path()) / name)
+    elif options.testset:
+        _write_problem(problems, options.testset, folder or Path())
+    elif folder:
+        _write_set(problems, folder)
     else:
-        _copy(problems, options.testset, options.output or Path())
+        print(score.list_problems(problems))
     return 0
 
 
@@ -71,38 +78,76 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
     return int(bool(options.max_error) and worst > options.max_error)
 
 
-def _copy(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
+def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
+    """Write all problems as one set, with its models in a folder of their own."""
+    facts = [each.facts for each in problems.values()]
+    texts = {score.FILE.name: format_problems(facts, STANDARD_GRAVITY), **tabulate(facts)}
+    models = {name: text for each in facts for name, text in _describe_models(each).items()}
+    texts |= {f"{MODELS}/{name}": text for name, text in models.items()}
+    (folder / MODELS).mkdir(parents=True, exist_ok=True)
+    shared = {README: _read_readme(), **_read_shared()}
+    _write_files(folder, {**texts, **shared, CHECKSUMS: _sum_up(texts)})
+    print(f"wrote the test set {VERSION} to {folder}: {len(facts)} problems, {len(models)} models")
+
+
+def _write_problem(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
     """Write a problem, its models, and what is needed to score it alone, into a folder."""
     problem = score.find_problem(problems, name)
+    texts = {
+        f"{name}.json": problem.format_json(),
+        **tabulate([problem.facts]),
+        README: _introduce(problem.facts),
+        **_describe_models(problem.facts),
+        **_read_shared(),
+    }
+    texts[CHECKSUMS] = _sum_up(texts)
     folder.mkdir(parents=True, exist_ok=True)
-    target = folder / f"{name}.json"
-    target.write_text(problem.format_json(), encoding="utf-8")
-    source = score.FILE.parent
-    for table in TABLES:
-        with (source / table).open(encoding="utf-8") as file:
-            rows = [next(file), *(row for row in file if row.startswith(f"{name},"))]
-        (folder / table).write_text("".join(rows), encoding="utf-8")
-    (folder / README).write_text(_describe(problem, source), encoding="utf-8")
-    copied = [*sorted((source / "models").glob(f"{name}.*")), *(source / each for each in SHARED)]
-    for each in copied:
-        shutil.copy(each, folder / each.name)
-    names = [target.name, *TABLES, README, *(each.name for each in copied)]
-    sums = [f"{sha256((folder / each).read_bytes()).hexdigest()}  {each}\n" for each in names]
-    (folder / CHECKSUMS).write_text("".join(sums), encoding="utf-8")
-    names.append(CHECKSUMS)
-    print(f"wrote {', '.join(names)} to {folder}")
+    _write_files(folder, texts)
+    print(f"wrote {', '.join(texts)} to {folder}")
 
 
-def _describe(problem: score.Problem, source: Path) -> str:
+def _write_files(folder: Path, texts: Mapping[str, str]) -> None:
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+def _sum_up(texts: Mapping[str, str]) -> str:
+    """Return the checksums of files, in the form of the program sha256sum."""
+    return "".join(
+        f"{sha256(texts[name].encode()).hexdigest()}  {name}\n" for name in sorted(texts)
+    )
+
+
+def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
+    """Return the models of a problem; without weight, also those that nothing holds."""
+    top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
+    formats = FORMATS if top.Mgl else {**FORMATS, **FREE_FORMATS}
+    start, body = _read_start(facts), _read_body(facts)
+    return {f"{facts['name']}.{form}": write(top, start, body) for form, write in formats.items()}
+
+
+def _read_start(facts: Mapping[str, Any]) -> State:
+    return State(facts["orientation"], facts["angular_velocity"])
+
+
+def _read_body(facts: Mapping[str, Any]) -> Body:
+    return Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
+
+
+def _read_shared() -> dict[str, str]:
+    return {name: (SOURCE / name).read_text(encoding="utf-8") for name in SHARED}
+
+
+def _read_readme() -> str:
+    """Return the README of the set, without links to files that a copy has not."""
+    return LINK_OUT.sub(r"\1", (SOURCE / README).read_text(encoding="utf-8"))
+
+
+def _introduce(facts: Mapping[str, Any]) -> str:
     """Return the README of a copied problem: how it starts in engines, then that of the set."""
-    facts = problem.facts
-    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
-    start = State(facts["orientation"], facts["angular_velocity"])
-    duration = facts["times"][-1]
+    start, body, duration = _read_start(facts), _read_body(facts), facts["times"][-1]
     snippets = format_snippets(facts["name"], start, body, duration)
-    readme = (source / README).read_text(encoding="utf-8")
-    readme = LINK_OUT.sub(r"\1", readme)
-    sections = readme.split("\n## ")
+    sections = _read_readme().split("\n## ")
     return INTRODUCTION.format(
         name=facts["name"],
         what=facts["what"],

@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.testset.score import Problem, Score, read_trajectory
+from symtop_ros.testset.tables import TABLES
 
-# Of a copied problem: the problem and its exact motion, which are no entries.
-TABLES = ("problems.csv", "states.csv", "forces.csv", "world.csv")
 # rk4-0.001 and rk4-1e-3: the step of this entry. The first part is as short as it can be, so that
 # the sign of an exponent belongs to the step.
 STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
@@ -78,7 +77,7 @@ def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
         Entry(path.stem, problem.score(*read_trajectory(path, problem)))
         for name, problem in problems.items()
         for path in sorted((folder / name).glob("*.csv"))
-        if path.name not in TABLES
+        if path.name not in TABLES  # the problem and its exact motion are no entries
     ]
     if not entries:
         raise ValueError(f"{folder} must have trajectories PROBLEM/NAME.csv, got none")

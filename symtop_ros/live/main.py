@@ -20,7 +20,7 @@ from symtop_ros.playback import viewer
 from symtop_ros.playback.main import add_view_options, view_options
 from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
-from symtop_ros.playback.web import HOST
+from symtop_ros.playback.viewer import HOST
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import full_name
 

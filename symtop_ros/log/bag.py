@@ -12,10 +12,9 @@ from typing import Protocol
 
 from mcap.records import Channel, Message, Schema
 
-from symtop_ros.log.compressed import SUFFIX as ZSTD
-from symtop_ros.log.compressed import CompressedMessages, is_compressed, unpack_file
 from symtop_ros.log.reader import LogError, McapFile
-from symtop_ros.log.sqlite import SqliteBag
+from symtop_ros.log.rosbag import SUFFIX as ZSTD
+from symtop_ros.log.rosbag import CompressedMessages, SqliteBag, is_compressed, unpack_file
 
 MCAP, SQLITE = ".mcap", ".db3"
 SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")

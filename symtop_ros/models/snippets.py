@@ -1,4 +1,11 @@
-"""The start of a motion as Python for each engine, next to the model files of `formats`."""
+"""The start of a motion as programs for each engine, next to the model files of `formats`.
+
+Some engines have joint coordinates. Others (Bullet, Jolt, Rapier and DART) hold bodies in the
+world: they have the place and the velocity of the centre of mass, and rates in the world frame. A
+joint holds the body in the origin there; a body without weight is left free.
+"""
+
+from collections.abc import Sequence
 
 from symtop_ros.physics import Body, State
 
@@ -101,5 +108,196 @@ def format_snippets(name: str, start: State, body: Body, duration: float) -> str
     )
 
 
-def _join(numbers: tuple[float, ...] | list[float]) -> str:
+def _join(numbers: Sequence[float]) -> str:
     return ", ".join(map(repr, numbers))
+
+
+STEPS = 256  # to each of the 20 times
+HEADER = "t,w,x,y,z,omega_x,omega_y,omega_z"
+IN_THE_WORLD = """\
+## Start in Bullet, Jolt, Rapier and DART
+
+These hold the centre of mass in the world, and angular velocities in the world frame. `world.csv`
+has these quantities at each time. Each program writes a trajectory for the scorer, with {steps}
+steps to each of the 20 times. Bullet (C++, `libbullet-dev`), with a joint that its solver holds:
+
+```cpp
+#include <btBulletDynamicsCommon.h>
+#include <fstream>
+
+int main() {{
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher(&configuration);
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+  world.setGravity(btVector3(0, 0, {gravity}));
+  btEmptyShape shape;
+  const btQuaternion attitude({xyzw});  // x, y, z, w
+  btDefaultMotionState start(btTransform(attitude, btVector3({position})));
+  const btVector3 moments({moments});  // about the centre of mass
+  btRigidBody top(btRigidBody::btRigidBodyConstructionInfo({mass}, &start, &shape, moments));
+  top.setDamping(0, 0);
+  top.setActivationState(DISABLE_DEACTIVATION);
+  top.setLinearVelocity(btVector3({velocity}));
+  top.setAngularVelocity(btVector3({rates}));
+  world.addRigidBody(&top);{bullet_joint}
+  const int steps = {steps};
+  const double duration = {duration};
+  std::ofstream file("trajectory.csv");
+  file.precision(17);
+  file << "{header}\\n";
+  for (int k = 1; k <= 20; k++) {{
+    for (int i = 0; i < steps; i++)
+      world.stepSimulation(btScalar(duration / 20 / steps), 0);
+    const btQuaternion q = top.getOrientation();
+    const btVector3 omega = top.getAngularVelocity();
+    file << duration * k / 20 << "," << q.w() << "," << q.x() << "," << q.y() << "," << q.z();
+    file << "," << omega.x() << "," << omega.y() << "," << omega.z() << "\\n";
+  }}
+}}
+```
+
+    g++ -O2 start.cpp -o start $(pkg-config --cflags --libs bullet-float64) && ./start
+
+Rapier (JavaScript, `npm install @dimforge/rapier3d-compat`; single precision):
+
+```js
+import RAPIER from "@dimforge/rapier3d-compat";
+import {{ writeFileSync }} from "node:fs";
+
+await RAPIER.init();
+const vector = (x, y, z) => ({{ x, y, z }});
+const moments = vector({moments}); // about the centre of mass
+const world = new RAPIER.World(vector(0, 0, {gravity}));
+const start = RAPIER.RigidBodyDesc.dynamic()
+  .setRotation({{ {named} }})
+  .setLinvel({velocity}) // of the centre of mass
+  .setAngvel(vector({rates}))
+  .setAdditionalMassProperties({mass}, vector(0, 0, {arm}), moments, RAPIER.RotationOps.identity())
+  .setCanSleep(false);
+const top = world.createRigidBody(start);{rapier_joint}
+const [steps, duration] = [{steps}, {duration}];
+world.timestep = duration / 20 / steps;
+const rows = ["{header}"];
+for (let k = 1; k <= 20; k++) {{
+  for (let i = 0; i < steps; i++) world.step();
+  const [q, omega] = [top.rotation(), top.angvel()];
+  rows.push([(duration * k) / 20, q.w, q.x, q.y, q.z, omega.x, omega.y, omega.z].join());
+}}
+writeFileSync("trajectory.csv", rows.join("\\n") + "\\n");
+```
+
+Jolt (JavaScript, `npm install jolt-physics`; single precision). It stops bodies at 47 rad/s and
+damps them unless it is told not to, and leaves out the gyroscopic torque unless it is asked for:
+
+```js
+import initJolt from "jolt-physics";
+import {{ writeFileSync }} from "node:fs";
+
+const Jolt = await initJolt();
+const pairs = new Jolt.ObjectLayerPairFilterTable(1);
+const broad = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
+broad.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
+const settings = new Jolt.JoltSettings();
+settings.mObjectLayerPairFilter = pairs;
+settings.mBroadPhaseLayerInterface = broad;
+const filter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(broad, 1, pairs, 1);
+settings.mObjectVsBroadPhaseLayerFilter = filter;
+const jolt = new Jolt.JoltInterface(settings);
+const system = jolt.GetPhysicsSystem();
+system.SetGravity(new Jolt.Vec3(0, 0, {gravity}));
+const shape = new Jolt.EmptyShape(new Jolt.Vec3(0, 0, {arm})); // its centre of mass
+const attitude = new Jolt.Quat({xyzw}).Normalized();
+const start = new Jolt.BodyCreationSettings(
+  shape, new Jolt.RVec3(0, 0, 0), attitude, Jolt.EMotionType_Dynamic, 0);
+start.mOverrideMassProperties = Jolt.EOverrideMassProperties_MassAndInertiaProvided;
+start.mMassPropertiesOverride.mMass = {mass};
+start.mMassPropertiesOverride.mInertia = Jolt.Mat44.prototype.sScaleVec3(new Jolt.Vec3({moments}));
+start.mApplyGyroscopicForce = true;
+start.mLinearDamping = 0;
+start.mAngularDamping = 0;
+start.mMaxAngularVelocity = 1e6;
+start.mAllowSleeping = false;
+start.mLinearVelocity = new Jolt.Vec3({velocity});
+start.mAngularVelocity = new Jolt.Vec3({rates});
+const top = system.GetBodyInterface().CreateBody(start);
+system.GetBodyInterface().AddBody(top.GetID(), Jolt.EActivation_Activate);{jolt_joint}
+const [steps, duration] = [{steps}, {duration}];
+const rows = ["{header}"];
+for (let k = 1; k <= 20; k++) {{
+  for (let i = 0; i < steps; i++) jolt.Step(duration / 20 / steps, 1);
+  const [q, omega] = [top.GetRotation(), top.GetAngularVelocity()];
+  const rates = [omega.GetX(), omega.GetY(), omega.GetZ()];
+  rows.push([(duration * k) / 20, q.GetW(), q.GetX(), q.GetY(), q.GetZ(), ...rates].join());
+}}
+writeFileSync("trajectory.csv", rows.join("\\n") + "\\n");
+```
+
+DART (Python, `pip install dartpy`), with a ball joint, whose velocities are in the body frame:
+
+```python
+import dartpy as dart
+import numpy as np
+
+world = dart.simulation.World()
+world.setGravity([0.0, 0.0, {gravity}])
+skeleton = dart.dynamics.Skeleton("top")
+joint, body = skeleton.createBallJointAndBodyNodePair()
+moments = np.diag([{moments}])  # about the centre of mass
+body.setInertia(dart.dynamics.Inertia({mass}, [0.0, 0.0, {arm}], moments))
+world.addSkeleton(skeleton)
+attitude = dart.math.Quaternion({wxyz})
+joint.setPositions(dart.dynamics.BallJoint.convertToPositions(attitude.to_rotation_matrix()))
+joint.setVelocities([{local_rates}])
+steps, duration = {steps}, {duration}
+world.setTimeStep(duration / 20 / steps)
+with open("trajectory.csv", "w") as file:
+    print("t,w,x,y,z,wx,wy,wz", file=file)
+    for k in range(1, 21):
+        for _ in range(steps):
+            world.step()
+        q = dart.math.Quaternion(body.getTransform().rotation()).wxyz()
+        print(duration * k / 20, *q, *joint.getVelocities(), sep=",", file=file)
+```
+"""
+JOINTS = {
+    "bullet_joint": """
+  btPoint2PointConstraint pivot(top, btVector3(0, 0, {below}));
+  world.addConstraint(&pivot);""",
+    "rapier_joint": """
+const pivot = world.createRigidBody(RAPIER.RigidBodyDesc.fixed());
+const joint = RAPIER.JointData.spherical(vector(0, 0, 0), vector(0, 0, 0));
+world.createImpulseJoint(joint, pivot, top, true);""",
+    "jolt_joint": """
+const pivot = new Jolt.PointConstraintSettings(); // in the origin of the world
+system.AddConstraint(pivot.Create(Jolt.JoltInterface.prototype.sGetFixedToWorldBody(), top));""",
+}
+
+
+def format_world_snippets(start: State, body: Body, duration: float) -> str:
+    """Return Markdown with programs that start a motion in the world frame."""
+    w, x, y, z = start.orientation.tolist()
+    has_weight = bool(body.arm)
+    joints = JOINTS if has_weight else dict.fromkeys(JOINTS, "")
+    rates = start.to_world(start.angular_velocity)
+    position = start.to_world([0.0, 0.0, body.arm])
+    wx, wy, _ = start.angular_velocity.tolist()
+    velocity = start.to_world([body.arm * wy, -body.arm * wx, 0.0])
+    return IN_THE_WORLD.format(
+        **{name: text.format(below=repr(-body.arm)) for name, text in joints.items()},
+        steps=STEPS,
+        header=HEADER,
+        duration=repr(duration),
+        gravity=repr(-body.gravity if has_weight else 0.0),
+        wxyz=_join((w, x, y, z)),
+        xyzw=_join((x, y, z, w)),
+        named=", ".join(f"{k}: {v!r}" for k, v in zip("wxyz", (w, x, y, z), strict=True)),
+        position=_join(position.tolist()),
+        velocity=_join(velocity.tolist()),
+        rates=_join(rates.tolist()),
+        local_rates=_join(start.angular_velocity.tolist()),
+        moments=_join((body.Ix, body.Ix, body.Iz)),
+        mass=repr(body.mass),
+        arm=repr(body.arm),
+    )

@@ -2,8 +2,12 @@
 
 A timer of rclpy would do, but an executor rebuilds its wait set for each of its calls: at 1 kHz
 that takes 50 % CPU (one core).
+
+`use_real_time` asks for real-time scheduling, so that ticks and requests come on time on a busy
+machine.
 """
 
+import os
 import threading
 from collections.abc import Callable
 
@@ -41,3 +45,20 @@ class Pacer:
                 self._awake.clear()
         except Exception as error:
             self._fail(error)
+
+
+def use_real_time(priority: int) -> str | None:
+    """Have this thread, and those that it starts, scheduled with SCHED_FIFO.
+
+    The reason is returned if the machine does not allow it: the node then runs as other programs.
+    """
+    if not hasattr(os, "sched_setscheduler"):
+        return f"scheduling_priority {priority} has no effect: this system has no SCHED_FIFO"
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+    except PermissionError:
+        return (
+            f"scheduling_priority {priority} has no effect: real-time scheduling needs a right "
+            "(`ulimit -r`, or CAP_SYS_NICE; see docs/ros.md)"
+        )
+    return None

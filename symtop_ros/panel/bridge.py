@@ -234,11 +234,13 @@ class Bridge:
             self._sample = {}
         self._last, found = event, self._recorder.add(event)
         segment = event.segment()
-        told = {"running": segment.running, "factor": segment.factor}
+        told: Message = {"running": segment.running, "factor": segment.factor}
         if event.name == "record":
-            told["recording"] = bool(event.values.get("outcome.kind") == "begun")
+            told["recording"] = event.values.get("outcome.kind") == "begun"
         record = {"record": found.to_json()} if found else {}
-        self._events.append({**record, **told, "said": event.verdict, "name": event.name})
+        # A stamp has more digits than a number of JavaScript.
+        told |= {"name": event.name, "said": event.verdict, "stamp": str(event.stamp)}
+        self._events.append({**record, **told})
         self._count += 1
 
     def _follow_sample(self, stamp: int, numbers: list[float]) -> None:

@@ -5,7 +5,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from symtop_ros.check.mismatch import Mismatch
+from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
 from symtop_ros.log.reader import LogError, McapFile, list_problems

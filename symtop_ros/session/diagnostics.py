@@ -5,9 +5,9 @@ from typing import Any
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.physics import balance, describe_engine, perrys_rule
 from symtop_ros.session.summary import constants_of_motion, summarize_motion
+from symtop_ros.simulation.block import CATCH_UP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.simulation.ticker import CATCH_UP
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status
 
 MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start

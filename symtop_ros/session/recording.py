@@ -1,16 +1,18 @@
 """Recordings of a simulation: begun, ended and failed, each with a sentence and an event."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
+from typing import Literal
 
 from symtop_ros import __version__
 from symtop_ros.log.recorder import Limits, Recorder, describe_error
-from symtop_ros.session.answers import Answer
 from symtop_ros.simulation.changes.outcomes import Record
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.simulation import Host, Simulation
 from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wording import write
 
 
 def limits_of(settings: RecordSettings) -> Limits:
@@ -91,3 +93,15 @@ class Recording:
             "clock.node": str(self._simulation.now),
             **self._environment,
         }
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """An answer; `str` of it is its text."""
+
+    kind: Literal["recorded", "recording", "not_recording", "paused", "running"]
+    path: str = ""  # of the log
+
+    def __str__(self) -> str:
+        """Return the answer in words."""
+        return write("answer", self)

@@ -16,8 +16,15 @@ from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start, des
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
 from symtop_ros.simulation.validation import one_line
-from symtop_ros.wire.diagnostics import OK, Status, decode_statuses, encode_statuses
-from symtop_ros.wire.fields import read_fields, write_fields, write_text
+from symtop_ros.wire.diagnostics import (
+    OK,
+    Status,
+    decode_statuses,
+    encode_statuses,
+    read_fields,
+    write_fields,
+    write_text,
+)
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
 PREFIX = "top: "  # of the name of an event as a diagnostic status

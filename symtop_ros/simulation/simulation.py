@@ -12,14 +12,13 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from symtop_ros.physics import State
-from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome, describe
 from symtop_ros.simulation.changes.timeline import Change, Request, Timeline
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.ticker import CATCH_UP, Ticker
 from symtop_ros.simulation.times import JUMP, Clock, GivenTime, RunTime, Time
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS

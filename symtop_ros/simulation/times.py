@@ -8,11 +8,11 @@ rates are derivatives by the stamps at every factor. Gazebo's /clock is of this 
 
 from typing import Protocol
 
+from symtop_ros.simulation.block import CATCH_UP, Ticker
 from symtop_ros.simulation.budget import ComputeBudget
 from symtop_ros.simulation.changes.outcomes import Outcome, Step
 from symtop_ros.simulation.changes.timeline import Change, Timeline
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.ticker import CATCH_UP, Ticker
 from symtop_ros.wire.layout import NANOSECONDS
 
 CALLS = 20  # of 1 ms for a request; the lock is held meanwhile

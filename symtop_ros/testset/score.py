@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import lzma
 import sys
 from array import array
 from bisect import bisect
@@ -25,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FILE = Path(__file__).with_name("problems.json")
+PACKED = ".json.xz"  # of the same file in the package, which writes the set from it
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
@@ -178,16 +180,18 @@ class Score:
 def read_problems(path: Path = FILE) -> dict[str, Problem]:
     """Return the problems by their names.
 
-    Without that file, as in the folder of a copied problem, every other JSON file next to it is
-    read.
+    Without that file its packed form is read, which is that of the package, or else every other
+    JSON file next to it, as in the folder of a copied problem.
 
     Examples
     --------
     >>> len(read_problems())
     70
     """
-    if path.exists():
-        found = json.loads(path.read_text(encoding="utf-8"))["problems"]
+    packed = path.with_suffix(PACKED)
+    if path.exists() or packed.exists():
+        data = path.read_bytes() if path.exists() else lzma.decompress(packed.read_bytes())
+        found = json.loads(data)["problems"]
     else:
         copies = sorted(path.parent.glob("*.json"))
         found = [json.loads(each.read_text(encoding="utf-8")) for each in copies]

@@ -1,10 +1,23 @@
-"""Encoding and decoding of diagnostic_msgs/DiagnosticArray."""
+"""Diagnostic messages, and records as the fields in them.
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+Names and texts of a record read back to the same record. Fields of a record in a record have the
+names of both, `reason.place.rate`. Numbers are written in decimals that read back to the same
+doubles; a tuple of numbers or words is separated by spaces, and records in a tuple are numbered. A
+field that is None is left out.
+"""
+
+import types
+import typing
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, fields, is_dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from symtop_ros.wire.cdr import Reader, Writer
 from symtop_ros.wire.layout import NANOSECONDS
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR = range(3)
@@ -54,3 +67,106 @@ def _decode_status(reader: Reader, stamp: int) -> Status:
     reader.string()  # hardware_id
     pairs = [(reader.string(), reader.string()) for _ in range(reader.count())]
     return Status(stamp, level, name, message, dict(pairs))
+
+
+T = TypeVar("T")
+MAX_RECORDS = 100  # in a tuple that is read; a log may be hostile
+
+
+def write_text(value: Any) -> str:
+    """Return a plain value, or a sequence of numbers or words, as text."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return " ".join(each if isinstance(each, str) else repr(float(each)) for each in value)
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def write_fields(prefix: str, record: "DataclassInstance") -> dict[str, str]:
+    """Return the fields of a record; their names begin with a prefix."""
+    return dict(_flatten(prefix, asdict(record)))
+
+
+def _flatten(name: str, value: Any) -> Iterator[tuple[str, str]]:
+    if isinstance(value, Mapping):
+        for key, each in value.items():
+            yield from _flatten(f"{name}.{key}", each)
+    elif isinstance(value, tuple) and value and isinstance(value[0], Mapping):
+        for place, each in enumerate(value):
+            yield from _flatten(f"{name}.{place}", each)
+    elif value is not None:
+        yield name, write_text(value)
+
+
+def read_fields(prefix: str, kind: type[T], values: Mapping[str, str]) -> T:
+    """Return the record of a dataclass from its fields.
+
+    Raises
+    ------
+    ValueError
+        If a field is missing, or if its text is not of its type.
+    """
+    own = {name: text for name, text in values.items() if name.startswith(f"{prefix}.")}
+    record: T = _read(kind, prefix, own)
+    return record
+
+
+@lru_cache
+def _hints(kind: type) -> Mapping[str, Any]:
+    return typing.get_type_hints(kind)
+
+
+def _read(hint: Any, name: str, values: Mapping[str, str]) -> Any:
+    """Return the value of a type hint: a record, a tuple or a plain value."""
+    choices = _list_choices(hint)
+    if type(None) in choices:
+        if name not in values and not any(each.startswith(f"{name}.") for each in values):
+            return None
+        choices = tuple(each for each in choices if each is not type(None))
+    (only, *others) = choices
+    if not others and is_dataclass(only):
+        types_of = _hints(typing.cast(type, only))
+        names = [each.name for each in fields(only)]
+        build = typing.cast("Callable[..., Any]", only)
+        return build(**{each: _read(types_of[each], f"{name}.{each}", values) for each in names})
+    if not others and typing.get_origin(only) is tuple:
+        return _read_tuple(typing.get_args(only), name, values)
+    if name not in values:
+        raise ValueError(f"{name} must be given, got nothing")
+    return _read_plain(choices, name, values[name])
+
+
+def _list_choices(hint: Any) -> tuple[Any, ...]:
+    """Return the members of a union, those of unions and literals in it included."""
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return tuple(each for part in typing.get_args(hint) for each in _list_choices(part))
+    return typing.get_args(hint) if typing.get_origin(hint) is typing.Literal else (hint,)
+
+
+def _read_tuple(members: tuple[Any, ...], name: str, values: Mapping[str, str]) -> tuple[Any, ...]:
+    first, *others = members
+    if is_dataclass(first):
+        count = 0
+        while count < MAX_RECORDS and any(key.startswith(f"{name}.{count}.") for key in values):
+            count += 1
+        return tuple(_read(first, f"{name}.{place}", values) for place in range(count))
+    if name not in values:
+        raise ValueError(f"{name} must be given, got nothing")
+    parts = values[name].split()
+    if others != [...] and len(parts) != len(members):
+        raise ValueError(f"{name} must have {len(members)} elements, got {len(parts)}")
+    return tuple(_read_plain(_list_choices(first), name, each) for each in parts)
+
+
+def _read_plain(choices: tuple[Any, ...], name: str, text: str) -> Any:
+    """Return a number, a flag, a text, or one of some words."""
+    (only, *_) = choices
+    if only is bool:
+        choices, found = ("true", "false"), text == "true"
+    elif isinstance(only, type):
+        return only(text)
+    else:
+        found = text  # type: ignore[assignment]
+    if text not in choices:
+        raise ValueError(f"{name} must be one of {', '.join(choices)}, got {text[:60]!r}")
+    return found

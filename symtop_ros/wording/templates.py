@@ -6,7 +6,7 @@ A template has placeholders, `{name}` or `{name:form}`; `name` is a field of the
 value of the field   text
 ===================  =======================================================================
 none                 nothing
-a number             by `form`, see `numbers`
+a number             by `form`, as below
 a word, true, false  the template `form.WORD`, filled with the same record; without `form`
                      the word itself, as for a path
 a record             the template `form`, or `name` without it; if the record has a field
@@ -18,6 +18,22 @@ some numbers         if there is a template `form`: it, with the placeholders `{
 
 A placeholder without text takes the space before it along. A variant (`degrees`) of a template has
 the key `KEY@VARIANT`.
+
+The number is the exact value of its double. It is rounded to the nearest decimal with the given
+digits; of two that are equally near the one with the even last digit is taken. A number that is
+rounded to zero has no sign. Python's own formatting keeps this rule but for the sign; `toFixed` and
+`toPrecision` of JavaScript round halves away from zero.
+
+===========  ======================================================================================
+form         text
+===========  ======================================================================================
+``3f``       3 decimals
+``3g``       3 significant digits without trailing zeros, as %g of C: with an exponent of at least
+             two digits if it is below -4 or not below the number of digits
+``rate``     ``2f`` for zero and from 0.1 to 1e5, ``3g`` below and above
+``1fdeg``    an angle in rad, written in degrees: 180/pi times the double, with 1 decimal; so with
+             the other forms
+===========  ======================================================================================
 """
 
 import json
@@ -27,10 +43,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from symtop_ros.wording.numbers import write_number
-
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
+
+import math
 
 FILE = Path(__file__).with_name("en.json")
 TEMPLATES: dict[str, str] = json.loads(FILE.read_text(encoding="utf-8"))
@@ -109,3 +125,32 @@ class _Writer:
         forms = dict(PLACEHOLDER.findall(template))
         texts = {write_number(record[place], form) for place, form in forms.items()}
         return self._fill(f"{key}.same" if len(texts) == 1 else key, record)
+
+
+SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three digits
+
+
+def write_number(value: float, form: str) -> str:
+    """Return a number as text.
+
+    Parameters
+    ----------
+    value : float
+    form : str
+        A format of the table above, such as ``3f``.
+
+    Examples
+    --------
+    >>> from symtop_ros.wording.templates import write_number
+    >>> write_number(0.125, "2f"), write_number(0.375, "2f"), write_number(-0.0004, "3f")
+    ('0.12', '0.38', '0.000')
+    >>> write_number(-49.66, "3g"), write_number(1e-5, "3g"), write_number(0.5, "1fdeg")
+    ('-49.7', '1e-05', '28.6')
+    """
+    if form == "rate":
+        plain = value == 0 or SMALLEST_RATE <= abs(value) < LARGEST_RATE
+        return write_number(value, "2f" if plain else "3g")
+    if form.endswith("deg"):
+        return write_number(value * 180 / math.pi, form.removesuffix("deg"))
+    text = f"{value:.{form}}"
+    return text.lstrip("-") if float(text) == 0 else text

@@ -6,7 +6,7 @@ import pytest
 from PIL import Image
 from rerun.chunk import RrdReader
 
-from symtop_ros.drawing.style import BLUE, GOLD, INK, RED
+from symtop_ros.figures import BLUE, GOLD, INK, RED
 from symtop_ros.playback.view import entities
 from workshop import main as report
 from workshop.article import retell as article

@@ -7,8 +7,7 @@ import pytest
 from check.run_log import write_log
 from physics.tops import seeds
 
-from symtop_ros.check.events import find_mismatches, is_own
-from symtop_ros.check.mismatch import NOTHING, Mismatch
+from symtop_ros.check.events import NOTHING, Mismatch, find_mismatches, is_own
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import accelerated, describe_engine

@@ -9,7 +9,7 @@ from check.run_log import Memory, write_log
 from physics.tops import seeds
 
 from symtop_ros import __version__
-from symtop_ros.check.mismatch import Mismatch
+from symtop_ros.check.events import Mismatch
 from symtop_ros.check.texts import find_mismatches
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import accelerated

@@ -1,6 +1,6 @@
 import pytest
 
-from symtop_ros.client.arguments import UsageError, parse_values
+from symtop_ros.client.main import UsageError, parse_values
 
 
 def test_words_become_numbers_lists_and_text():

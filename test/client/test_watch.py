@@ -3,9 +3,9 @@ import sys
 import pytest
 from sensor_msgs.msg import JointState
 
-from symtop_ros.client import watch as module
+from symtop_ros.client import keys as module
 from symtop_ros.client.connection import UnreachableError
-from symtop_ros.client.watch import watch
+from symtop_ros.client.keys import watch
 
 SAMPLE = JointState(position=[0.1, 0.5, 0.2], velocity=[9.0, 0.0, 200.0])
 

@@ -14,7 +14,7 @@ from node.running_top import LATCHED, facts
 from programs import environment
 from sensor_msgs.msg import JointState
 
-from symtop_ros.session.answers import Answer
+from symtop_ros.session.recording import Answer
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 

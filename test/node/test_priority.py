@@ -5,7 +5,7 @@ import os
 import pytest
 from geometry_msgs.msg import QuaternionStamped
 
-from symtop_ros.node.priority import use_real_time
+from symtop_ros.node.pacer import use_real_time
 from symtop_ros.physics import describe_engine
 
 

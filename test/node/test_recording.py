@@ -26,7 +26,7 @@ from std_msgs.msg import String
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.session.answers import Answer
+from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.validation import RefusedError
 from workshop.load.domains import claim_domain
 

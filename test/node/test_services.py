@@ -10,7 +10,7 @@ from node.running_top import LATCHED, events_named, facts, segment_of, stamp_of
 from sensor_msgs.msg import JointState
 
 from symtop_ros.physics import regular_precession_rates
-from symtop_ros.session.answers import Answer
+from symtop_ros.session.recording import Answer
 
 
 def theta(message):

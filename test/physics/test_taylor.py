@@ -1,6 +1,7 @@
 """200 motions of 16 families by a Taylor series, which shares no formula with the package."""
 
 import json
+import lzma
 import math
 from pathlib import Path
 
@@ -11,7 +12,8 @@ from physics.tops import EPS
 from symtop_ros.physics import Motion, State, Top
 
 pytestmark = pytest.mark.untraced
-MOTIONS = json.loads(Path(__file__).with_name("taylor_motions.json").read_text())
+PACKED = Path(__file__).with_name("taylor_motions.json.xz")
+MOTIONS = json.loads(lzma.decompress(PACKED.read_bytes()))
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -1,4 +1,4 @@
-"""Write taylor_motions.json: 200 motions of 16 families by Taylor series, to 25 digits.
+"""Write taylor_motions.json.xz: 200 motions of 16 families by Taylor series, to 25 digits.
 
 Run it as `PYTHONPATH=.:test python test/physics/write_taylor_motions.py`; it takes some minutes.
 Inputs and times are doubles, taken as exact. `q` is the orientation (w, x, y, z) up to sign and
@@ -6,13 +6,14 @@ Inputs and times are doubles, taken as exact. `q` is the orientation (w, x, y, z
 """
 
 import json
+import lzma
 import math
 from pathlib import Path
 
 from mpmath import mp
 from physics.taylor_families import FAMILIES, make_case
 
-PATH = Path(__file__).with_name("taylor_motions.json")
+PATH = Path(__file__).with_name("taylor_motions.json.xz")
 COUNT = 200
 DIGITS = 25
 
@@ -37,7 +38,8 @@ def solve(family, seed):
 
 def main():
     motions = [solve(FAMILIES[n % len(FAMILIES)], n // len(FAMILIES)) for n in range(COUNT)]
-    PATH.write_text("[\n" + ",\n".join(json.dumps(motion) for motion in motions) + "\n]\n")
+    text = "[\n" + ",\n".join(json.dumps(motion) for motion in motions) + "\n]\n"
+    PATH.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import json
 import pytest
 from simulation.runs import Run
 
-from symtop_ros.session.answers import Answer
+from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.changes.outcomes import Pause, Step, describe
 from symtop_ros.simulation.settings import Settings
 

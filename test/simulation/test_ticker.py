@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from symtop_ros.simulation.ticker import CATCH_UP, Ticker
+from symtop_ros.simulation.block import CATCH_UP, Ticker
 
 MS = 1_000_000
 NEVER = 2**62

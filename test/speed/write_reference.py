@@ -1,11 +1,12 @@
 """Write the reference motions of the report to 25 digits, by independent formulas in mpmath.
 
-Run it by hand after a change: PYTHONPATH=test python test/report/write_reference.py
+Run it by hand after a change: PYTHONPATH=.:test python test/speed/write_reference.py
 """
 
 from __future__ import annotations
 
 import json
+import lzma
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -131,7 +132,8 @@ def write(path: Path) -> None:
     text = ",\n".join(
         f'"{part}": [\n' + ",\n".join(map(json.dumps, each)) + "\n]" for part, each in parts.items()
     )
-    path.write_text(f"{{{text}}}\n", encoding="utf-8")
+    packed = lzma.compress(f"{{{text}}}\n".encode(), preset=9 | lzma.PRESET_EXTREME)
+    path.write_bytes(packed)
 
 
 if __name__ == "__main__":

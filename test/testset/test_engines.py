@@ -6,10 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from symtop_ros.testset.score import FILE, read_problems
+from symtop_ros.testset.score import read_problems
 
 PAGE = (Path(__file__).parents[2] / "docs/benchmarks.md").read_text()
-MODELS = FILE.parent / "models"
 
 
 def read_table(name):
@@ -19,9 +18,9 @@ def read_table(name):
     return rows[0], rows[2:]
 
 
-def integrate(mujoco, problem, form, integrator, steps):
+def integrate(mujoco, models, problem, form, integrator, steps):
     """Return the largest error in rad, and the rate across the axis at the end in rad/s."""
-    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{problem.facts['name']}.{form}"))
+    model = mujoco.MjModel.from_xml_path(str(models / f"{problem.facts['name']}.{form}"))
     model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator.upper()}")
     model.opt.timestep = problem.times[0] / steps
     data = mujoco.MjData(model)
@@ -38,38 +37,41 @@ def is_shown(value, text):
     return value == pytest.approx(float(re.match(r"[-+.\de]+", text)[0]), rel=0.06)
 
 
-def test_free_bodies_are_damped_as_the_page_says():
+def test_free_bodies_are_damped_as_the_page_says(folder):
     mujoco = pytest.importorskip("mujoco")
     problem = read_problems()["free_rod_fast"]
     rows = [row for row in read_table("free")[1] if row[0] == mujoco.__version__]
     if not rows:
         pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
     for _, integrator, error, rate in rows:
-        found = integrate(mujoco, problem, "free.mjcf", integrator, 256)
+        found = integrate(mujoco, folder / "models", problem, "free.mjcf", integrator, 256)
         assert is_shown(found[0], error), (integrator, found)
         part = found[1] / problem.facts["angular_velocity"][0]
         # "1.00 of the start", or the number alone; its last digit is half a percent of the start
         assert part == pytest.approx(float(rate.split()[0]), rel=0.03, abs=0.005), integrator
 
 
-def test_rk4_has_the_order_that_the_page_says():
+def test_rk4_has_the_order_that_the_page_says(folder):
     mujoco = pytest.importorskip("mujoco")
     problem = read_problems()["gentle_cusps"]
     rows = [row for row in read_table("order")[1] if row[0] == f"MuJoCo {mujoco.__version__}, RK4"]
     if not rows:
         pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
     ((_, *errors, order),) = rows
-    found = [integrate(mujoco, problem, "mjcf", "RK4", steps)[0] for steps in (64, 128, 256)]
+    found = [
+        integrate(mujoco, folder / "models", problem, "mjcf", "RK4", steps)[0]
+        for steps in (64, 128, 256)
+    ]
     assert all(map(is_shown, found, errors)), found
     assert np.log2(found[0] / found[1]) == pytest.approx(float(order), abs=0.1)
 
 
-def test_a_tumbling_top_is_integrated_as_the_page_says():
+def test_a_tumbling_top_is_integrated_as_the_page_says(folder):
     mujoco = pytest.importorskip("mujoco")
     if f"MuJoCo {mujoco.__version__}:\n" not in PAGE:
         pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
     problem = read_problems()["tumbling"]
     for integrator, coarse, fine in read_table("tumbling")[1]:
         for steps, text in ((256, coarse), (2048, fine)):
-            found, _ = integrate(mujoco, problem, "mjcf", integrator, steps)
+            found, _ = integrate(mujoco, folder / "models", problem, "mjcf", integrator, steps)
             assert is_shown(found, text), (integrator, found)

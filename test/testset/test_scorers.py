@@ -12,7 +12,7 @@ from browser import running_browser
 from symtop_ros.physics import State
 from symtop_ros.testset.score import FILE, main, read_problems, split_decimals
 
-FOLDER = FILE.parent
+SCORER = FILE.with_name("score.mjs")
 NAMES = ("t", "w", "x", "y", "z", "wx", "wy", "wz")
 PROBLEMS = ("cusps", "gentle_pole", "plane_pendulum", "free_rod", "cusps_100000", "large")
 
@@ -111,29 +111,26 @@ FILES = make_files()
 
 
 @pytest.fixture(scope="session")
-def cpp(tmp_path_factory):
+def cpp(folder):
     """Run the scorer in C++."""
     compiler = shutil.which("g++")
     if not compiler:
         pytest.skip("no g++: apt install g++")
-    folder = tmp_path_factory.mktemp("cpp")
-    for name in ("score.cpp", "problems.csv", "states.csv"):
-        shutil.copy(FOLDER / name, folder)
     command = [compiler, "-O1", "-std=c++17", "-Wall", "-Wextra", "-Werror", "score.cpp"]
     subprocess.run([*command, "-o", "score"], cwd=folder, check=True)
     return lambda *args: run(folder / "score", *args)
 
 
 @pytest.fixture(scope="session")
-def javascript():
+def javascript(folder):
     """Run the scorer in JavaScript, by Node or in Chromium."""
     node = shutil.which("node")
     if node:
-        yield lambda *args: run(node, FOLDER / "score.mjs", *args)
+        yield lambda *args: run(node, folder / "score.mjs", *args)
         return
     with running_browser() as browser:
         page = browser.new_page()
-        yield lambda *args: run_in_page(page, *args)
+        yield lambda *args: run_in_page(page, folder, *args)
 
 
 def run(*command):
@@ -141,10 +138,10 @@ def run(*command):
     return done.returncode, done.stdout, done.stderr
 
 
-def run_in_page(page, *args):
+def run_in_page(page, folder, *args):
     """Import the module into a page, and give it the texts of the files."""
-    module = b64encode((FOLDER / "score.mjs").read_bytes()).decode()
-    texts = {name: (FOLDER / name).read_text() for name in ("problems.csv", "states.csv")}
+    module = b64encode(SCORER.read_bytes()).decode()
+    texts = {name: (folder / name).read_text() for name in ("problems.csv", "states.csv")}
     own = {str(path): path.read_bytes().decode("latin-1") for path in args[1:]}
     call = f"""async () => {{
         const {{ run }} = await import("data:text/javascript;base64,{module}");
@@ -243,7 +240,7 @@ def test_decimals_are_split_as_in_python(javascript):
     if not node:
         pytest.skip("no node: the outputs above are compared in Chromium")
     texts = ["0.1", "-2.88840675952426555432007563896e-152", "0.0", "123456.789012345678901234567"]
-    code = f"""const {{ splitDecimal }} = await import({json.dumps(str(FOLDER / "score.mjs"))});
+    code = f"""const {{ splitDecimal }} = await import({json.dumps(str(SCORER))});
         console.log(JSON.stringify({json.dumps(texts)}.map(splitDecimal)));"""
     _, out, _ = run(node, "--input-type=module", "-e", code)
     high, low = split_decimals([texts])

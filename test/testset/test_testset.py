@@ -2,7 +2,6 @@
 
 import csv
 import hashlib
-import json
 import re
 import shutil
 import subprocess
@@ -17,23 +16,21 @@ from testset.links import find_link_effect
 from testset.problems import COUNT, SETTINGS
 from testset.write_testset import (
     EPS_32,
-    FOLDER,
-    FORCES,
-    WORLD,
     describe,
     describe_forces,
     describe_world,
     digits,
     limits,
-    list_formats,
-    tabulate,
 )
 
+from symtop_ros.models.formats import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
 from symtop_ros.testset.score import main, read_problems
+from symtop_ros.testset.tables import FORCES, TABLES, WORLD
 
-FACTS = json.loads((FOLDER / "problems.json").read_text())
-PROBLEMS = {each["name"]: each for each in FACTS["problems"]}
+PROBLEMS = {name: each.facts for name, each in read_problems().items()}
+# Of SHA256SUMS: the files have these bytes until the data change, and then the set a new version.
+SUMS = "56ca8923eca3bc5c9121861ae50020363ac0144d14f34c8756fe5471e5b51639"
 BY_SERIES = ("free_disc", "sphere", "pole_unit", "separatrix_spinning")  # slow tops: a second each
 
 
@@ -182,11 +179,11 @@ def test_the_closed_form_of_the_package_solves_it(name):
     assert score.rates.max() <= 5 * 2.0**-52 * max(largest, 1e-300)
 
 
-def test_mujoco_shows_the_effect_that_is_stated_for_the_smallest_top():
+def test_mujoco_shows_the_effect_that_is_stated_for_the_smallest_top(folder):
     mujoco = pytest.importorskip("mujoco")
     problem = read_problems()["small"]
     start = State(problem.facts["orientation"], problem.facts["angular_velocity"])
-    model = mujoco.MjModel.from_xml_path(str(FOLDER / "models/small.urdf"))
+    model = mujoco.MjModel.from_xml_path(str(folder / "models/small.urdf"))
     model.opt.integrator, model.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, 2.0**-13
     data = mujoco.MjData(model)
     data.qpos, data.qvel = start.euler_angles, start.euler_rates
@@ -207,26 +204,21 @@ def test_quaternions_have_thirty_digits_of_a_unit():
                 assert abs(mp.norm([mpf(c) for c in q]) - 1) < mpf(10) ** -29
 
 
-def test_the_tables_say_the_same():
-    for name, text in tabulate(FACTS["problems"]).items():
-        assert (FOLDER / name).read_text() == text
-    counts = {"states.csv": COUNT, "forces.csv": COUNT + 1, "world.csv": COUNT + 1}
-    for name, count in counts.items():
-        with (FOLDER / name).open() as file:
-            assert len(list(csv.reader(file))) == 1 + 70 * count
-
-
-def test_checksums_are_those_of_all_files():
-    lines = (FOLDER / "SHA256SUMS").read_text().splitlines()
-    sums = dict(reversed(line.split("  ")) for line in lines)
+def test_the_written_files_have_the_bytes_of_this_version(folder):
+    lines = (folder / "SHA256SUMS").read_text()
+    assert hashlib.sha256(lines.encode()).hexdigest() == SUMS
+    sums = dict(reversed(line.split("  ")) for line in lines.splitlines())
     for name, digest in sums.items():
-        assert hashlib.sha256((FOLDER / name).read_bytes()).hexdigest() == digest
-    data = {
-        path.name
-        for path in FOLDER.rglob("*.*")
-        if path.suffix in (".json", ".csv") or path.parent.name == "models"
-    }
-    assert {name.rpartition("/")[2] for name in sums} == data
+        assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest
+    data = {*(folder / "models").iterdir(), *folder.glob("*.json"), *folder.glob("*.csv")}
+    assert set(sums) == {path.relative_to(folder).as_posix() for path in data}
+
+
+def test_the_tables_have_a_row_for_each_time(folder):
+    counts = dict(zip(TABLES, (1, COUNT, COUNT + 1, COUNT + 1), strict=True))
+    for name, count in counts.items():
+        with (folder / name).open() as file:
+            assert len(list(csv.reader(file))) == 1 + 70 * count
 
 
 def test_the_heavy_top_is_that_of_the_literature():
@@ -240,18 +232,19 @@ def test_the_heavy_top_is_that_of_the_literature():
     assert place == pytest.approx((-0.150416822746, -1.724165591637, -0.673022269560), abs=1e-12)
 
 
-def test_every_problem_has_its_models():
+def test_every_problem_has_its_models(folder):
     for setting in SETTINGS:
-        for form, write in list_formats(setting).items():
-            path = FOLDER / "models" / f"{setting.name}.{form}"
-            assert path.read_text() == write(setting.top, setting.start, setting.body)
-        free = FOLDER / "models" / f"{setting.name}.free.mjcf"
+        formats = FORMATS if setting.top.Mgl else {**FORMATS, **FREE_FORMATS}
+        paths = {form: folder / f"models/{setting.name}.{form}" for form in formats}
+        for form, write in formats.items():
+            assert paths[form].read_text() == write(setting.top, setting.start, setting.body)
+        free = folder / "models" / f"{setting.name}.free.mjcf"
         assert free.exists() == (setting.top.Mgl == 0)
 
 
-def test_the_scorer_needs_numpy_only(tmp_path):
+def test_the_scorer_needs_numpy_only(folder, tmp_path):
     for name in ("score.py", "problems.json"):
-        (tmp_path / name).write_bytes((FOLDER / name).read_bytes())
+        (tmp_path / name).write_bytes((folder / name).read_bytes())
     facts = PROBLEMS["plane_pendulum"]
     rows = [
         ",".join((repr(t), *q, *omega))
@@ -277,12 +270,14 @@ def test_the_scorer_needs_numpy_only(tmp_path):
     assert "angular velocity" in done.stdout
 
 
-def test_the_example_of_the_readme_runs_and_is_scored_as_it_says(tmp_path, monkeypatch, capsys):
+def test_the_example_of_the_readme_runs_and_is_scored_as_it_says(
+    folder, tmp_path, monkeypatch, capsys
+):
     pytest.importorskip("mujoco")
-    text = (FOLDER / "README.md").read_text()
+    text = (folder / "README.md").read_text()
     code = text.partition("```python\n")[2].partition("```")[0]
     answer = re.search("`(cusps: attitude .+)`", text)[1]
-    shutil.copytree(FOLDER, tmp_path / "set")
+    shutil.copytree(folder, tmp_path / "set")
     monkeypatch.chdir(tmp_path / "set")
     # a quarter of the steps takes a quarter of the time, and leaves 256 times the error of RK4
     exec(code.replace("2**14", "2**12"), {})

@@ -1,4 +1,4 @@
-"""Write symtop_ros/testset: seventy motions to 30 digits, their models, tables and checksums.
+"""Write problems.json.xz of symtop_ros/testset: seventy motions to 30 digits.
 
 Each state is computed by the closed form in 150 digits, and again by a Taylor series in 80 digits
 that shares no formula with it; a difference in the 33rd digit ends the program. It takes twelve
@@ -9,15 +9,10 @@ minutes with two processors:
 
 from __future__ import annotations
 
-import csv
-import hashlib
-import io
-import json
+import lzma
 import math
 import sys
-from collections.abc import Callable
 from multiprocessing import Pool
-from pathlib import Path
 from typing import Any
 
 from mpmath import mp, mpf
@@ -27,36 +22,14 @@ from testset.forces import find_forces, find_world_state
 from testset.links import find_link_effect
 from testset.problems import SETTINGS, Setting
 
-from symtop_ros.models.formats import FORMATS
-from symtop_ros.models.free import FREE_FORMATS
-from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
-from symtop_ros.physics import State as Start
+from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.testset.score import FILE, read_problems
+from symtop_ros.testset.tables import FORCES, LIMITS, WORLD, format_problems
 
-FOLDER = Path(__file__).parents[2] / "symtop_ros" / "testset"
-VERSION = "3.0"
+PACKED = FILE.with_suffix(".json.xz")
 SHOWN = 30  # digits
 AGREEMENT = mpf(10) ** -33  # of both methods, relative to the largest component
 EPS, EPS_32 = 2.0**-52, 2.0**-23  # of float64 and float32
-CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
-QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
-LIMITS = tuple(
-    f"{name}_limits{form}"
-    for form in ("", "_float32")
-    for name in ("orientation", "angular_velocity")
-)
-# Columns of forces.csv by their lists in problems.json; energies are one column.
-FORCES = {
-    "angular_accelerations": ("alpha_x", "alpha_y", "alpha_z"),
-    "accelerations": ("ax", "ay", "az"),
-    "pivot_forces": ("fx", "fy", "fz"),
-    "energies": ("energy",),
-}
-# Columns of world.csv by their lists in problems.json; the attitude comes first.
-WORLD = {
-    "centre_positions": ("px", "py", "pz"),
-    "centre_velocities": ("vx", "vy", "vz"),
-    "world_angular_velocities": ("omega_x", "omega_y", "omega_z"),
-}
 State = tuple[Any, Any]  # orientation and body angular velocity in numbers of mpmath
 
 
@@ -159,88 +132,9 @@ def digits(numbers: Any) -> list[str]:
     return [mp.nstr(n if isinstance(n, mpf) else mpf(n), SHOWN) for n in numbers]
 
 
-def tabulate(problems: list[dict[str, Any]]) -> dict[str, str]:
-    """Texts of problems.csv, states.csv, forces.csv and world.csv."""
-    start = [f"{name}0" for name in (*QUATERNION, *RATES)]
-    problem = ("name", "level", *CONSTANTS, *start, "duration", "mujoco_urdf_effect", "what")
-    starts: list[tuple[Any, ...]] = [problem]
-    limits = [name.replace("limits", "limit") for name in LIMITS]
-    states: list[tuple[Any, ...]] = [("name", "t", *QUATERNION, *RATES, *limits)]
-    forces: list[tuple[Any, ...]] = [("name", "t", *(c for each in FORCES.values() for c in each))]
-    world: list[tuple[Any, ...]] = [
-        ("name", "t", *QUATERNION, *(c for each in WORLD.values() for c in each))
-    ]
-    for each in problems:
-        name, effect = each["name"], each["mujoco_urdf_effect"]
-        values = [each[key] for key in CONSTANTS]
-        values += [*each["orientation"], *each["angular_velocity"], each["times"][-1]]
-        end = "" if effect is None else repr(effect), each["what"]
-        starts.append((name, each["level"], *map(repr, values), *end))
-        columns = (each[key] for key in ("times", "orientations", "angular_velocities", *LIMITS))
-        for t, q, omega, *four in zip(*columns, strict=True):
-            states.append((name, repr(t), *q, *omega, *map(repr, four)))
-        columns = (each[key] for key in FORCES)
-        times = [0.0, *each["times"]]
-        for t, alpha, a, force, energy in zip(times, *columns, strict=True):
-            forces.append((name, repr(t), *alpha, *a, *force, energy))
-        attitudes = [normalise(each["orientation"]), *each["orientations"]]
-        columns = (each[key] for key in WORLD)
-        for t, q, p, v, omega in zip(times, attitudes, *columns, strict=True):
-            world.append((name, repr(t), *q, *p, *v, *omega))
-    tables = {
-        "problems.csv": starts,
-        "states.csv": states,
-        "forces.csv": forces,
-        "world.csv": world,
-    }
-    return {name: write_csv(rows) for name, rows in tables.items()}
-
-
-def normalise(numbers: list[float]) -> list[str]:
-    """Digits of a unit quaternion."""
-    with mp.workdps(DIGITS):
-        q = [mpf(x) for x in numbers]
-        return digits([x / mp.norm(q) for x in q])
-
-
-def write_csv(rows: list[tuple[Any, ...]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
-
-
-def list_formats(setting: Setting) -> dict[str, Callable[[Top, Start, Body], str]]:
-    """The models of a problem: without weight, also those that nothing holds."""
-    return FORMATS if setting.top.Mgl else {**FORMATS, **FREE_FORMATS}
-
-
-def write_models(setting: Setting) -> None:
-    """Write the models of a problem."""
-    (FOLDER / "models").mkdir(exist_ok=True)
-    for form, write in list_formats(setting).items():
-        text = write(setting.top, setting.start, setting.body)
-        (FOLDER / "models" / f"{setting.name}.{form}").write_text(text, encoding="utf-8")
-
-
-def write_checksums() -> None:
-    """Write SHA256SUMS, in the form of the program sha256sum."""
-    files = sorted(
-        path
-        for path in FOLDER.rglob("*.*")
-        if path.suffix in (".json", ".csv") or path.parent.name == "models"
-    )
-    lines = [
-        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(FOLDER).as_posix()}\n"
-        for path in files
-    ]
-    (FOLDER / "SHA256SUMS").write_text("".join(lines), encoding="utf-8")
-
-
 def read_effects() -> dict[str, float | None]:
     """The published effects of links: those near rounding depend on the processor."""
-    path = FOLDER / "problems.json"
-    found = json.loads(path.read_text(encoding="utf-8"))["problems"] if path.exists() else []
-    return {each["name"]: each["mujoco_urdf_effect"] for each in found}
+    return {name: each.facts["mujoco_urdf_effect"] for name, each in read_problems().items()}
 
 
 def main() -> None:
@@ -250,26 +144,9 @@ def main() -> None:
             name = setting.name
             problem["mujoco_urdf_effect"] = effects.get(name, problem["mujoco_urdf_effect"])
             problems.append(problem)
-            write_models(setting)
             print(setting.name, flush=True)
-    write_files(problems)
-
-
-def write_files(problems: list[dict[str, Any]]) -> None:
-    """Write problems.json, the tables and the checksums."""
-    facts = {
-        "name": "symtop_ros test set",
-        "version": VERSION,
-        "license": "CC0-1.0",
-        "gravity": STANDARD_GRAVITY,
-    }
-    lines = ",\n".join(map(json.dumps, problems))
-    head = json.dumps(facts)[:-1]
-    text = f'{head}, "problems": [\n{lines}\n]}}\n'
-    (FOLDER / "problems.json").write_text(text, encoding="utf-8")
-    for name, table in tabulate(problems).items():
-        (FOLDER / name).write_text(table, encoding="utf-8")
-    write_checksums()
+    text = format_problems(problems, STANDARD_GRAVITY)
+    PACKED.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 
 if __name__ == "__main__":

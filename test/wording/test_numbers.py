@@ -7,7 +7,7 @@ from decimal import ROUND_HALF_EVEN, Decimal, localcontext
 
 import pytest
 
-from symtop_ros.wording.numbers import write_number
+from symtop_ros.wording.templates import write_number
 
 
 def doubles(count):

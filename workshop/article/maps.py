@@ -112,7 +112,7 @@ def draw_map(perry_map: PerryMap, target: Path | BinaryIO) -> None:
     figure.colorbar(image, ax=[left, right], label="raised by (rad)", extend="both")
     figure.suptitle(f"The precession hurried by {FACTOR:g}, {perry_map.title}")
     left.legend(loc="lower left", fontsize="small")
-    figure.savefig(target, dpi=150)
+    figure.savefig(target, dpi=100)
 
 
 def _extent(perry_map: PerryMap) -> tuple[float, float, float, float]:

@@ -13,8 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.drawing.fictitious import torques_of
-from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -22,6 +21,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
+from symtop_ros.playback.view.fictitious import torques_of
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import LessonStep, read_lesson

@@ -13,7 +13,7 @@ from workshop.article.figures import FIGURES
 from workshop.article.maps import draw_map, map_spin
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import write_lesson
-from workshop.pictures.pack import pack, pack_figure
+from workshop.pictures.pack import SHADES, pack, pack_figure
 from workshop.pictures.replay import write_replays
 from workshop.pictures.traces import draw_traces
 
@@ -31,7 +31,7 @@ def write_pictures(docs: Path) -> int:
     write_lesson(docs / "lesson")
     drawn = io.BytesIO()
     draw_map(map_spin(POINTS), drawn)
-    (docs / "perry.png").write_bytes(pack(drawn))
+    (docs / "perry.png").write_bytes(pack(drawn, SHADES))
     print(f"wrote {docs / 'perry.png'}")
     try:
         write_replays(docs)

@@ -9,10 +9,11 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.drawing.style import SETTINGS
+from symtop_ros.figures import SETTINGS
 
-RESOLUTION, COLORS = 130, 64  # dots per inch, colours of a palette
-SHADES, ROUNDS = 256, 10  # colours for shaded bodies, and rounds in which they are chosen
+RESOLUTION = 130  # dots per inch
+COLORS, SHADES = 24, 128  # of the palettes of figures and of shaded bodies
+ROUNDS = 10  # in which colours are chosen
 
 
 def pack_figure(draw: Callable[[], Figure]) -> bytes:
@@ -23,19 +24,23 @@ def pack_figure(draw: Callable[[], Figure]) -> bytes:
     return pack(drawn)
 
 
-def pack(file: Path | IO[bytes]) -> bytes:
+def pack(file: Path | IO[bytes], colors: int = COLORS) -> bytes:
     """Return the packed picture of a PNG."""
-    packed = io.BytesIO()
     with Image.open(file) as picture:
-        picture.convert("RGB").quantize(COLORS).save(packed, "PNG", optimize=True)
-    return packed.getvalue()
+        return _write(picture, colors)
 
 
 def pack_shaded(picture: Image.Image) -> bytes:
     """Return the packed PNG of a picture with shaded bodies."""
+    return _write(picture, SHADES)
+
+
+def _write(picture: Image.Image, colors: int) -> bytes:
     packed = io.BytesIO()
     # This method keeps rare colours, which those of a legend are.
     method = Image.Quantize.MAXCOVERAGE
-    palette = picture.convert("RGB").quantize(SHADES, method=method, kmeans=ROUNDS)
+    palette = picture.convert("RGB").quantize(
+        colors, method=method, kmeans=ROUNDS, dither=Image.Dither.NONE
+    )
     palette.save(packed, "PNG", optimize=True)
     return packed.getvalue()

@@ -12,19 +12,17 @@ POINTS = 900  # of a trace; with fewer, its cusps would be blunt
 SIZE, SCALE = 220, 125  # points; points per unit of the sphere, seen from above
 
 
-def polyline(points: NDArray[np.float64], style: str) -> str:
-    """Draw a curve (n, 3) on the sphere, seen from above."""
-    x, y = SIZE / 2 + SCALE * points[:, 0], SIZE / 2 - SCALE * points[:, 1]
-    path = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))
-    return f'<polyline points="{path}" fill="none" {style}/>'
+def draw_curve(points: NDArray[np.float64], style: str) -> str:
+    """Draw a curve (n, 3) on the sphere, seen from above: steps in tenths of a point."""
+    tenths = np.rint(10 * (SIZE / 2 + SCALE * points[:, :2] * (1, -1))).astype(int)
+    steps = " ".join(f"{x},{y}" for x, y in np.diff(tenths, axis=0, prepend=[[0, 0]]).tolist())
+    return f'<path d="m{steps}" transform="scale(0.1)" fill="none" {style}/>'
 
 
-def circle(theta: float) -> NDArray[np.float64]:
-    """Circle of equal tilt."""
-    phi = np.linspace(0.0, 2 * np.pi, 121)
-    points: NDArray[np.float64] = np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
-    points *= np.sin(theta)
-    return points
+def draw_circle(theta: float, style: str) -> str:
+    """Draw a circle of equal tilt."""
+    radius = SCALE * np.sin(theta)
+    return f'<circle cx="{SIZE / 2}" cy="{SIZE / 2}" r="{radius:.1f}" fill="none" {style}/>'
 
 
 def panel(name: str, phi_dot: float) -> str:
@@ -32,10 +30,10 @@ def panel(name: str, phi_dot: float) -> str:
     path = Motion(TOP, State.from_euler(theta=THETA, psi_dot=PSI_DOT, phi_dot=phi_dot))
     trace = path.at(np.linspace(0.0, TURN, POINTS)).to_world(np.array([0.0, 0.0, 1.0]))
     circles = "".join(
-        polyline(circle(theta), 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
+        draw_circle(theta, 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
         for theta in path.turning_angles
     )
-    curve = polyline(trace, 'stroke="#b5531c" stroke-width="2" stroke-linejoin="round"')
+    curve = draw_curve(trace, 'stroke="#b5531c" stroke-width="20" stroke-linejoin="round"')
     label = f'<text x="{SIZE / 2}" y="{SIZE + 8}" text-anchor="middle">{name}</text>'
     return circles + curve + label
 

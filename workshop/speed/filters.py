@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
-from symtop_ros.drawing.style import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
+from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
 from symtop_ros.imu import CONSUMER, record_imu
 from symtop_ros.judge.compare import NONE, Errors, compare
 from symtop_ros.judge.estimates import Estimates

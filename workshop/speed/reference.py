@@ -5,6 +5,7 @@ errors 2 |q - q_exact|, with the sign of q that makes it smaller.
 """
 
 import json
+import lzma
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -19,7 +20,7 @@ from symtop_ros.testset.score import measure_angles, read_problems, split_decima
 from workshop.speed.peers.peer import NO_FRICTION, NO_TORQUE, Task
 from workshop.speed.taylor import TaylorMotion
 
-FILE = Path(__file__).with_name("reference.json")
+FILE = Path(__file__).with_name("reference.json.xz")
 FRICTION = Friction(axial=2e-6, transverse=1e-5)  # of the article's top with friction, N m s
 EPS = 2.0**-52
 PARTS = "article", "hard", "driven"
@@ -87,7 +88,7 @@ class Reference:
     @classmethod
     def read(cls) -> "Reference":
         """Read the file that is shipped with the package."""
-        data = json.loads(FILE.read_text(encoding="utf-8"))
+        data = json.loads(lzma.decompress(FILE.read_bytes()))
         return cls(**{part: [ReferenceMotion.read(each) for each in data[part]] for part in PARTS})
 
 

@@ -1,14 +1,17 @@
-"""A cause of errors, what a search has found, and the parameters that a cause may have."""
+"""A cause of errors: changes of convention, parameters, and what a search has found."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from symtop_ros.judge.causes.changes import CHANGES
+from symtop_ros.arrays import Real
 from symtop_ros.judge.causes.search import LEVELS
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset
+from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
+from symtop_ros.quaternions import compose, invert
 
 PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "scale": SCALE}
 
@@ -72,3 +75,27 @@ def keep_rotations(offset: Offset, level: str) -> Offset:
 def measure_turns(offset: Offset) -> float:
     """Return the sum of both rotations in rad."""
     return float(sum(offset.angles))
+
+
+FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down
+FLIP_BODY = np.array([0.0, 1.0, 0.0, 0.0])  # forward-left-up to forward-right-down
+ALL = tuple(LEVELS)
+Change = Callable[[Estimates], Estimates]
+
+
+def _turn(change: Callable[[Real], Real]) -> Change:
+    return lambda e: replace(e, orientations=change(e.orientations))
+
+
+# Undoing each: its weight, and the rotations that may be free with it.
+CHANGES: dict[str, tuple[float, tuple[str, ...], Change]] = {
+    "": (0.0, ALL, lambda e: e),
+    "order": (1.0, ALL, _turn(lambda q: q[:, [3, 0, 1, 2]])),
+    "conjugate": (1.0, ALL, _turn(invert)),
+    # These are the same as rotations of both frames, so few rotations are free with them.
+    "conjugate_order": (1.0, ALL[:3], _turn(lambda q: invert(q[:, [3, 0, 1, 2]]))),
+    "frame": (1.0, ALL[:3], lambda e: replace(e, of_sensor=not e.of_sensor)),
+    "ned": (1.0, ALL[:2], _turn(lambda q: compose(FLIP_WORLD, q))),
+    "frd": (1.0, ALL[:2], _turn(lambda q: compose(q, FLIP_BODY))),
+    "ned_frd": (1.0, ALL[:2], _turn(lambda q: compose(compose(FLIP_WORLD, q), FLIP_BODY))),
+}

@@ -12,6 +12,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.judge.causes.cause import (
+    CHANGES,
     PARAMETERS,
     Cause,
     Finding,
@@ -19,7 +20,6 @@ from symtop_ros.judge.causes.cause import (
     measure_turns,
     set_parameter,
 )
-from symtop_ros.judge.causes.changes import CHANGES
 from symtop_ros.judge.causes.grids import MOST, Grids
 from symtop_ros.judge.causes.search import LEVELS, Table
 from symtop_ros.judge.compare import NONE, Offset, to_rotation

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes.cause import set_parameter
-from symtop_ros.judge.causes.changes import CHANGES
+from symtop_ros.judge.causes.cause import CHANGES, set_parameter
 from symtop_ros.judge.causes.search import Table
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset
 from symtop_ros.judge.estimates import Estimates

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes.cause import Finding
-from symtop_ros.judge.causes.changes import CHANGES, Change
+from symtop_ros.judge.causes.cause import CHANGES, Change, Finding
 from symtop_ros.judge.compare import NONE, Errors, Offset, compare, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import SAMPLES

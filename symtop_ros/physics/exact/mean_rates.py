@@ -12,7 +12,7 @@ from symtop_ros.physics.exact.nutation import Nutation, find_roots
 from symtop_ros.physics.exact.precise import PRECISE, ZERO
 from symtop_ros.physics.exact.quotients import compute_mean_rates, find_zeros
 
-KEPT = 20  # digits that a sum of the rates must have
+KEPT = 20  # digits that a sum of the rates must have (design/lost_sums.py)
 # Digits that are tried. No double is so small that more could be lost: what is left is zero.
 MORE_DIGITS = (110, 250, 700)
 

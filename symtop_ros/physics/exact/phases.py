@@ -2,7 +2,8 @@
 
 Phases are reduced to one turn in integers of 64 bits, a turn being 2^64. Their products wrap round
 after whole turns, which is the reduction itself: it is exact however many turns there are, while
-the product rate * t in doubles would have an error of EPS times the whole phase.
+the product rate * t in doubles would have an error of EPS times the whole phase
+(design/phases.py).
 """
 
 import math

@@ -12,6 +12,7 @@ anything in this folder, and what is computed at import is computed in it too.
 import math
 from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
 
+# 50 digits serve phases of 1e30 turns (design/digits.py).
 PRECISE = Context(prec=50, traps=[InvalidOperation, DivisionByZero])
 ZERO, HALF, ONE, TWO = Decimal(0), Decimal("0.5"), Decimal(1), Decimal(2)
 TWO_PI = Decimal("6.28318530717958647692528676655900576839433879875021")

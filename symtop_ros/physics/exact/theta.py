@@ -5,7 +5,8 @@ with k = 4 for A and k = 3 for the other two. th_k(v) = theta_k(pi v/(2 K) | q) 
 functions (DLMF 20.2). The series in the nome q = exp(-pi K'/K) converge fast for m <= 1/2 and
 ever more slowly towards the separatrix m = 1. For m > 1/2 they are summed after Jacobi's imaginary
 transformation (DLMF 20.7.30 to 20.7.33) in the nome q' = exp(-pi K/K'). With the better of the two
-no nome exceeds exp(-pi) = 0.043, and the first term left out is below 1e-16 of the sum.
+no nome exceeds exp(-pi) = 0.043, and the first term left out is below 1e-16 of the sum
+(design/nomes.py).
 
 `scipy.special.ellipj` would not do: for m near 1 and for large arguments it loses all digits (SciPy
 issue 8480).

@@ -1,5 +1,5 @@
 // What precise.py of physics/exact computes with Decimal, in floats of three limbs. They have 57
-// decimal digits, which is more than the 50 of the context PRECISE.
+// decimal digits, which is more than the 50 of the context PRECISE: see design/digits.py.
 #pragma once
 
 #include "newton.hpp"

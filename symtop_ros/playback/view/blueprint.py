@@ -11,9 +11,9 @@ import numpy as np
 import rerun.blueprint as rrb
 from rerun.blueprint.archetypes import PlotBackground
 
-from symtop_ros.drawing.chart import HEIGHT, WIDTH
 from symtop_ros.physics import Motion
 from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.potential import HEIGHT, WIDTH
 from symtop_ros.simulation.segment import Segment
 
 # Position of the eye and its target in scene units: from the front, slightly from above

@@ -10,10 +10,10 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real
-from symtop_ros.drawing.mesh import create_lathe
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import BLUE, GREEN
+from symtop_ros.playback.view.mesh import create_lathe
 from symtop_ros.playback.view.stream import Stream
 
 OPACITY = 70  # of 255

@@ -1,35 +1,53 @@
-"""The ghost as a translucent body with a thin trace; see `drawing.ghost`."""
+"""The ghost: the top that was not kicked, next to the one that was, translucent.
+
+Would the top have risen anyway? The motion just before the last kick continues, exactly, at the
+same stamps. Whatever else happens to the run (parameters, torques, pauses, steps, another real-time
+factor) happens to both.
+"""
+
+from dataclasses import replace
 
 import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.drawing.ghost import Ghost
-from symtop_ros.drawing.mesh import create_body
+from symtop_ros.physics import Motion
 from symtop_ros.playback.view.entities import GHOST, GHOST_TRACE, WHITE
+from symtop_ros.playback.view.mesh import create_body
 from symtop_ros.playback.view.quantities import axis_of, find_step
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
-from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.budget import StepBudget
+from symtop_ros.simulation.events import RESTARTS
+from symtop_ros.simulation.segment import START, Segment
 
 RATE = 125.0  # states per s of the clock; more would not be seen
 OPACITY = 90  # of 255
+MOST_STEPS = 3000  # of an integration, for one batch; a log may ask for years
 
 
-class GhostView(Ghost):
+class GhostView:
     """The motion without the last kick, drawn with its trace."""
 
     def __init__(self, stream: Stream) -> None:
-        super().__init__()
+        # the run without the last kick; None before the first kick and after a restart
+        self.segment: Segment | None = None
         self._stream, self._trace = stream, Trace()
         stream.style_lines(GHOST_TRACE, (*WHITE, 150), 0.004)
 
     def follow(self, name: str, before: Segment | None, after: Segment) -> None:
-        """Take over the change of an event, and draw it; a kick begins a new trace."""
+        """Take over the change of an event between two segments, and draw it."""
         old = self.segment
-        super().follow(name, before, after)
-        if name == "kick":
-            self._trace = Trace()
+        if name in RESTARTS or before is None:
+            self.segment = None
+        elif name == "kick":
+            self.segment, self._trace = before, Trace()
+        elif old is not None:
+            self.segment = _continue(old, after, before)
+        self._redraw(old)
+
+    def _redraw(self, old: Segment | None) -> None:
+        """Draw the body of another ghost than before, or remove it."""
         if self.segment is None:
             if old is not None:
                 self._clear()
@@ -56,9 +74,16 @@ class GhostView(Ghost):
             self._stream.send_lines(GHOST_TRACE, times, strips)
 
     def states_at(self, stamps: Stamps) -> tuple[Stamps, Real]:
-        """Return some of the stamps, and the quaternions x, y, z, w (n, 4) there."""
-        segment = self.reach(int(stamps[-1])) if len(stamps) else None
-        if segment is None:
+        """Return some of the stamps, and the quaternions x, y, z, w (n, 4) there.
+
+        A motion under friction or a torque that is too fast or too long is given up.
+        """
+        segment = self.segment
+        end = segment.time_at(int(stamps[-1])) if segment and len(stamps) else None
+        if segment is None or end is None:
+            return stamps[:0], np.empty((0, 4))
+        if not StepBudget().reach(segment.motion, end, MOST_STEPS):
+            self.segment = None
             return stamps[:0], np.empty((0, 4))
         chosen = stamps[:: find_step(stamps, RATE)]
         orientation = segment.state_at(chosen).orientation
@@ -67,3 +92,17 @@ class GhostView(Ghost):
     def _clear(self) -> None:
         self._stream.log(GHOST, rr.Clear(recursive=True))
         self._stream.log(GHOST_TRACE, rr.Clear(recursive=False))
+
+
+def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
+    """Return the ghost's segment from the start of `after` on, which follows `before`."""
+    stamp, old, new = after.stamp, before.motion, after.motion
+    added = (new.top, new.friction, new.applied_torque)
+    timing = replace(ghost, factor=after.factor, running=after.running, stamp=stamp)
+    if added != (old.top, old.friction, old.applied_torque):
+        motion = Motion(new.top, ghost.state_at(stamp), new.friction, new.applied_torque)
+        return replace(timing, motion=motion, elapsed=START)
+    elapsed = ghost.elapsed_at(stamp)
+    if new.start == old.start:  # the same motion: a step, or a time that the clock lost
+        elapsed += after.elapsed - before.elapsed_at(stamp)
+    return replace(timing, elapsed=elapsed)

@@ -6,8 +6,8 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.drawing.mesh import Mesh
 from symtop_ros.playback.view.entities import TIMELINE, lighten
+from symtop_ros.playback.view.mesh import Mesh
 
 
 class Stream:

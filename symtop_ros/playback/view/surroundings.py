@@ -9,9 +9,9 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.drawing.mesh import Mesh, create_lathe, draw_meridian, draw_parallel
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.entities import GREY, ORANGE
+from symtop_ros.playback.view.mesh import Mesh, create_lathe, draw_meridian, draw_parallel
 from symtop_ros.playback.view.quantities import nodes_of
 from symtop_ros.playback.view.stream import Stream
 

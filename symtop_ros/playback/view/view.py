@@ -8,7 +8,6 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real
-from symtop_ros.drawing.mesh import create_body
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import (
@@ -23,6 +22,7 @@ from symtop_ros.playback.view.blueprint import Framing, create_blueprint
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VIOLET
 from symtop_ros.playback.view.fictitious import FictitiousView
 from symtop_ros.playback.view.ghost import GhostView
+from symtop_ros.playback.view.mesh import create_body
 from symtop_ros.playback.view.panel import describe_motion
 from symtop_ros.playback.view.plots import Plots
 from symtop_ros.playback.view.stream import Stream

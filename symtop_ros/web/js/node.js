@@ -17,6 +17,7 @@ export class NodeTop extends LocalTop {
   /** @type {import("./state.js").Quaternion | null} */
   orientation = null; // that the node has published last
   isGreeted = false;
+  stamp = ""; // ns of the node's clock, of the last event
   /** Requests of the act that is performed. @type {Request[]} */
   requests = [];
 
@@ -29,7 +30,7 @@ export class NodeTop extends LocalTop {
 
   /** @param {Message} message of the server */
   follow({ events = [], new: isNew = false, time, orientation, lost }) {
-    if (isNew) this.beginRun();
+    if (isNew) this.beginRun(events);
     for (const event of events) this.followEvent(event);
     if (lost !== undefined) this.tell({ lost });
     if (!this.run.moments.length) return;
@@ -41,9 +42,13 @@ export class NodeTop extends LocalTop {
     if (events.length) this.tellFacts();
   }
 
-  /** The node was started again, or this page sees it for the first time. */
-  beginRun() {
-    if (this.run.moments.length) this.tell({ said: "new run: the node was started again" });
+  /**
+   * The page sees a node for the first time, the server was started again, or the node was.
+   * @param {Message[]} events of the run
+   */
+  beginRun(events) {
+    const isKnown = events.some(({ stamp }) => stamp === this.stamp);
+    if (this.stamp && !isKnown) this.tell({ said: "new run: the node was started again" });
     this.run.moments = [];
   }
 
@@ -57,7 +62,8 @@ export class NodeTop extends LocalTop {
   }
 
   /** @param {Message} event */
-  followEvent({ record, running, factor, recording, said, name }) {
+  followEvent({ record, running, factor, recording, said, name, stamp }) {
+    this.stamp = stamp;
     if (record) {
       this.run.append(record);
       this.time = this.end = Math.max(this.time, Math.round(record.time * NANO));

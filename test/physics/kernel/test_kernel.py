@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import lzma
 import os
 import shutil
 import subprocess
@@ -19,7 +20,7 @@ from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated
 FOLDER = Path(__file__).parents[1]
 ROOT = FOLDER.parents[1]
 SOURCES = ROOT / "symtop_ros/physics/kernel"
-STORED = json.loads((FOLDER / "taylor_motions.json").read_text())
+STORED = json.loads(lzma.decompress((FOLDER / "taylor_motions.json.xz").read_bytes()))
 # Of all states at the stored times; the same for x86 and ARM, and every version of NumPy.
 BITS = "902cf70d3c4c"
 FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"

@@ -5,9 +5,9 @@ import pytest
 from log_files import ARTICLE, CUSPS, Run
 from playback.view.rows import entities_of, record, rows
 
-from symtop_ros.drawing.fictitious import DEPTHS, LENGTH, LONGEST, find_scale
 from symtop_ros.physics import Motion, State, regular_precession_rates
 from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.fictitious import DEPTHS, LENGTH, LONGEST, find_scale
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]

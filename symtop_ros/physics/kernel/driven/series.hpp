@@ -6,7 +6,8 @@
 namespace symtop {
 
 // A frame that turns by at most 2 rad in a step has terms that fall so fast that the first eight
-// alone need sums of two doubles. Longer steps want twelve, which take half of the time.
+// alone need sums of two doubles. Longer steps want twelve, which take half of the time. See
+// design/extended_terms.py.
 const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 8;
 const double LAST = 1e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;

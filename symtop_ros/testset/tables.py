@@ -1,0 +1,118 @@
+"""The tables of the test set, made from its problems.
+
+problems.json says everything; problems.csv, states.csv, forces.csv and world.csv repeat it for
+spreadsheets and for languages without a reader of JSON.
+"""
+
+import csv
+import io
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from decimal import Context, Decimal, localcontext
+from typing import Any
+
+VERSION = "3.0"
+CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
+QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+LIMITS = tuple(
+    f"{name}_limits{form}"
+    for form in ("", "_float32")
+    for name in ("orientation", "angular_velocity")
+)
+# Columns of forces.csv by their lists in problems.json; energies are one column.
+FORCES = {
+    "angular_accelerations": ("alpha_x", "alpha_y", "alpha_z"),
+    "accelerations": ("ax", "ay", "az"),
+    "pivot_forces": ("fx", "fy", "fz"),
+    "energies": ("energy",),
+}
+# Columns of world.csv by their lists in problems.json; the attitude comes first.
+WORLD = {
+    "centre_positions": ("px", "py", "pz"),
+    "centre_velocities": ("vx", "vy", "vz"),
+    "world_angular_velocities": ("omega_x", "omega_y", "omega_z"),
+}
+TABLES = ("problems.csv", "states.csv", "forces.csv", "world.csv")
+# Digits that are shown, and those with which they are computed.
+ROUNDED, WORKING = Context(prec=30), Context(prec=60)
+FIXED = Decimal("1e-9")  # smaller numbers are shown with an exponent
+Facts = Mapping[str, Any]  # an entry of problems.json
+Row = tuple[Any, ...]
+
+
+def format_problems(problems: Iterable[Facts], gravity: float) -> str:
+    """Return the text of problems.json."""
+    facts = {
+        "name": "symtop_ros test set",
+        "version": VERSION,
+        "license": "CC0-1.0",
+        "gravity": gravity,
+    }
+    lines = ",\n".join(map(json.dumps, problems))
+    return f'{json.dumps(facts)[:-1]}, "problems": [\n{lines}\n]}}\n'
+
+
+def tabulate(problems: Sequence[Facts]) -> dict[str, str]:
+    """Return the texts of the tables by the names of their files."""
+    makers = (_list_starts, _list_states, _list_forces, _list_world)
+    return {name: _write_csv(make(problems)) for name, make in zip(TABLES, makers, strict=True)}
+
+
+def _list_starts(problems: Sequence[Facts]) -> Iterable[Row]:
+    start = [f"{name}0" for name in (*QUATERNION, *RATES)]
+    yield ("name", "level", *CONSTANTS, *start, "duration", "mujoco_urdf_effect", "what")
+    for each in problems:
+        values = [each[key] for key in CONSTANTS]
+        values += [*each["orientation"], *each["angular_velocity"], each["times"][-1]]
+        effect = each["mujoco_urdf_effect"]
+        shown = "" if effect is None else repr(effect)
+        yield (each["name"], each["level"], *map(repr, values), shown, each["what"])
+
+
+def _list_states(problems: Sequence[Facts]) -> Iterable[Row]:
+    limits = [name.replace("limits", "limit") for name in LIMITS]
+    yield ("name", "t", *QUATERNION, *RATES, *limits)
+    for each in problems:
+        columns = (each[key] for key in ("times", "orientations", "angular_velocities", *LIMITS))
+        for t, q, omega, *four in zip(*columns, strict=True):
+            yield (each["name"], repr(t), *q, *omega, *map(repr, four))
+
+
+def _list_forces(problems: Sequence[Facts]) -> Iterable[Row]:
+    yield ("name", "t", *(column for columns in FORCES.values() for column in columns))
+    for each in problems:
+        columns = (each[key] for key in FORCES)
+        times = [0.0, *each["times"]]
+        for t, alpha, a, force, energy in zip(times, *columns, strict=True):
+            yield (each["name"], repr(t), *alpha, *a, *force, energy)
+
+
+def _list_world(problems: Sequence[Facts]) -> Iterable[Row]:
+    yield ("name", "t", *QUATERNION, *(column for columns in WORLD.values() for column in columns))
+    for each in problems:
+        attitudes = [_normalise(each["orientation"]), *each["orientations"]]
+        columns = (each[key] for key in WORLD)
+        times = [0.0, *each["times"]]
+        for t, q, p, v, omega in zip(times, attitudes, *columns, strict=True):
+            yield (each["name"], repr(t), *q, *p, *v, *omega)
+
+
+def _normalise(numbers: Sequence[float]) -> list[str]:
+    """Return the digits of a unit quaternion."""
+    with localcontext(WORKING):
+        q = [Decimal(x) for x in numbers]
+        norm = sum((x * x for x in q), Decimal()).sqrt()
+        return [_show(x / norm) for x in q]
+
+
+def _show(number: Decimal) -> str:
+    """Return a number with the digits of the set, as mpmath shows it."""
+    rounded = ROUNDED.plus(number).normalize()
+    text = f"{rounded:{'f' if not rounded or abs(rounded) > FIXED else 'e'}}"
+    return text if "." in text else f"{text}.0"
+
+
+def _write_csv(rows: Iterable[Row]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()

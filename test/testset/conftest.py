@@ -1,0 +1,13 @@
+"""The files of the test set, as its command writes them."""
+
+import pytest
+
+from symtop_ros.judge.main import main
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """Return the folder of the whole set."""
+    path = tmp_path_factory.mktemp("set")
+    assert main(["--testset", "-o", str(path)]) == 0
+    return path
