@@ -71,6 +71,14 @@ export const createStart = (top, numbers, precession) => {
   return State.fromEuler({ phi, theta, psi }, { phi: rate, theta: theta_dot, psi: psi_dot });
 };
 
+/** Tilt and rates; on the vertical all of the spin is psi'. @param {State} state */
+export const describeStart = (state) => {
+  if (state.isVertical) return { theta: state.angles.theta, phi_dot: 0, psi_dot: state.omega[2] };
+  const round = (/** @type {number} */ x) => Math.round(x * 1e6) / 1e6;
+  const { phi, psi } = state.rates;
+  return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
+};
+
 /** @param {[string, string | number]} pair of a link @returns {[string, number]} */
 const readNumber = ([name, text]) => {
   if (!NAMES.includes(name)) {
