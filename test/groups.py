@@ -35,7 +35,7 @@ NODES = ("test/node", "test/system", "test/load")
 PLAIN = ("test/speed", "test/wire", "test/models", "test/testset")
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
-WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_node_source.py")
+WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
 ELSEWHERE = (*NODES, "test/physics", *PLAIN, *WITHOUT_ROS, *WITH_NUMPY1)
 REALTIME = ("test/node", "test/panel", "test/system", "test/load")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.

@@ -165,15 +165,17 @@ class Recorder:
     def _fill(self, file: "LogFile", latched: dict[int, bytes]) -> bool:
         """Write one file; return True if the recording ends, False if a new file is due."""
         flushed = time.monotonic()
-        while not self.limits.are_reached(file):
+        while True:
             ending = self._ending.wait(WRITE_PERIOD)
             self._drain(file, latched)
             if ending:
                 return True
+            # Asked last: an empty file may be larger than a small limit, and would be for ever.
+            if self.limits.are_reached(file):
+                return False
             if time.monotonic() - flushed > FLUSH_PERIOD - WRITE_PERIOD:
                 flushed = time.monotonic()
                 file.flush()
-        return False
 
     def _drain(self, file: "LogFile", latched: dict[int, bytes]) -> None:
         for _ in range(len(self._queue)):

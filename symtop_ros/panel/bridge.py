@@ -116,7 +116,7 @@ class Bridge:
             if argument is not None and not isinstance(argument, dict | bool):
                 raise RefusedError(f"argument must be named values, true or false, for {name}")
             with self._calls:  # one at a time: two pages may ask at once
-                granted, text = self._connection.request(name, argument)
+                granted, text = self._connection.request(name, _to_doubles(argument))
         except (RefusedError, UnreachableError) as error:
             granted, text = False, str(error)
         except (TypeError, ValueError, AttributeError) as error:  # a value that ROS has no type for
@@ -234,11 +234,13 @@ class Bridge:
             self._sample = {}
         self._last, found = event, self._recorder.add(event)
         segment = event.segment()
-        told = {"running": segment.running, "factor": segment.factor}
+        told: Message = {"running": segment.running, "factor": segment.factor}
         if event.name == "record":
-            told["recording"] = bool(event.values.get("outcome.kind") == "begun")
+            told["recording"] = event.values.get("outcome.kind") == "begun"
         record = {"record": found.to_json()} if found else {}
-        self._events.append({**record, **told, "said": event.verdict, "name": event.name})
+        # A stamp has more digits than a number of JavaScript.
+        told |= {"name": event.name, "said": event.verdict, "stamp": str(event.stamp)}
+        self._events.append({**record, **told})
         self._count += 1
 
     def _follow_sample(self, stamp: int, numbers: list[float]) -> None:
@@ -252,3 +254,12 @@ class Bridge:
         self._ending.set()
         self._thread.join(timeout=2.0)
         self._executor.shutdown(timeout_sec=0.0)
+
+
+def _to_doubles(value: Any) -> Any:
+    """Return a value with doubles for integers: JSON writes 200.0 as 200, and ROS is strict."""
+    if isinstance(value, dict):
+        return {name: _to_doubles(each) for name, each in value.items()}
+    if isinstance(value, list):
+        return [_to_doubles(each) for each in value]
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value

@@ -46,6 +46,7 @@ class PageServer(ThreadingHTTPServer):
     """A server of one page, on one address and port; `node` is asked for by its pages."""
 
     daemon_threads = True
+    is_ending = False
 
     def __init__(self, host: str, port: int, page: str, node: Node | None = None) -> None:
         self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
@@ -60,6 +61,11 @@ class PageServer(ThreadingHTTPServer):
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         self.socket.bind(self.server_address)
         self.server_address = self.socket.getsockname()
+
+    def shutdown(self) -> None:
+        """End the server, and with it the pages' connections."""
+        self.is_ending = True
+        super().shutdown()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Report an unexpected exception in one line; a page that was closed is none."""
@@ -136,6 +142,8 @@ class PageHandler(BaseHTTPRequestHandler):
         if self.command == "HEAD":
             return
         for message in node.follow():
+            if self.server.is_ending:
+                return
             self.wfile.write(f"data: {json.dumps(message)}\n\n".encode())
 
     def _send(

@@ -23,11 +23,9 @@ MODULES = FOLDER / "js"
 MAIN = "start.js"
 IMPORT = re.compile(r'^import \{([^}]*)\} from "\./(\w+)\.js";\n', re.M)
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
-# Nothing is loaded from anywhere, whatever a saved run holds.
-POLICY = (
-    '<meta http-equiv="Content-Security-Policy" content="default-src data: blob: '
-    "'unsafe-inline' 'wasm-unsafe-eval'; form-action 'none'\">"
-)
+# Nothing is loaded from anywhere, whatever a saved run holds. A page of a node has its server.
+POLICY = "default-src data: blob: 'unsafe-inline' 'wasm-unsafe-eval'; form-action 'none'"
+NODE_POLICY = f"{POLICY}; connect-src 'self'"
 
 
 def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: str = "") -> str:
@@ -46,7 +44,9 @@ def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: st
         f"/*RUN*/window.TOP_CONTENT.run = {_write_data(run)};/*END*/",
         join_modules(),
     ]
-    markup = markup.replace("<head>", f"<head>\n{POLICY}", 1).replace("/*STYLE*/", style, 1)
+    policy = NODE_POLICY if node else POLICY
+    head = f'<head>\n<meta http-equiv="Content-Security-Policy" content="{policy}">'
+    markup = markup.replace("<head>", head, 1).replace("/*STYLE*/", style, 1)
     return markup.replace("/*SCRIPT*/", "\n".join(parts), 1)
 
 

@@ -128,6 +128,21 @@ def test_a_file_that_is_large_enough_is_followed_by_another(tmp_path):
     assert sorted(found) == list(range(count))
 
 
+def test_a_limit_below_the_size_of_an_empty_file_loses_nothing_and_ends(tmp_path):
+    recorder = create(tmp_path, Limits(size=1))
+    recorder.start({})
+    for stamp in range(100):
+        recorder.add(1, stamp, b"x")
+    stopping = threading.Thread(target=recorder.stop, daemon=True)
+    stopping.start()
+    stopping.join(TIMEOUT)
+    assert not stopping.is_alive()
+    files = list(tmp_path.iterdir())
+    found = [stamp for path in files for _, stamp, _ in contents(path)]
+    assert sorted(found) == list(range(100))
+    assert all(map(contents, files))
+
+
 def test_names_in_one_second_differ_and_nothing_is_overwritten(tmp_path):
     recorder = create(tmp_path)
     paths = set()

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import running_browser
 from web.modules import load_kernel, open_tab
 
 from symtop_ros.physics import (
@@ -34,12 +33,12 @@ ARTICLE = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": 0.068}
 
 
 @pytest.fixture(scope="module")
-def tab():
-    with running_browser() as browser:
-        tab = open_tab(browser)
-        load_kernel(tab)
-        tab.add_script_tag(content=SCRIPT)
-        yield tab
+def tab(browser):
+    tab = open_tab(browser)
+    load_kernel(tab)
+    tab.add_script_tag(content=SCRIPT)
+    yield tab
+    tab.close()
 
 
 def list_cases(count):

@@ -2,7 +2,7 @@
 
 import { applyImpulse, hurry, setPrecessionRate } from "./kicks.js";
 import { Course, NANO } from "./course.js";
-import { createStart, findScene, readLink, readScene, writeShort } from "./links.js";
+import { createStart, findScene, readLink, readScene } from "./links.js";
 
 /** @typedef {import("./local.js").LocalTop} LocalTop */
 /** @typedef {import("./state.js").State} State */
@@ -17,8 +17,6 @@ const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
 const TORQUE_LASTS = 150; // ms after the last message of a button that is held
 const STEPS = 24; // of a nutation
 const LONGEST_STEP = 0.05; // s of the motion
-/** @type {{[name: string]: number}} */
-const LEAST = { "friction.axial": 0, "friction.transverse": 0 };
 /** @type {{[way: string]: number}} */
 const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
 
@@ -27,25 +25,22 @@ const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
  * @param {State} after
  * @param {import("./run.js").Asked} asked
  */
-const addKick = (top, after, asked) => {
-  top.run.add("kick", top.time, top.course.continue(after), asked);
-  top.changed();
-};
+const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
 
 /** @param {LocalTop} top @param {Message} message */
 const kick = (top, { factor, hold = "spin_rate" }) => {
-  const request = `${factor > 1 ? "hurried" : "delayed"}: phi' times ${writeShort(factor)}`;
   const after = hurry(top.state, factor, hold);
-  addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold, request });
+  addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold });
 };
 
 /**
  * @param {LocalTop} top
  * @param {Vector} impulse N m s, in the world frame
- * @param {string} request
+ * @param {string} kind of the request
  */
-const addImpulse = (top, impulse, request) => {
+const addImpulse = (top, impulse, kind) => {
   const after = applyImpulse(top.course.top, top.state, impulse);
+  const request = top.writer.write("request", { kind });
   addKick(top, after, { act: { angular_impulse: impulse }, hold: null, request });
 };
 
@@ -55,16 +50,12 @@ const push = (top, { way }) => {
   if (way === "along" || way === "back") {
     const hold = "spin_momentum";
     const after = setPrecessionRate(top.state, top.state.rates.phi + change, hold);
-    addKick(top, after, {
-      act: { precession_rate_change: change, hold },
-      hold,
-      request: `pushed ${way}`,
-    });
+    addKick(top, after, { act: { precession_rate_change: change, hold }, hold });
     return;
   }
   const size = top.course.top.Ix * change;
   const { phi } = top.state.angles;
-  addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], `pushed ${way}`);
+  addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], way);
 };
 
 /**
@@ -82,39 +73,41 @@ export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
 };
 
 /**
- * A torque about the vertical beside that of the scene.
+ * The torque of the buttons, about the vertical, in N m.
+ * @param {Course} course
+ */
+export const findTorque = ({ top: { Ix, Mgl } }) => TORQUE_SHARE * (Math.abs(Mgl) || Ix);
+
+/**
+ * Apply a torque about the vertical together with that of the scene.
  * @param {LocalTop} top
  * @param {number} sign 0 for no torque
  */
 export const holdTorque = (top, sign) => {
-  const { Ix, Mgl } = top.course.top;
   const [x, y, z] = top.steady;
   /** @type {Vector} */
-  const torque = [x, y, z + sign * TORQUE_SHARE * (Math.abs(Mgl) || Ix)];
+  const torque = [x, y, z + sign * findTorque(top.course)];
   top.torqueUntil = sign ? performance.now() + TORQUE_LASTS : 0;
   if (top.course.torque[2] === torque[2]) return;
-  top.run.add("torque", top.time, top.course.continue(top.state, { torque }));
+  top.add("torque", top.course.continue(top.state, { torque }));
   top.tellFacts();
 };
 
 /**
  * @param {LocalTop} top
  * @param {Beginning} beginning
- * @param {string} request
+ * @param {string} [request]
  */
 const begin = (top, { top: own, friction, start }, request) => {
   const course = new Course(top.kernel, own, start, friction, top.steady);
-  top.run.add("start", top.time, course, { request });
+  top.add("start", course, request === undefined ? {} : { request });
   top.initial = start;
-  top.changed();
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
   const start = createStart(top.course.top, { theta: Number(theta), phi_dot, psi_dot }, precession);
-  const rate = writeShort(start.rates.phi);
-  const request = `started: theta ${writeShort(theta)}, phi' ${rate}, psi' ${writeShort(psi_dot)}`;
-  begin(top, { ...top.course, start }, request);
+  begin(top, { ...top.course, start });
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -129,36 +122,36 @@ const followLink = (top, { link: { scene: name, ...texts } }) => {
   const scene = name === undefined ? null : findScene(top.content.scenes, name);
   const beginning = readLink(texts, scene ? readScene(scene) : top.course);
   if (scene) top.steady = scene.torque;
-  begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : "from a link");
+  begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : undefined);
+};
+
+/** @param {LocalTop} top */
+const reset = (top) => {
+  const request = top.writer.write("request", { kind: "reset" });
+  begin(top, { ...top.course, start: top.initial }, request);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const restart = (top, { entry }) => {
   const { course, asked } = top.run.moments[entry];
-  begin(top, course, `again from: ${asked.request}`);
+  begin(top, course, asked.request);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const setParameter = (top, { name, value }) => {
   const [group, key] = name.split(".");
-  if (!(value >= (LEAST[name] ?? -Infinity))) {
-    throw new RangeError(`${name} must be >= ${LEAST[name]} N m s, got ${writeShort(value)}`);
-  }
   const friction = /** @type {[number, number]} */ ([...top.course.friction]);
   const own = { ...top.course.top };
   if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
-  const course = top.course.continue(top.state, { top: own, friction });
-  top.run.add("change", top.time, course, { request: `${key} changed to ${writeShort(value)}` });
-  top.changed();
+  const request = top.writer.write("request", { kind: "parameter", name: key, value });
+  top.add("change", top.course.continue(top.state, { top: own, friction }), { request });
 };
 
 /** @param {LocalTop} top */
 const step = (top) => {
-  top.isRunning = false;
   const length = Math.min(top.course.free.motion.nutation_period / STEPS, LONGEST_STEP);
-  top.time += Math.round(length * NANO);
-  top.end = Math.max(top.end, top.time);
+  top.step(Math.round(length * NANO));
 };
 
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
@@ -169,9 +162,8 @@ const EVENTS = {
   push,
   restart,
   link: followLink,
-  pull: (top, { end }) =>
-    addImpulse(top, findPull(top.course, top.state, end), "pulled by the ball"),
-  reset: (top) => begin(top, { ...top.course, start: top.initial }, "started again"),
+  pull: (top, { end }) => addImpulse(top, findPull(top.course, top.state, end), "pull"),
+  reset,
   scene: chooseScene,
   set: setParameter,
   start: startWith,
@@ -182,22 +174,14 @@ const EVENTS = {
 const VIEWS = {
   step,
   load: (top, { run }) => top.load(run),
-  pause: (top) => {
-    top.isRunning = !top.isRunning;
-  },
-  rest: (top) => {
-    top.isRunning = false;
-  },
-  run: (top) => {
-    top.isRunning = true;
-  },
+  pause: (top) => top.setRunning(!top.isRunning),
+  rest: (top) => top.setRunning(false),
+  run: (top) => top.setRunning(true),
   seek: (top, { time }) => top.seek(Math.round(time * NANO)),
   show: (top, { layer, shown }) => {
     top.layers[layer] = shown;
   },
-  speed: (top, { factor }) => {
-    top.speed = factor;
-  },
+  speed: (top, { factor }) => top.setSpeed(factor),
 };
 
 /** Do what a page asks for; a refusal is thrown. @type {Act} */

@@ -2,12 +2,14 @@
 
 /**
  * Follow it now, and whenever it changes.
+ * @param {string} opening what a file opens whose address has no such end
  * @param {(step: number) => void} openLesson
  * @param {(link: {[name: string]: string}) => void} start
  */
-export const followAddress = (openLesson, start) => {
+export const followAddress = (opening, openLesson, start) => {
   const follow = () => {
-    const { lesson, ...link } = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+    const text = location.hash.slice(1) || opening;
+    const { lesson, ...link } = Object.fromEntries(new URLSearchParams(text));
     if (lesson !== undefined) openLesson(Number(lesson));
     if (Object.keys(link).length) start(link);
   };

@@ -2,6 +2,7 @@
 
 import { find, make } from "./document.js";
 import { shorten } from "./quantities.js";
+import { typeset } from "./typeset.js";
 
 /** @typedef {{[name: string]: [value: number, change: number, unit: string]}} Constants */
 
@@ -25,12 +26,7 @@ const writeChange = (value, change) =>
  * @param {string} text
  */
 const createRow = (name, text) =>
-  make(
-    "tr",
-    {},
-    make("th", { scope: "row", textContent: name }),
-    make("td", { textContent: text }),
-  );
+  make("tr", {}, make("th", { scope: "row" }, ...typeset(name)), make("td", {}, text));
 
 /**
  * @param {string[][]} rates names and texts

@@ -43,7 +43,7 @@ export class Course {
 
   /** @param {number} passed whole ns since the start */
   at(passed) {
-    const [w, x, y, z, ...omega] = this.motion.at(passed / NANO);
+    const [w, x, y, z, ...omega] = this.motion.atNanosecond(passed);
     return new State([w, x, y, z], /** @type {Vector} */ (omega));
   }
 

@@ -1,5 +1,7 @@
 // Elements of the page's document.
 
+import { typeset } from "./typeset.js";
+
 /**
  * The element of an id; another kind of element is a mistake in the markup.
  * @template {HTMLElement} T
@@ -41,11 +43,24 @@ export const make = (name, properties = {}, ...children) => {
 };
 
 /**
- * Write a text into an element; one that is there already is not announced again.
+ * Write a text into an element, with its symbols as formulas; one that is there already is not
+ * announced again. The text itself stays with the element.
+ * @param {HTMLElement} element
+ * @param {string} text
+ */
+export const write = (element, text) => {
+  if (element.dataset.text === text) return;
+  element.dataset.text = text;
+  element.replaceChildren(...typeset(text));
+};
+
+/**
  * @param {string} id
  * @param {string} text
  */
-export const say = (id, text) => {
-  const element = find(id);
-  if (element.textContent !== text) element.textContent = text;
+export const say = (id, text) => write(find(id), text);
+
+/** Texts of the markup that have symbols. */
+export const writeSymbols = () => {
+  for (const element of findAll("[data-math]")) write(element, element.textContent ?? "");
 };

@@ -1,9 +1,10 @@
 // What the page says and plots of a run: sentences, rates, roots, the potential.
 
 import { NANO } from "./course.js";
+import { findOutcome } from "./headline.js";
+import { listHistory } from "./history.js";
 import { EffectivePotential } from "./potential.js";
 import { findRegularRates } from "./precession.js";
-import { judge, judgeKick } from "./verdict.js";
 
 /** @typedef {import("./run.js").Run} Run */
 /** @typedef {import("./run.js").Moment} Moment */
@@ -19,7 +20,6 @@ import { judge, judgeKick } from "./verdict.js";
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
-const LISTED = 10; // entries of the history
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** @param {number[]} numbers */
@@ -49,47 +49,6 @@ export const describeStart = (state) => {
   const round = (/** @type {number} */ x) => Math.round(x * 1e6) / 1e6;
   const { phi, psi } = state.rates;
   return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
-};
-
-/**
- * What a kick changed at the highest and the lowest point together.
- * @param {{kind: string}} highest
- * @param {{kind: string}} lowest
- */
-const findSwing = (highest, lowest) => {
-  const kinds = new Set([highest.kind, lowest.kind]);
-  kinds.delete("unchanged");
-  if (kinds.size === 2) return highest.kind === "higher" ? "wider" : "narrower";
-  return [...kinds][0] ?? "same";
-};
-
-/** The records of an event: its headline, and why. @param {Moment} moment */
-const findRecords = ({ kind, asked, course, before, last }) => {
-  const { free, isDriven } = course;
-  const headline = {
-    kind: kind === "start" ? "start" : "changed",
-    subject: course.top.Mgl < 0 ? "axis" : "top",
-    driven: isDriven,
-    motion: free.motion.kind,
-    turning_angles: free.motion.turning_angles,
-    most: 0,
-  };
-  if (kind === "start") {
-    const start = { motion: course.motion.kind, verdict: judge(free) };
-    return { headline, name: "start", outcome: start };
-  }
-  if (kind !== "kick" || !before || !last) {
-    return { headline, name: "", outcome: null };
-  }
-  const angles = last.continueFree(before).motion.turning_angles;
-  const after = { top: course.top, start: course.start, motion: free.motion, isDriven };
-  const outcome = {
-    ...judgeKick(after, before, angles, asked.hold ?? null),
-    motion: course.motion.kind,
-  };
-  headline.kind = findSwing(outcome.highest, outcome.lowest);
-  headline.most = Math.max(outcome.highest.amount, outcome.lowest.amount);
-  return { headline, name: "kick", outcome };
 };
 
 /**
@@ -163,21 +122,6 @@ const writeLink = ({ top, friction, start }) => {
 };
 
 /**
- * The last entries of the history: their places in the run, and what was asked for.
- * @param {Run} run
- * @returns {[number, string][]}
- */
-const listHistory = ({ moments }) => {
-  const places = moments
-    .map((_, place) => place)
-    .filter((place) => moments[place].kind !== "torque");
-  return places
-    .slice(-LISTED)
-    .reverse()
-    .map((place) => [place, moments[place].asked.request ?? moments[place].kind]);
-};
-
-/**
  * All that holds for the motion after the last event.
  * @param {Run} run
  * @param {Writer} writer
@@ -189,10 +133,11 @@ export const describe = (run, writer, time) => {
   const { course } = moment;
   const past = run.moments.slice(0, run.findPlace(time) + 1);
   const announced = past.findLast(({ kind }) => kind !== "torque") ?? moment;
-  const { headline, name, outcome } = findRecords(announced);
+  const { headline, name, outcome } = findOutcome(moment);
   const say = (/** @type {Variant} */ variant) => ({
     headline: writer.write("headline", headline, variant),
-    why: outcome ? writer.write(name, outcome, variant) : "",
+    why: writer.write(name, outcome, variant),
+    history: listHistory(run, writer, variant),
   });
   const start = describeStart(course.start);
   const isNew = announced.kind === "start";
@@ -217,7 +162,7 @@ export const describe = (run, writer, time) => {
       isNew ? { ...moment, before: null } : announced,
     ),
     table: listRates(course.free),
-    history: listHistory(run),
     link: writeLink(course),
+    isFresh: moment.kind === "start",
   };
 };

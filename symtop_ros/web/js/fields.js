@@ -1,7 +1,7 @@
 // Fields of numbers: a value is taken over on Enter or when the field is left, never while it is
 // typed, and nothing is written into a field that has the focus.
 
-import { findAll, make } from "./document.js";
+import { findAll, make, write } from "./document.js";
 import { refuse } from "./notices.js";
 import { angleUnit, inDegrees, parseQuantity, shorten } from "./quantities.js";
 
@@ -9,6 +9,8 @@ import { angleUnit, inDegrees, parseQuantity, shorten } from "./quantities.js";
  * @typedef {object} Field
  * @property {string} label
  * @property {boolean} [isAngle]
+ * @property {boolean} [isPositive]
+ * @property {boolean} [isNotNegative]
  * @property {number} [low] of its slider
  * @property {number} [high]
  * @property {number} [step]
@@ -17,15 +19,21 @@ import { angleUnit, inDegrees, parseQuantity, shorten } from "./quantities.js";
 
 /** @type {{[name: string]: Field}} */
 const FIELDS = {
-  factor: { label: "factor of phi'", low: 1.05, high: 3, step: 0.05 },
+  factor: {
+    label: "factor of the precession rate phi'",
+    isPositive: true,
+    low: 1.05,
+    high: 3,
+    step: 0.05,
+  },
   theta: { label: "tilt theta", isAngle: true, low: 0, high: Math.PI, step: 0.01 },
-  psi_dot: { label: "spin psi' (rad/s)", low: -400, high: 400, step: 1 },
-  phi_dot: { label: "precession phi' (rad/s)", low: -12, high: 12, step: 0.1 },
-  "top.Ix": { label: "Ix, across the axis (kg m\u00b2)" },
-  "top.Iz": { label: "Iz, about the axis (kg m\u00b2)" },
-  "top.Mgl": { label: "Mgl, gravity moment (J)" },
-  "friction.axial": { label: "friction, axial (N m s)" },
-  "friction.transverse": { label: "friction, transverse (N m s)" },
+  psi_dot: { label: "spin rate psi' (rad/s)", low: -400, high: 400, step: 1 },
+  phi_dot: { label: "precession rate phi' (rad/s)", low: -12, high: 12, step: 0.1 },
+  "top.Ix": { label: "Ix, across the axis (kg m\u00b2)", isPositive: true },
+  "top.Iz": { label: "Iz, about the axis (kg m\u00b2)", isPositive: true },
+  "top.Mgl": { label: "Mgl, moment of gravity (J)" },
+  "friction.axial": { label: "friction, axial (N m s)", isNotNegative: true },
+  "friction.transverse": { label: "friction, transverse (N m s)", isNotNegative: true },
 };
 /** @type {{[key: string]: number}} */
 const SIGNS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
@@ -43,8 +51,10 @@ class Entry {
     this.field = FIELDS[this.name];
     this.fields = fields;
     const id = `field-${this.name}`;
-    this.label = make("label", { htmlFor: id, textContent: this.field.label });
-    this.text = make("input", { id, type: "text", autocomplete: "off" });
+    const { label } = this.field;
+    this.label = make("label", { htmlFor: id });
+    write(this.label, label);
+    this.text = make("input", { id, type: "text", autocomplete: "off", "aria-label": label });
     place.append(this.label, this.text);
     this.isTyped = false; // and not yet taken over
     this.followText();
@@ -94,10 +104,13 @@ class Entry {
 
   /** What a value must be, if it is not; otherwise empty. @param {number} value */
   check(value) {
+    const { isAngle, isPositive, isNotNegative } = this.field;
     if (!Number.isFinite(value)) return "a number";
-    if (this.field.isAngle && !(value >= 0 && value <= Math.PI))
+    if (isAngle && !(value >= 0 && value <= Math.PI)) {
       return `0 to ${inDegrees() ? "180\u00b0" : "pi rad"}`;
-    return this.name === "factor" && !(value > 0) ? "positive" : "";
+    }
+    if (isPositive && !(value > 0)) return "positive";
+    return isNotNegative && value < 0 ? "0 or more" : "";
   }
 
   /** @param {string} text */
@@ -160,7 +173,8 @@ class Entry {
   showUnit() {
     if (!this.field.isAngle) return;
     const text = `${this.field.label} (${angleUnit()})`;
-    this.label.textContent = text;
+    write(this.label, text);
+    this.text.setAttribute("aria-label", text);
     this.slider?.setAttribute("aria-label", text);
   }
 

@@ -3,9 +3,10 @@
 import { find, make } from "./document.js";
 import { refuse } from "./notices.js";
 
-/** @typedef {{run: {json: object}, csv: string}} Saved what a top has to be saved */
+/** @typedef {{json: object, csv: string}} Saved what a top has to be saved */
 
-const RUN = /window\.TOP_CONTENT\.run = (\{.*\});/; // in a saved page
+// The run in a page: the first place of this form, because data precede the modules.
+const RUN = /\/\*RUN\*\/window\.TOP_CONTENT\.run = (.*?);\/\*END\*\//;
 const KEPT = 10_000; // ms until the browser has begun to save
 
 /**
@@ -30,14 +31,17 @@ const savePicture = () => {
  * @param {string} run
  */
 const writePage = (source, run) =>
-  source.replace("/*RUN*/", () => `window.TOP_CONTENT.run = ${run.replaceAll("<", "\\u003c")};`);
+  source.replace(
+    RUN,
+    () => `/*RUN*/window.TOP_CONTENT.run = ${run.replaceAll("<", "\\u003c")};/*END*/`,
+  );
 
 /**
  * @param {Saved} top
  * @param {string} source the page as it was opened
  */
 export const offerFiles = (top, source) => {
-  const writeRun = () => JSON.stringify(top.run.json);
+  const writeRun = () => JSON.stringify(top.json);
   /** @type {{[id: string]: () => void}} */
   const ways = {
     "save-page": () => save("top.html", "text/html", writePage(source, writeRun())),

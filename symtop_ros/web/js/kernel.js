@@ -28,6 +28,8 @@
  *   symtop_state
  * @property {(motion: number, times: number, count: number, steps: number, orientation: number,
  *   omega: number, written: number) => number} symtop_states
+ * @property {(motion: number, clock: number, stamps: number, count: number, steps: number,
+ *   orientation: number, omega: number, written: number) => number} symtop_states_of_clock
  * @property {(motion: number, t: number, steps: number, reached: number) => number} symtop_reach
  * @property {(motion: number) => number} symtop_find_kind
  * @property {(motion: number, angles: number) => void} symtop_find_turning_angles
@@ -49,6 +51,7 @@ const OK = 0;
 const MORE_STEPS = 11;
 const NUMBERS = 15; // of symtop_start
 const STATE = 7;
+const CLOCK = 5; // numbers of symtop_clock
 
 export class Kernel {
   /** @param {Exports} exports */
@@ -134,6 +137,33 @@ export class Motion {
     const { place } = kernel;
     kernel.demand(kernel.exports.symtop_state(handle, t, place, place + 32));
     return [...kernel.doubles(place, STATE)];
+  }
+
+  /**
+   * The state at a time that is not rounded: a whole number of ns, as of the stamps of a node.
+   * @param {number} passed ns
+   * @returns {number[]} as of `at`
+   */
+  atNanosecond(passed) {
+    const { kernel, handle } = this;
+    const { place } = kernel;
+    const [stamp, orientation] = [place + 8 * CLOCK, place + 8 * (CLOCK + 1)];
+    const [omega, written] = [orientation + 32, orientation + 8 * STATE];
+    kernel.doubles(place, CLOCK).set([1, 0, 0, 0, 0]); // factor and elapsed time
+    new BigInt64Array(kernel.exports.memory.buffer, stamp, 1)[0] = BigInt(passed);
+    kernel.demand(
+      kernel.exports.symtop_states_of_clock(
+        handle,
+        place,
+        stamp,
+        1,
+        Infinity,
+        orientation,
+        omega,
+        written,
+      ),
+    );
+    return [...kernel.doubles(orientation, STATE)];
   }
 
   /**

@@ -1,21 +1,17 @@
 // What is drawn in the scene, and the legend of it.
 
+import { COLORS, LEGEND } from "./colors.js";
 import { find, findAll, make } from "./document.js";
+import { typeset } from "./typeset.js";
 
 /** @typedef {(message: {[name: string]: any}) => void} Send */
 
-const TORQUES = "fictitious torques";
-const LEGEND = [
-  ["#0a46be", "L, angular momentum", ""],
-  ["#009e73", "omega", ""],
-  ["#d53c0a", "torque", ""],
-  ["#e69600", "trace", ""],
-  ["#c9ced6", "pale: ghost, not kicked", ""],
-  ["#d53c0a", "gravity", TORQUES],
-  ["#1e96f0", "Coriolis", TORQUES],
-  ["#690fff", "centrifugal", TORQUES],
-  ["#d23ca5", "sum, Ix theta''", TORQUES],
-];
+/** A mark in the colour of a part of the scene. @param {keyof typeof COLORS} name */
+const createMark = (name) => {
+  const mark = make("i");
+  mark.style.background = COLORS[name];
+  return mark;
+};
 
 export class Layers {
   /** @param {Send} send */
@@ -25,10 +21,8 @@ export class Layers {
     this.first = {};
     /** @type {{[layer: string]: HTMLInputElement}} */
     this.boxes = {};
-    for (const [color, text, layer] of LEGEND) {
-      const mark = make("i");
-      mark.style.background = color;
-      const entry = make("li", { hidden: Boolean(layer) }, mark, text);
+    for (const [name, text, layer] of LEGEND) {
+      const entry = make("li", {}, createMark(name), ...typeset(text));
       entry.dataset.layer = layer;
       find("legend").append(entry);
     }
@@ -38,10 +32,14 @@ export class Layers {
   offer(layers) {
     this.first = layers;
     for (const [layer, checked] of Object.entries(layers)) {
-      const box = make("input", { type: "checkbox", checked });
+      const box = make("input", { type: "checkbox", checked, "aria-label": layer });
       this.boxes[layer] = box;
       box.addEventListener("change", () => this.show(layer, box.checked));
-      find("layers").append(make("div", {}, make("label", {}, box, ` ${layer}`)));
+      const marks = LEGEND.filter(([, , own]) => own === layer).map(([name]) => createMark(name));
+      find("layers").append(
+        make("div", {}, make("label", {}, box, ...typeset(` ${layer} `), ...marks)),
+      );
+      this.mark(layer, checked);
     }
   }
 
@@ -51,8 +49,17 @@ export class Layers {
    */
   show(layer, shown) {
     this.boxes[layer].checked = shown;
-    for (const entry of findAll(`#legend [data-layer="${layer}"]`)) entry.hidden = !shown;
+    this.mark(layer, shown);
     this.send({ act: "show", layer, shown });
+  }
+
+  /**
+   * The legend has what is drawn.
+   * @param {string} layer
+   * @param {boolean} shown
+   */
+  mark(layer, shown) {
+    for (const entry of findAll(`#legend [data-layer="${layer}"]`)) entry.hidden = !shown;
   }
 
   /** Of the layers that are hidden at first show those that are named. @param {string[]} named */

@@ -30,6 +30,9 @@ export class Lesson {
     this.shown = null;
     /** @type {HTMLButtonElement[]} */
     this.hurries = [];
+    /** The link of the motion that the step has started. @type {string | null} */
+    this.begun = null;
+    this.isAwaited = false; // the motion that a button has asked for
     // What was written is kept by the browser for this tab, and survives a reload. A step is an
     // entry of its history: Back is the step before. A frame of another site may not have one.
     /** @type {{[step: number]: string}} */
@@ -120,6 +123,7 @@ export class Lesson {
   /** @param {Step} step */
   offerActs({ acts, scene }) {
     this.hurries = [];
+    this.begun = null;
     const buttons = acts.map((act) => {
       const button = make("button", { textContent: act.button, disabled: !act.start });
       if (!act.start) this.hurries.push(button);
@@ -134,11 +138,23 @@ export class Lesson {
    * @param {string} scene
    */
   do({ start, hurry: factor, hold }, scene) {
-    if (start) {
-      this.send({ act: "link", link: { scene, ...start } });
-      this.send({ act: "run" });
-    } else this.send({ act: "kick", factor, hold });
-    // A second hurry would not be that of the step: the motion has to be started again before it.
-    for (const button of this.hurries) button.disabled = !start;
+    if (!start) {
+      this.send({ act: "kick", factor, hold });
+      return;
+    }
+    this.isAwaited = true;
+    this.send({ act: "link", link: { scene, ...start } });
+    this.send({ act: "run" });
+  }
+
+  /**
+   * A hurry is that of the step only after a start of the step, and only once: a Reset makes it
+   * possible again.
+   * @param {import("./facts.js").Facts} facts
+   */
+  follow({ isFresh, link }) {
+    if (isFresh && this.isAwaited) this.begun = link;
+    if (isFresh) this.isAwaited = false;
+    for (const button of this.hurries) button.disabled = !isFresh || link !== this.begun;
   }
 }

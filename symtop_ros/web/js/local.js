@@ -3,6 +3,7 @@
 import { holdTorque, perform } from "./acts.js";
 import { NANO } from "./course.js";
 import { chooseWindow, describe } from "./facts.js";
+import { nameRequest } from "./history.js";
 import { findConstants } from "./potential.js";
 import { Run } from "./run.js";
 import { State } from "./state.js";
@@ -38,6 +39,7 @@ export class LocalTop {
     this.end = 0; // ns; the latest time that was reached
     this.window = 1; // s that trace and charts show
     this.isRunning = true;
+    this.isRecording = false; // a node can record
     this.speed = SPEED;
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
@@ -60,6 +62,11 @@ export class LocalTop {
     if (run) this.load(run);
     this.tellFacts();
     this.tell({ hello: { scenes, layers, lesson } });
+    this.animate();
+  }
+
+  /** Advance and draw with every frame from now on. */
+  animate() {
     let before = performance.now();
     const step = (/** @type {number} */ now) => {
       this.advance(now - before, now);
@@ -75,8 +82,20 @@ export class LocalTop {
    */
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
-    if (this.isRunning) this.move(Math.min(passed, LONGEST_FRAME) / 1000);
+    if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
     this.show();
+  }
+
+  /** Move, or wait at the end of what the kernel computes. @param {number} passed s of the clock */
+  tryToMove(passed) {
+    try {
+      this.move(passed);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.isRunning = false;
+      this.tellFacts();
+      this.tell({ refused: error.message });
+    }
   }
 
   /** @param {number} passed s of the clock */
@@ -86,6 +105,35 @@ export class LocalTop {
     this.time = time + course.reach(wanted - time, MOST_STEPS);
     this.end = Math.max(this.end, this.time);
     if (this.course !== course) this.changed();
+  }
+
+  /**
+   * Add an event at the present time.
+   * @param {import("./run.js").Kind} kind
+   * @param {import("./course.js").Course} course that follows
+   * @param {import("./run.js").Asked} asked
+   */
+  add(kind, course, asked = {}) {
+    const request = nameRequest(this.writer, kind, asked, course);
+    this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
+    this.changed();
+  }
+
+  /** @param {boolean} isRunning */
+  setRunning(isRunning) {
+    this.isRunning = isRunning;
+  }
+
+  /** @param {number} speed of real time */
+  setSpeed(speed) {
+    this.speed = speed;
+  }
+
+  /** Pause, and advance by a part of a motion. @param {number} length ns */
+  step(length) {
+    this.isRunning = false;
+    this.time += length;
+    this.end = Math.max(this.end, this.time);
   }
 
   /** Go to a time of the run. @param {number} time ns */
@@ -116,7 +164,8 @@ export class LocalTop {
     return Array.from({ length: POINTS + 1 }, (_, n) => {
       const time =
         n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS);
-      return { time, state: this.run.at(time), ghost: this.run.findGhost(time) };
+      const state = n === POINTS ? this.state : this.run.at(time);
+      return { time, state, ghost: this.run.findGhost(time) };
     });
   }
 
@@ -148,9 +197,8 @@ export class LocalTop {
 
   tellFacts() {
     const facts = describe(this.run, this.writer, this.time);
-    this.tell({
-      facts: { ...facts, running: this.isRunning, factor: this.speed, recording: false },
-    });
+    const { isRunning: running, speed: factor, isRecording: recording } = this;
+    this.tell({ facts: { ...facts, running, factor, recording } });
   }
 
   /**
@@ -168,10 +216,16 @@ export class LocalTop {
     this.tellFacts();
   }
 
+  /** What run.json holds. */
+  get json() {
+    return { ...this.run.json, end: this.end / NANO };
+  }
+
   /** @param {any} run of run.json */
   load(run) {
     this.run.load(run);
-    this.time = this.end = this.run.moments[this.run.moments.length - 1].time;
+    const last = this.run.moments[this.run.moments.length - 1].time;
+    this.time = this.end = Math.max(last, Math.round((run.end ?? 0) * NANO));
     this.initial = this.run.moments[0].course.start;
     this.isRunning = false;
     this.changed();

@@ -1,12 +1,20 @@
 // What the page says beside the headline: refusals, notices, and what is lost.
 
-import { find } from "./document.js";
+import { find, write } from "./document.js";
 
 /**
  * A refusal or a notice stands until the next act; an empty one takes it away.
  * @param {string} text
  */
 export const refuse = (text) => show("refusal", text);
+
+/** A refusal can be put away. */
+export const dismissRefusals = () => {
+  find("refusal").addEventListener("click", () => refuse(""));
+  document.addEventListener("keydown", ({ key }) => {
+    if (key === "Escape") refuse("");
+  });
+};
 
 /** What is lost, such as a connection, until it is back. @param {string | null} text */
 export const showLoss = (text) => show("lost", text ?? "");
@@ -17,6 +25,6 @@ export const showLoss = (text) => show("lost", text ?? "");
  */
 const show = (id, text) => {
   const place = find(id);
-  place.textContent = text;
+  write(place, text);
   place.hidden = !text;
 };

@@ -3,14 +3,14 @@
 import { followAddress } from "./address.js";
 import { keepChoice } from "./choices.js";
 import { showConstants } from "./constants_table.js";
-import { find, findAll, make, say } from "./document.js";
+import { find, findAll, make, say, write, writeSymbols } from "./document.js";
 import { Fields } from "./fields.js";
 import { offerFiles, openDropped } from "./files.js";
 import { actWhileHeld } from "./hold.js";
 import { listenToKeys } from "./keys.js";
 import { Layers } from "./layers.js";
 import { Lesson } from "./lesson.js";
-import { refuse, showLoss } from "./notices.js";
+import { dismissRefusals, refuse, showLoss } from "./notices.js";
 import { inDegrees, shorten } from "./quantities.js";
 import { drawRule } from "./rule_chart.js";
 import { offerScenes } from "./scenes.js";
@@ -25,11 +25,11 @@ import { drawWell } from "./well_chart.js";
 /** @typedef {{[name: string]: any}} Message */
 /**
  * A top of the page: it takes messages, and its answers are told.
- * @typedef {{take: (message: Message) => void, run: {json: object}, csv: string}} Top
+ * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
  */
 
 export class Page {
-  /** @param {{node?: boolean, run?: any}} content of the file */
+  /** @param {{node?: string, opening?: string, run?: any}} content of the file */
   constructor(content) {
     this.content = content;
     /** @type {Top | null} */
@@ -37,11 +37,15 @@ export class Page {
     /** What holds for a whole motion. @type {Facts | null} */
     this.facts = null;
     const send = this.send.bind(this);
+    writeSymbols();
+    dismissRefusals();
     addTabs();
     this.fields = new Fields(send);
     this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
     this.timeline = new Timeline((time) => send({ act: "seek", time }));
     this.layers = new Layers(send);
+    /** @type {Lesson | null} */
+    this.lesson = null; // until the top has sent its steps
     followTheme();
     keepChoice("unit", () => this.showUnit());
     this.fields.showUnit();
@@ -108,9 +112,22 @@ export class Page {
     offerScenes(scenes, (name) => this.send({ act: "scene", name }));
     this.layers.offer(layers);
     const lesson = new Lesson(steps, this.send.bind(this), this.layers.choose.bind(this.layers));
+    this.lesson = lesson;
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (!this.content.node && (isCalm || this.content.run)) this.send({ act: "rest" });
-    followAddress(lesson.open.bind(lesson), (link) => this.send({ act: "link", link }));
+    const { opening = "" } = this.content;
+    followAddress(opening, lesson.open.bind(lesson), (link) => this.followLink(link));
+  }
+
+  /**
+   * Start what the address asks for. Any page may have led here: others watch a node, so that its
+   * user is asked.
+   * @param {{[name: string]: string}} link
+   */
+  followLink(link) {
+    const fields = Object.entries(link).map((pair) => pair.join(" = "));
+    const question = `A link asks ${this.content.node} for this start: ${fields.join(", ")}. Start it?`;
+    if (!this.content.node || confirm(question)) this.send({ act: "link", link });
   }
 
   /** @param {Facts} facts */
@@ -125,15 +142,16 @@ export class Page {
     this.speeds.show(facts.factor);
     find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
     this.showRoots(facts.roots);
-    this.showHistory(facts.history);
+    this.showHistory(sentences.history);
     this.fields.show(facts);
+    this.lesson?.follow(facts);
   }
 
   /** @param {number[]} roots rates of regular precession */
   showRoots(roots) {
-    const names = roots.length === 2 ? ["slow", "fast"] : ["the"];
+    const names = roots.length === 2 ? ["slow root", "fast root"] : ["only root"];
     const buttons = roots.map((rate, k) => {
-      const button = make("button", { textContent: `${names[k]} root ${shorten(rate)} rad/s` });
+      const button = make("button", { textContent: `${names[k]} ${shorten(rate)} rad/s` });
       const precession = k ? "fast" : "slow";
       const { theta, psi_dot } = this.fields.values;
       button.addEventListener("click", () =>
@@ -141,15 +159,16 @@ export class Page {
       );
       return button;
     });
-    const text = roots.length ? "steady at" : "no steady precession at this tilt and spin";
+    const text = roots.length ? "steady at the" : "no steady precession at this tilt and spin";
     find("roots").replaceChildren(text, ...buttons);
   }
 
   /** @param {[entry: number, text: string][]} history */
   showHistory(history) {
     find("entries").replaceChildren(
-      ...history.map(([entry, textContent]) => {
-        const button = make("button", { textContent });
+      ...history.map(([entry, text]) => {
+        const button = make("button");
+        write(button, text);
         button.addEventListener("click", () => this.send({ act: "restart", entry }));
         return button;
       }),

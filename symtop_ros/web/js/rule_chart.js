@@ -54,7 +54,7 @@ export const drawRule = ({ top, start, roots: first }, [, theta, rate, spin], fa
     ${roots.map(mark).join("")}
     ${Math.abs(rate) > 1e-9 ? drawDot(...place(hurried), 'fill="none" stroke="var(--theta)" stroke-width="2" id="hurried"') : ""}
     ${drawDot(...place(rate), 'fill="var(--theta)" id="now"')}
-    <text x="${LEFT + 2}" y="18">rises \u2191 (theta'' &lt; 0, rad/s\u00b2)</text>
+    <text x="${LEFT + 2}" y="18">rises \u2191 (θ̈ &lt; 0, rad/s\u00b2)</text>
     <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">falls \u2193</text>
     ${writeBelow(frame, listTicks(range[0], range[1], 4), (value) => shorten(value))}
     <text class="tick" x="4" y="${frame.bottom + 12}">rad/s</text>`,

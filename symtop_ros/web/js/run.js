@@ -129,20 +129,15 @@ export class Run {
       throw new RangeError(`a run must have format ${FORMAT} and some events`);
     }
     const read = new Run(this.kernel);
-    for (const {
-      kind,
-      time,
-      top: [Ix, Iz, Mgl],
-      orientation,
-      angular_velocity,
-      friction,
-      torque,
-      ...asked
-    } of events) {
-      const start = new State(orientation, angular_velocity);
-      const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
-      read.add(kind, Math.round(time * NANO), course, asked);
-    }
+    for (const event of events) read.append(event);
     this.moments = read.moments;
+  }
+
+  /** @param {EventRecord} event */
+  append({ kind, time, top, orientation, angular_velocity, friction, torque, ...asked }) {
+    const [Ix, Iz, Mgl] = top;
+    const start = new State(orientation, angular_velocity);
+    const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
+    this.add(kind, Math.round(time * NANO), course, asked);
   }
 }

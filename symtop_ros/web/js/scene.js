@@ -11,6 +11,7 @@ import {
   createStand,
   readColor,
 } from "./meshes.js";
+import { COLORS, FICTITIOUS } from "./colors.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
 import { findTorques, findVectors } from "./vectors.js";
@@ -20,23 +21,7 @@ import { findTorques, findVectors } from "./vectors.js";
 /** @typedef {import("./state.js").Vector} Vector */
 /** @typedef {import("./meshes.js").Color} Color */
 
-// Colours that are visible on white and on black, and different for colour-blind people.
-const COLORS = {
-  L: "#0a46be",
-  omega: "#009e73",
-  torque: "#d53c0a",
-  gravity: "#d53c0a",
-  Coriolis: "#1e96f0",
-  centrifugal: "#690fff",
-  sum: "#d23ca5",
-  trace: "#e69600",
-  circles: "#ec8c00",
-  nodes: "#963cbe",
-  sphere: "#8c94a2",
-  ball: "#ec8c00",
-};
 const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion
-const FICTITIOUS = "fictitious torques";
 const DEPTHS = { gravity: 0.08, Coriolis: 0.15, centrifugal: 0.22, sum: -0.08 }; // below the pivot
 const LONGEST = 2.5; // of a fictitious torque
 const SHORTEST = 0.02; // arrows that are shorter have no direction that can be seen
@@ -61,19 +46,6 @@ const VIEWS = [
   ],
 ];
 const STILL = createPose([1, 0, 0, 0]);
-
-export const LAYERS = {
-  L: true,
-  omega: true,
-  torque: true,
-  trace: true,
-  "turning circles": true,
-  "line of nodes": true,
-  ghost: true,
-  sphere: true,
-  handle: true,
-  [FICTITIOUS]: false,
-};
 
 export class Scene {
   /**

@@ -1,18 +1,20 @@
 // The beginning of the page: the kernel, the top, its scene, and the page around it.
 
+import { LAYERS } from "./colors.js";
 import { Kernel } from "./kernel.js";
 import { LocalTop } from "./local.js";
+import { NodeTop } from "./node.js";
 import { refuse } from "./notices.js";
 import { Page } from "./page.js";
-import { LAYERS, Scene } from "./scene.js";
+import { Scene } from "./scene.js";
 import { find } from "./document.js";
 import { Writer } from "./wording.js";
 
 /**
- * What the file holds: the module in base64, the templates, scenes and the lesson; a run, if one
- * was saved; and whether it shows a running node.
+ * What the file holds: the module in base64, the templates, scenes and the lesson; what it opens as
+ * the end of an address does; a run, if one was saved; and the name of a node, if it shows one.
  * @typedef {{kernel: string, templates: {[key: string]: string}, scenes: any[], lesson: any[],
- *   run?: any, node?: boolean}} Content
+ *   opening?: string, run?: any, node?: string}} Content
  */
 
 /** @param {string} text base64 */
@@ -26,8 +28,11 @@ export const start = async (content, source) => {
   const page = new Page(content);
   try {
     const kernel = await Kernel.load(decode(content.kernel));
-    Object.assign(window, { symtop: { motion: kernel.motion.bind(kernel) } });
-    const top = new LocalTop(kernel, new Writer(content.templates), { ...content, layers: LAYERS });
+    const Top = content.node ? NodeTop : LocalTop;
+    const top = new Top(kernel, new Writer(content.templates), { ...content, layers: LAYERS });
+    // For scripts of the page: motions of their own, and the run as in run.json.
+    const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
+    Object.assign(window, { symtop });
     const scene = new Scene(find("scene"), top);
     top.tell = (message) => page.receive(message);
     top.draw = (state, states) => scene.draw(state, states);

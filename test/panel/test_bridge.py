@@ -1,0 +1,320 @@
+"""A running node behind the page: its events and attitude, and the acts of the page's users."""
+
+import contextlib
+import threading
+import time
+
+import pytest
+import rclpy
+from browser import running_browser
+from node.running_top import RunningTop
+
+from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
+from symtop_ros.panel.server import LOCAL_HOST, PageServer
+from symtop_ros.physics import State
+from symtop_ros.web.join import write_file
+
+TIMEOUT = 60.0
+
+
+class Spinning:
+    """A node that a thread spins, as its own process would."""
+
+    def __init__(self, top):
+        self._top, self._ending = top, threading.Event()
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+
+    def _spin(self):
+        while not self._ending.is_set():
+            self._top.executor.spin_once(timeout_sec=0.01)
+
+    def close(self):
+        self._ending.set()
+        self._thread.join()
+
+
+@pytest.fixture(name="node")
+def _node():
+    """A node in real time, and the bridge to it."""
+    running = RunningTop(realtime=True, scene="cusps", real_time_factor=0.1)
+    spinning = Spinning(running)
+    user = rclpy.create_node("top_panel", context=running.context, start_parameter_services=False)
+    bridge = Bridge(user, "/top")
+    yield running, bridge
+    bridge.close()
+    spinning.close()
+    user.destroy_node()
+    running.close()
+
+
+class Page:
+    """What one page is sent, while the test waits for it."""
+
+    def __init__(self, bridge):
+        self._news, self.events, self.new, self.state = bridge.follow(), [], [], {}
+
+    def look(self):
+        message = next(self._news)
+        self.events += message.get("events", [])
+        self.new += [message["new"]] if "new" in message else []
+        self.state |= {k: v for k, v in message.items() if k not in ("events", "new")}
+
+    def until(self, condition):
+        deadline = time.monotonic() + TIMEOUT
+        while not condition():
+            assert time.monotonic() < deadline, (self.state, self.events[-1:])
+            self.look()
+
+    def close(self):
+        self._news.close()
+
+
+@pytest.fixture(name="page")
+def _page(node):
+    page = Page(node[1])
+    page.until(lambda: page.events and "orientation" in page.state)
+    yield page
+    page.close()
+
+
+def ask(bridge, service, argument=None):
+    answer = bridge.answer({"service": service, "argument": argument})
+    return answer["granted"], answer["answer"]
+
+
+def test_a_page_is_sent_the_run_and_the_published_attitude(node, page):
+    running, _ = node
+    assert page.new == [True]
+    start = page.events[0]["record"]
+    assert (start["kind"], start["time"]) == ("start", 0.0)
+    segment = running.top.simulation.segment
+    published = segment.motion.at(page.state["time"] / 1e9).orientation
+    # the time of the run is rounded to whole ns, of a motion of some 200 rad/s
+    assert page.state["orientation"] == pytest.approx(published.tolist(), abs=2e-7)
+    assert page.events[0]["factor"] == 0.1
+    assert page.state["lost"] is None
+
+
+def test_integers_of_a_page_are_doubles_of_the_node(node, page):
+    _, bridge = node
+    values = {"theta": 1, "phi_dot": 0, "psi_dot": 200}  # as JSON writes 200.0
+    assert ask(bridge, "set_initial_conditions", values)[0]
+    page.until(lambda: page.events[-1].get("record", {}).get("kind") == "start" and page.events[1:])
+    w, x, y, z = page.events[-1]["record"]["orientation"]
+    assert State((w, x, y, z), (0, 0, 0)).euler_angles.theta == pytest.approx(1.0, abs=1e-15)
+    assert ask(bridge, "set_parameters_atomically", {"top.Mgl": 1, "steady_torque": [0, 0, 1]})[0]
+
+
+def test_a_kick_is_an_event_of_the_run_as_of_its_log(node, page):
+    running, bridge = node
+    granted, answer = ask(bridge, "kick", {"precession_rate": 9, "hold": "spin_momentum"})
+    assert granted, answer
+    page.until(lambda: len(page.events) == 2)
+    kick = page.events[1]
+    assert kick["record"]["act"] == {"precession_rate": 9.0, "hold": "spin_momentum"}
+    assert kick["said"] == answer
+    start = running.top.simulation.segment.motion.start
+    assert kick["record"]["orientation"] == start.given_orientation.tolist()
+    assert kick["record"]["angular_velocity"] == start.angular_velocity.tolist()
+
+
+def test_what_the_node_refuses_is_its_answer(node, page):
+    _, bridge = node
+    granted, answer = ask(bridge, "kick", {"precession_rate": 1e12})
+    assert not granted
+    assert answer.startswith("precession_rate must be ")
+    assert len(page.events) == 1
+
+
+@pytest.mark.parametrize(
+    ("request_", "start"),
+    [
+        ({}, "service must be "),
+        ({"service": "set_parameters"}, "service must be "),
+        ({"service": "kick", "argument": "9"}, "argument must be "),
+        ({"service": "kick", "argument": {"precession_rate": {}}}, "argument must "),
+        ({"service": "kick", "argument": {"precession_rate": None}}, ""),
+        ({"torque": [0, 0]}, "torque must have 3 "),
+        ({"torque": [0, 0, "x"]}, "torque must be "),
+    ],
+)
+def test_a_request_that_is_none_is_one_message(node, request_, start):
+    answer = node[1].answer(request_)
+    assert not answer["granted"]
+    assert answer["answer"].startswith(start)
+
+
+def test_pauses_leave_the_time_of_the_run_alone_and_a_step_moves_it(node, page):
+    _, bridge = node
+    assert ask(bridge, "pause", True)[0]
+    page.until(lambda: page.events[-1]["running"] is False)
+    assert "record" not in page.events[-1]
+    before = bridge._recorder.time_at(0)  # that of the pause, at every stamp
+    page.until(lambda: page.state["time"] == before)
+    assert ask(bridge, "step", {"duration": 0.01})[0]
+    page.until(lambda: page.state["time"] == before + 10_000_000)
+
+
+def test_a_torque_reaches_the_node_and_ends(node, page):
+    _, bridge = node
+
+    def torques():
+        return [e["record"]["torque"][2] for e in page.events if e["name"] == "torque"]
+
+    deadline = time.monotonic() + TIMEOUT
+    while not torques():
+        assert bridge.answer({"torque": [0, 0, 5e-4]})["granted"]
+        page.look()
+        assert time.monotonic() < deadline
+    page.until(lambda: torques()[-1] == 0.0)
+    assert torques()[0] == 5e-4
+
+
+def test_a_recording_is_known_to_the_page(node, page, tmp_path, monkeypatch):
+    _, bridge = node
+    monkeypatch.chdir(tmp_path)
+    granted, answer = ask(bridge, "record", True)
+    assert granted, answer
+    page.until(lambda: page.events[-1].get("recording"))
+    assert page.events[-1]["said"] == answer
+    assert ask(bridge, "record", False)[0]
+    page.until(lambda: page.events[-1].get("recording") is False)
+
+
+def test_a_node_without_pages_sends_events_only(node):
+    running, bridge = node
+    deadline = time.monotonic() + TIMEOUT
+
+    def wait_for(count):
+        while running.top.count_subscribers("/top/orientation") != count:
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+
+    wait_for(0)
+    page = Page(bridge)
+    page.until(lambda: "orientation" in page.state)
+    wait_for(1)
+    page.close()
+    wait_for(0)
+
+
+def test_two_pages_see_the_same_run(node, page):
+    _, bridge = node
+    assert ask(bridge, "reset")[0]
+    page.until(lambda: len(page.events) == 2)
+    other = Page(bridge)
+    other.until(lambda: len(other.events) == 2)
+    assert other.events == page.events
+    other.close()
+
+
+def test_silence_is_told_and_its_end(node, page):
+    running, bridge = node
+    running.top._pacer.stop()  # no samples: as after its end
+    bridge._heard -= SILENCE
+    page.until(lambda: page.state["lost"])
+    assert f"/top for {SILENCE:g} s" in page.state["lost"]
+
+    def is_back():
+        for _ in range(20):  # what is late is dropped by one tick, and published by the next one
+            running.top.simulation.tick()
+        return not page.state["lost"]
+
+    page.until(is_back)
+
+
+def test_a_node_that_begins_again_is_a_new_run(node, page):
+    _, bridge = node
+    first = bridge._last
+    assert ask(bridge, "reset")[0]
+    page.until(lambda: len(page.events) == 2)
+    with bridge._news:
+        bridge._follow_event(first)  # the event with the number 1, as of another process
+        bridge._news.notify_all()
+    page.until(lambda: page.new.count(True) == 2)
+    assert page.events[-1]["stamp"] == page.events[0]["stamp"]
+
+
+def test_of_a_long_run_the_last_events_are_kept(node, page):
+    _, bridge = node
+    event = bridge._last
+    later = type(event)(event.stamp, "reset", "", {**event.values, "number": "2"})
+    with bridge._news:
+        for _ in range(KEPT + 5):
+            bridge._follow_event(later)
+    other = Page(bridge)
+    other.until(lambda: other.events)
+    assert len(other.events) == KEPT
+    other.close()
+
+
+def test_a_missing_node_is_one_message():
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
+    bridge = Bridge(user, "missing")
+    bridge._connection._timeout = 0.1
+    assert bridge.name == "/missing"
+    granted, answer = ask(bridge, "kick", {"precession_rate": 1.0})
+    assert not granted
+    assert answer.startswith("no answer from /missing ")
+    bridge.close()
+    user.destroy_node()
+    rclpy.try_shutdown(context=context)
+
+
+@contextlib.contextmanager
+def serving(bridge, port=0):
+    server = PageServer(LOCAL_HOST, port, write_file(node=bridge.name), bridge)
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    try:
+        yield server
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
+    running, bridge = node
+
+    def until(condition):
+        deadline = time.monotonic() + TIMEOUT
+        while not condition():
+            assert time.monotonic() < deadline
+            tab.wait_for_timeout(20)
+
+    with running_browser() as browser:
+        tab = browser.new_page()
+        problems = []
+        tab.on("pageerror", lambda error: problems.append(str(error)))
+        with serving(bridge) as server:
+            port = server.server_address[1]
+            tab.goto(server.url)
+            until(lambda: "cusps" in tab.text_content("#headline"))
+            assert tab.is_hidden("#timeline")
+            tab.click("#hurry")
+            until(lambda: "than without the kick" in tab.text_content("#headline"))
+            act = bridge._events[-1]["record"]["act"]
+            assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+            tab.click("#tab-start")
+            tab.fill("#field-top\\.Mgl", "0.05")
+            tab.press("#field-top\\.Mgl", "Enter")
+            until(lambda: running.top.simulation.settings.top.Mgl == 0.05)
+            tab.once("dialog", lambda dialog: dialog.dismiss())
+            tab.goto(f"{server.url}#theta=1.5")  # a link of another page
+            tab.wait_for_timeout(200)
+            assert running.top.simulation.timeline.start.euler_angles.theta == pytest.approx(0.5)
+            tab.once("dialog", lambda dialog: dialog.accept())
+            tab.goto(f"{server.url}#theta=1.25")
+            until(
+                lambda: abs(running.top.simulation.timeline.start.euler_angles.theta - 1.25) < 1e-9
+            )
+        until(lambda: "connection is lost" in tab.text_content("#lost"))
+        with serving(bridge, port):
+            until(lambda: tab.is_hidden("#lost"))
+            tab.click("#tab-history")
+            assert "again" not in tab.text_content("#refusal")
+            until(lambda: "theta 1.25" in tab.text_content("#entries"))
+        assert problems == []

@@ -1,0 +1,103 @@
+"""The page as one file in a tab of Chromium, without a network."""
+
+import time
+
+from symtop_ros.physics import ExactTimes, Motion, State, Top
+
+TIMEOUT = 20.0  # s; ends a test that hangs, and is never waited for
+NO_REQUESTS = "file:", "blob:", "data:"
+# Software draws the scene here: a few frames a second are enough, and leave time for the test.
+FEW_FRAMES = """
+const requestFrame = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => setTimeout(() => requestFrame(draw), 120);
+"""
+
+
+class Opened:
+    """The file in a tab, with what went wrong."""
+
+    def __init__(self, browser, path, fragment="", **options):
+        self.context = browser.new_context(offline=True, accept_downloads=True, **options)
+        self.context.add_init_script(FEW_FRAMES)
+        self.tab = self.context.new_page()
+        self.tab.set_default_timeout(TIMEOUT * 1000)
+        self.problems, self.requests = [], []
+        self.tab.on("console", lambda message: self.problems.append(message.text))
+        self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
+        self.tab.on("request", lambda request: self.requests.append(request.url))
+        self.tab.goto(path.as_uri() + fragment)
+        self.tab.wait_for_selector("#headline:not(:empty)")
+
+    def close(self):
+        """Close the tab; nothing went wrong in it, and it asked for nothing from elsewhere."""
+        self.context.close()
+        assert self.problems == []
+        assert all(request.startswith(NO_REQUESTS) for request in self.requests)
+
+    def say(self, name):
+        """Return a text as it was before its symbols became formulas."""
+        place = self.tab.locator(f"#{name}")
+        return place.get_attribute("data-text") or place.text_content()
+
+    def open_tab(self, name):
+        self.tab.click(f"#tab-{name}")
+
+    def enter(self, name, text):
+        """Type a value into a field of the tab Top, and take it over."""
+        field = self.tab.locator(f"[id='field-{name}']")
+        if not field.is_visible():
+            self.open_tab("start")
+        field.fill(text)
+        field.press("Enter")
+
+    def press(self, key):
+        """Press a key while no field has the focus."""
+        self.tab.evaluate("document.activeElement.blur()")
+        self.tab.keyboard.press(key)
+
+    def save(self, text, folder):
+        """Download what a button of the tab Save gives; return its path."""
+        self.open_tab("save")
+        with self.tab.expect_download() as download:
+            self.tab.click(f"text={text}")
+        target = folder / download.value.suggested_filename
+        download.value.save_as(target)
+        return target
+
+    def read_run(self):
+        return self.tab.evaluate("window.symtop.run()")
+
+    def until(self, condition):
+        """Wait, while the browser works; its own way would need what the page forbids."""
+        deadline = time.monotonic() + TIMEOUT
+        while not condition():
+            assert time.monotonic() < deadline
+            self.tab.wait_for_timeout(20)
+
+    def wait_for_time(self, seconds):
+        self.until(lambda: float(self.tab.get_attribute("#timeline", "max")) > seconds)
+
+    def seek(self, seconds):
+        """Move the slider of the run to a time."""
+        self.tab.evaluate(
+            """(time) => {
+                const line = document.getElementById("timeline");
+                line.value = time;
+                line.dispatchEvent(new Event("input"));
+                line.dispatchEvent(new Event("change"));
+            }""",
+            seconds,
+        )
+
+
+def read_state(event):
+    return State(event["orientation"], event["angular_velocity"])
+
+
+def read_motion(event):
+    return Motion(Top(*event["top"]), read_state(event))
+
+
+def find_time(before, event):
+    """Return the exact time between two events, which is a whole number of nanoseconds."""
+    return ExactTimes(round(event["time"] * 1e9) - round(before["time"] * 1e9))

@@ -1,0 +1,99 @@
+"""Fields, sliders and keys of the page: what is typed, and what is refused."""
+
+import math
+
+import pytest
+from web.opened import read_state
+
+
+def test_an_angle_is_understood_with_its_unit(opened):
+    angles = {
+        "pi/4": math.pi / 4,
+        "π/3": math.pi / 3,
+        "30°": math.pi / 6,
+        "45 deg": math.pi / 4,
+        "0.6 rad": 0.6,
+        "0,7": 0.7,
+        "2*pi/5": 2 * math.pi / 5,
+        "1e-3": 1e-3,
+        "pi": math.pi,
+    }
+    for text, theta in angles.items():
+        opened.tab.click("#tab-start")
+        opened.tab.fill("#field-theta", text)
+        opened.tab.press("#field-theta", "Enter")
+        assert opened.say("refusal") == ""
+        state = read_state(opened.read_run()["events"][-1])
+        assert state.euler_angles.theta == pytest.approx(theta, rel=1e-15)
+
+
+def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
+    opened.tab.click("#tab-view")
+    opened.tab.select_option("#unit", "deg")
+    opened.tab.click("#tab-start")
+    opened.tab.fill("#field-theta", "200")
+    opened.tab.press("#field-theta", "Enter")
+    assert opened.say("refusal") == "tilt theta must be 0 to 180°, got 200"
+    opened.tab.press("#field-theta", "Escape")
+    assert opened.say("refusal") == ""
+    opened.tab.fill("#field-theta", "60")
+    opened.tab.press("#field-theta", "Enter")
+    state = read_state(opened.read_run()["events"][-1])
+    assert state.euler_angles.theta == pytest.approx(math.pi / 3, rel=1e-15)
+    opened.tab.reload()
+    opened.tab.wait_for_selector("#headline:not(:empty)")
+    assert opened.tab.input_value("#unit") == "deg"  # the choice is kept
+    assert "°" in opened.say("headline")
+
+
+def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened):
+    events = opened.read_run()["events"]
+    opened.tab.click("#tab-start")
+    for field, text, refusal in (
+        ("theta", "4", "tilt theta must be 0 to pi rad, got 4"),
+        ("theta", "abc", "tilt theta must be a number, got abc"),
+        ("top\\.Iz", "1", "Ix, Iz and Mgl must be finite"),
+        ("top\\.Ix", "0", "Ix, across the axis (kg m²) must be positive, got 0"),
+        ("friction\\.axial", "-1", "friction, axial (N m s) must be 0 or more, got -1"),
+    ):
+        opened.tab.fill(f"#field-{field}", text)
+        opened.tab.press(f"#field-{field}", "Enter")
+        assert opened.say("refusal").startswith(refusal)
+    assert opened.read_run()["events"] == events
+
+
+def test_the_slider_reaches_the_lower_vertical(opened):
+    slider = opened.tab.get_by_label("tilt theta").locator("visible=true").last
+    slider.evaluate("(each) => { each.value = 3.15; each.dispatchEvent(new Event('input')); }")
+    opened.until(lambda: "3.142" in opened.say("headline"))
+    assert opened.say("refusal") == ""
+    state = read_state(opened.read_run()["events"][-1])
+    assert state.euler_angles.theta == math.pi
+
+
+def test_caps_lock_disables_no_key(opened):
+    opened.tab.keyboard.press("H")
+    assert "higher" in opened.say("headline")
+
+
+def test_keys_that_move_through_the_list_of_scenes_start_none(opened):
+    events = opened.read_run()["events"]
+    opened.tab.focus("#scenes")
+    opened.tab.keyboard.press("L")
+    assert opened.tab.input_value("#scenes") == "looping"
+    assert "phi' changes sign" in opened.say("story")
+    assert opened.read_run()["events"] == events
+    opened.tab.keyboard.press("Enter")
+    assert opened.say("headline").startswith("The top precesses in loops")
+    opened.tab.wait_for_timeout(1200)  # the browser takes letters that follow at once for one word
+    opened.tab.keyboard.press("W")
+    assert opened.say("headline").startswith("The top precesses in loops")
+    opened.tab.click("#start-scene")
+    assert not opened.say("headline").startswith("The top precesses in loops")
+
+
+def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
+    opened.tab.dispatch_event("#scenes", "pointerdown")
+    opened.tab.select_option("#scenes", "looping")
+    assert opened.say("headline").startswith("The top precesses in loops")
+    assert not opened.tab.is_visible("#start-scene")

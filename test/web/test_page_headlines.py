@@ -1,0 +1,99 @@
+"""The headline says what is so, and agrees with the reason below it."""
+
+import itertools
+
+import pytest
+from web.opened import read_state
+
+
+def start_scene(page, name):
+    page.open_tab("start")
+    page.tab.select_option("#scenes", name)
+    page.tab.click("#start-scene")
+
+
+def test_the_headline_of_a_driven_motion_says_what_acts(opened):
+    said = {}
+    for name in opened.tab.locator("#scenes option").evaluate_all("all => all.map(e => e.value)"):
+        if name:
+            start_scene(opened, name)
+            event = opened.read_run()["events"][-1]
+            acts = [any(event["friction"]), any(event["torque"])]
+            said[name] = acts
+            words = {
+                (False, False): ("The ",),
+                (True, False): ("Friction acts: without it the ",),
+                (False, True): ("A torque acts: without it the ",),
+                (True, True): ("Friction and a torque act: without them the ",),
+            }[tuple(acts)]
+            assert opened.say("headline").startswith(words)
+            if any(acts):
+                assert opened.say("why").startswith("Without ")
+    assert [True, False] in said.values()
+    assert [False, True] in said.values()
+
+
+def test_a_kick_under_friction_is_judged_apart_from_friction(opened):
+    start_scene(opened, "friction")
+    opened.tab.click("#hurry")
+    assert opened.say("headline").endswith(" (apart from friction).") or (
+        "(apart from friction):" in opened.say("headline")
+    )
+
+
+def test_a_torque_that_is_held_is_said_and_so_is_its_end(opened):
+    opened.open_tab("push")
+    button = opened.tab.locator("[data-hold='1']")
+    button.dispatch_event("pointerdown")
+    opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
+    button.dispatch_event("pointerup")
+    opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
+
+
+@pytest.mark.parametrize("Mgl", [0.068, -0.068])
+def test_headline_and_reason_agree(opened, Mgl):
+    """A top that falls at first and yet moves higher is said to do both."""
+    opened.tab.click("text=Pause")
+    subject = "axis" if Mgl < 0 else "top"
+    swings = set()
+    for theta, spin, rate in itertools.product((0.5, 2.0), (60, -200), (-8, 3, 9)):
+        opened.enter("top.Mgl", str(Mgl))
+        opened.enter("psi_dot", str(spin))
+        opened.enter("phi_dot", str(rate))
+        opened.enter("theta", str(theta))
+        assert opened.say("headline").startswith(f"The {subject} ")
+        for key in ("h", "ArrowUp"):
+            opened.press(key)
+            headline, why = opened.say("headline"), opened.say("why")
+            assert headline.startswith(f"The {subject} ")
+            assert "by 0 rad" not in headline
+            for swing, direction in (("higher", "falls"), ("lower", "rises")):
+                if f"moves {swing}" in headline:
+                    swings.add(swing)
+                    is_opposite = f"The {subject} {direction}" in why
+                    assert (f"{direction} at first, but moves {swing}" in headline) is is_opposite
+    assert swings == {"higher", "lower"}
+
+
+def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
+    opened.enter("theta", "0.6")
+    opened.tab.click("#hurry")
+    opened.enter("top.Mgl", "0.05")
+    opened.open_tab("history")
+
+    def read():
+        entries = opened.tab.locator("#entries button")
+        return entries.evaluate_all("all => all.map(e => e.dataset.text)")
+
+    assert read() == [
+        "Mgl changed to 0.05",
+        "hurried: phi' times 1.4",
+        "started: theta 0.6 rad, phi' 6.497, psi' 200 rad/s",
+        "Perry's rule holds",
+    ]
+    opened.open_tab("view")
+    opened.tab.select_option("#unit", "deg")
+    opened.open_tab("history")
+    assert "started: theta 34.38°, phi' 6.497, psi' 200 rad/s" in read()
+    opened.tab.click("#entries button:text('started:')")
+    assert read_state(opened.read_run()["events"][-1]).euler_angles.theta == pytest.approx(0.6)

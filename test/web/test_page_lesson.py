@@ -1,0 +1,124 @@
+"""The lesson on the page: a class presses through all steps."""
+
+import pytest
+from web.opened import read_motion
+
+from symtop_ros.web.lesson import read_lesson
+
+SECRET = "it falls, I think"
+STEPS = read_lesson()
+FICTITIOUS = "fictitious torques"
+# Of each button in turn: the turning angles in rad to three digits.
+ANGLES = (
+    ((0.5, 0.664),),
+    ((0.5, 0.664),),
+    ((0.5, 0.907), (0.5, 0.559), (0.5, 0.664)),
+    ((0.5, 0.5),),
+    ((0.5, 0.5),),
+    ((0.439, 0.5), (0.384, 0.5), (0.194, 0.5)),
+    ((0.5, 0.587), (0.439, 0.5)),
+    ((0.5, 0.5), (0.437, 0.5), (0.5, 0.5), (0.438, 0.5)),
+    ((0.5, 0.5), (0.5, 0.713)),
+    ((0.5, 0.5), (0.439, 0.5), (0.5, 0.5), (0.5, 0.528)),
+    ((0.5, 0.5), (0.5, 0.544), (0.5, 0.5), (0.362, 0.5), (0.5, 0.5), (0.5, 0.8)),
+)
+
+
+def list_names(page, selector):
+    return page.tab.locator(selector).evaluate_all("all => all.map(e => e.dataset.chart)")
+
+
+def press(page, act, turning):
+    """Press a button of a step: its motion follows, and runs."""
+    button = page.tab.get_by_role("button", name=act.button, exact=True)
+    button.click()
+    event = page.read_run()["events"][-1]
+    assert page.say("refusal") == ""
+    assert page.say("why")
+    assert event["kind"] == ("start" if act.start else "kick")
+    assert event["friction"] == [0, 0]
+    # half of the last of three digits
+    assert read_motion(event).turning_angles == pytest.approx(turning, abs=5e-4)
+    assert page.say("pause") == "Pause"
+    if act.hurry:
+        assert button.is_disabled()
+
+
+def test_a_class_presses_through_all_steps(open_page):
+    page = open_page("#lesson=1")
+    for number, (step, expected) in enumerate(zip(STEPS, ANGLES, strict=True), start=1):
+        assert page.tab.input_value("#steps") == f"{number}. {step.title}"
+        assert page.say("lesson-predict") == step.predict
+        assert page.say("pause") == "Run"  # nothing moves before the prediction
+        page.tab.fill("#prediction", f"{SECRET} {number}")
+        for name in ("seen", "answer"):
+            assert not page.tab.is_visible(f"#lesson-{name}")
+        for act, turning in zip(step.acts, expected, strict=True):
+            press(page, act, turning)
+        box = page.tab.get_by_label(FICTITIOUS)
+        assert box.is_checked() is (FICTITIOUS in step.layers)
+        assert sorted(list_names(page, ".looked")) == sorted(step.charts)
+        for chart in page.tab.locator(".looked").all():
+            assert 0 <= chart.bounding_box()["y"] < 720 / 2
+        for summary, name in (("What happens", "seen"), ("Answer", "answer")):
+            page.tab.get_by_text(summary, exact=True).click()
+            assert page.tab.is_visible(f"#lesson-{name}")
+        if number < len(STEPS):
+            page.tab.click("#step-next")
+    assert page.tab.is_disabled("#step-next")
+    page.tab.reload()
+    page.tab.wait_for_selector("#headline:not(:empty)")
+    assert page.tab.input_value("#prediction") == f"{SECRET} {len(STEPS)}"
+    page.tab.click("#step-back")
+    assert page.tab.input_value("#prediction") == f"{SECRET} {len(STEPS) - 1}"
+
+
+def test_a_keyboard_does_a_step_on_a_phone(open_page):
+    page = open_page("#lesson=8", viewport={"width": 390, "height": 844})
+    page.tab.focus("#prediction")
+    page.tab.keyboard.type("h s r ")  # letters of the prediction are no commands
+    assert page.tab.input_value("#prediction") == "h s r "
+    assert page.say("pause") == "Run"
+    for _ in range(2):
+        page.tab.keyboard.press("Tab")
+        page.tab.keyboard.press("Enter")
+    assert read_motion(page.read_run()["events"][-1]).turning_angles[0] == pytest.approx(
+        0.437, abs=5e-4
+    )
+    page.tab.focus("#step-next")
+    page.tab.keyboard.press("Space")
+    assert page.tab.evaluate("document.activeElement.id") == "steps"
+    assert page.say("lesson-predict") == STEPS[8].predict
+    assert page.tab.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_the_tab_opens_the_lesson_at_its_first_step(opened):
+    opened.open_tab("lesson")
+    assert opened.say("lesson-predict") == STEPS[0].predict
+    assert opened.tab.locator(".looked").count() == len(STEPS[0].charts)
+    assert opened.say("pause") == "Run"
+
+
+def test_back_is_the_step_before(open_page):
+    page = open_page("#lesson=2")
+    page.tab.fill("#prediction", "it falls")
+    page.tab.click("#step-next")
+    assert page.tab.input_value("#steps").startswith("3.")
+    page.tab.go_back()
+    page.until(lambda: page.tab.input_value("#steps").startswith("2."))
+    assert page.tab.input_value("#prediction") == "it falls"
+
+
+def test_after_a_reset_the_hurry_of_the_step_works_again(open_page):
+    page = open_page("#lesson=8")
+    start, hurry = page.tab.locator("#lesson-acts button").all()[:2]
+    assert hurry.is_disabled()
+    start.click()
+    hurry.click()
+    assert hurry.is_disabled()  # a second one would not be that of the step
+    page.tab.click("text=Reset")
+    hurry.click()
+    assert "higher" in page.say("headline")
+    page.enter("theta", "1")  # another motion, for which the step has no words
+    page.open_tab("lesson")
+    assert hurry.is_disabled()

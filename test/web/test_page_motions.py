@@ -1,0 +1,131 @@
+"""What is done on the page: starts, kicks and torques are those of Python."""
+
+import math
+
+import numpy as np
+import pytest
+from web.opened import find_time, read_motion, read_state
+
+from symtop_ros.physics import (
+    ExactTimes,
+    Motion,
+    Top,
+    apply_impulse,
+    hurry,
+    kick_verdict,
+    perrys_rule,
+)
+from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.presets import scene_names
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.wording import write
+
+
+def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
+    opened.wait_for_time(0.05)
+    opened.tab.click("#hurry")
+    why = opened.say("why")
+    start, kick = opened.read_run()["events"]
+    before = read_motion(start).at(find_time(start, kick))
+    after = hurry(before, 1.4)
+    assert kick["orientation"] == after.given_orientation.tolist()
+    assert kick["angular_velocity"] == after.angular_velocity.tolist()
+    verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate")
+    assert why == write("kick", verdict)
+    assert opened.say("headline").startswith("The top moves higher than without the kick, by 0.063")
+
+
+def test_a_start_is_judged_as_by_python(opened):
+    opened.tab.fill("#field-theta", "1.1")
+    opened.tab.press("#field-theta", "Enter")
+    start = opened.read_run()["events"][-1]
+    motion = read_motion(start)
+    outcome = {"motion": motion.kind, "verdict": perrys_rule(motion.top, motion.start)}
+    assert motion.start.euler_angles.theta == pytest.approx(1.1, rel=1e-15)
+    assert opened.say("why").startswith(f"{motion.kind}: {write('verdict', outcome['verdict'])}")
+
+
+def test_every_scene_starts_with_the_doubles_of_a_node(opened):
+    for name in scene_names():
+        opened.tab.click("#tab-start")
+        opened.tab.select_option("#scenes", name)
+        opened.tab.click("#start-scene")
+        assert opened.say("refusal") == ""
+        event, motion = (
+            opened.read_run()["events"][-1],
+            start_motion(Settings.from_scene(name)),
+        )
+        assert event["orientation"] == motion.start.given_orientation.tolist()
+        assert event["angular_velocity"] == motion.start.angular_velocity.tolist()
+        assert event["top"] == list(motion.top.moments)
+        assert event["friction"] == [motion.friction.axial, motion.friction.transverse]
+        assert event["torque"] == list(motion.applied_torque)
+
+
+def test_somebody_goes_on_from_an_earlier_moment(opened):
+    opened.wait_for_time(0.03)
+    opened.tab.click("#hurry")
+    first, kick = opened.read_run()["events"]
+    opened.wait_for_time(kick["time"] + 0.02)
+    opened.seek(kick["time"] / 2)
+    assert opened.say("headline").startswith("The top precesses steadily")
+    opened.tab.click("text=Delay")
+    events = opened.read_run()["events"]
+    assert events[0] == first
+    assert len(events) == 2
+    assert events[1]["time"] == pytest.approx(kick["time"] / 2, rel=1e-12)
+
+
+def test_the_series_are_those_of_the_motion(opened, tmp_path):
+    opened.wait_for_time(0.03)
+    opened.tab.click("text=Pause")
+    event = opened.read_run()["events"][0]
+    head, *rows = opened.save("Series (CSV)", tmp_path).read_text().splitlines()
+    assert head == "time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"
+    table = np.array([row.split(",") for row in rows], float)
+    stamps = np.rint(table[:, 0] * 1e9).astype(np.int64)
+    states = read_motion(event).at(ExactTimes(stamps))
+    assert table[:, 1].tolist() == states.euler_angles.theta.tolist()
+    assert table[:, 2] == pytest.approx(states.euler_rates.phi, rel=1e-14)
+
+
+def test_a_torque_acts_while_its_button_is_held(opened):
+    opened.tab.click("#tab-push")
+    button = opened.tab.locator("[data-hold='1']")
+    button.dispatch_event("pointerdown")
+    opened.tab.wait_for_timeout(200)
+    button.dispatch_event("pointerup")
+    opened.tab.wait_for_timeout(700)
+    events = opened.read_run()["events"]
+    torques = [event["torque"] for event in events if event["kind"] == "torque"]
+    assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]]
+
+
+def test_a_push_changes_the_rates_as_it_says(opened):
+    opened.tab.click("text=Pause")
+    opened.tab.click("#tab-push")
+    before = opened.read_run()["events"][-1]
+    opened.tab.click("#tab-push")
+    for way in ("up", "along"):
+        opened.tab.click(f"[data-push={way}]")
+    *_, up, along = opened.read_run()["events"]
+    rates = [read_state(event).euler_rates for event in (before, up, along)]
+    assert rates[1].theta - rates[0].theta == pytest.approx(-1.0, rel=1e-12)
+    assert rates[2].phi - rates[1].phi == pytest.approx(1.0, rel=1e-12)
+    assert math.isclose(along["angular_velocity"][2], up["angular_velocity"][2], rel_tol=1e-15)
+
+
+def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
+    opened.wait_for_time(0.01)
+    opened.tab.click("#hurry")
+    opened.tab.click("#tab-push")
+    for way in ("up", "along"):
+        opened.tab.click(f"[data-push={way}]")
+    _, kick, up, along = opened.read_run()["events"]
+    for event in (kick, up, along):
+        assert round(event["time"] * 1e9) / 1e9 == event["time"]
+    assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+    assert along["act"] == {"precession_rate_change": 1, "hold": "spin_momentum"}
+    before = read_motion(kick).at(find_time(kick, up))
+    after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
+    assert up["angular_velocity"] == after.angular_velocity.tolist()
