@@ -141,7 +141,7 @@ $(VENV)/ros: $(SOURCES) $(VENV)/compiler
 
 $(VENV)/panel: $(SOURCES) $(VENV)/compiler
 	@echo "Setting up .venv: NumPy, SciPy and this package (about 200 MB, once) ..."
-	$(INSTALL) .
+	$(INSTALL) . --no-compile
 	@touch $@
 
 $(VENV)/report: setup.py $(VENV)/ros
