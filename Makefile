@@ -116,7 +116,7 @@ maps: $(VENV)/report  ## where hurrying the precession raises the top
 
 pictures: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium  ## the pictures in docs/ but plots of measurements, and the steps of docs/lesson.md
 	$(WORKSHOP) pictures $(ARGS)
-	@PYTHONPATH=test $(BIN)/python test/panel/draw_page.py $(ARGS)
+	@PYTHONPATH=.:test $(BIN)/python test/web/draw_page.py $(ARGS)
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
 	@$(BIN)/python -m workshop.load.stress $(ARGS)
@@ -145,7 +145,7 @@ $(VENV)/ros: $(SOURCES) $(VENV)/compiler
 
 $(VENV)/panel: $(SOURCES) $(VENV)/compiler
 	@echo "Setting up .venv: NumPy, SciPy and this package (about 200 MB, once) ..."
-	$(INSTALL) .
+	$(INSTALL) . --no-compile
 	@touch $@
 
 $(VENV)/report: setup.py $(VENV)/ros

@@ -1,1 +1,1 @@
-"""What a log says, compared with what follows from its events; for programs that read logs."""
+"""A log compared with what follows from its events. Imported by playback."""

@@ -1,1 +1,1 @@
-"""Client of a running node: `top_ctl` and the connection that other programs use."""
+"""`top_ctl`, and the connection of other programs to a running node. Imported by panel."""

@@ -1,4 +1,4 @@
-"""Records of an inertial sensor on the top, exact or with noise, without ROS."""
+"""`top_imu`: records of an inertial sensor, exact or noisy, without ROS. Nothing imports it."""
 
 from symtop_ros.imu.record import ImuRecord, record_imu
 from symtop_ros.simulation.sensor import CONSUMER, Imu

@@ -1,1 +1,1 @@
-"""`top_judge`: estimates of other programs compared with the exact motion at their stamps."""
+"""`top_judge`: estimates of others compared with the exact motion. Nothing imports it."""

@@ -1,1 +1,1 @@
-"""A running node in Rerun. Needs ROS 2 and Rerun in one environment."""
+"""`top_live`: a running node in Rerun; needs ROS and Rerun. Panel imports its feed."""

@@ -1,1 +1,1 @@
-"""Logs of runs in MCAP files: write, read, check and repair. Needs no ROS and no Rerun."""
+"""Runs in MCAP files, written, read and repaired; without ROS. For session and readers of logs."""

@@ -1,1 +1,1 @@
-"""The top as a model file for other engines."""
+"""The top as a model file for other engines. Imported by session, node, check and judge."""

@@ -39,11 +39,7 @@ def format_sdf(top: Top, start: State, body: Body) -> str:
     SDF places the body; no element of it gives a body its first angular velocity, which therefore
     stands in a comment.
     """
-    w, x, y, z = start.orientation.tolist()
-    local, world = (
-        join(each.tolist())
-        for each in (start.angular_velocity, start.to_world(start.angular_velocity))
-    )
+    pose, local, world = _place(start)
     return f"""<?xml version="1.0"?>
 <!-- {describe_body(top, body)}
      Start of the motion: angular velocity {local} rad/s (frame of the body, and of Drake's ball
@@ -55,7 +51,7 @@ def format_sdf(top: Top, start: State, body: Body) -> str:
       <max_step_size>{STEP!r}</max_step_size>
     </physics>
     <model name="top">
-      <pose rotation_format="quat_xyzw">0 0 0 {join((x, y, z, w))}</pose>
+      <pose rotation_format="quat_xyzw">0 0 0 {pose}</pose>
 {draw_body(body)}
       <joint name="pivot" type="ball">
         <parent>world</parent>
@@ -65,6 +61,14 @@ def format_sdf(top: Top, start: State, body: Body) -> str:
   </world>
 </sdf>
 """
+
+
+def _place(start: State) -> tuple[str, str, str]:
+    """Return the pose of SDF, and the angular velocity in the frames of the body and the world."""
+    w, x, y, z = start.orientation.tolist()
+    rates = start.angular_velocity, start.to_world(start.angular_velocity)
+    local, world = (join(each.tolist()) for each in rates)
+    return join((x, y, z, w)), local, world
 
 
 def draw_body(body: Body) -> str:
@@ -167,11 +171,7 @@ diaginertia="{body.Ix!r} {body.Ix!r} {body.Iz!r}"/>
 
 def format_free_sdf(top: Top, start: State, body: Body) -> str:
     """Return the body as an SDF world without a joint; its angular velocity is in a comment."""
-    w, x, y, z = start.orientation.tolist()
-    local, world = (
-        join(each.tolist())
-        for each in (start.angular_velocity, start.to_world(start.angular_velocity))
-    )
+    pose, local, world = _place(start)
     return f"""<?xml version="1.0"?>
 <!-- {describe_body(top, body)}
      Start of the motion: at rest in the origin, angular velocity {local} rad/s (frame of the
@@ -183,7 +183,7 @@ def format_free_sdf(top: Top, start: State, body: Body) -> str:
       <max_step_size>{STEP!r}</max_step_size>
     </physics>
     <model name="top">
-      <pose rotation_format="quat_xyzw">0 0 0 {join((x, y, z, w))}</pose>
+      <pose rotation_format="quat_xyzw">0 0 0 {pose}</pose>
 {draw_body(body)}
     </model>
   </world>

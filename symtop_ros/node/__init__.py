@@ -1,1 +1,1 @@
-"""The node `top`: parameters, services, publishers and pacing around a simulation."""
+"""`top_node`: parameters, services, publishers and pacing of a session. Nothing imports it."""

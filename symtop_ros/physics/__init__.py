@@ -1,8 +1,9 @@
 """The heavy symmetric top: exact motion, constants, regular precession, kicks and Perry's rule.
 
-It needs NumPy only. A compiled kernel makes it faster where it could be built: then `accelerated`
-is True. Angles are Euler's z-x-z (phi, theta, psi), units are SI and rad, an orientation is a unit
-quaternion (w, x, y, z) from body to world. All names that other code needs are exported here.
+It needs NumPy only. Everything may import it, by the names that are exported here. A compiled
+kernel makes it faster where it could be built: then `accelerated` is True. Angles are Euler's z-x-z
+(phi, theta, psi), units are SI and rad, an orientation is a unit quaternion (w, x, y, z) from body
+to world.
 
 Examples
 --------

@@ -1,1 +1,1 @@
-"""Logs played back in 3D with Rerun. Needs no ROS."""
+"""`top_replay`: logs in 3D with Rerun, without ROS. Imported by live."""

@@ -1,1 +1,1 @@
-"""A run with its requests, its outputs, its log and its diagnostics; needs no ROS."""
+"""A run with requests, outputs, log and diagnostics; without ROS. For its hosts, and check."""

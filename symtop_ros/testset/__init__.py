@@ -1,1 +1,1 @@
-"""Seventy motions of heavy tops to 30 digits, for authors of engines; needs NumPy only."""
+"""Seventy motions of heavy tops to 30 digits, packed, and their scorers. For judge."""

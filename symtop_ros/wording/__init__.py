@@ -2,7 +2,7 @@
 
 A record is data: a dataclass of numbers, words, other records and tuples of these. `write` is the
 only place where a sentence is made. The templates and the rule are few enough for a second program,
-in another language, to write the same letters.
+in another language, to write the same letters. Everything may import it.
 """
 
 from symtop_ros.wording.templates import Variant, write

@@ -6,7 +6,7 @@ import math
 import random
 from collections.abc import Sequence
 
-from physics.driven_motion import DrivenTop
+from physics.taylor_motion import TaylorMotion
 from physics.tops import ARTICLE
 
 from symtop_ros.physics import Friction, Motion, State, Top
@@ -54,11 +54,10 @@ class DrivenCase:
 
     def solve(self):
         """Return the exact states at the two times."""
-        driven = DrivenTop(
-            self.top.moments, (self.friction.axial, self.friction.transverse), self.torque
-        )
         given = self.start.given_orientation.tolist(), self.start.angular_velocity.tolist()
-        return driven.states_at(*given, self.times)
+        friction = self.friction.axial, self.friction.transverse
+        driven = TaylorMotion(self.top.moments, *given, friction=friction, torque=self.torque)
+        return [driven.state_at(t) for t in self.times]
 
     def use_random_top(self) -> None:
         draw = self.random

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.driven_motion import DrivenTop
 from physics.exact_motion import Inputs, exact_motion
 from physics.refusals import refused
+from physics.taylor_motion import TaylorMotion
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
 
@@ -86,13 +86,12 @@ def test_friction_and_an_applied_torque_count_in_the_acceleration():
         friction = Friction(*(random.uniform(0, 3, size=2) * top.Iz))
         torque = random.normal(size=3) * top.Ix * 10
         motion = Motion(top, state, friction, torque)
-        driven = DrivenTop(
-            top.moments, (friction.axial, friction.transverse), motion.applied_torque
+        given = state.given_orientation.tolist(), state.angular_velocity.tolist()
+        coefficients = friction.axial, friction.transverse
+        driven = TaylorMotion(
+            top.moments, *given, friction=coefficients, torque=motion.applied_torque
         )
-        q, omega = state.given_orientation.tolist(), state.angular_velocity.tolist()
-        errors.append(
-            compare(motion, lambda t, d=driven, q=q, o=omega: d.state_at(q, o, t)[0], position)
-        )
+        errors.append(compare(motion, lambda t, d=driven: d.state_at(t)[0], position))
     assert max(errors) < ACCELERATION
 
 

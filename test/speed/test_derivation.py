@@ -1,6 +1,5 @@
 """docs/closed_form.py, written from docs/derivation.md alone, and the package are the same."""
 
-import json
 import math
 import runpy
 import subprocess
@@ -11,12 +10,12 @@ import pytest
 from mpmath import mp, mpf
 
 from symtop_ros.physics import Motion, State, Top
-from workshop.speed.reference import EPS, FILE, Reference
+from workshop.speed.reference import EPS, Reference, read_entries
 
 pytestmark = pytest.mark.untraced
 SCRIPT = Path(__file__).parents[2] / "docs" / "closed_form.py"
 DERIVED = runpy.run_path(str(SCRIPT))["motion"]
-STORED = json.loads(FILE.read_text())
+STORED = read_entries()
 REFERENCE = Reference.read()
 UPSIDE_DOWN = State((0.0, 1.0, 0.0, 0.0), (2.0, 0.0, 0.0))  # rad/s
 SPINNING = State.from_euler(theta=1.0, phi_dot=1.0, psi_dot=3.0)

@@ -1,7 +1,5 @@
 """The reference of the report agrees with independent formulas in mpmath."""
 
-import json
-import lzma
 from itertools import pairwise
 
 import numpy as np
@@ -12,7 +10,7 @@ from physics.exact_motion import Inputs, error_and_limit, exact_motion
 from speed.write_reference import DIGITS, TIMES, article, driven_entry, hard_cases
 
 from symtop_ros.physics import Motion, State
-from workshop.speed.reference import EPS, FILE, FRICTION, Reference
+from workshop.speed.reference import EPS, FRICTION, Reference, read_entries
 
 pytestmark = pytest.mark.untraced
 
@@ -35,7 +33,7 @@ HEYOKA = {
     "mixed": (7.2e-15, 6.6e-14),
     "tumbling": (1.1e-14, 2.8e-14),
 }
-ENTRIES = json.loads(lzma.decompress(FILE.read_bytes()))
+ENTRIES = read_entries()
 
 
 def exact(data, k):

@@ -13,7 +13,7 @@ PROBLEM = Reference.read().article[0]
 def make_peer(errors, seconds):
     """Return a peer with a given error (rad) and given seconds for each setting, from 1 down."""
     settings = [10.0**-k for k in range(len(errors))]
-    high, low = PROBLEM._motion.at([1.0])
+    high, low = PROBLEM._motion.doubles_at([1.0])
 
     def prepare(task, setting):
         number = settings.index(setting)

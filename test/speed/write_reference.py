@@ -14,8 +14,8 @@ from typing import Any
 
 from mpmath import mp
 from physics.driven_families import DrivenCase, list_cases
-from physics.driven_motion import DrivenTop
 from physics.exact_motion import Inputs, error_and_limit, exact_motion
+from physics.taylor_motion import TaylorMotion
 
 from symtop_ros.physics import Friction, State, Top, regular_precession_rates
 from workshop.article.motions import RATES, THETA, TOP, start
@@ -84,8 +84,9 @@ def entry(
     """Return the entry of a motion in the file."""
     q, omega = (part.tolist() for part in state.parts)
     if friction:
-        body = DrivenTop(top.moments, (friction.axial, friction.transverse), (0, 0, 0))
-        exact, limits = [body.state_at(q, omega, t) for t in times], None
+        coefficients = friction.axial, friction.transverse
+        driven = TaylorMotion(top.moments, q, omega, friction=coefficients)
+        exact, limits = [driven.state_at(t) for t in times], None
     else:
         inputs = Inputs.of(*top.moments, q, omega)
         exact = [exact_motion(inputs, t) for t in times]

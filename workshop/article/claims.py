@@ -8,6 +8,8 @@ from typing import ParamSpec
 
 import numpy as np
 
+from symtop_ros.arrays import Real
+
 WIDTH = 96  # characters in a line
 Arguments = ParamSpec("Arguments")
 # Characters that Markdown would read as cell borders or emphasis
@@ -46,6 +48,11 @@ def claim(check: Callable[Arguments, Claim]) -> Callable[Arguments, Claim]:
             return Claim(sentence, f"cannot be measured: {reason}", holds=False)
 
     return attempt
+
+
+def differ(found: Real, expected: Real) -> float:
+    """Return the largest difference of two arrays, as a part of the largest number expected."""
+    return float(np.abs(found - expected).max() / np.abs(expected).max())
 
 
 def table(claims: Sequence[Claim]) -> str:

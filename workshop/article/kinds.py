@@ -14,7 +14,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, claim, differ
 from workshop.article.motions import (
     FAST,
     HANGING_DISC,
@@ -79,7 +79,7 @@ def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
     partner = SLOW + FAST - phi_dot
     motions = [Motion(top, start(rate)) for rate in (phi_dot, partner)]
     first, second = (accelerations(top, motion.at([0.0]))[0] for motion in motions)
-    off = float(np.abs(first - second).max() / np.abs(first).max())
+    off = differ(second, first)
     kinds = [motion.kind for motion in motions]
     lowest = [motion.turning_angles[1] for motion in motions]
     return Claim(

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Body, Motion, Top
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, claim, differ
 from workshop.article.motions import FAST, SLOW, cusps, slope, start
 
 EQUATION = "F = M (a + g z'), a = alpha x r + omega x (omega x r)"
@@ -48,7 +48,7 @@ def force_accelerates_the_mass(motion: Motion) -> Claim:
 
     expected = body.mass * (slope(velocity, times).values + np.array([0.0, 0.0, body.gravity]))
     forces = body.pivot_force(motion, motion.at(times))
-    off = float(np.abs(forces - expected).max() / np.abs(expected).max())
+    off = differ(forces, expected)
     return Claim(
         "The pivot must accelerate the centre of mass and carry the weight: a second force, of "
         "which the equations of motion about the pivot say nothing.",

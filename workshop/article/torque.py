@@ -8,7 +8,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, claim, differ
 from workshop.article.motions import FAST, SLOW, cusps, regular, slope, start
 
 COUNT, SEED = 500, 20210329  # random states, the same every time
@@ -113,7 +113,7 @@ def fixed_frame_agrees_with_euler(top: Top) -> Claim:
     # d(omega)/dt is the same vector in both frames, because omega x omega = 0.
     vectors = states.to_world(omega)[..., None], states.to_world(alpha)[..., None]
     fixed = (inertia_change(top, states) @ vectors[0] + inertia @ vectors[1])[..., 0]
-    off = float(np.abs(fixed - euler).max() / np.abs(euler).max())
+    off = differ(fixed, euler)
     return Claim(
         "dL/dt in the fixed frame, written out with I' and dI'/dt, is the same as Euler's "
         "equations.",
@@ -180,7 +180,7 @@ def _imbalance(motion: Motion) -> float:
     states = motion.at(TIMES)
     L, torque = motion.top.angular_momentum(states), motion.top.gravity_torque(states)
     turning = np.asarray(states.euler_rates.phi)[:, None] * np.cross(UP, L)
-    return float(np.abs(turning - torque).max() / np.abs(torque).max())
+    return differ(turning, torque)
 
 
 @claim

@@ -17,13 +17,21 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Friction, State, Top
 from symtop_ros.testset.score import measure_angles, read_problems, split_decimals
-from workshop.speed.peers.peer import NO_FRICTION, NO_TORQUE, Task
-from workshop.speed.taylor import TaylorMotion
+from workshop.speed.peers.peer import NO_FRICTION, NO_TORQUE, Task, initial_values
+from workshop.taylor import TaylorMotion
 
 FILE = Path(__file__).with_name("reference.json.xz")
 FRICTION = Friction(axial=2e-6, transverse=1e-5)  # of the article's top with friction, N m s
 EPS = 2.0**-52
+DIGITS = 32  # of an integration
 PARTS = "article", "hard", "driven"
+
+
+def integrate(task: Task) -> TaylorMotion:
+    """Return the motion of a task by Taylor series, to more than 20 digits."""
+    friction = task.friction.axial, task.friction.transverse
+    *q, wx, wy, wz = initial_values(task)
+    return TaylorMotion(task.top.moments, q, (wx, wy, wz), DIGITS, friction, task.torque)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +68,15 @@ class ReferenceMotion:
     def errors(self, times: ArrayLike, orientations: ArrayLike) -> Real:
         """Return the errors (n,) in rad at any times (n,) in s, which are taken as exact.
 
-        The exact motion comes from `TaylorMotion`. It is computed as far as is asked for, at a
+        The exact motion comes from a Taylor series. It is computed as far as is asked for, at a
         third of a second for a second of the article's top, and kept.
         """
-        exact = self._motion.at(np.asarray(times, dtype=float))
+        exact = self._motion.doubles_at(np.asarray(times, dtype=float).tolist())
         return measure_angles(np.asarray(orientations, dtype=float), *exact)
 
     @cached_property
     def _motion(self) -> TaylorMotion:
-        return TaylorMotion(self.task)
+        return integrate(self.task)
 
     def limit(self, t: float) -> float:
         """Return the limit in rad at one of the times; 0 if it is unknown."""
@@ -88,8 +96,14 @@ class Reference:
     @classmethod
     def read(cls) -> "Reference":
         """Read the file that is shipped with the package."""
-        data = json.loads(lzma.decompress(FILE.read_bytes()))
+        data = read_entries()
         return cls(**{part: [ReferenceMotion.read(each) for each in data[part]] for part in PARTS})
+
+
+def read_entries() -> dict[str, list[dict[str, Any]]]:
+    """Return the entries of reference.json by its parts."""
+    entries: dict[str, list[dict[str, Any]]] = json.loads(lzma.decompress(FILE.read_bytes()))
+    return entries
 
 
 def read_testset() -> list[ReferenceMotion]:

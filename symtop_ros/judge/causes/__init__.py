@@ -1,1 +1,1 @@
-"""What explains the errors of estimates: conventions, rotations, delays, drifts and clocks."""
+"""What explains errors of estimates: conventions, rotations, delays, drifts, clocks. For judge."""

@@ -1,1 +1,1 @@
-"""Derivatives of a motion by its top and its start; imported by `Motion` alone."""
+"""Derivatives of a motion by its top and its start. Imported by `Motion` alone."""

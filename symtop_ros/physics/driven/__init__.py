@@ -1,1 +1,1 @@
-"""The motion with friction or an applied torque, as Taylor series in time."""
+"""Motion with friction or an applied torque, as Taylor series. Imported by `Motion` alone."""

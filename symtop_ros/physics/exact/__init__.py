@@ -1,1 +1,1 @@
-"""The exact motion under gravity: closed form, free motion, and the numbers of 50 digits."""
+"""Exact motion under gravity, and numbers of 50 digits. Imported inside physics only."""

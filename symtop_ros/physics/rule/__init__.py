@@ -1,1 +1,1 @@
-"""Perry's rule for a state, a kick and a map, and the verdicts; above the rest of physics."""
+"""Perry's rule for a state, a kick and a map, and the verdicts. Above the rest of physics."""

@@ -1,1 +1,1 @@
-"""The 3D scene and its plots in Rerun: entities, geometry and layout."""
+"""The 3D scene in Rerun: entities, geometry, plots, layout. For playback and live."""

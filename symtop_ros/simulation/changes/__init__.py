@@ -1,1 +1,1 @@
-"""Changes of a run: starts and kicks that are asked for, the timeline, and the outcomes."""
+"""Starts and kicks that are asked for, the timeline, and the outcomes. For all above."""

@@ -6,7 +6,6 @@ from fractions import Fraction
 
 import numpy as np
 from mpmath import mp, mpf
-from physics.driven_motion import DrivenTop
 from physics.taylor_motion import TaylorMotion
 
 DIGITS = 70
@@ -32,8 +31,9 @@ def differentiate_driven(motion, times):
     friction = motion.friction.axial, motion.friction.transverse
 
     def follow(moments, orientation, omega):
-        exact = DrivenTop(moments, friction, motion.applied_torque)
-        return exact.states_at(orientation, omega, times)
+        drive = {"friction": friction, "torque": motion.applied_torque}
+        exact = TaylorMotion(moments, orientation, omega, 40, **drive)
+        return [exact.state_at(t) for t in times]
 
     return _differentiate(motion, follow, DRIVEN_STEP, 50)
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.driven_families import FAMILIES, DrivenCase
-from physics.driven_motion import DrivenTop
 from physics.refusals import NOT_TOO_FAST, VECTOR, refused
+from physics.taylor_motion import TaylorMotion
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, random_states
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
@@ -32,8 +32,10 @@ DRIVES = {
 
 def exact(top, start, friction, torque, t):
     """The state at t as doubles, from 30 digits."""
-    driven = DrivenTop(top.moments, (friction.axial, friction.transverse), torque)
-    q, omega = driven.state_at(start.given_orientation, start.angular_velocity, t)
+    given = start.given_orientation.tolist(), start.angular_velocity.tolist()
+    coefficients = friction.axial, friction.transverse
+    driven = TaylorMotion(top.moments, *given, friction=coefficients, torque=torque)
+    q, omega = driven.state_at(t)
     return State([float(c) for c in q], [float(c) for c in omega])
 
 

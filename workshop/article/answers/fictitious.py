@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, claim, differ
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 
 PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
@@ -87,7 +87,7 @@ def body_frame_has_one(top: Top) -> Claim:
     omega = state.angular_velocity
     summed = masses @ np.cross(places, -np.cross(omega, np.cross(omega, places)))
     expected = -np.cross(omega, top.body_angular_momentum(state))
-    off = float(np.abs(summed - expected).max() / np.abs(expected).max())
+    off = differ(summed, expected)
     return Claim(
         "In the frame of the body the Coriolis torque is zero, since nothing moves there, and the "
         "centrifugal torque is the term -omega x L of Euler's equations.",

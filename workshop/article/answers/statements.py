@@ -4,7 +4,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, claim, differ
 from workshop.article.motions import FAST, SLOW, THETA, accelerations, cusps, slope, start
 from workshop.article.nutation import horizontal_square
 from workshop.article.torque import draw_states
@@ -71,7 +71,7 @@ def lagrangian_gives_the_same(top: Top) -> Claim:
 
     moments = slope(momenta, np.zeros(1), SHORT).values
     forces = _slopes(top, angles, rates, by_rate=False)
-    off = float(np.abs(moments - forces).max() / np.abs(forces).max())
+    off = differ(moments, forces)
     return Claim(
         "Lagrange's equations give the same accelerations.",
         f"on {rates.shape[1]} random states d/dt of the momenta and the generalized forces differ "
