@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean FORCE
+.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -36,10 +36,16 @@ test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/tes
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
-	@rm -f .venv/coverage/data*
-	@$(BIN)/python test/groups.py --coverage
+	@rm -rf .venv/coverage
+	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
+	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
+
+coverage-js: $(VENV)/test $(VENV)/chromium  ## coverage of the lines of the page's modules, of which 90 % are asked (4 minutes)
+	@rm -rf $(VENV)/coverage/page
+	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python -m pytest -q -m "not long" test/web test/panel
+	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
 
 test-nodes: $(VENV)/test $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
 test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, judge, article

@@ -102,7 +102,7 @@ def _order(name: str, ordered: list[str]) -> None:
 
 
 def _write_function(name: str) -> str:
-    text = _drop_comments((MODULES / name).read_text(encoding="utf-8"))
+    text = drop_comments((MODULES / name).read_text(encoding="utf-8"))
     names = [found for _, found in EXPORT.findall(text)]
     text = IMPORT.sub(lambda m: f"const {{{m[1]}}} = module_{m[2]};\n", text)
     text = EXPORT.sub(r"\1 \2", text)
@@ -110,7 +110,7 @@ def _write_function(name: str) -> str:
     return f"const module_{stem} = (() => {{\n{text}return {{ {', '.join(names)} }};\n}})();"
 
 
-def _drop_comments(text: str) -> str:
+def drop_comments(text: str) -> str:
     """Return a module without the comments that fill whole lines: they are for its readers."""
     text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
     return re.sub(r"^ *//[^\n]*\n", "", text, flags=re.M)
