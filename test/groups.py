@@ -105,6 +105,12 @@ def check(*words: str) -> Command:
     return Command((str(BIN / words[0]), *words[1:]), ())
 
 
+def check_page(what: str) -> Command:
+    """Return the command that checks the page's modules."""
+    script = Path(__file__).with_name("check_js.sh")
+    return Command(("sh", str(script), str(Path(sys.prefix, "js")), what), ())
+
+
 def list_groups(trace: bool) -> dict[str, list[Command]]:
     """Return the commands of each group, by its name; with `trace` coverage is measured."""
 
@@ -121,6 +127,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "lint": [
             *(check("ruff", "check"), check("ruff", "format", "--check")),
             *(check("codespell"), check("mypy")),
+            *(check_page("style"), check_page("types")),
         ],
         "realtime": [run("-m", "realtime and not long", *REALTIME)],
     }

@@ -23,8 +23,9 @@ from workshop import demo
 from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
 
-# All that a user must have set; the home cannot be written to.
-BARE = {"HOME": "/dev/null", "PATH": os.defpath}
+# All that a user must have set; the home cannot be written to. `make demo` runs in the checkout,
+# where Python finds the workshop by itself.
+BARE = {"HOME": "/dev/null", "PATH": os.defpath, "PYTHONPATH": str(Path(__file__).parents[1])}
 
 
 @contextlib.contextmanager

@@ -43,6 +43,14 @@ def test_pages_load_nothing_from_a_network(site):
             assert (page.parent / address.partition("?")[0].partition("#")[0]).exists(), address
 
 
+def test_the_pages_of_the_library_and_the_article_have_a_live_top(site):
+    for name, opened in (("library", "theta=0.5"), ("article", "scene=cusps")):
+        page = (site / "docs" / f"{name}.html").read_text()
+        (frame,) = re.findall(r'<iframe src="\.\./top\.html#([^"]+)"', page)
+        assert frame.startswith(opened)
+    assert '<a href="../top.html#scene=disc">' in page
+
+
 def test_formulas_are_left_to_mathjax(site):
     page = (site / "docs" / "derivation.html").read_text()
     assert "mathjax" in page

@@ -12,6 +12,17 @@ from symtop_ros import __version__
 
 ROOT = Path(__file__).parents[2]
 FOLDER_LINK = re.compile(r"\[([^\]]+)\]\(([^)#:]+)\)")
+TOP_LINK = re.compile(r"\[([^\]]+)\]\((\.\./top\.html[^)]*)\)")
+# Documents with a live top before their first section, and what it shows. `make docs` writes the
+# page next to the site.
+LIVE = {"docs/library": "theta=0.5&psi_dot=200", "docs/article": "scene=cusps"}
+FRAME = """
+```{{raw}} html
+<iframe src="../top.html#{}" title="A top to play with" loading="lazy"
+  style="width: 100%; height: 640px; border: 1px solid #8884; border-radius: 8px"></iframe>
+```
+
+## """
 
 project = "symtop_ros"
 author = "The symtop_ros authors"
@@ -46,6 +57,14 @@ def _unlink_folders(_: Sphinx, page: str, source: list[str]) -> None:
     source[0] = FOLDER_LINK.sub(replace, source[0])
 
 
+def _show_top(_: Sphinx, page: str, source: list[str]) -> None:
+    """Let links lead to the page of the site, which is no document, and show it where it is live."""
+    text = TOP_LINK.sub(r'<a href="\2">\1</a>', source[0])
+    if page in LIVE:
+        text = text.replace("\n## ", FRAME.format(LIVE[page]), 1)
+    source[0] = text
+
+
 def _escape_bars(*arguments: Any) -> None:
     """Keep |x| an absolute value: reStructuredText would look for a substitution named x."""
     lines: list[str] = arguments[-1]
@@ -64,5 +83,6 @@ def _skip_aliases(*arguments: Any) -> bool | None:
 def setup(app: Sphinx) -> None:
     """Connect what this file adds to Sphinx."""
     app.connect("source-read", _unlink_folders)
+    app.connect("source-read", _show_top)
     app.connect("autodoc-process-docstring", _escape_bars)
     app.connect("autodoc-skip-member", _skip_aliases)

@@ -1,1 +1,1 @@
-"""`top_panel`: a page in the browser to play with a top. Needs no ROS, and viser."""
+"""`top_panel`: the page as a file, served, or of a running node; only the programs import it."""

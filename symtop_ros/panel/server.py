@@ -14,6 +14,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from socketserver import TCPServer
 from typing import Any, Protocol
 from urllib.parse import urlsplit
 
@@ -46,11 +47,10 @@ class PageServer(ThreadingHTTPServer):
     """A server of one page, on one address and port; `node` is asked for by its pages."""
 
     daemon_threads = True
-    is_ending = False
 
     def __init__(self, host: str, port: int, page: str, node: Node | None = None) -> None:
         self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
-        self.page, self.node = page.encode(), node
+        self.page, self.node, self.is_ending = page.encode(), node, False
         self.packed = gzip.compress(self.page, mtime=0)
         self.names = {host, *LOCAL_NAMES, socket.gethostname()}
         super().__init__((host, port), PageHandler)
@@ -58,9 +58,7 @@ class PageServer(ThreadingHTTPServer):
 
     def server_bind(self) -> None:
         """Bind without a look-up of the name of the host, which takes seconds without a network."""
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        self.socket.bind(self.server_address)
-        self.server_address = self.socket.getsockname()
+        TCPServer.server_bind(self)
 
     def shutdown(self) -> None:
         """End the server, and with it the pages' connections."""

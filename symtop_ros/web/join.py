@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.initial import ANGLES, RATES, start_motion
 from symtop_ros.simulation.presets import describe_scenes
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import read_lesson
@@ -21,6 +21,7 @@ from symtop_ros.wording.templates import TEMPLATES
 FOLDER = Path(__file__).parent
 MODULES = FOLDER / "js"
 MAIN = "start.js"
+STARTS = (*ANGLES, *RATES)
 IMPORT = re.compile(r'^import \{([^}]*)\} from "\./(\w+)\.js";\n', re.M)
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
 # Nothing is loaded from anywhere, whatever a saved run holds. A page of a node has its server.
@@ -67,8 +68,11 @@ def collect_content() -> dict[str, Any]:
 
 def _read_values(name: str) -> dict[str, Any]:
     """Return the motion of a scene, in the exact doubles with which a node starts it."""
-    motion = start_motion(Settings.from_scene(name))
+    settings = Settings.from_scene(name)
+    motion, initial = start_motion(settings), dataclasses.asdict(settings.initial)
     return {
+        # what a link that names the scene leaves open
+        "initial": {} if initial["orientation"] else {each: initial[each] for each in STARTS},
         "top": motion.top.moments,
         "friction": (motion.friction.axial, motion.friction.transverse),
         "torque": motion.applied_torque,
@@ -98,7 +102,7 @@ def _order(name: str, ordered: list[str]) -> None:
 
 
 def _write_function(name: str) -> str:
-    text = _drop_comments((MODULES / name).read_text(encoding="utf-8"))
+    text = drop_comments((MODULES / name).read_text(encoding="utf-8"))
     names = [found for _, found in EXPORT.findall(text)]
     text = IMPORT.sub(lambda m: f"const {{{m[1]}}} = module_{m[2]};\n", text)
     text = EXPORT.sub(r"\1 \2", text)
@@ -106,7 +110,7 @@ def _write_function(name: str) -> str:
     return f"const module_{stem} = (() => {{\n{text}return {{ {', '.join(names)} }};\n}})();"
 
 
-def _drop_comments(text: str) -> str:
+def drop_comments(text: str) -> str:
     """Return a module without the comments that fill whole lines: they are for its readers."""
     text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
     return re.sub(r"^ *//[^\n]*\n", "", text, flags=re.M)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from matplotlib.figure import Figure
-from panel import draw_page
+from web import draw_page
 from PIL import Image
 
 from workshop.pictures import documents, replay
@@ -50,4 +50,4 @@ def test_every_picture_is_shown_by_a_document():
 def test_make_draws_all_of_them():
     rule = (ROOT / "Makefile").read_text().split("\npictures:")[1].split("\n\n")[0]
     assert "$(WORKSHOP) pictures" in rule
-    assert "test/panel/draw_page.py" in rule
+    assert "test/web/draw_page.py" in rule

@@ -12,8 +12,10 @@ from pathlib import Path
 
 import pytest
 from log_files import LAYOUTS, Run
+from simulation.test_run_file import make_run
 
 from symtop_ros.playback import main as module
+from symtop_ros.simulation.run_file import write_run
 from symtop_ros.simulation.topics import STATE_TOPICS
 from symtop_ros.wire.messages import decode_messages
 
@@ -187,16 +189,56 @@ def test_a_log_with_any_flipped_bit_is_status_1_or_agrees_in_every_bit(tmp_path,
     assert wrong > 5  # more than half of so short a log are indexes and descriptions
 
 
+def read_page(path):
+    """The run in a page."""
+    found = re.search(r"window\.TOP_CONTENT\.run = (.*?);/\*END\*/", path.read_text())
+    return json.loads(found[1])
+
+
 def test_a_log_is_saved_as_a_page(log, tmp_path, capsys):
-    pytest.importorskip("viser")
     path = tmp_path / "run.html"
     assert module.main([str(log), "--save", str(path)]) == 0
     assert capsys.readouterr().out == f"wrote {path}; open it in a browser\n"
-    data = json.loads(re.search(r"window.SAVED_RUN = (.*);\n", path.read_text())[1])
-    times = [row[0] for row in data["rows"]]
-    assert len(times) > 5
-    assert times == sorted(times)
-    assert all(facts["headline"] for _, facts, _, _ in data["facts"])
+    run = read_page(path)
+    assert [event["kind"] for event in run["events"]][:2] == ["start", "kick"]
+    assert run["end"] > run["events"][-1]["time"]
+
+
+@pytest.fixture(name="run_file")
+def _run_file(tmp_path):
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps(write_run(make_run(), 3_000_000_000)))
+    return path
+
+
+def test_a_run_of_the_page_is_checked_saved_and_becomes_a_log(run_file, capsys):
+    log, page, again = (run_file.with_name(name) for name in ("run.mcap", "run.html", "again.html"))
+    assert module.main([str(run_file), "--check"]) == 0
+    assert module.main([str(run_file), "--mcap", str(log), "--rate", "50"]) == 0
+    assert module.main([str(log), "--check"]) == 0
+    assert module.main([str(run_file), "--save", str(page)]) == 0
+    assert module.main([str(log), "--save", str(again)]) == 0
+    assert capsys.readouterr().err == ""
+    events = json.loads(run_file.read_text())["events"]
+    assert read_page(page)["events"] == read_page(again)["events"] == events
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ["--mcap", "run.log"],
+            "--mcap must be a name that ends in .mcap in a folder, got run.log",
+        ),
+        (["--mcap", "run.mcap", "--rate", "5000"], "--rate must be 1 to 2000 Hz, got 5000.0"),
+        (["x.mcap", "--mcap", "run.mcap"], "a run of the page must be one file, got 2"),
+    ],
+)
+def test_a_log_that_cannot_be_made_is_one_message(words, message, run_file, capsys, monkeypatch):
+    monkeypatch.chdir(run_file.parent)
+    assert module.main(["run.json", *words]) == 1
+    assert capsys.readouterr().err == f"top_replay: {message}\n"
+    assert [path.name for path in run_file.parent.iterdir()] == ["run.json"]
 
 
 def test_a_page_that_cannot_be_written_is_one_line(log, tmp_path, capsys):

@@ -1,16 +1,31 @@
 """A browser for all tests of the page, and the page in it."""
 
+from pathlib import Path
+
 import pytest
 from browser import running_browser
+from web.modules import load_kernel, open_tab
 from web.opened import Opened
 
 from symtop_ros.web.join import write_file
+
+SCRIPT = Path(__file__).with_name("judge_cases.js").read_text()
 
 
 @pytest.fixture(scope="session")
 def browser():
     with running_browser() as running:
         yield running
+
+
+@pytest.fixture(scope="module")
+def tab(browser):
+    """A tab in which each module can be imported, with a kernel, and `judgeCases`."""
+    tab = open_tab(browser)
+    load_kernel(tab)
+    tab.add_script_tag(content=SCRIPT)
+    yield tab
+    tab.close()
 
 
 @pytest.fixture(scope="session")

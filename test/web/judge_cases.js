@@ -3,7 +3,7 @@
 const toRecord = (value) =>
   JSON.parse(JSON.stringify(value, (_, each) => (Object.is(each, -0) ? 0 : each)));
 
-async function judgeCases(cases) {
+window.judgeCases = async (cases) => {
   const { State } = await import("/state.js");
   const kicks = await import("/kicks.js");
   const { judge, judgeKick } = await import("/verdict.js");
@@ -49,4 +49,4 @@ async function judgeCases(cases) {
       energy: potential.energy,
     });
   });
-}
+};

@@ -3,11 +3,8 @@
 import dataclasses
 import math
 import random
-from pathlib import Path
 
 import numpy as np
-import pytest
-from web.modules import load_kernel, open_tab
 
 from symtop_ros.physics import (
     EffectivePotential,
@@ -27,18 +24,8 @@ from symtop_ros.physics.values import EPS
 from symtop_ros.session.summary import constants_of_motion
 from symtop_ros.wording import write
 
-SCRIPT = Path(__file__).with_name("judge_cases.js").read_text()
 HOLDS = "spin_rate", "spin_momentum"
 ARTICLE = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": 0.068}
-
-
-@pytest.fixture(scope="module")
-def tab(browser):
-    tab = open_tab(browser)
-    load_kernel(tab)
-    tab.add_script_tag(content=SCRIPT)
-    yield tab
-    tab.close()
 
 
 def list_cases(count):

@@ -2,7 +2,7 @@
 
 import { applyImpulse, hurry, setPrecessionRate } from "./kicks.js";
 import { Course, NANO } from "./course.js";
-import { createStart, findScene, readLink, readScene } from "./links.js";
+import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 
 /** @typedef {import("./local.js").LocalTop} LocalTop */
 /** @typedef {import("./state.js").State} State */
@@ -10,6 +10,7 @@ import { createStart, findScene, readLink, readScene } from "./links.js";
 /** @typedef {import("./kicks.js").Hold} Hold */
 /** @typedef {import("./links.js").Beginning} Beginning */
 /** @typedef {{[name: string]: any}} Message */
+/** @typedef {(top: LocalTop, message: Message) => void} Act */
 
 const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
@@ -110,6 +111,16 @@ const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
   begin(top, { ...top.course, start });
 };
 
+/** A start with the rates of now, in another direction of the axis. @type {Act} */
+const tilt = (top, { theta, phi }) => {
+  const { psi_dot, phi_dot } = describeStart(top.state);
+  const { psi } = top.state.angles;
+  begin(top, {
+    ...top.course,
+    start: createStart(top.course.top, { theta, phi, psi, phi_dot, psi_dot }),
+  });
+};
+
 /** @param {LocalTop} top @param {Message} message */
 const chooseScene = (top, { name }) => {
   const scene = findScene(top.content.scenes, name);
@@ -154,8 +165,6 @@ const step = (top) => {
   top.step(Math.round(length * NANO));
 };
 
-/** @typedef {(top: LocalTop, message: Message) => void} Act */
-
 /** What makes an event: what came later is no longer part of the run. @type {{[act: string]: Act}} */
 const EVENTS = {
   kick,
@@ -167,12 +176,14 @@ const EVENTS = {
   scene: chooseScene,
   set: setParameter,
   start: startWith,
+  tilt,
   torque: (top, { sign }) => holdTorque(top, sign),
 };
 
 /** What only changes what is shown. @type {{[act: string]: Act}} */
 const VIEWS = {
   step,
+  keep: (top, { kept }) => top.keep(kept),
   load: (top, { run }) => top.load(run),
   pause: (top) => top.setRunning(!top.isRunning),
   rest: (top) => top.setRunning(false),

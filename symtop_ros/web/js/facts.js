@@ -1,8 +1,11 @@
 // What the page says and plots of a run: sentences, rates, roots, the potential.
 
 import { NANO } from "./course.js";
+import { findLedger, findRest } from "./energies.js";
 import { findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
+import { findTurning } from "./kinds.js";
+import { describeStart } from "./links.js";
 import { EffectivePotential } from "./potential.js";
 import { findRegularRates } from "./precession.js";
 
@@ -41,14 +44,6 @@ export const chooseWindow = ({ motion }) => {
   const turn = rate ? (2 * Math.PI) / Math.abs(rate) : Infinity;
   const shown = Math.min(Number.isNaN(turn) ? Infinity : turn, TRACE_NUTATIONS * period);
   return Number.isFinite(shown) ? Math.min(Math.max(shown, 0.05), 30) : 5;
-};
-
-/** Tilt and rates; on the vertical all of the spin is psi'. @param {State} state */
-export const describeStart = (state) => {
-  if (state.isVertical) return { theta: state.angles.theta, phi_dot: 0, psi_dot: state.omega[2] };
-  const round = (/** @type {number} */ x) => Math.round(x * 1e6) / 1e6;
-  const { phi, psi } = state.rates;
-  return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
 };
 
 /**
@@ -121,6 +116,15 @@ const writeLink = ({ top, friction, start }) => {
     .join("&");
 };
 
+/** The record of the ledger, in mJ. @param {Moment} moment */
+const nameLedger = (moment) => {
+  const ledger = findLedger(moment);
+  if (!ledger) return { kind: "none" };
+  const { kick, far, point } = ledger;
+  const { weight, precession } = far;
+  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
+};
+
 /**
  * All that holds for the motion after the last event.
  * @param {Run} run
@@ -163,6 +167,10 @@ export const describe = (run, writer, time) => {
     ),
     table: listRates(course.free),
     link: writeLink(course),
+    ledger: findLedger(announced),
+    energies: writer.write("ledger", nameLedger(announced)),
+    turning: findTurning(course),
+    body: course.top,
     isFresh: moment.kind === "start",
   };
 };

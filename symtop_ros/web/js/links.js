@@ -7,9 +7,14 @@ import { State } from "./state.js";
 /** @typedef {import("./precession.js").Top} Top */
 /**
  * @typedef {{name: string, title: string, story: string, top: Vector, friction: [number, number],
- *   torque: Vector, orientation: import("./state.js").Quaternion, angular_velocity: Vector}} SceneFile
+ *   torque: Vector, orientation: import("./state.js").Quaternion, angular_velocity: Vector,
+ *   initial: {[name: string]: number}}} SceneFile
  */
-/** @typedef {{top: Top, friction: [number, number], start: State}} Beginning */
+/**
+ * The angles and rates of a scene are what a link that names it leaves open.
+ * @typedef {{top: Top, friction: [number, number], start: State,
+ *   initial?: {[name: string]: number}}} Beginning
+ */
 
 const ANGLES = ["phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"];
 const TOP_NAMES = /** @type {const} */ (["Ix", "Iz", "Mgl"]);
@@ -34,10 +39,17 @@ export const findScene = (scenes, name) => {
 };
 
 /** @param {SceneFile} scene @returns {Beginning} */
-export const readScene = ({ top: [Ix, Iz, Mgl], friction, orientation, angular_velocity }) => ({
+export const readScene = ({
+  top: [Ix, Iz, Mgl],
+  friction,
+  orientation,
+  angular_velocity,
+  initial,
+}) => ({
   top: { Ix, Iz, Mgl },
   friction,
   start: new State(orientation, angular_velocity),
+  initial,
 });
 
 /**
@@ -57,6 +69,14 @@ export const createStart = (top, numbers, precession) => {
     rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
   }
   return State.fromEuler({ phi, theta, psi }, { phi: rate, theta: theta_dot, psi: psi_dot });
+};
+
+/** Tilt and rates; on the vertical all of the spin is psi'. @param {State} state */
+export const describeStart = (state) => {
+  if (state.isVertical) return { theta: state.angles.theta, phi_dot: 0, psi_dot: state.omega[2] };
+  const round = (/** @type {number} */ x) => Math.round(x * 1e6) / 1e6;
+  const { phi, psi } = state.rates;
+  return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
 };
 
 /** @param {[string, string | number]} pair of a link @returns {[string, number]} */
@@ -87,5 +107,8 @@ export const readLink = ({ precession, ...texts }, given) => {
   const friction = [numbers.axial ?? given.friction[0], numbers.transverse ?? given.friction[1]];
   const isStart =
     precession !== undefined || Object.keys(numbers).some((each) => ANGLES.includes(each));
-  return { top, friction, start: isStart ? createStart(top, numbers, precession) : given.start };
+  const start = isStart
+    ? createStart(top, { ...given.initial, ...numbers }, precession)
+    : given.start;
+  return { top, friction, start };
 };

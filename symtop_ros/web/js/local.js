@@ -11,7 +11,14 @@ import { State } from "./state.js";
 /** @typedef {import("./kernel.js").Kernel} Kernel */
 /** @typedef {import("./wording.js").Writer} Writer */
 /** @typedef {import("./state.js").Vector} Vector */
+/** @typedef {import("./course.js").Course} Course */
 /** @typedef {{[name: string]: any}} Message */
+/**
+ * States at a time of the run, in ns: of the top, of the ghost, and of a run that is kept for
+ * comparison, at the same time since its start.
+ * @typedef {{time: number, state: State, course: Course, ghost: State | null, kept: State | null,
+ *   keptCourse: Course | null}} Sample
+ */
 /**
  * What charts show of a time in s: theta, phi', psi', and theta of the ghost.
  * @typedef {[time: number, theta: number, phi_dot: number, psi_dot: number, ghost: number | null]} Row
@@ -51,6 +58,8 @@ export class LocalTop {
     this.begin = () => {};
     /** What Reset starts from. */
     this.initial = State.fromEuler({ theta: 0 });
+    /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
+    this.kept = null;
     /** The torque of the scene. @type {Vector} */
     this.steady = [0, 0, 0];
   }
@@ -144,6 +153,11 @@ export class LocalTop {
     this.tellFacts();
   }
 
+  /** Keep the run for comparison, from its last start to now; or let it go. @param {boolean} kept */
+  keep(kept) {
+    this.kept = kept ? this.run.keep(this.time) : null;
+  }
+
   /** What holds for the motion of now has changed. */
   changed() {
     this.window = chooseWindow(this.course.free);
@@ -158,14 +172,18 @@ export class LocalTop {
     return this.run.at(this.time);
   }
 
-  /** Times in ns and states of the last window, for trace and charts. */
+  /** States of the last window, for trace and charts. @returns {Sample[]} */
   sample() {
-    const begin = Math.max(this.run.findStart(this.time), this.time - this.window * NANO);
+    const start = this.run.findStart(this.time);
+    const begin = Math.max(start, this.time - this.window * NANO);
     return Array.from({ length: POINTS + 1 }, (_, n) => {
       const time =
         n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS);
       const state = n === POINTS ? this.state : this.run.at(time);
-      return { time, state, ghost: this.run.findGhost(time) };
+      const { course } = this.run.find(time);
+      const kept = this.kept?.find(time - start) ?? { state: null, course: null };
+      const ghost = this.run.findGhost(time);
+      return { time, state, course, ghost, kept: kept.state, keptCourse: kept.course };
     });
   }
 
@@ -178,7 +196,7 @@ export class LocalTop {
       return [time / NANO, each.angles.theta, phi, psi, ghost ? ghost.angles.theta : null];
     });
     const times = [this.time / NANO, this.end / NANO];
-    this.tell({ series, constants: this.compareConstants(state), time: times });
+    this.tell({ samples, series, constants: this.compareConstants(state), time: times });
     this.draw(
       state,
       samples.map((each) => each.state),

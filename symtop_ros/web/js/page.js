@@ -5,12 +5,15 @@ import { keepChoice } from "./choices.js";
 import { showConstants } from "./constants_table.js";
 import { find, findAll, make, say, write, writeSymbols } from "./document.js";
 import { Fields } from "./fields.js";
+import { FreeChart } from "./free_chart.js";
 import { offerFiles, openDropped } from "./files.js";
 import { actWhileHeld } from "./hold.js";
 import { listenToKeys } from "./keys.js";
 import { Layers } from "./layers.js";
 import { Lesson } from "./lesson.js";
 import { dismissRefusals, refuse, showLoss } from "./notices.js";
+import { drawKinds } from "./kinds_chart.js";
+import { drawLedger } from "./ledger_chart.js";
 import { inDegrees, shorten } from "./quantities.js";
 import { drawRule } from "./rule_chart.js";
 import { offerScenes } from "./scenes.js";
@@ -46,6 +49,7 @@ export class Page {
     this.layers = new Layers(send);
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
+    this.chart = new FreeChart((kept) => send({ act: "keep", kept }));
     followTheme();
     keepChoice("unit", () => this.showUnit());
     this.fields.showUnit();
@@ -94,10 +98,11 @@ export class Page {
   }
 
   /** Show what the top tells. @param {Message} message */
-  receive({ hello, facts, series, constants, time, refused, granted, said, lost }) {
+  receive(message) {
+    const { hello, facts, samples, refused, granted, said, lost } = message;
     if (hello) this.greet(hello);
     if (facts) this.showFacts(facts);
-    if (series) this.showSeries(series, constants, time);
+    if (samples) this.showSeries(message);
     if (refused) {
       refuse(refused);
       this.fields.markRefused();
@@ -145,6 +150,8 @@ export class Page {
     this.showHistory(sentences.history);
     this.fields.show(facts);
     this.lesson?.follow(facts);
+    drawLedger(facts.ledger, facts.energies);
+    drawKinds(facts.body, facts.turning);
   }
 
   /** @param {number[]} roots rates of regular precession */
@@ -175,12 +182,8 @@ export class Page {
     );
   }
 
-  /**
-   * @param {import("./local.js").Row[]} rows
-   * @param {import("./constants_table.js").Constants} constants
-   * @param {[time: number, end: number]} times s
-   */
-  showSeries(rows, constants, [time, end]) {
+  /** @param {Message} message of a frame: samples, their rows, constants and times */
+  showSeries({ samples, series: rows, constants, time: [time, end] }) {
     const { facts } = this;
     if (!facts) return;
     const row = rows[rows.length - 1];
@@ -188,6 +191,7 @@ export class Page {
     drawWell(facts.potential, row[1]);
     drawRule(facts, row, this.fields.values.factor);
     drawSeries(rows, facts.window, facts.marks);
+    this.chart.draw(samples);
     showConstants(facts.table, constants);
     this.timeline.show(time, end);
   }

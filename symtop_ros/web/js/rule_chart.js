@@ -29,10 +29,9 @@ const keepShown = (rates) => rates.filter((rate) => Math.abs(rate) < LARGEST);
  * @param {import("./local.js").Row} row of now
  * @param {number} factor by which Hurry multiplies phi'
  */
-export const drawRule = ({ top, start, roots: first }, [, theta, rate, spin], factor) => {
-  const own = { Ix: top["top.Ix"], Iz: top["top.Iz"], Mgl: top["top.Mgl"] };
-  const at = (/** @type {number} */ each) => findTiltAcceleration(own, theta, each, spin);
-  const roots = keepShown(findRegularRates(own, theta, spin));
+export const drawRule = ({ body, start, roots: first }, [, theta, rate, spin], factor) => {
+  const at = (/** @type {number} */ each) => findTiltAcceleration(body, theta, each, spin);
+  const roots = keepShown(findRegularRates(body, theta, spin));
   const hurried = rate * factor;
   const range = findSpan([0, ...roots, ...keepShown(first), start.phi_dot, rate, hurried], 1);
   const rates = Array.from(

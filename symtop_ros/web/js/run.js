@@ -32,6 +32,11 @@ import { State } from "./state.js";
  *   last: Course | null, ghost: Placed | null}} Moment
  */
 
+/**
+ * A part of a run, kept for comparison: the state at a time since its start, or nothing after its end.
+ * @typedef {{find: (passed: number) => {state: State, course: Course} | null}} Kept
+ */
+
 const FORMAT = 1;
 
 export class Run {
@@ -101,6 +106,18 @@ export class Run {
     const { top, friction, torque } = course;
     const state = last.ghost.course.at(time - last.ghost.since);
     return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
+  }
+
+  /** The run from its last start to a time, whatever becomes of it. @param {number} end ns @returns {Kept} */
+  keep(end) {
+    const start = this.findStart(end);
+    const copy = new Run(this.kernel);
+    copy.moments = [...this.moments];
+    const find = (/** @type {number} */ passed) => {
+      const time = start + passed;
+      return time > end ? null : { state: copy.at(time), course: copy.find(time).course };
+    };
+    return { find };
   }
 
   /** What run.json holds. @returns {{format: number, events: EventRecord[]}} */

@@ -12,6 +12,7 @@ import {
   readColor,
 } from "./meshes.js";
 import { COLORS, FICTITIOUS } from "./colors.js";
+import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
 import { findTorques, findVectors } from "./vectors.js";
@@ -27,7 +28,6 @@ const LONGEST = 2.5; // of a fictitious torque
 const SHORTEST = 0.02; // arrows that are shorter have no direction that can be seen
 const GHOST_OPACITY = 0.28;
 const BALL = 0.055;
-const GRIP = 24; // px around the ball in which a pull begins
 const HORIZON = 1.65; // rad; the axis goes below the pivot: no stand, and the whole sphere
 const GROUND = -0.33;
 /** @type {[Vector, Vector][]} */
@@ -75,45 +75,10 @@ export class Scene {
     this.paint = paint;
     /** @type {{[name: string]: number}} */
     this.scales = {};
-    /** @type {Vector | null} */
-    this.pulled = null;
     this.bodyKey = "";
     this.view = -1; // index of `VIEWS`
     this.torqueScale = 1;
-    this.follow(canvas);
-  }
-
-  /** The ball at the end of the axle is pulled with the pointer. @param {HTMLElement} canvas */
-  follow(canvas) {
-    canvas.addEventListener(
-      "pointerdown",
-      (event) => {
-        const ball = this.camera.project(this.axis);
-        if (
-          !ball ||
-          !this.top.layers.handle ||
-          Math.hypot(event.offsetX - ball.x, event.offsetY - ball.y) > GRIP
-        )
-          return;
-        event.preventDefault();
-        event.stopImmediatePropagation();
-        canvas.setPointerCapture(event.pointerId);
-        this.pulled = this.axis;
-      },
-      true,
-    );
-    canvas.addEventListener("pointermove", (event) => {
-      if (this.pulled) this.pulled = this.camera.unproject(event.offsetX, event.offsetY, this.axis);
-    });
-    canvas.addEventListener("pointerup", () => {
-      if (this.pulled) this.top.take({ act: "pull", end: this.pulled });
-      this.pulled = null;
-    });
-  }
-
-  /** @returns {Vector} the end of the axle */
-  get axis() {
-    return this.top.state.toWorld([0, 0, 1]);
+    this.grip = new Grip(canvas, this.camera, top);
   }
 
   /** What holds for a whole motion: the body, circles, the scales of the arrows, the camera. */
@@ -150,10 +115,21 @@ export class Scene {
    * @param {State[]} states of the trace
    */
   draw(state, states) {
-    const { painter, camera } = this;
+    const { painter, camera, grip } = this;
     painter.begin(camera.matrix, camera.eye);
     this.labels.begin();
-    const { layers } = this.top;
+    this.drawBody(grip.preview ?? state);
+    this.drawLines(state, states);
+    if (!grip.preview) this.drawVectors(state);
+    const ghost = this.top.layers.ghost ? this.top.run.findGhost(this.top.time) : null;
+    if (ghost && this.body)
+      painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
+    this.labels.end();
+  }
+
+  /** The top on its stand, with its shadow and its ball. @param {State} state */
+  drawBody(state) {
+    const { painter } = this;
     const axis = state.toWorld([0, 0, 1]);
     if (this.view === 0) {
       painter.drawShadow(
@@ -165,19 +141,17 @@ export class Scene {
       );
       painter.drawMesh(this.stand, STILL);
     }
-    const pose = createPose(state.orientation);
-    if (this.body) painter.drawMesh(this.body, pose);
-    this.drawLines(state, states);
-    const vectors = findVectors(this.top.course, state);
-    for (const [name, vector] of Object.entries(vectors)) {
+    if (this.body) painter.drawMesh(this.body, createPose(state.orientation));
+    if (this.top.layers.handle) this.drawHandle(axis);
+  }
+
+  /** @param {State} state */
+  drawVectors(state) {
+    const { layers, course } = this.top;
+    for (const [name, vector] of Object.entries(findVectors(course, state))) {
       if (layers[name]) this.drawArrow(name, scale(vector, this.scales[name]), [0, 0, 0], name);
     }
     if (layers[FICTITIOUS]) this.drawTorques(state);
-    if (layers.handle) this.drawHandle(axis);
-    const ghost = layers.ghost ? this.top.run.findGhost(this.top.time) : null;
-    if (ghost && this.body)
-      painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
-    this.labels.end();
   }
 
   /**
@@ -248,6 +222,7 @@ export class Scene {
   /** @param {Vector} axis */
   drawHandle(axis) {
     this.painter.drawMesh(this.ball, createPose([1, 0, 0, 0], [BALL, BALL, BALL], axis));
-    if (this.pulled) this.drawArrow("ball", subtract(this.pulled, axis), axis, "");
+    const { end, isTilting } = this.grip;
+    if (end && !isTilting) this.drawArrow("ball", subtract(end, axis), axis, "");
   }
 }

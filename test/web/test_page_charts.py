@@ -1,0 +1,231 @@
+"""Charts of the page: what they show is what the library computes."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from web.opened import read_motion, read_state
+
+from symtop_ros.physics import (
+    Motion,
+    State,
+    Top,
+    regular_precession_rates,
+    theta_acceleration,
+)
+from workshop.article.answers.ledger import KickLedger
+from workshop.article.answers.starts import find_boundaries, find_curves, loops
+
+HEIGHT = 70.0  # of a chart of a series between its axes, in units of its drawing
+LEAST = 0.019  # of a quantity; its chart spans 2 % of it at least, and its ticks are rounded
+ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+
+
+def read_chart(page, name):
+    """Values of the curve of a chart, and the span of its axis, by the labels of its ticks."""
+    ticks = page.tab.locator(f"#{name} text.tick[text-anchor=end]").evaluate_all(
+        "all => all.map(e => [Number(e.textContent), Number(e.getAttribute('y')) - 3])"
+    )
+    (first, lowest), (last, highest) = ticks[0], ticks[-1]
+    assert lowest != highest
+    scale = (last - first) / (highest - lowest)
+    curve = page.tab.locator(f"#{name} path[stroke-width='1.8']").first.get_attribute("d")
+    heights = np.array([float(y) for y in re.findall(r"[ML][-\d.]+ ([-\d.]+)", curve)])
+    return first + scale * (heights - lowest), abs(scale) * HEIGHT
+
+
+@pytest.mark.parametrize("root", ["slow", "fast"])
+def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_page, root):
+    page = open_page(f"#theta=0.5&psi_dot=200&precession={root}")
+    page.wait_for_time(0.03)
+    page.tab.click("#pause")
+    rates = regular_precession_rates(ARTICLE, 0.5, 200.0)
+    sizes = {"theta": 0.5, "phi_dot": rates[root == "fast"], "psi_dot": 200.0}
+    for name, size in sizes.items():
+        values, span = read_chart(page, name)
+        tenth = 0.1001 * span / HEIGHT  # coordinates are written in tenths
+        assert np.ptp(values) <= tenth
+        assert values[-1] == pytest.approx(size, abs=tenth)
+        assert span > LEAST * size
+
+
+def test_what_changes_fills_its_chart(open_page):
+    page = open_page("#theta=0.5&psi_dot=200&phi_dot=0")
+    page.wait_for_time(0.1)
+    for name in ("theta", "phi_dot"):
+        values, span = read_chart(page, name)
+        assert np.ptp(values) > 0.8 * span
+
+
+def test_the_energy_of_a_kick_is_that_of_the_article(opened):
+    assert not opened.tab.is_visible("#ledger-chart")
+    opened.tab.click("#hurry")
+    _, kick = opened.read_run()["events"]
+    slow = regular_precession_rates(ARTICLE, 0.5, 200.0)[0]
+    before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
+    ledger = KickLedger.of(ARTICLE, before, read_state(kick))
+    assert opened.say("ledger-text") == (
+        f"The kick changed E' by {ledger.kick.rest:.3g} mJ and the energy of the spin by "
+        f"{ledger.kick.spin:.3g} mJ. At its highest point the weight has gained "
+        f"{ledger.far.weight:.3g} mJ since before the kick, and the precession "
+        f"{ledger.far.precession:.3g} mJ."
+    )
+    assert "1.93 mJ" in opened.say("ledger-text")
+    bars = opened.tab.locator("#ledger text.tick[text-anchor=middle]").all_text_contents()
+    assert bars[:8] == ["0", "+1.06", "0", "+1.06", "+1.93", "\u22120.871", "0", "+1.06"]
+
+
+def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):
+    page = open_page("#theta=0.5&psi_dot=200&phi_dot=11.325")
+    dot = page.tab.locator("#kinds #present")
+    x, y = (float(dot.get_attribute(name)) for name in ("cx", "cy"))
+    curve = page.tab.locator("#kinds path.cusps").evaluate_all(
+        "all => all.map(e => e.getAttribute('d'))"
+    )
+    points = np.array(
+        [(float(a), float(b)) for a, b in re.findall(r"[ML]([-\d.]+) ([-\d.]+)", " ".join(curve))]
+    )
+    assert np.hypot(*(points - (x, y)).T).min() < 3  # 11.325 rad/s is the second cusp
+    assert find_boundaries(ARTICLE)[0] == pytest.approx(11.325, abs=1e-3)
+
+
+def test_kinds_are_decided_as_in_the_article(tab):
+    """The module of the page agrees with the article's answer, and that with the motions."""
+    random, cases = np.random.default_rng(20210330), []
+    for _ in range(200):
+        Ix = 10 ** random.uniform(-4, 0)
+        top = {"Ix": Ix, "Iz": random.uniform(0.1, 1.9) * Ix, "Mgl": random.normal() * 100 * Ix}
+        cases.append([top, random.uniform(0.2, 2.9), *random.normal(scale=(20, 100)).tolist()])
+    found = tab.evaluate(
+        """async (cases) => {
+            const { makesLoops, findBoundaries } = await import("/kinds.js");
+            return cases.map(([top, theta, phi, psi]) =>
+                [makesLoops(top, theta, phi, psi), findBoundaries(top, theta, phi)]);
+        }""",
+        cases,
+    )
+    for (values, theta, phi_dot, psi_dot), (is_looping, boundaries) in zip(
+        cases, found, strict=True
+    ):
+        top = Top(**values)
+        assert is_looping == bool(loops(top, theta, phi_dot, psi_dot))
+        state = State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
+        assert Motion(top, state).kind == ("looping" if is_looping else "unidirectional")
+        slow_or_fast = regular_precession_rates(top, theta=theta, psi_dot=boundaries["regular"])
+        assert min(abs(rate / phi_dot - 1) for rate in slow_or_fast) < 1e-9
+    for rate in (-30.0, 11.0, 60.0):
+        expected = find_curves(ARTICLE, np.array([rate]))
+        (boundaries,) = tab.evaluate(
+            """async ([top, rate]) => {
+                const { findBoundaries } = await import("/kinds.js");
+                return [findBoundaries(top, 0.5, rate)];
+            }""",
+            [{"Ix": ARTICLE.Ix, "Iz": ARTICLE.Iz, "Mgl": ARTICLE.Mgl}, rate],
+        )
+        cusps = math.nan if boundaries["cusps"] is None else boundaries["cusps"]
+        assert cusps == pytest.approx(expected["cusps"][0][0], nan_ok=True)
+        assert boundaries["upper"] == pytest.approx(expected["through the vertical"][0][0])
+
+
+def test_a_chart_shows_the_quantities_that_are_chosen(opened):
+    opened.tab.select_option("#free-x", "time")
+    opened.tab.select_option("#free-y", "theta_ddot")
+    opened.tab.click("#hurry")
+    opened.wait_for_time(0.05)
+    opened.tab.click("#pause")
+    _, kick = opened.read_run()["events"]
+    opened.tab.evaluate("document.getElementById('free-place').value = 1")
+    opened.tab.wait_for_timeout(300)
+    time = float(opened.tab.get_attribute("body", "data-time"))
+    state = read_motion(kick).at(time - kick["time"])
+    rates = state.euler_rates
+    acceleration = theta_acceleration(ARTICLE, state.euler_angles.theta, rates.phi, rates.psi)
+    shown = re.fullmatch(
+        r"time (\S+) s, tilt acceleration theta'' (\S+) rad/s²", opened.say("free-values")
+    )
+    assert float(shown[1]) == pytest.approx(time, rel=1e-4)
+    assert float(shown[2]) == pytest.approx(acceleration, rel=1e-3)
+    box = opened.tab.locator("#free svg").bounding_box()
+    opened.tab.locator("#free svg").hover(position={"x": 50, "y": box["height"] / 2})
+    opened.until(lambda: float(opened.tab.input_value("#free-place")) < 0.2)
+    opened.tab.reload()
+    opened.tab.wait_for_selector("#headline:not(:empty)")
+    assert opened.tab.input_value("#free-y") == "theta_ddot"  # the choice is kept
+
+
+def test_a_run_is_kept_for_comparison(opened):
+    opened.tab.select_option("#free-x", "time")
+    opened.tab.select_option("#free-y", "theta")
+    opened.tab.click("#hurry")
+    opened.wait_for_time(0.05)
+    opened.tab.click("#free-keep")
+    assert opened.say("free-keep") == "Let the kept run go"
+    opened.enter("theta", "0.6")
+    opened.wait_for_time(0.07)
+    read = "e => e.getAttribute('d')"
+    opened.until(lambda: len(opened.tab.locator("#kept").evaluate(read)) > 50)
+    kept, own = (opened.tab.locator(name).evaluate(read) for name in ("#kept", "#chosen"))
+    assert kept != own
+    opened.tab.click("#free-keep")
+    opened.until(lambda: not opened.tab.locator("#kept").evaluate(read))
+
+
+def find_ball(page):
+    """The place of the ball, by its colour, in the middle of the scene's canvas."""
+    return page.tab.evaluate(
+        """() => {
+            const canvas = document.querySelector("canvas");
+            const copy = document.createElement("canvas");
+            Object.assign(copy, { width: canvas.width, height: canvas.height });
+            const context = copy.getContext("2d");
+            context.drawImage(canvas, 0, 0);
+            const { data } = context.getImageData(0, 0, copy.width, copy.height);
+            let [x, y, count] = [0, 0, 0];
+            for (let k = 0; k < data.length; k += 4) {
+                const [r, g, b] = [data[k], data[k + 1], data[k + 2]];
+                const isOrange = r > 190 && g > 95 && g < 160 && b < 50;
+                if (!isOrange || data[k + 3] < 255) continue;
+                x += (k / 4) % copy.width;
+                y += Math.floor(k / 4 / copy.width);
+                count += 1;
+            }
+            const { left, top, width } = canvas.getBoundingClientRect();
+            const size = width / copy.width;
+            return [left + (x / count) * size, top + (y / count) * size, count];
+        }"""
+    )
+
+
+def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed(opened):
+    opened.open_tab("view")
+    for name in ("trace", "turning circles"):
+        opened.tab.get_by_label(name).uncheck()
+    opened.tab.click("#pause")
+    opened.tab.wait_for_timeout(300)
+    x, y, _ = find_ball(opened)
+    opened.tab.mouse.move(x, y)
+    opened.tab.mouse.down()
+    opened.tab.mouse.move(x, y + 60)
+    opened.tab.wait_for_timeout(300)
+    assert len(opened.read_run()["events"]) == 1  # nothing has happened yet
+    opened.tab.mouse.up()
+    first, tilted = opened.read_run()["events"]
+    assert tilted["kind"] == "start"
+    before, after = read_state(first), read_state(tilted)
+    assert abs(after.euler_angles.theta - before.euler_angles.theta) > 0.05
+    assert after.euler_rates.psi == pytest.approx(200)
+    opened.tab.wait_for_timeout(300)
+    opened.tab.click("#pause")
+    opened.tab.wait_for_timeout(300)
+    opened.tab.click("#pause")
+    x, y, _ = find_ball(opened)
+    opened.tab.mouse.move(x, y)
+    opened.tab.keyboard.down("Shift")
+    opened.tab.mouse.down()
+    opened.tab.mouse.move(x + 60, y)
+    opened.tab.mouse.up()
+    opened.tab.keyboard.up("Shift")
+    kick = opened.read_run()["events"][-1]
+    assert kick["kind"] == "kick"
+    assert kick["request"] == "pulled by the ball"
