@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 from matplotlib.figure import Figure
-from web import draw_page
 from PIL import Image
+from web import draw_page
 
 from workshop.pictures import documents, replay
 from workshop.speed import filters, plots
