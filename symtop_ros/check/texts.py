@@ -23,9 +23,8 @@ from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.sensor import Rig, find_body
 from symtop_ros.simulation.topics import DIAGNOSTICS, EVENTS, TF_STATIC, choose_description
-from symtop_ros.wire.cdr import DecodeError, Reader
 from symtop_ros.wire.diagnostics import Status, decode_statuses
-from symtop_ros.wire.layout import NANOSECONDS
+from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Reader
 from symtop_ros.wire.messages import encode_transforms
 
 Kind = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.simulation.validation import RefusedError, one_line
-from symtop_ros.wire.cdr import DecodeError, Reader
-from symtop_ros.wire.layout import NANOSECONDS, Doubles, Layout, Stamp, Text
+from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Doubles, Layout, Reader, Stamp, Text
 from symtop_ros.wire.messages import (
     IMU,
     ODOMETRY,

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, Stamps
-from symtop_ros.quaternions import compose
+from symtop_ros.arrays import Real, Stamps, compose
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.events import Event, start_event

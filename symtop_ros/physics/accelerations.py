@@ -2,11 +2,10 @@
 
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_vector
-from symtop_ros.quaternions import split, stack
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 

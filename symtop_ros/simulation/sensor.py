@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Real, Vector, compose
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
-from symtop_ros.quaternions import compose
 from symtop_ros.simulation.validation import number, vector
 from symtop_ros.wire.layout import NANOSECONDS
 

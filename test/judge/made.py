@@ -6,7 +6,7 @@ import numpy as np
 from judge.cases import SECOND, make_estimates
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.quaternions import compose, invert
+from symtop_ros.arrays import compose, invert
 
 NED = Rotation.from_quat([np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])
 FRD = Rotation.from_rotvec([np.pi, 0.0, 0.0])

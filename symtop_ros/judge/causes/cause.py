@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.causes.search import LEVELS
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
-from symtop_ros.quaternions import compose, invert
 
 PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "scale": SCALE}
 

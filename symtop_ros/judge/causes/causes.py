@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.causes.cause import (
     CHANGES,
     PARAMETERS,
@@ -22,12 +22,10 @@ from symtop_ros.judge.causes.cause import (
 )
 from symtop_ros.judge.causes.grids import MOST, Grids
 from symtop_ros.judge.causes.search import LEVELS, Table
-from symtop_ros.judge.compare import NONE, Offset, to_rotation
+from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import SAMPLES, Fit
-from symtop_ros.judge.scale import MOST_STEPS, count_steps
 from symtop_ros.judge.truth import Truth
-from symtop_ros.quaternions import compose, invert
 
 VALLEYS = 4  # of each table that are refined
 # An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
