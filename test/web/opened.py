@@ -16,9 +16,9 @@ window.requestAnimationFrame = (draw) => setTimeout(() => requestFrame(draw), 12
 class Opened:
     """The file in a tab, with what went wrong."""
 
-    def __init__(self, browser, path, fragment="", **options):
+    def __init__(self, browser, path, fragment="", script=FEW_FRAMES, **options):
         self.context = browser.new_context(offline=True, accept_downloads=True, **options)
-        self.context.add_init_script(FEW_FRAMES)
+        self.context.add_init_script(script)
         self.tab = self.context.new_page()
         self.tab.set_default_timeout(TIMEOUT * 1000)
         self.problems, self.requests = [], []

@@ -40,6 +40,8 @@ def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_pag
     page = open_page(f"#theta=0.5&psi_dot=200&precession={root}")
     page.wait_for_time(0.03)
     page.tab.click("#pause")
+    page.tab.locator("#psi_dot").scroll_into_view_if_needed()
+    page.tab.wait_for_timeout(300)
     rates = regular_precession_rates(ARTICLE, 0.5, 200.0)
     sizes = {"theta": 0.5, "phi_dot": rates[root == "fast"], "psi_dot": 200.0}
     for name, size in sizes.items():
@@ -135,6 +137,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     opened.wait_for_time(0.05)
     opened.tab.click("#pause")
     _, kick = opened.read_run()["events"]
+    opened.tab.locator("#free").scroll_into_view_if_needed()
     opened.tab.evaluate("document.getElementById('free-place').value = 1")
     opened.tab.wait_for_timeout(300)
     time = float(opened.tab.get_attribute("body", "data-time"))

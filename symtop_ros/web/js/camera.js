@@ -9,6 +9,7 @@ import {
   scale,
   subtract,
 } from "./matrices.js";
+import { Size } from "./size.js";
 
 /** @typedef {import("./state.js").Vector} Vector */
 
@@ -20,7 +21,7 @@ const TURN = 0.008; // rad for a px
 export class Camera {
   /** @param {HTMLElement} element */
   constructor(element) {
-    this.element = element;
+    this.size = new Size(element);
     /** @type {Vector} */
     this.target = [0, 0, 0];
     this.distance = 3;
@@ -103,8 +104,8 @@ export class Camera {
   }
 
   get matrix() {
-    const { clientWidth, clientHeight } = this.element;
-    const aspect = clientWidth / Math.max(clientHeight, 1);
+    const { width, height } = this.size;
+    const aspect = width / Math.max(height, 1);
     // A narrow page sees as much to the sides as a wide one.
     const angle = aspect < 1 ? 2 * Math.atan(Math.tan(ANGLE / 2) / aspect) : ANGLE;
     return multiplyMatrices(createPerspective(angle, aspect), createView(this.eye, this.target));
@@ -120,8 +121,8 @@ export class Camera {
       (row) => m[row] * x + m[row + 4] * y + m[row + 8] * z + m[row + 12],
     );
     if (w <= 0) return null;
-    const { clientWidth, clientHeight } = this.element;
-    return { x: ((a / w + 1) / 2) * clientWidth, y: ((1 - b / w) / 2) * clientHeight, depth: w };
+    const { width, height } = this.size;
+    return { x: ((a / w + 1) / 2) * width, y: ((1 - b / w) / 2) * height, depth: w };
   }
 
   /**

@@ -1,11 +1,10 @@
 // The page around the scene: what it asks of the top, and what it shows of the answers.
 
 import { followAddress } from "./address.js";
+import { Charts } from "./charts.js";
 import { keepChoice } from "./choices.js";
-import { showConstants } from "./constants_table.js";
 import { find, findAll, make, say, write, writeSymbols } from "./document.js";
 import { Fields } from "./fields.js";
-import { FreeChart } from "./free_chart.js";
 import { offerFiles, openDropped } from "./files.js";
 import { actWhileHeld } from "./hold.js";
 import { listenToKeys } from "./keys.js";
@@ -15,14 +14,11 @@ import { dismissRefusals, refuse, showLoss } from "./notices.js";
 import { drawKinds } from "./kinds_chart.js";
 import { drawLedger } from "./ledger_chart.js";
 import { inDegrees, shorten } from "./quantities.js";
-import { drawRule } from "./rule_chart.js";
 import { offerScenes } from "./scenes.js";
-import { drawSeries } from "./series_charts.js";
 import { SpeedList } from "./speed.js";
 import { addTabs } from "./tabs.js";
 import { followTheme } from "./theme.js";
 import { Timeline } from "./timeline.js";
-import { drawWell } from "./well_chart.js";
 
 /** @typedef {import("./facts.js").Facts} Facts */
 /** @typedef {{[name: string]: any}} Message */
@@ -49,7 +45,7 @@ export class Page {
     this.layers = new Layers(send);
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
-    this.chart = new FreeChart((kept) => send({ act: "keep", kept }));
+    this.charts = new Charts((kept) => send({ act: "keep", kept }));
     followTheme();
     keepChoice("unit", () => this.showUnit());
     this.fields.showUnit();
@@ -102,7 +98,7 @@ export class Page {
     const { hello, facts, samples, refused, granted, said, lost } = message;
     if (hello) this.greet(hello);
     if (facts) this.showFacts(facts);
-    if (samples) this.showSeries(message);
+    if (samples) this.showFrame(message);
     if (refused) {
       refuse(refused);
       this.fields.markRefused();
@@ -183,16 +179,11 @@ export class Page {
   }
 
   /** @param {Message} message of a frame: samples, their rows, constants and times */
-  showSeries({ samples, series: rows, constants, time: [time, end] }) {
-    const { facts } = this;
-    if (!facts) return;
-    const row = rows[rows.length - 1];
+  showFrame({ samples, series, constants, time: [time, end] }) {
+    if (!this.facts) return;
+    const row = series[series.length - 1];
     Object.assign(document.body.dataset, { time: row[0], theta: row[1] });
-    drawWell(facts.potential, row[1]);
-    drawRule(facts, row, this.fields.values.factor);
-    drawSeries(rows, facts.window, facts.marks);
-    this.chart.draw(samples);
-    showConstants(facts.table, constants);
+    this.charts.draw(this.facts, { samples, series, constants }, this.fields.values.factor);
     this.timeline.show(time, end);
   }
 

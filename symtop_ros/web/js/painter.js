@@ -78,6 +78,8 @@ export class Painter {
     if (!gl) throw new Error("this browser has no WebGL 2: the scene cannot be drawn");
     this.gl = gl;
     this.canvas = canvas;
+    /** @type {Map<WebGLProgram, {[name: string]: WebGLUniformLocation | null}>} */
+    this.places = new Map();
     this.meshes = this.link(MESH_VERTEX, MESH_FRAGMENT);
     this.lines = this.link(LINE_VERTEX, LINE_FRAGMENT);
     this.shadows = this.link(MESH_VERTEX, SHADOW_FRAGMENT);
@@ -141,11 +143,12 @@ export class Painter {
    * Begin a picture.
    * @param {number[]} view matrix of the camera
    * @param {number[]} eye
+   * @param {{width: number, height: number}} size of the canvas in px
    */
-  begin(view, eye) {
+  begin(view, eye, size) {
     const { gl, canvas } = this;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((n) =>
+    const [width, height] = [size.width, size.height].map((n) =>
       Math.max(1, Math.round(n * ratio)),
     );
     if (canvas.width !== width || canvas.height !== height)
@@ -160,19 +163,27 @@ export class Painter {
   }
 
   /**
+   * The place of a uniform; to ask the graphics card takes long.
+   * @param {WebGLProgram} program
+   * @param {string} name
+   */
+  locate(program, name) {
+    const known = this.places.get(program) ?? {};
+    this.places.set(program, known);
+    known[name] ??= this.gl.getUniformLocation(program, name);
+    return known[name];
+  }
+
+  /**
    * @param {WebGLProgram} program
    * @param {number[]} pose
    */
   use(program, pose) {
     const { gl } = this;
     gl.useProgram(program);
-    gl.uniformMatrix4fv(
-      gl.getUniformLocation(program, "view"),
-      false,
-      /** @type {number[]} */ (this.view),
-    );
-    gl.uniformMatrix4fv(gl.getUniformLocation(program, "pose"), false, pose);
-    return (/** @type {string} */ name) => gl.getUniformLocation(program, name);
+    gl.uniformMatrix4fv(this.locate(program, "view"), false, /** @type {number[]} */ (this.view));
+    gl.uniformMatrix4fv(this.locate(program, "pose"), false, pose);
+    return (/** @type {string} */ name) => this.locate(program, name);
   }
 
   /**

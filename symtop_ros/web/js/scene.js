@@ -116,7 +116,7 @@ export class Scene {
    */
   draw(state, states) {
     const { painter, camera, grip } = this;
-    painter.begin(camera.matrix, camera.eye);
+    painter.begin(camera.matrix, camera.eye, camera.size);
     this.labels.begin();
     this.drawBody(grip.preview ?? state);
     this.drawLines(state, states);

@@ -4,17 +4,17 @@ import { createFrame, draw, drawCurve, findSpan, LEFT, listTicks, writeBelow } f
 import { angleUnit, toUnit } from "./quantities.js";
 
 /** @typedef {import("./local.js").Row} Row */
-/** @typedef {{id: string, column: number, color: string, least: number, isTilt: boolean}} Series */
+/** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
 
 const HEIGHT = 96;
 const SHARE = 0.02; // of a quantity, which its chart spans at least
 const GHOST = 4; // column of theta of the ghost
-/** @type {Series[]} */
-const SERIES = [
-  { id: "theta", column: 1, color: "var(--theta)", least: 0.01, isTilt: true },
-  { id: "phi_dot", column: 2, color: "var(--phi)", least: 0.1, isTilt: false },
-  { id: "psi_dot", column: 3, color: "var(--psi)", least: 0.1, isTilt: false },
-];
+/** @type {{[id: string]: Series}} */
+const SERIES = {
+  theta: { column: 1, color: "var(--theta)", least: 0.01, isTilt: true },
+  phi_dot: { column: 2, color: "var(--phi)", least: 0.1, isTilt: false },
+  psi_dot: { column: 3, color: "var(--psi)", least: 0.1, isTilt: false },
+};
 
 /** @param {number | null} value */
 const orGap = (value) => value ?? NaN;
@@ -34,44 +34,43 @@ const findEdges = (rows, { column, least, isTilt }) => {
 };
 
 /**
+ * The range of time, and the kicks in it.
  * @param {Row[]} rows
- * @param {[number, number]} range of time
- * @param {number[]} marks
- * @param {Series} series
+ * @param {{window: number, marks: number[]}} facts
+ * @returns {{range: [number, number], kicks: number[]}}
  */
-const drawOne = (rows, range, marks, series) => {
-  const { id, column, color, isTilt } = series;
-  const frame = createFrame(HEIGHT, range, findEdges(rows, series), 3, isTilt ? toUnit : undefined);
+const findRange = (rows, { window, marks }) => {
+  const now = rows[rows.length - 1][0];
+  const begin = Math.max(now - window, rows[0][0]);
+  const kicks = marks.filter((time) => time >= begin && time <= now);
+  return { range: [begin, Math.max(now, begin + window / 20)], kicks };
+};
+
+/**
+ * @param {"theta" | "phi_dot" | "psi_dot"} id
+ * @param {Row[]} rows
+ * @param {{window: number, marks: number[]}} facts
+ */
+export const drawOneSeries = (id, rows, facts) => {
+  const { column, color, isTilt } = SERIES[id];
+  const { range, kicks } = findRange(rows, facts);
+  const edges = findEdges(rows, SERIES[id]);
+  const frame = createFrame(HEIGHT, range, edges, 3, isTilt ? toUnit : undefined);
   const line = (/** @type {number} */ k, /** @type {string} */ style) =>
     drawCurve(
       rows.map((row) => [frame.x(row[0] ?? 0), frame.y(orGap(row[k]))]),
       style,
     );
-  const kicks = marks.map(
-    (time) =>
-      `<path class="kick" d="M${frame.x(time).toFixed(1)} 8V${frame.bottom}" stroke="var(--gold)" stroke-width="1.5"/>`,
-  );
+  const mark = (/** @type {number} */ time) =>
+    `<path class="kick" d="M${frame.x(time).toFixed(1)} 8V${frame.bottom}" stroke="var(--gold)" stroke-width="1.5"/>`;
   draw(
     id,
     HEIGHT,
     `${id} over time`,
-    `${frame.axes}${kicks.join("")}
+    `${frame.axes}${kicks.map(mark).join("")}
     ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
     ${line(column, `stroke="${color}" stroke-width="1.8"`)}
     <text x="${LEFT + 2}" y="17">${isTilt ? `${angleUnit()}; up is higher` : "rad/s"}</text>
     ${writeBelow(frame, listTicks(range[0], range[1], 4))}`,
   );
-};
-
-/**
- * @param {Row[]} rows
- * @param {number} window s that are shown
- * @param {number[]} kicks times in s
- */
-export const drawSeries = (rows, window, kicks) => {
-  const now = rows[rows.length - 1][0];
-  const begin = Math.max(now - window, rows[0][0]);
-  const marks = kicks.filter((time) => time >= begin && time <= now);
-  for (const series of SERIES)
-    drawOne(rows, [begin, Math.max(now, begin + window / 20)], marks, series);
 };

@@ -1,0 +1,70 @@
+"""Time of a frame of the page, and of a kick until it is drawn, in Chromium.
+
+PYTHONPATH=test python test/web/frame_cost.py prints them for some scenes. Computing is what the
+page's own script does in a frame: states, sentences, charts and the commands for the scene; the
+drawing itself is the graphics card's. A kick counts from the event of its key to the end of the
+frame that draws it, when the browser has all of its picture.
+"""
+
+import statistics
+import tempfile
+from pathlib import Path
+
+from browser import running_browser
+from web.opened import Opened
+
+from symtop_ros.web.join import write_file
+
+SCENES = "hurry_slow", "cusps", "looping", "friction"
+FRAMES, KICKS = 120, 15
+# Times the callback of each frame; a kick ends with the first that begins after it.
+MEASURE = """
+window.frames_ms = [];
+let kicked = null;
+const requestOwn = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => requestOwn((now) => {
+  const begin = performance.now();
+  draw(now);
+  const end = performance.now();
+  window.frames_ms.push(end - begin);
+  if (kicked) kicked(end);
+  kicked = null;
+});
+window.kick_ms = () => new Promise((done) => {
+  const begin = performance.now();
+  document.dispatchEvent(new KeyboardEvent("keydown", { key: "h" }));
+  kicked = (end) => done(end - begin);
+});
+"""
+
+
+def measure(browser, path, scene):
+    """Return the times of frames and of kicks in ms."""
+    page = Opened(browser, path, f"#scene={scene}", script=MEASURE)
+    page.tab.wait_for_timeout(500)
+    page.tab.evaluate("window.frames_ms.length = 0")
+    page.until(lambda: page.tab.evaluate("window.frames_ms.length") >= FRAMES)
+    frames = page.tab.evaluate("window.frames_ms")
+    kicks = []
+    for _ in range(KICKS):
+        kicks.append(page.tab.evaluate("window.kick_ms()"))
+        page.tab.click("text=Reset")
+    page.close()
+    return frames, kicks
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder, running_browser() as browser:
+        path = Path(folder, "top.html")
+        path.write_text(write_file(), encoding="utf-8")
+        for scene in SCENES:
+            frames, kicks = (sorted(times) for times in measure(browser, path, scene))
+            print(
+                f"{scene:12} a frame {statistics.median(frames):5.2f} ms, 95 % below "
+                f"{frames[int(0.95 * len(frames))]:5.2f} ms; a kick until it is drawn "
+                f"{statistics.median(kicks):5.1f} ms, at most {kicks[-1]:5.1f} ms"
+            )
+
+
+if __name__ == "__main__":
+    main()
