@@ -1,7 +1,7 @@
 """Descriptions, fixed frames and diagnostics of a log, compared with what its events give.
 
 Of the diagnostics those of the motion and of balances are computed again. Pace, log and duplicates
-tell of the machine.
+describe the machine.
 """
 
 import re

@@ -58,7 +58,7 @@ class Truth:
         segment = self._segment(0)
         try:
             period = segment.motion.nutation_period / segment.factor
-        except ValueError:  # with friction or a torque there is none
+        except ValueError:  # with friction or a torque there is no period
             return None
         return float(period) if np.isfinite(period) and period > 0 else None
 

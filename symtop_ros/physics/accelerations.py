@@ -1,4 +1,4 @@
-"""Accelerations of a body that moves as a motion tells: of its angles and of its points."""
+"""Accelerations of a body in a given motion: of its angles and of its points."""
 
 from numpy.typing import ArrayLike
 

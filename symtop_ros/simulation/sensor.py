@@ -202,7 +202,7 @@ class Rig:
 
 @lru_cache(maxsize=8)
 def find_body(top: Top, gravity: float) -> Body | None:
-    """Return the body that is chosen for a top; None if there is none."""
+    """Return the body that is chosen for a top; None if no body can be it."""
     try:
         return Body.of(top, gravity)
     except ValueError:

@@ -43,7 +43,7 @@ def swap(memory, place, data):
 
 
 def places_of(text, data):
-    """Where a text stands in a message."""
+    """Place of a text in a message."""
     return [match.start() for match in re.finditer(re.escape(text.encode()), data)]
 
 

@@ -1,4 +1,4 @@
-"""What the sensor measures, compared with 50 digits."""
+"""Measurements of the sensor, compared with 50 digits."""
 
 from dataclasses import replace
 

@@ -20,7 +20,7 @@ def heading(angle):
 
 @dataclass(frozen=True)
 class Made:
-    """What is wrong with estimates."""
+    """An error of estimates."""
 
     world: Rotation | None = None
     body: Rotation | None = None

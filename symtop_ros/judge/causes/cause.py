@@ -27,7 +27,7 @@ class Cause:
 
     @property
     def weight(self) -> float:
-        """How much it takes to be true; smaller is simpler."""
+        """Number of assumptions that it makes; smaller is simpler."""
         return CHANGES[self.change][0] + LEVELS[self.level][1] + len(self.parameters)
 
     @property
@@ -37,13 +37,13 @@ class Cause:
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What it names, without numbers."""
+        """Its kind, without numbers."""
         return self.change, self.level, self.parameters
 
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """What explains the errors of estimates."""
+    """An explanation of the errors of estimates."""
 
     best: Cause
     others: tuple[Cause, ...] = ()  # as simple and as good

@@ -42,7 +42,7 @@ WHITE = 0.5  # largest correlation of what is left, from one estimate to the nex
 # The correlation of 500 estimates of noise, of three components each, is within 0.026 of zero.
 PURE, PURER = 0.1, 1.2
 LOUD = 0.3  # rad; noise of an attitude is smaller
-SMALL = 1e-3  # rad; rotations below this are none in a comparison of explanations
+SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
 STILL = 0.05  # rad; estimates that stay this close to one attitude do not move
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 
