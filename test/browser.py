@@ -61,7 +61,7 @@ _RUNNING: list[Any] = []
 
 @contextlib.contextmanager
 def _playwright(api: Any) -> Iterator[Any]:
-    """Run Playwright, which is possible once in a process: browsers within another share its own."""
+    """Run Playwright, which a process can do once: browsers within another share its own."""
     if _RUNNING:
         yield _RUNNING[0]
         return
