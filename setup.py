@@ -109,7 +109,7 @@ KERNEL = Extension(
 
 
 class BuildPython(build_py):
-    """Builds in silence where Python is told to write no bytecode, as colcon tells it."""
+    """Builds in silence if Python may write no bytecode, as colcon asks."""
 
     def byte_compile(self, files: list[str]) -> None:
         if not sys.dont_write_bytecode:

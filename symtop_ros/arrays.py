@@ -1,4 +1,10 @@
-"""Types of arrays and of short tuples that all folders share."""
+"""Types of arrays and short tuples that all folders share, and products of quaternions.
+
+Quaternions are (w, x, y, z), one or many. The components of one are Python's floats: their sums and
+products are those of NumPy, bit for bit, in a tenth of its time.
+"""
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,3 +13,47 @@ Real = NDArray[np.float64]
 Stamps = NDArray[np.int64]  # ns
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]  # (w, x, y, z)
+
+
+def compose(p: Real, q: Real) -> Real:
+    """Return the products p q, (..., 4): the rotation q, followed by p."""
+    p, q = np.asarray(p), np.asarray(q)
+    w, x, y, z = (p[..., k] for k in range(4))
+    a, b, c, d = (q[..., k] for k in range(4))
+    product = np.empty(np.broadcast_shapes(p.shape, q.shape))
+    product[..., 0] = w * a - x * b - y * c - z * d
+    product[..., 1] = w * b + x * a + y * d - z * c
+    product[..., 2] = w * c - x * d + y * a + z * b
+    product[..., 3] = w * d + x * c - y * b + z * a
+    return product
+
+
+def invert(q: Real) -> Real:
+    """Return the inverse of unit quaternions, (..., 4)."""
+    return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
+
+
+def split(v: Real) -> list[Any]:
+    """Return the components of vectors (..., n): floats of one, arrays (...) of many."""
+    return v.tolist() if v.ndim == 1 else [v[..., k] for k in range(v.shape[-1])]
+
+
+def rotate(w: Any, x: Any, y: Any, z: Any, v: Real) -> Real:
+    """Return q v q*, (..., 3), for the components (...) of q.
+
+    It is v + w t + (x, y, z) x t with t = 2 (x, y, z) x v.
+    """
+    a, b, c = split(v)
+    t, u, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return stack(
+        a + w * t + (y * s - z * u), b + w * u + (z * t - x * s), c + w * s + (x * u - y * t)
+    )
+
+
+def stack(x: Any, y: Any, z: Any) -> Real:
+    """Return vectors (..., 3) from their components; NumPy's own takes twice the time."""
+    if isinstance(x, float):
+        return np.array((x, y, z))
+    vector = np.empty((*x.shape, 3))
+    vector[..., 0], vector[..., 1], vector[..., 2] = x, y, z
+    return vector

@@ -61,7 +61,7 @@ _RUNNING: list[Any] = []
 
 @contextlib.contextmanager
 def _playwright(api: Any) -> Iterator[Any]:
-    """Run Playwright: only one runs in a process, and browsers within another share it."""
+    """Run Playwright, which a process can do once: browsers within another share its own."""
     if _RUNNING:
         yield _RUNNING[0]
         return

@@ -1,4 +1,4 @@
-"""What the documents contain that can be tried: code blocks, links, and names in tables."""
+"""Parts of the documents that can be tried: code blocks, links, and names in tables."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from symtop_ros.simulation.changes.outcomes import Outcome, Start
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples
-from symtop_ros.wire.cdr import encode_string
+from symtop_ros.wire.layout import encode_string
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)

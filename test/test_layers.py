@@ -11,7 +11,7 @@ NUMERICAL = {"numpy", "scipy"}
 MCAP = {"mcap", "lz4", "zstandard"}
 RERUN = {"rerun", "rerun_cli"}
 # Files of the package itself.
-TOP = {"__init__", "arrays", "distribution", "figures", "programs", "quaternions", "shutdown"}
+TOP = {"__init__", "arrays", "distribution", "figures", "programs", "shutdown"}
 # Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 ARROWS = {
@@ -76,7 +76,7 @@ ARROWS = {
 def imports(folder):
     """Top-level packages that the files of a folder import, own folders by their names.
 
-    Every folder may use `arrays` and `quaternions`.
+    Every folder may use `arrays`.
     """
     own, others = set(), set()
     for path in sorted((PACKAGE / folder).rglob("*.py")):
@@ -92,7 +92,7 @@ def imports(folder):
                     own.add(rest.partition(".")[0] or "__init__")
                 elif package not in {*sys.stdlib_module_names, "_typeshed"}:  # types only
                     others.add(package)
-    return own - {folder, "arrays", "quaternions"}, others
+    return own - {folder, "arrays"}, others
 
 
 @pytest.mark.parametrize("folder", ARROWS)

@@ -90,7 +90,7 @@ def build(workspace, *options, **variables):
 
 @pytest.fixture
 def workspace(sources, tmp_path):
-    """A workspace of its own."""
+    """A separate workspace."""
     shutil.copytree(sources, tmp_path / "src/symtop_ros")
     return tmp_path
 

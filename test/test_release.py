@@ -1,4 +1,4 @@
-"""What a build farm needs: keys of rosdep, a changelog that bloom reads, a Debian package."""
+"""Needs of a build farm: keys of rosdep, a changelog that bloom reads, a Debian package."""
 
 import gzip
 import os
@@ -99,7 +99,7 @@ def write_index(folder):
 
 @pytest.mark.long
 def test_bloom_makes_a_debian_package_of_what_is_declared(tmp_path):
-    # In an environment of its own: bloom wants another empy than ROS.
+    # In a separate environment: bloom wants another empy than ROS.
     venv.create(tmp_path / "venv", with_pip=True)
     programs = tmp_path / "venv/bin"
     install = [programs / "python", "-m", "pip", "install", "--quiet", "bloom", "rosdep"]

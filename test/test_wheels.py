@@ -135,7 +135,7 @@ def test_the_wheel_for_arm_has_the_same_bits_in_the_emulator(wheels, tmp_path):
 
 @pytest.mark.parametrize("threads", [False, True])
 def test_a_free_threaded_python_gets_no_module_of_the_limited_interface(threads):
-    """It has none, and the wheel would be refused."""
+    """It has no limited interface, and the wheel would be refused."""
     program = (
         "import sys, sysconfig; from distutils.core import run_setup; import setuptools; "
         "known = sysconfig.get_config_vars(); known['Py_GIL_DISABLED'] = int(sys.argv[1]); "

@@ -51,7 +51,7 @@ def compilers(processor: str) -> dict[str, str]:
     return {
         **dict.fromkeys(("CC", "CXX"), compiler),
         **dict.fromkeys(("LDSHARED", "LDCXXSHARED"), shared),
-        # what the linker or the compiler of this machine's Python was told is not for Zig
+        # options for the linker or the compiler of this machine's Python are not for Zig
         **dict.fromkeys(("CFLAGS", "LDFLAGS"), ""),
         "_PYTHON_HOST_PLATFORM": f"linux-{processor}",
     }

@@ -58,7 +58,7 @@ def _unlink_folders(_: Sphinx, page: str, source: list[str]) -> None:
 
 
 def _show_top(_: Sphinx, page: str, source: list[str]) -> None:
-    """Let links lead to the page of the site, which is no document, and show it where it is live."""
+    """Let links lead to the page of the site, which is no document, and show it if it is live."""
     text = TOP_LINK.sub(r'<a href="\2">\1</a>', source[0])
     if page in LIVE:
         text = text.replace("\n## ", FRAME.format(LIVE[page]), 1)

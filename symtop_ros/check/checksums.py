@@ -1,6 +1,6 @@
 """Checksums and indexes of an MCAP file: bytes that readers of messages never look at.
 
-A chunk has a checksum of its own, which `McapFile` verifies. Here are the others: that of the data
+A chunk has its own checksum, which `McapFile` verifies. Here are the others: that of the data
 section, that of the summary, and the indexes behind each chunk, which follow from its messages.
 """
 

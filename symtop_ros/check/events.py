@@ -39,7 +39,7 @@ from symtop_ros.simulation.topics import EVENTS
 
 NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
-ENGINE = ("computed_by",)  # nothing else in a log tells
+ENGINE = ("computed_by",)  # nothing else in a log says which
 MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 VECTORS = ("angular_impulse",)  # of the request for a kick; "hold" is a word
 
@@ -129,7 +129,7 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
 
 def _state_before(previous: Segment, event: Event, budget: StepBudget) -> State | None:
     """Return the state before an event; None if it takes too long to compute."""
-    if "reached" in event.request:  # a motion that was slowed down, or that could not go on
+    if "reached" in event.request:  # a motion that was slowed down, or that could not continue
         reached = float(event.request["reached"])
         is_near = budget.reach(previous.motion, reached, FREE_STEPS)
         return previous.motion.at(reached) if is_near else None
@@ -139,7 +139,7 @@ def _state_before(previous: Segment, event: Event, budget: StepBudget) -> State 
 
 
 class Known(NamedTuple):
-    """What is known of an event before it is computed."""
+    """An event before it is computed, with its past."""
 
     previous: Segment
     event: Event
@@ -281,7 +281,7 @@ def _seconds(segment: Segment) -> float:
 
 
 def _read_kick(request: dict[str, str]) -> dict[str, object]:
-    """Return the request for a kick as it was given."""
+    """Return the request for a kick, as given."""
     return {
         name: text if name == "hold" else _numbers(text) if name in VECTORS else float(text)
         for name, text in request.items()

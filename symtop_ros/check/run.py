@@ -14,7 +14,7 @@ from symtop_ros.log.top_log import TopLog
 
 @dataclass(frozen=True)
 class Findings:
-    """What a check has found."""
+    """Results of a check."""
 
     deviations: dict[str, Deviation]  # of the samples, by their topics
     mismatches: list[Mismatch]  # in events, descriptions and diagnostics

@@ -43,7 +43,7 @@ class Deviation:
     unreached: int = 0
     # samples that follow from an event that is missing
     unjudged: int = 0
-    # samples that agree with an event, although the order of the messages names another one
+    # samples that agree with an event, although the order of the messages names a different one
     unordered: int = 0
 
     @property

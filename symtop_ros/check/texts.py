@@ -1,7 +1,7 @@
 """Descriptions, fixed frames and diagnostics of a log, compared with what its events give.
 
 Of the diagnostics those of the motion and of balances are computed again. Pace, log and duplicates
-tell of the machine.
+describe the machine.
 """
 
 import re
@@ -23,9 +23,8 @@ from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.sensor import Rig, find_body
 from symtop_ros.simulation.topics import DIAGNOSTICS, EVENTS, TF_STATIC, choose_description
-from symtop_ros.wire.cdr import DecodeError, Reader
 from symtop_ros.wire.diagnostics import Status, decode_statuses
-from symtop_ros.wire.layout import NANOSECONDS
+from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Reader
 from symtop_ros.wire.messages import encode_transforms
 
 Kind = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame

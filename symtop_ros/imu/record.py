@@ -1,4 +1,4 @@
-"""What an inertial sensor on a top measures, at instants or as means over sample intervals."""
+"""Measurements of an inertial sensor on a top, at instants or as means over sample intervals."""
 
 import math
 from dataclasses import dataclass

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.simulation.validation import RefusedError, one_line
-from symtop_ros.wire.cdr import DecodeError, Reader
-from symtop_ros.wire.layout import NANOSECONDS, Doubles, Layout, Stamp, Text
+from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Doubles, Layout, Reader, Stamp, Text
 from symtop_ros.wire.messages import (
     IMU,
     ODOMETRY,
@@ -30,7 +29,7 @@ MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000
 LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
 NORM_ROUNDING = 2.0**-50  # of a quaternion that is normalised
-NO_ORIENTATION = -1.0  # first covariance of an Imu that has none (sensor_msgs)
+NO_ORIENTATION = -1.0  # first covariance of an Imu without covariances (sensor_msgs)
 TF_TYPE = TRANSFORM.type
 
 
@@ -42,7 +41,7 @@ class Estimates:
     orientations: Real  # unit quaternions w, x, y, z, frame of body or sensor to world
     angular_velocities: Real | None  # in that frame, in rad/s
     left_out: int = 0  # messages without an attitude, or which could not be read
-    of_sensor: bool = False  # True: of the sensor as it is mounted, not of the body
+    of_sensor: bool = False  # True: of the mounted sensor, not of the body
     notes: tuple[str, ...] = ()  # what was odd about the file, in sentences
 
     @classmethod
@@ -66,7 +65,7 @@ class Estimates:
         good &= np.abs(times) < MAX_STAMP
         order = np.flatnonzero(good)[np.argsort(times[good], kind="stable")]
         rates = None if angular_velocities is None else angular_velocities[order]
-        # Unit quaternions stay as they are: a division would add the rounding that is measured.
+        # Unit quaternions stay unchanged: a division would add the rounding that is measured.
         scale = np.where(np.abs(norms - 1) <= NORM_ROUNDING, 1.0, norms)[order, np.newaxis]
         unit = q[order] / scale
         return cls(times[order], unit, rates, left_out + int((~good).sum()))

@@ -19,7 +19,7 @@ MODELS = {"none": "none", "heading": "heading", "world": "world", "world-and-bod
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """What explains most of the errors."""
+    """Explanation of most of the errors."""
 
     offset: Offset = NONE
     # what the motion cannot show: "delay", "drift", or "rotations" (the world's and the body's)

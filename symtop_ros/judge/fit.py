@@ -8,13 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from symtop_ros.arrays import Real, Stamps
+from symtop_ros.arrays import Real, Stamps, compose, invert
 from symtop_ros.judge.causes.search import fit_rotations, from_vector
-from symtop_ros.judge.compare import NONE, Offset, subtract, to_rotation
+from symtop_ros.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.scale import Scaling
 from symtop_ros.judge.truth import Truth
-from symtop_ros.quaternions import compose, invert
 from symtop_ros.wire.layout import NANOSECONDS
 
 SAMPLES = 500  # estimates that a fit takes, spread over the run

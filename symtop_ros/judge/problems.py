@@ -15,7 +15,7 @@ from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.testset import score
 from symtop_ros.testset.tables import VERSION, format_problems, tabulate
 
-ALL = "all"  # in place of a name: writes every problem into a folder of its own, or scores them
+ALL = "all"  # in place of a name: writes every problem into its own folder, or scores them
 SOURCE = score.FILE.parent
 MODELS = "models"  # the folder of the whole set's models
 README = "README.md"
@@ -79,7 +79,7 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
 
 
 def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
-    """Write all problems as one set, with its models in a folder of their own."""
+    """Write all problems as one set, with its models in a separate folder."""
     facts = [each.facts for each in problems.values()]
     texts = {score.FILE.name: format_problems(facts, STANDARD_GRAVITY), **tabulate(facts)}
     models = {name: text for each in facts for name, text in _describe_models(each).items()}

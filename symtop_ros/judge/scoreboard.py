@@ -106,7 +106,7 @@ def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
 
 @dataclass(frozen=True)
 class Rank:
-    """What an entry has reached in the problems of a level."""
+    """Result of an entry in the problems of a level."""
 
     entry: str
     solved: int  # problems with an error of at most SOLVED

@@ -29,7 +29,7 @@ Row = Sequence[str]
 
 @dataclass(frozen=True)
 class Columns:
-    """Where a table has the time, the quaternion w, x, y, z, and the rates if there are any."""
+    """Columns of a table with the time, the quaternion w, x, y, z, and the rates if given."""
 
     time: int
     numbers: tuple[int, ...]
@@ -99,7 +99,7 @@ def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> C
     if separator is None and len(head) == TUM and _is_number(head[0]):
         return Columns(0, (7, 4, 5, 6), in_seconds=True, has_names=False)
     if separator is None and len(head) == KITTI and _is_number(head[0]):
-        raise RefusedError(f"{path} must have times, got poses of KITTI, which have none")
+        raise RefusedError(f"{path} must have times, got poses of KITTI, which lack them")
     raise RefusedError(
         f"{path} must have the columns stamp (ns) or t (s), w, x, y, z, or be a file of TUM or "
         f"EuRoC; got the header {one_line(first) or 'nothing'}"

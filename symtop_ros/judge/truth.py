@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, Stamps
-from symtop_ros.quaternions import compose
+from symtop_ros.arrays import Real, Stamps, compose
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.events import Event, start_event
@@ -59,7 +58,7 @@ class Truth:
         segment = self._segment(0)
         try:
             period = segment.motion.nutation_period / segment.factor
-        except ValueError:  # with friction or a torque there is none
+        except ValueError:  # with friction or a torque there is no period
             return None
         return float(period) if np.isfinite(period) and period > 0 else None
 

@@ -180,7 +180,7 @@ class McapFile:
         self._chunk_offsets.sort()
 
     def _read_index(self, file: BinaryIO, start: int) -> None:
-        """Read descriptions and places of chunks from an offset on; 0: there are none."""
+        """Read descriptions and places of chunks from an offset on; 0: the file lacks them."""
         if 0 < start < self.size:
             for record in self._records_at(file, start, *SUMMARY):
                 if record.opcode == Opcode.CHUNK_INDEX:

@@ -30,7 +30,7 @@ class SqliteBag:
         self.schemas: dict[int, Schema] = {}
         self.channels: dict[int, Channel] = {}
         self.problems: list[str] = []
-        self.metadata: dict[str, dict[str, str]] = {}  # a bag has none
+        self.metadata: dict[str, dict[str, str]] = {}  # missing in a bag
         try:
             self.size = path.stat().st_size
             for number, name, kind, encoding in self._rows(TOPICS):

@@ -189,7 +189,7 @@ writeFileSync("trajectory.csv", rows.join("\\n") + "\\n");
 ```
 
 Jolt (JavaScript, `npm install jolt-physics`; single precision). It stops bodies at 47 rad/s and
-damps them unless it is told not to, and leaves out the gyroscopic torque unless it is asked for:
+damps them unless an option forbids it, and leaves out the gyroscopic torque unless it is asked for:
 
 ```js
 import initJolt from "jolt-physics";

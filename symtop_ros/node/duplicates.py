@@ -1,4 +1,4 @@
-"""What another program duplicates: the name of this node, or the simulated clock."""
+"""Duplicates in other programs: of the name of this node, or of the simulated clock."""
 
 from abc import ABC, abstractmethod
 from typing import cast

@@ -46,7 +46,7 @@ FEATURES = (
     SimulatorFeatures.STEP_SIMULATION_MULTIPLE,
     SimulatorFeatures.STEP_SIMULATION_ACTION,
 )
-INFO = f"symtop_ros {__version__}: one top; a reset leaves the time as it is"
+INFO = f"symtop_ros {__version__}: one top; a reset leaves the time unchanged"
 STOPPED, PLAYING, PAUSED = (
     SimulationState.STATE_STOPPED,
     SimulationState.STATE_PLAYING,
@@ -72,7 +72,7 @@ class ResultError(RefusedError):
 
 
 class NextSpin:
-    """To be awaited: the executor does its other work before it goes on."""
+    """To be awaited: the executor does its other work before it continues."""
 
     def __await__(self) -> Generator[None, None, None]:
         """Yield once."""

@@ -1,6 +1,6 @@
 """A running node behind the page: its events and its attitude to the pages, their acts to it.
 
-Needs ROS. The page computes all else from the events, as it does for a top of its own.
+Needs ROS. The page computes all else from the events, as it does for its own top.
 """
 
 import contextlib
@@ -70,7 +70,7 @@ class SharedConnection(Connection):
 
 @dataclass
 class _Place:
-    """What one page was sent: which run, how many events of it, and the state."""
+    """The news that one page was sent: run, number of its events, and state."""
 
     run: int = -1
     count: int = 0

@@ -1,6 +1,6 @@
 """The server of the page: one file, and for a running node what it sends and is asked.
 
-A page with a top of its own needs no guard: each has another top. Through a page of a node the node
+A page with its own top needs no guard: each has another top. Through a page of a node the node
 can be kicked, and a web page of any origin can send requests to this machine from the user's
 browser. So there the Host header must be an address and no foreign name that was made to point here
 (DNS rebinding), the Origin header of a request must be this Host, and the page stands in no frame.
@@ -66,7 +66,7 @@ class PageServer(ThreadingHTTPServer):
         super().shutdown()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Report an unexpected exception in one line; a page that was closed is none."""
+        """Report an unexpected exception in one line, but not a page that was closed."""
         error = sys.exception() if hasattr(sys, "exception") else sys.exc_info()[1]
         if not isinstance(error, OSError):
             print(f"top_panel: a request failed: {error!r}", file=sys.stderr)

@@ -1,12 +1,11 @@
-"""Accelerations of a body that moves as a motion tells: of its angles and of its points."""
+"""Accelerations of a body in a given motion: of its angles and of its points."""
 
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_vector
-from symtop_ros.quaternions import split, stack
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 

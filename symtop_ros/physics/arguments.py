@@ -35,7 +35,7 @@ def validate_torque(torque: Any) -> Any:
 
 
 def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:
-    """Return one time as a float, many as an array, and exact times as they are."""
+    """Return one time as a float, many as an array, and exact times unchanged."""
     if type(t) is float and math.isfinite(t):  # the common cases: no copy
         return t
     if type(t) is np.ndarray and t.dtype == np.float64 and t.ndim and np.isfinite(t).all():
@@ -149,7 +149,7 @@ class Setting:
 
 @dataclass(frozen=True, slots=True)
 class Constants:
-    """What is constant in n motions."""
+    """Constants of n motions."""
 
     kinds: NDArray[np.str_]  # (n,)
     angles: Real  # (n, 2): smallest and largest theta in rad

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, split
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, match
 from symtop_ros.physics.values import (
@@ -22,7 +22,6 @@ from symtop_ros.physics.values import (
     validate_rate,
     validate_vector,
 )
-from symtop_ros.quaternions import split
 
 Hold = Literal["spin_rate", "spin_momentum"]
 HOLDS: tuple[Hold, ...] = ("spin_rate", "spin_momentum")

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, rotate, split, stack
 from symtop_ros.physics.exact.elementary import (
     arc_tangent,
     find_cosine_and_sine,
@@ -24,7 +24,6 @@ from symtop_ros.physics.values import (
     validate_array,
     validate_together,
 )
-from symtop_ros.quaternions import rotate, split, stack
 
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Real, Vector, split, stack
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
     EPS,
@@ -18,7 +18,6 @@ from symtop_ros.physics.values import (
     to_float,
     validate_together,
 )
-from symtop_ros.quaternions import split, stack
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)

@@ -27,8 +27,8 @@ from symtop_ros.simulation.topics import (
     imu_frame,
 )
 from symtop_ros.wire import messages
-from symtop_ros.wire.cdr import encode_string
 from symtop_ros.wire.diagnostics import Status, encode_statuses
+from symtop_ros.wire.layout import encode_string
 from symtop_ros.wire.messages import Transform
 
 

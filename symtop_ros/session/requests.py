@@ -4,8 +4,8 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from symtop_ros.session.diagnostics import summarize_state
 from symtop_ros.session.recording import Answer
-from symtop_ros.session.summary import summarize_state
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.validation import RefusedError, number, reject, validate_names

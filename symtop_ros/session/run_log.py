@@ -1,6 +1,6 @@
 """The log that a node would have written of a run of the page: run.json as MCAP.
 
-The run is done again: a session with a clock of its own gets the same starts, kicks and changes at
+The run is done again: a session with its own clock gets the same starts, kicks and changes at
 the same nanoseconds, and records what it publishes.
 """
 
@@ -36,7 +36,7 @@ class RunClock:
 
 
 class Silent:
-    """The host of a session that nobody watches."""
+    """The host of a session without a user."""
 
     is_open = True
 
@@ -57,7 +57,7 @@ class Silent:
         """Do nothing."""
 
     def update_statuses(self) -> list[Status]:
-        """Return nothing of its own."""
+        """Return no statuses."""
         return []
 
     def inform(self, text: str) -> None:

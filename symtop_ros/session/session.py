@@ -59,7 +59,7 @@ class Session:
         return service.act(self._requests, read())
 
     def log_torque(self, data: bytes) -> None:
-        """Log an applied torque as it was received, whether it is accepted or not."""
+        """Log the bytes of an applied torque, accepted or not."""
         with self.simulation.turn("~/applied_torque"):
             self._outputs.log_torque(self.simulation.stamp, data)
 

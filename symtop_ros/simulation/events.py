@@ -113,7 +113,7 @@ class Event:
 
     @property
     def number(self) -> int:
-        """Number of the event in its run, from 1 on; 0 if it has none."""
+        """Number of the event in its run, from 1 on; 0 if it is unknown."""
         text = self.values.get("number", "0")
         return int(text) if WHOLE.fullmatch(text) else 0
 
@@ -128,7 +128,7 @@ class Event:
 
     @property
     def previous_end(self) -> int:
-        """Stamp (ns) up to which the segment before held: another one if the clock jumped."""
+        """Stamp (ns) up to which the segment before held: a different one if the clock jumped."""
         left = self.request.get("from", "") if self.name == "clock" else ""
         is_stamp = WHOLE.fullmatch(left) and abs(int(left)) <= MAX_STAMP
         return int(left) if is_stamp else self.stamp

@@ -83,7 +83,7 @@ class RunRecorder:
         segment, previous, values = event.segment(), self._segment, event.values
         is_new = event.name in RESTARTS or any(values[k] != self._values.get(k) for k in MOTION)
         if previous and is_new:
-            # Within one motion its own time goes on, in pauses, steps and jumps of the clock too.
+            # Within one motion its own time counts, in pauses, steps and jumps of the clock too.
             self._begin += previous.elapsed_at(event.previous_end) - segment.elapsed
         self._segment, self._values = segment, values
         if not is_new:
@@ -162,7 +162,7 @@ def _read_events(given: list[Any]) -> list[RunEvent]:
             earliest = events[-1].time if events else 0
             if event.time < earliest or not (events or event.kind == "start"):
                 raise RefusedError("a run must begin with a start and be in the order of time")
-        except ValueError as error:  # also of a top and a state
+        except ValueError as error:  # those of a top and a state too
             raise RefusedError(f"events[{place}]: {one_line(error)}") from None
         events.append(event)
     return events

@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Real, Vector, compose
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
-from symtop_ros.quaternions import compose
 from symtop_ros.simulation.validation import number, vector
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -203,7 +202,7 @@ class Rig:
 
 @lru_cache(maxsize=8)
 def find_body(top: Top, gravity: float) -> Body | None:
-    """Return the body that is chosen for a top; None if there is none."""
+    """Return the body that is chosen for a top; None if no body can be it."""
     try:
         return Body.of(top, gravity)
     except ValueError:

@@ -322,7 +322,7 @@ class Simulation:
         self._lock.acquire()
 
     def end_jump(self, jumped: bool) -> None:
-        """Go on after the clock was set; if it jumped, the next tick follows it."""
+        """Continue after the clock was set; if it jumped, the next tick follows it."""
         if jumped:
             self._jumped_to = self.now
         self._lock.release()

@@ -110,7 +110,7 @@ class Time(Protocol):
 
 
 def warn_of_end(run: Paced, change: Change) -> None:
-    """Pause a motion that cannot go on."""
+    """Pause a motion that cannot continue."""
     run.warn(f"the motion becomes too fast for doubles: {run.apply(change)}")
 
 
@@ -250,7 +250,7 @@ class RunTime:
         return ready
 
     def _end(self, run: Paced, reached: float) -> None:
-        """Bring a motion that cannot go on to its last time in s, and pause it there."""
+        """Bring a motion that cannot continue to its last time in s, and pause it there."""
         before = run.stamp
         self._bring_forward(run, reached)
         if run.stamp == before:

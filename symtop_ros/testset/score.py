@@ -159,7 +159,7 @@ class Score:
         return np.asarray(self.angles / np.array(self.problem.facts[limits]), dtype=np.float64)
 
     def format(self) -> str:
-        """Return the score in a line, and likely mistakes in lines of their own.
+        """Return the score in a line, and likely mistakes in separate lines.
 
         Examples
         --------
@@ -231,7 +231,7 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
         found = _pick(file, split, places, problem.times)
     q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
-        with np.errstate(all="ignore"):  # quaternions that are none are refused later
+        with np.errstate(all="ignore"):  # zero and infinite quaternions are refused later
             unit = q / np.linalg.norm(q, axis=1, keepdims=True)
             rates = turn_to_body(unit, rates)
     return q, rates

@@ -13,8 +13,7 @@ from dataclasses import asdict, fields, is_dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from symtop_ros.wire.cdr import Reader, Writer
-from symtop_ros.wire.layout import NANOSECONDS
+from symtop_ros.wire.layout import NANOSECONDS, Reader, Writer
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

@@ -11,8 +11,17 @@ from itertools import accumulate
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.wire.cdr import DecodeError, Reader, Writer
-from symtop_ros.wire.layout import NANOSECONDS, Count, Doubles, Layout, Stamp, Text
+from symtop_ros.wire.layout import (
+    NANOSECONDS,
+    Count,
+    DecodeError,
+    Doubles,
+    Layout,
+    Reader,
+    Stamp,
+    Text,
+    Writer,
+)
 
 JOINTS = ("precession", "tilt", "spin")  # joint names of the URDF; axes z-x-z
 MAX_LAYOUTS = 256  # different frames on one topic that are decoded (/tf is shared by many)

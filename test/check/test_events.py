@@ -12,7 +12,7 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import accelerated, describe_engine
 
-# What nothing else in a log tells: the scene's name, the paths of logs, the frame of /tf, whether
+# Not said elsewhere in a log: the scene's name, the paths of logs, the frame of /tf, whether
 # another version wrote it, and why a torque changed.
 GIVEN = ("top", "friction", "applied_torque", "gravity", "motion.", "imu.")  # of the first event
 DRIVING = ("friction", "applied_torque")

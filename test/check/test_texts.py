@@ -13,8 +13,8 @@ from symtop_ros.check.events import Mismatch
 from symtop_ros.check.texts import find_mismatches
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import accelerated
-from symtop_ros.wire.cdr import Reader
 from symtop_ros.wire.diagnostics import decode_statuses
+from symtop_ros.wire.layout import Reader
 
 STATUS = "top: motion"
 
@@ -43,7 +43,7 @@ def swap(memory, place, data):
 
 
 def places_of(text, data):
-    """Where a text stands in a message."""
+    """Place of a text in a message."""
     return [match.start() for match in re.finditer(re.escape(text.encode()), data)]
 
 

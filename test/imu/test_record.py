@@ -1,15 +1,15 @@
-"""What the sensor measures, compared with 50 digits."""
+"""Measurements of the sensor, compared with 50 digits."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.exact_motion import Inputs, exact_motion
 from physics.test_body import differentiate, turn
 
 from symtop_ros.imu import CONSUMER, Imu, record_imu
 from symtop_ros.physics import Motion, State, Top
+from workshop.exact_motion import Inputs, exact_motion
 
 TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 START = State.from_euler(theta=0.5, psi_dot=200.0)

@@ -6,7 +6,7 @@ import numpy as np
 from judge.cases import SECOND, make_estimates
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.quaternions import compose, invert
+from symtop_ros.arrays import compose, invert
 
 NED = Rotation.from_quat([np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])
 FRD = Rotation.from_rotvec([np.pi, 0.0, 0.0])
@@ -20,7 +20,7 @@ def heading(angle):
 
 @dataclass(frozen=True)
 class Made:
-    """What is wrong with estimates."""
+    """An error of estimates."""
 
     world: Rotation | None = None
     body: Rotation | None = None

@@ -1,4 +1,4 @@
-"""What explains errors, and what a motion cannot show."""
+"""Explanations of errors, and what a motion cannot show."""
 
 import numpy as np
 import pytest
@@ -85,7 +85,7 @@ def make_noisy(truth, delay, scale):
 
 @pytest.mark.parametrize(("noise", "hidden"), [(1e-9, ()), (1e-2, ("delay",))])
 def test_noise_hides_the_delay_of_a_motion_that_is_almost_steady(noise, hidden):
-    # 1e-3 rad/s beside regular precession: a nutation of 1e-5 rad
+    # 1e-3 rad/s off regular precession: a nutation of 1e-5 rad
     rate = regular_precession_rates(ARTICLE, 0.5, 200.0)[0] + 1e-3
     start = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
     truth = Truth([start_event(Motion(ARTICLE, start))])

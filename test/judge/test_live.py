@@ -1,4 +1,4 @@
-"""`top_judge --live` beside a running node."""
+"""`top_judge --live` and a running node."""
 
 from programs import run, running_node
 

@@ -40,7 +40,7 @@ class Recorder:
     watch_event = inform = lambda self, _: None
 
     def run(self, begin, end):
-        """Set the clock to a time in s, and let it run to another one."""
+        """Set the clock to a time in s, and let it run to a later time."""
         for time in range(round(begin * SECOND), round(end * SECOND), SECOND // 100):
             jumped = not 0 <= time - self.now < SECOND
             self.session.simulation.begin_jump()

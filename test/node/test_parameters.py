@@ -140,7 +140,7 @@ def read(run, *names):
 
 
 def put(run, name, **value):
-    """What `ros2 param set` sends."""
+    """The request that `ros2 param set` sends."""
     parameters = [ParameterMessage(name=name, value=ParameterValue(**value))]
     request = SetParameters.Request(parameters=parameters)
     return run.connection._call(SetParameters, "set_parameters", request).results[0]

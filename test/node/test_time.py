@@ -200,7 +200,7 @@ def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
     wait(0.3)
     stopped = len(samples)
     late = run.collect(Clock, "/clock")
-    run.spin_until(lambda: late)  # who comes in the pause is told the time, too
+    run.spin_until(lambda: late)  # a subscriber that comes in the pause gets the time, too
     assert (len(samples), late[0]) == (stopped, clocks[-1])
     assert run.set("step", duration=0.02)[0]
     run.spin_until(lambda: len(samples) == stopped + 1)

@@ -49,7 +49,7 @@ def _node():
 
 
 class Page:
-    """What one page is sent, while the test waits for it."""
+    """The news of one page, while the test waits for them."""
 
     def __init__(self, bridge):
         self._news, self.events, self.new, self.state = bridge.follow(), [], [], {}

@@ -87,7 +87,7 @@ def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
     host = urlsplit(url).hostname
     ipaddress.ip_address(host)  # other machines may not know the name of this one
     assert host != "0.0.0.0"
-    assert errors == ""  # each page has a top of its own
+    assert errors == ""  # each page has its own top
 
 
 def test_it_runs_where_there_is_no_ros_and_no_mcap():

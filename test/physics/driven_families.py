@@ -6,11 +6,11 @@ import math
 import random
 from collections.abc import Sequence
 
-from physics.taylor_motion import TaylorMotion
 from physics.tops import ARTICLE
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.physics.values import Vector
+from workshop.taylor_motion import TaylorMotion
 
 FAMILIES = (
     "plain",

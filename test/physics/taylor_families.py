@@ -7,9 +7,9 @@ import random
 from dataclasses import dataclass
 
 from mpmath import mp, mpf
-from physics.taylor_motion import TaylorMotion
 
 from symtop_ros.physics import Motion, State, Top
+from workshop.taylor_motion import TaylorMotion
 
 FAMILIES = (
     "ordinary",

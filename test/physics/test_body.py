@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.exact_motion import Inputs, exact_motion
 from physics.refusals import refused
-from physics.taylor_motion import TaylorMotion
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
+from workshop.exact_motion import Inputs, exact_motion
+from workshop.taylor_motion import TaylorMotion
 
 EPS = 2.0**-52
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

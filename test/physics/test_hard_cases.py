@@ -4,11 +4,11 @@ import math
 
 import pytest
 from mpmath import mp, mpf
-from physics import exact_motion as reference
-from physics.exact_motion import Inputs, distance, exact_motion
 from physics.tops import ARTICLE, EPS, random_case
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
+from workshop import exact_motion as reference
+from workshop.exact_motion import Inputs, distance, exact_motion
 
 pytestmark = pytest.mark.untraced
 THIN_DISC = Top(Ix=0.001, Iz=0.0019, Mgl=-0.05)

@@ -9,11 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from mpmath import mp, mpc, mpf
-from physics.exact_motion import Inputs, exact_motion
 from physics.refusals import FINITE_ARRAY, meet, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case
 
 from symtop_ros.physics import Friction, Motion, State, Top
+from workshop.exact_motion import Inputs, exact_motion
 
 SEEDS = range(25)
 

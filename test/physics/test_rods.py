@@ -5,11 +5,11 @@ import random
 
 import pytest
 from mpmath import mp, mpf
-from physics import exact_motion as reference
-from physics.exact_motion import Inputs, exact_motion
 from physics.tops import EPS, seeds
 
 from symtop_ros.physics import Motion, State, Top
+from workshop import exact_motion as reference
+from workshop.exact_motion import Inputs, exact_motion
 
 CASES = 100  # of a seed
 # A promise of docs/accuracy.md; of 10 000 cases the worst has 3.6.

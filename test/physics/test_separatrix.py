@@ -6,12 +6,12 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics import exact_motion
-from physics.exact_motion import Inputs
-from physics.taylor_motion import TaylorMotion
 from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top
+from workshop import exact_motion
+from workshop.exact_motion import Inputs
+from workshop.taylor_motion import TaylorMotion
 
 pytestmark = pytest.mark.untraced
 PENDULUM = Top(1.0, 0.5, 1.0)

@@ -5,11 +5,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.exact_motion import exact_motion
 from physics.refusals import FINITE_NUMBER, refused
 from physics.tops import ARTICLE, CUSPS, EPS, Case
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from workshop.exact_motion import exact_motion
 
 YEAR = 365 * 86_400 * 10**9  # ns
 FACTORS = [1.0, 1e-3, 0.1, 1 / 3, 7.0, 100.0]

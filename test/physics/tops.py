@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from physics.exact_motion import Inputs
 
 from symtop_ros.physics import State, Top
+from workshop.exact_motion import Inputs
 
 EPS = 2.0**-52
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

@@ -1,4 +1,4 @@
-"""The Rerun viewer: it leaves the home of the user as it is."""
+"""The Rerun viewer: it leaves the home of the user unchanged."""
 
 import subprocess
 import sys

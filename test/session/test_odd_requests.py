@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from odd_values import SIZES, VALUES, assert_one_sentence, deterministic, trials
 
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
-from symtop_ros.session.summary import summarize_state
+from symtop_ros.session.diagnostics import summarize_state
 from symtop_ros.simulation.changes import initial, kick
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.changes.kick import plan_kick

@@ -13,10 +13,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from mpmath import mp, mpc, mpf
-from physics.exact_motion import Inputs, exact_motion
 from simulation.runs import SECOND, ListSink, Run
 
 from symtop_ros.simulation.topics import STATE_TOPICS
+from workshop.exact_motion import Inputs, exact_motion
 
 pytestmark = pytest.mark.untraced
 

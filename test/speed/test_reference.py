@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.driven_families import COUNT, list_cases
-from physics.exact_motion import Inputs, error_and_limit, exact_motion
 from speed.write_reference import DIGITS, TIMES, article, driven_entry, hard_cases
 
 from symtop_ros.physics import Motion, State
+from workshop.exact_motion import Inputs, error_and_limit, exact_motion
 from workshop.speed.reference import EPS, FRICTION, Reference, read_entries
 
 pytestmark = pytest.mark.untraced

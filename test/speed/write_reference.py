@@ -14,12 +14,12 @@ from typing import Any
 
 from mpmath import mp
 from physics.driven_families import DrivenCase, list_cases
-from physics.exact_motion import Inputs, error_and_limit, exact_motion
-from physics.taylor_motion import TaylorMotion
 
 from symtop_ros.physics import Friction, State, Top, regular_precession_rates
 from workshop.article.motions import RATES, THETA, TOP, start
+from workshop.exact_motion import Inputs, error_and_limit, exact_motion
 from workshop.speed.reference import FILE, FRICTION
+from workshop.taylor_motion import TaylorMotion
 
 TIMES = [0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6]  # s
 DRIVEN_TIMES = [0.1, 1.0, 10.0]

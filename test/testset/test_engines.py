@@ -1,4 +1,4 @@
-"""What docs/benchmarks.md says of the MuJoCo that is installed here is measured again."""
+"""The figures of docs/benchmarks.md for the MuJoCo that is installed here, measured again."""
 
 import re
 from pathlib import Path

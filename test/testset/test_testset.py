@@ -10,11 +10,16 @@ import sys
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.exact_motion import DIGITS, Inputs, distance, exact_motion
-from physics.taylor_motion import TaylorMotion
-from testset.links import find_link_effect
-from testset.problems import COUNT, SETTINGS
-from testset.write_testset import (
+
+from symtop_ros.models.formats import FORMATS, FREE_FORMATS
+from symtop_ros.physics import Motion, State, Top, point_acceleration
+from symtop_ros.testset.score import main, read_problems
+from symtop_ros.testset.tables import FORCES, TABLES, WORLD
+from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion
+from workshop.taylor_motion import TaylorMotion
+from workshop.testset.links import find_link_effect
+from workshop.testset.problems import COUNT, SETTINGS
+from workshop.testset.write import (
     EPS_32,
     describe,
     describe_forces,
@@ -22,11 +27,6 @@ from testset.write_testset import (
     digits,
     limits,
 )
-
-from symtop_ros.models.formats import FORMATS, FREE_FORMATS
-from symtop_ros.physics import Motion, State, Top, point_acceleration
-from symtop_ros.testset.score import main, read_problems
-from symtop_ros.testset.tables import FORCES, TABLES, WORLD
 
 PROBLEMS = {name: each.facts for name, each in read_problems().items()}
 # Of SHA256SUMS: the files have these bytes until the data change, and then the set a new version.

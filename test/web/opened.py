@@ -35,7 +35,7 @@ class Opened:
         assert all(request.startswith(NO_REQUESTS) for request in self.requests)
 
     def say(self, name):
-        """Return a text as it was before its symbols became formulas."""
+        """Return a text before its symbols became formulas."""
         place = self.tab.locator(f"#{name}")
         return place.get_attribute("data-text") or place.text_content()
 

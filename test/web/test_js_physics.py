@@ -21,7 +21,7 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 from symtop_ros.physics.values import EPS
-from symtop_ros.session.summary import constants_of_motion
+from symtop_ros.session.diagnostics import constants_of_motion
 from symtop_ros.wording import write
 
 HOLDS = "spin_rate", "spin_momentum"

@@ -1,4 +1,4 @@
-"""What is done on the page: starts, kicks and torques are those of Python."""
+"""Acts on the page: starts, kicks and torques are those of Python."""
 
 import math
 

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
-from symtop_ros.wire.cdr import DecodeError
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, decode_statuses, encode_statuses
+from symtop_ros.wire.layout import DecodeError
 
 TEXT = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=20)
 

@@ -15,8 +15,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 
 from symtop_ros.wire import messages
-from symtop_ros.wire.cdr import DecodeError, Reader
-from symtop_ros.wire.layout import Count, Doubles, Layout, Stamp, Text
+from symtop_ros.wire.layout import Count, DecodeError, Doubles, Layout, Reader, Stamp, Text
 
 DOUBLE = st.floats(allow_nan=False)
 STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.figures import GREY, RED
 from symtop_ros.physics import Motion, State
 from workshop.article.motions import PSI_DOT, SLOW, THETA, TOP
 
@@ -30,10 +31,10 @@ def panel(name: str, phi_dot: float) -> str:
     path = Motion(TOP, State.from_euler(theta=THETA, psi_dot=PSI_DOT, phi_dot=phi_dot))
     trace = path.at(np.linspace(0.0, TURN, POINTS)).to_world(np.array([0.0, 0.0, 1.0]))
     circles = "".join(
-        draw_circle(theta, 'stroke="#999" stroke-width="1" stroke-dasharray="3 3"')
+        draw_circle(theta, f'stroke="{GREY}" stroke-width="1" stroke-dasharray="3 3"')
         for theta in path.turning_angles
     )
-    curve = draw_curve(trace, 'stroke="#b5531c" stroke-width="20" stroke-linejoin="round"')
+    curve = draw_curve(trace, f'stroke="{RED}" stroke-width="20" stroke-linejoin="round"')
     label = f'<text x="{SIZE / 2}" y="{SIZE + 8}" text-anchor="middle">{name}</text>'
     return circles + curve + label
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.figures import GREY, INK, RED, new_figure, write_figures
+from symtop_ros.figures import BLUE, GREY, INK, RED, new_figure, write_figures
 from workshop.speed.benchmarks import SPAN, HardCase, Results
 from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.reference import EPS, ReferenceMotion
@@ -16,8 +16,8 @@ from workshop.speed.sweep import Curve
 
 PACKAGES = {  # colours that differ in grey, and markers that differ without any
     "symtop_ros": (RED, "*"),
-    "SciPy": ("#1f5f9e", "o"),
-    "heyoka": ("#20242c", "D"),
+    "SciPy": (BLUE, "o"),
+    "heyoka": (INK, "D"),
     "CyRK": ("#d07020", "h"),
     "MuJoCo": ("#8a5fb0", "s"),
     "Drake": ("#2f8f6b", "^"),

@@ -1,1 +1,1 @@
-"""What explains errors of estimates: conventions, rotations, delays, drifts, clocks. For judge."""
+"""Causes of errors of estimates: conventions, rotations, delays, drifts, clocks. For judge."""

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.causes.search import LEVELS
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
-from symtop_ros.quaternions import compose, invert
 
 PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "scale": SCALE}
 
@@ -28,7 +27,7 @@ class Cause:
 
     @property
     def weight(self) -> float:
-        """How much it takes to be true; smaller is simpler."""
+        """Number of assumptions that it makes; smaller is simpler."""
         return CHANGES[self.change][0] + LEVELS[self.level][1] + len(self.parameters)
 
     @property
@@ -38,13 +37,13 @@ class Cause:
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """What it names, without numbers."""
+        """Its kind, without numbers."""
         return self.change, self.level, self.parameters
 
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """What explains the errors of estimates."""
+    """An explanation of the errors of estimates."""
 
     best: Cause
     others: tuple[Cause, ...] = ()  # as simple and as good

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.causes.cause import (
     CHANGES,
     PARAMETERS,
@@ -22,12 +22,10 @@ from symtop_ros.judge.causes.cause import (
 )
 from symtop_ros.judge.causes.grids import MOST, Grids
 from symtop_ros.judge.causes.search import LEVELS, Table
-from symtop_ros.judge.compare import NONE, Offset, to_rotation
+from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import SAMPLES, Fit
-from symtop_ros.judge.scale import MOST_STEPS, count_steps
 from symtop_ros.judge.truth import Truth
-from symtop_ros.quaternions import compose, invert
 
 VALLEYS = 4  # of each table that are refined
 # An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
@@ -44,7 +42,7 @@ WHITE = 0.5  # largest correlation of what is left, from one estimate to the nex
 # The correlation of 500 estimates of noise, of three components each, is within 0.026 of zero.
 PURE, PURER = 0.1, 1.2
 LOUD = 0.3  # rad; noise of an attitude is smaller
-SMALL = 1e-3  # rad; rotations below this are none in a comparison of explanations
+SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
 STILL = 0.05  # rad; estimates that stay this close to one attitude do not move
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 

@@ -5,15 +5,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.causes.cause import CHANGES, set_parameter
 from symtop_ros.judge.causes.search import Table
-from symtop_ros.judge.compare import IDENTITY, NONE, Offset
+from symtop_ros.judge.compare import IDENTITY, NONE, Offset, Scaling
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import GRID_STEP, MOST_DELAYS
-from symtop_ros.judge.scale import Scaling
 from symtop_ros.judge.truth import Truth
-from symtop_ros.quaternions import compose, invert
 
 MOST = 0.5  # s, of a delay
 MOST_CLOCK = 5e-3  # s per s

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
-from symtop_ros.quaternions import compose, invert
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the
 # simplest explanation is looked for.

@@ -238,7 +238,7 @@ class ClosedFormMotion:
 
         |omega_xy|^2 = alpha - beta u is known at three places: the start and both turning points.
         Where it is small its rounding would be an error of all later ones; of the others the mean
-        is taken, because each quotient has a rounding of its own.
+        is taken, because each quotient has its own rounding.
         """
         zero, phase = self.zeros.omega_xy, self._nutation_phase
         estimates = []

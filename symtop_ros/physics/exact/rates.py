@@ -7,7 +7,7 @@ from symtop_ros.physics.exact.kind import Kind
 
 
 class Rates(NamedTuple):
-    """What is the same in every nutation."""
+    """Quantities that are the same in every nutation."""
 
     nutation_period: float  # s; infinite if theta does not return
     mean_precession_rate: float  # mean phi' in rad/s; nan if the axis meets the vertical

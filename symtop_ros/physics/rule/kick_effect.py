@@ -49,7 +49,7 @@ class Contradiction:
 
 @dataclass(frozen=True, slots=True)
 class KickVerdict:
-    """What a kick changed, and the motion that follows.
+    """Changes by a kick, and the motion that follows.
 
     `str` of it is the answer to the kick.
 

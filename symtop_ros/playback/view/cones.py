@@ -12,14 +12,13 @@ import rerun as rr
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import BLUE, GREEN
+from symtop_ros.playback.view.entities import BLUE, GREEN, PALE_BLUE, PALE_GREEN
 from symtop_ros.playback.view.mesh import create_lathe
 from symtop_ros.playback.view.stream import Stream
 
 OPACITY = 70  # of 255
 AROUND = np.linspace(0.0, 2 * np.pi, 97)
 NARROWEST = 1e-3  # radius of a cone that can be seen, in scene units
-PALE_GREEN, PALE_BLUE = (60, 140, 95), (60, 105, 170)
 
 
 def has_cones(motion: Motion) -> bool:

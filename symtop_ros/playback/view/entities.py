@@ -11,6 +11,14 @@ SKY = (120, 190, 250)
 GREY = (70, 78, 92)
 WHITE = (240, 244, 250)
 BACKGROUND = (22, 26, 34)
+PALE_GREEN, PALE_BLUE = (60, 140, 95), (60, 105, 170)  # of cones, with their full colours
+ASH = (118, 126, 140)  # of what was before
+# Of bodies
+STEEL = (196, 202, 210)
+BRASS = (222, 178, 92)
+ENAMEL = (150, 32, 44)
+IVORY = (240, 230, 205)
+STONE = (92, 98, 110)
 
 TIMELINE = "time"  # s since the first sample
 SPACE = "/space"

@@ -31,7 +31,7 @@ class TorqueArrow(NamedTuple):
     color: tuple[int, int, int]
     depth: float  # below the pivot, in scene units; negative above it
     # of the label: along the line of nodes, and up. It is fixed, so that labels stay apart
-    # when the arrows are short, as they are at cusps
+    # when the arrows are short, as at cusps
     place: tuple[float, float]
 
 

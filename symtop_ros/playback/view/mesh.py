@@ -13,13 +13,10 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Top
+from symtop_ros.playback.view.entities import BRASS, ENAMEL, IVORY, STEEL
 
 SECTORS = 6  # three pairs of colours: after half a turn the colours are exchanged
 STEPS = 10  # facets of a sector
-STEEL = (196, 202, 210)
-BRASS = (222, 178, 92)
-ENAMEL = (150, 32, 44)
-IVORY = (240, 230, 205)
 Profile = Sequence[tuple[float, float]]  # radius and height, from the lowest point upwards
 
 

@@ -12,7 +12,7 @@ import rerun as rr
 from symtop_ros.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREY, WHITE
+from symtop_ros.playback.view.entities import ASH, BLUE, GOLD, GREY, WHITE
 from symtop_ros.playback.view.stream import Stream
 
 WIDTH, HEIGHT = 2.0, 1.0  # of the box in scene units; y points down
@@ -21,7 +21,6 @@ TILTS = np.linspace(1e-4, np.pi - 1e-4, 4001)
 # least this share of Mgl, for regular precession has no depth.
 ABOVE, LEAST = 1.0, 0.02
 HATCHES = 40
-OLD = (118, 126, 140)
 HATCHED, DRAWN = 10.0, 20.0  # what is drawn later is in front
 CLEAR = rr.Clear(recursive=False)
 
@@ -150,7 +149,7 @@ class PotentialView:
         self._log_lines(entities.POTENTIAL, "frame", [chart.frame()], GREY, 1.0)
         old = self._potential
         before = chart.cut(TILTS, old.at(TILTS)) if old and old != potential else []
-        self._log_lines(entities.POTENTIAL, "before", before, OLD, 1.0)
+        self._log_lines(entities.POTENTIAL, "before", before, ASH, 1.0)
         marks = {f"{low:.3f} rad": low, f"{high:.3f}": high} if high > low else {f"{low:.3f}": low}
         self._log_marks(entities.POTENTIAL, chart, marks, chart.bottom)
 
@@ -168,7 +167,7 @@ class PotentialView:
         self._log_lines(entities.CUBIC, "frame", [zero, *poles], GREY, 1.0)
         old = self._potential
         before = chart.cut(heights, old.cubic(heights)) if old and old != potential else []
-        self._log_lines(entities.CUBIC, "before", before, OLD, 1.0)
+        self._log_lines(entities.CUBIC, "before", before, ASH, 1.0)
         roots = {f"u1 = {u1:.3f}": u1, f"u2 = {u2:.3f}": u2}
         if chart.left < third < chart.right:
             roots[f"u3 = {third:.3f}"] = third

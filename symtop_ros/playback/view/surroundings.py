@@ -10,14 +10,13 @@ import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import GREY, ORANGE
+from symtop_ros.playback.view.entities import GREY, ORANGE, STONE
 from symtop_ros.playback.view.mesh import Mesh, create_lathe, draw_meridian, draw_parallel
 from symtop_ros.playback.view.quantities import nodes_of
 from symtop_ros.playback.view.stream import Stream
 
 MAX_LINES = 3000  # visible at one time
 MAX_GAP = 5  # sample periods; longer gaps are not bridged by a line
-STONE = (92, 98, 110)
 STAND = ((0.0, -0.02), (0.03, -0.03), (0.05, -0.22), (0.17, -0.28), (0.17, -0.32), (0.0, -0.32))[
     ::-1
 ]

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import rerun as rr
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, rotate
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import (
@@ -27,7 +27,6 @@ from symtop_ros.playback.view.panel import describe_motion
 from symtop_ros.playback.view.plots import Plots
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
-from symtop_ros.quaternions import rotate
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS

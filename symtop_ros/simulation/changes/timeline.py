@@ -90,7 +90,7 @@ class Timeline:
         return self._follow(name, segment, stamp, {}, Pause(_seconds(segment)))
 
     def stop(self, stamp: int, reached: float) -> "Change":
-        """Pause a motion that cannot go on, at the time in s that it has reached."""
+        """Pause a motion that cannot continue, at the time in s that it has reached."""
         segment = self.segment.slow_down(reached, self.segment.factor, stamp).pause(stamp)
         outcome = Pause(_seconds(segment))
         change = self._follow("pause", segment, stamp, {"reached": reached}, outcome)

@@ -1,4 +1,4 @@
-"""Where the article disagrees with itself."""
+"""Places at which the article disagrees with itself."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Where the energy of a kick goes, and what its hold decides."""
+"""The energy of a kick, and what its hold decides."""
 
 import pytest
 

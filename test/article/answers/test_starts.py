@@ -23,7 +23,7 @@ def test_with_another_factor_the_rule_and_the_cusp_are_wrong(monkeypatch):
 
 
 def test_the_curves_are_the_edges_of_the_coloured_regions():
-    """A hundred-thousandth of a rad/s on each side of a curve the kind is another one."""
+    """A hundred-thousandth of a rad/s on each side of a curve the kind changes."""
     phi_dot = np.array([-40.0, -9.0, 12.0, 60.0])
     curves = starts.find_curves(TOP, phi_dot)
     for name in ("cusps", "through the vertical"):

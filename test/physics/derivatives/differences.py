@@ -6,7 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 from mpmath import mp, mpf
-from physics.taylor_motion import TaylorMotion
+
+from workshop.taylor_motion import TaylorMotion
 
 DIGITS = 70
 STEP = Fraction(1, 10**18)  # of a parameter of size 1: the square of it is the relative error

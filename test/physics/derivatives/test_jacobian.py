@@ -7,8 +7,8 @@ import pytest
 from physics.derivatives.differences import differentiate, differentiate_driven, find_errors
 from physics.tops import ARTICLE, CUSPS, seeds
 
+from symtop_ros.arrays import compose
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.quaternions import compose
 
 # Promised are 1e-8; measured below are 2e-13 in the first nutations.
 CLOSE = 1e-12

@@ -8,7 +8,6 @@ import pytest
 from mpmath import mp, mpf
 from physics.driven_families import FAMILIES, DrivenCase
 from physics.refusals import NOT_TOO_FAST, VECTOR, refused
-from physics.taylor_motion import TaylorMotion
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, random_states
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
@@ -17,6 +16,7 @@ from symtop_ros.physics.driven.series import Knot, Stepper
 from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.kernel import find_kernel
 from symtop_ros.physics.kernel.compiled import CompiledMotion
+from workshop.taylor_motion import TaylorMotion
 
 pytestmark = pytest.mark.untraced
 LONG = pytest.mark.long

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 from mpmath import mp, mpf
-from physics.exact_motion import Inputs, distance, error_and_limit, exact_motion
 from physics.tops import ARTICLE, EPS, Case, random_case, seeds
 
 from symtop_ros.physics import Motion, State, Top
+from workshop.exact_motion import Inputs, distance, error_and_limit, exact_motion
 
 pytestmark = pytest.mark.untraced
 MOTIONS = json.loads(Path(__file__).parents[1].joinpath("motions.json").read_text())

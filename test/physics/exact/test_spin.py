@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.exact_motion import exact_motion
 from physics.tops import ARTICLE, EPS, random_case
 
 from symtop_ros.physics import Motion, State, Top
+from workshop.exact_motion import exact_motion
 
 CASES = [random_case(seed, "any") for seed in range(400)]
 PRECESSING = [

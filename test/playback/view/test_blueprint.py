@@ -1,4 +1,4 @@
-"""What the plots span: a constant quantity is a line, not its rounding."""
+"""The spans of plots: a constant quantity is a line, not its rounding."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The colours of a recording can be told apart by people with any kind of colour vision."""
+"""The colours of a recording can be distinguished by people with any kind of colour vision."""
 
 from itertools import combinations
 

@@ -1,4 +1,4 @@
-"""What events lead to, as fields that read back to the same records."""
+"""Outcomes of events, as fields that read back to the same records."""
 
 import pytest
 from simulation.runs import Run

@@ -95,7 +95,7 @@ def printed_equations_hold(top: Top) -> Claim:
     found, largest = _write_out(top, states, random)
     missed = float(np.abs(found - _change_momentum(top, states, random)).max()) / largest
     return Claim(
-        "The three equations in the fixed frame hold as they are printed: with the accelerations "
+        "The three equations in the fixed frame hold as printed: with the accelerations "
         "that follow from them the right sides are the torque, and with any other they are dL/dt.",
         f"on {len(states)} random states the right sides are off the torque by {off:.0e} of their "
         f"largest term, {size:.3g} N m, and with random accelerations off dL/dt by {missed:.0e}",

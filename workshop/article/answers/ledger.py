@@ -1,4 +1,4 @@
-"""Where the energy of a kick goes: into the spin, the weight, the precession, and E'.
+"""The energy of a kick: into the spin, the weight, the precession, and E'.
 
 E' = E - p_psi^2/(2 Iz) is what the spin does not keep. A kick at theta' = 0 puts energy into the
 precession and, if it holds psi', into the spin; afterwards weight and precession exchange it.

@@ -1,4 +1,4 @@
-"""What kind of motion a start with theta' = 0 leads to, decided by algebra, and the map of kinds.
+"""The kind of motion after a start with theta' = 0, decided by algebra, and the map of kinds.
 
 The article ends its section 3.3 with the remark that initial values do not say which kind follows.
 With theta' = 0 they do. phi' = (p_phi - p_psi u)/(Ix (1 - u^2)) vanishes at u = cos(theta) =

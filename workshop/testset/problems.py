@@ -52,31 +52,34 @@ class Setting:
 
     @property
     def times(self) -> list[float]:
+        """Times of the exact states, in s."""
         return [self.duration * k / COUNT for k in range(1, COUNT + 1)]
 
 
-def euler(theta, **others):
+def euler(theta: float, **others: float) -> State:
     """A start with these Euler angles and rates, in decimals of six digits."""
     start = State.from_euler(theta=theta, **others)
     return State(*([float(f"{x:.6g}") for x in part] for part in start.parts))
 
 
-def article(phi_dot):
+def article(phi_dot: float) -> State:
+    """Return a start of the article's top."""
     return euler(0.5, phi_dot=phi_dot, psi_dot=200.0)
 
 
-def regular(phi_dot, psi_dot=200.0):
+def regular(phi_dot: float, psi_dot: float = 200.0) -> State:
     """A start of the article's top whose every bit counts."""
     return State.from_euler(theta=0.5, phi_dot=phi_dot, psi_dot=psi_dot)
 
 
-def spinning(theta, factor, digits=10):
+def spinning(theta: float, factor: float, digits: int = 10) -> State:
     """A start at rest that spins at a multiple of the critical spin."""
     spin = float(f"{TOP.critical_spin * factor:.{digits}g}")
     return State(euler(theta).given_orientation, (0.0, 0.0, spin))
 
 
-def pendulum(theta_dot):
+def pendulum(theta_dot: float) -> State:
+    """Return a horizontal start of a pendulum."""
     return State(HALF, (-float(f"{theta_dot:.12g}"), 0.0, 0.0))
 
 

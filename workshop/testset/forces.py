@@ -8,8 +8,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from mpmath import mp, mpf
-from physics.exact_motion import DIGITS, Attitude, Vector
-from testset.problems import Setting
+
+from workshop.exact_motion import DIGITS, Attitude, Vector
+from workshop.testset.problems import Setting
 
 
 class Forces(NamedTuple):

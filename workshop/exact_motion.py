@@ -8,14 +8,17 @@ derivatives of theta functions. A working precision of 150 digits pays for the c
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from mpmath import mp, mpc, mpf
 
 DIGITS = 150
 Attitude = tuple[mpf, mpf, mpf, mpf]
 Vector = tuple[mpf, mpf, mpf]
+Pair = tuple[mpc, mpc]
+Motion = tuple[mpc, mpc, mpf, mpf]  # A, B, omega_x and omega_y
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,10 @@ class Inputs:
     angular_velocity: Sequence[mpf]
 
     @classmethod
-    def of(cls, Ix, Iz, Mgl, orientation, angular_velocity) -> Inputs:
+    def of(
+        cls, Ix: Any, Iz: Any, Mgl: Any, orientation: Sequence[Any], angular_velocity: Sequence[Any]
+    ) -> Inputs:
+        """Return the inputs of doubles, integers or fractions of mpmath."""
         return cls(
             mpf(Ix),
             mpf(Iz),
@@ -39,7 +45,7 @@ class Inputs:
         )
 
 
-def exact_motion(inputs: Inputs, t) -> tuple[Attitude, Vector]:
+def exact_motion(inputs: Inputs, t: Any) -> tuple[Attitude, Vector]:
     """Orientation (w, x, y, z) and body angular velocity at t, to at least 30 digits."""
     with mp.workdps(DIGITS):
         norm = mp.sqrt(sum(c * c for c in inputs.orientation))
@@ -48,7 +54,7 @@ def exact_motion(inputs: Inputs, t) -> tuple[Attitude, Vector]:
         return (A.real, B.real, B.imag, A.imag), (wx, wy, inputs.angular_velocity[2])
 
 
-def _motion(inputs: Inputs, A, B, t):
+def _motion(inputs: Inputs, A: mpc, B: mpc, t: mpf) -> Motion:
     Ix, Mgl = inputs.Ix, inputs.Mgl
     if Mgl < 0:  # turn the world by pi about x'
         mirrored = Inputs(Ix, inputs.Iz, -Mgl, (), inputs.angular_velocity)
@@ -63,7 +69,7 @@ def _motion(inputs: Inputs, A, B, t):
     return _heavy(inputs, A, B, t)
 
 
-def _times(q, p):
+def _times(q: Pair, p: Pair) -> Pair:
     (a, b), (c, d) = q, p  # (A, B) pairs: q = A + i-part as w + x i + y j + z k
     w1, x1, y1, z1 = a.real, b.real, b.imag, a.imag
     w2, x2, y2, z2 = c.real, d.real, d.imag, c.imag
@@ -73,7 +79,7 @@ def _times(q, p):
     )
 
 
-def _free(inputs: Inputs, A, B, t):
+def _free(inputs: Inputs, A: mpc, B: mpc, t: mpf) -> Motion:
     """Rotation about L by |L| t / Ix after a rotation about the axis by c t."""
     Ix, Iz = inputs.Ix, inputs.Iz
     wx, wy, wz = inputs.angular_velocity
@@ -89,7 +95,7 @@ def _free(inputs: Inputs, A, B, t):
     return A, B, transverse.real, transverse.imag
 
 
-def _cubic_roots(a3, a2, a1, a0):
+def _cubic_roots(a3: mpf, a2: mpf, a1: mpf, a0: mpf) -> list[mpf]:
     """Three real roots in rising order, by Viète's trigonometric formula."""
     shift = a2 / (3 * a3)
     p = a1 / a3 - 3 * shift**2
@@ -100,7 +106,7 @@ def _cubic_roots(a3, a2, a1, a0):
     return sorted(2 * r * mp.cos(angle - 2 * mp.pi * k / 3) - shift for k in range(3))
 
 
-def _theta(k, z, q):
+def _theta(k: int, z: mpc, q: mpf) -> Pair:
     """Jacobi's theta_3 or theta_4 and its derivative, summed in the nome q."""
     value, slope, n = mpc(1), mpc(0), 0
     while True:
@@ -113,7 +119,7 @@ def _theta(k, z, q):
             return value, slope
 
 
-def _heavy(inputs: Inputs, A, B, t):
+def _heavy(inputs: Inputs, A: mpc, B: mpc, t: mpf) -> Motion:  # noqa: PLR0915  # one formula after the other
     Ix, Iz, Mgl = inputs.Ix, inputs.Iz, inputs.Mgl
     wx, wy, wz = inputs.angular_velocity
     G = 2j * mp.conj(A) * B
@@ -151,7 +157,7 @@ def _heavy(inputs: Inputs, A, B, t):
     if p_phi - p_psi < 0:
         beta = -beta
 
-    def rate(shift, momentum, gap):
+    def rate(shift: mpf, momentum: mpf, gap: mpf) -> mpf:
         value, slope = _theta(3, 1j * shift * to_z, q)
         return momentum / (2 * Ix * gap) - Omega * (slope * to_z / value).imag
 
@@ -159,7 +165,7 @@ def _heavy(inputs: Inputs, A, B, t):
     rate_a = rate(alpha, p_phi + p_psi, 1 + u2) + c / 2
     rate_b = rate(beta, p_phi - p_psi, 1 - u1) - c / 2
 
-    def factors(time):
+    def factors(time: mpf) -> list[Pair]:
         """Un-normalised A and B and their derivatives."""
         v = v0 + Omega * time
         below, below_slope = _theta(4, mpc(v * to_z), q)
@@ -188,7 +194,9 @@ def _heavy(inputs: Inputs, A, B, t):
     return A, B, transverse.real, transverse.imag
 
 
-def error_and_limit(inputs: Inputs, t, orientation, angular_velocity):
+def error_and_limit(
+    inputs: Inputs, t: Any, orientation: Sequence[Any], angular_velocity: Sequence[Any]
+) -> tuple[float, float, float]:
     """Errors of a computed state, and what half an ulp of every input does to the exact one.
 
     Returns the error of the orientation up to sign, that of the angular velocity relative to its
@@ -204,16 +212,17 @@ def error_and_limit(inputs: Inputs, t, orientation, angular_velocity):
         return float(error), float(rate_error), float(mp.norm(changes))
 
 
-def distance(a, b):
+def distance(a: Sequence[Any], b: Sequence[Any]) -> mpf:
     """Distance of two quaternions, q and -q being the same attitude."""
     minus, plus = zip(*((x - y, x + y) for x, y in zip(a, b, strict=True)), strict=True)
     return min(mp.norm(minus), mp.norm(plus))
 
 
-def perturb(inputs: Inputs, eps=2.0**-52):
+def perturb(inputs: Inputs, eps: float = 2.0**-52) -> Iterator[Inputs]:
     """Each input in turn, larger by half an ulp, which is eps/2: of doubles if it is not given."""
     flat = [inputs.Ix, inputs.Iz, inputs.Mgl, *inputs.orientation, *inputs.angular_velocity]
     for i, value in enumerate(flat):
         if value:
             moved = [*flat[:i], value * (1 + mpf(eps) / 2), *flat[i + 1 :]]
-            yield Inputs(*moved[:3], moved[3:7], moved[7:])
+            Ix, Iz, Mgl, *state = moved
+            yield Inputs(Ix, Iz, Mgl, state[:4], state[4:])

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from fractions import Fraction
+from typing import Any
 
 from mpmath import mp, mpc, mpf
 
 from workshop.taylor import TaylorMotion as IntegratedMotion
-from workshop.taylor import mpz
 
 Integers = list[int]
 
@@ -25,7 +25,7 @@ class TaylorMotion(IntegratedMotion):
     Near the separatrix the motion magnifies by the gap, and its decimal logarithm counts as well.
     """
 
-    def state_at(self, t: float | Fraction):
+    def state_at(self, t: float | Fraction) -> tuple[tuple[mpf, ...], tuple[mpf, ...]]:
         """Orientation (w, x, y, z) and body angular velocity at t in s, as mpf."""
         time, nutations = Fraction(t) * self.second, 0
         known = self.forward.begins[-1] + 40 * 2**self.bits
@@ -64,7 +64,7 @@ class TaylorMotion(IntegratedMotion):
         ends = [[series[0] for series in step] for step in steps]
         return float(max(math.hypot(end[4], end[5]) for end in ends) / 2**self.bits * self.second)
 
-    def _turned(self, state: Integers, nutations: int):
+    def _turned(self, state: Integers, nutations: int) -> tuple[mpc, mpc, mpc]:
         """A, B and omega_xy of a state after so many nutations."""
         w, x, y, z, u, v, _ = (mpf(value) / 2**self.bits for value in state)
         A, B, omega = mpc(w, z), mpc(x, y), mpc(u, v)
@@ -75,7 +75,7 @@ class TaylorMotion(IntegratedMotion):
         return A * turn_a, B * turn_b, omega * turn_b / turn_a
 
     @property
-    def _turns(self):
+    def _turns(self) -> tuple[mpf, mpf]:
         """Angles by which A and B turn in a period."""
         for part in range(7):  # at a time at which neither of them vanishes
             begin = self.period * part // 13
@@ -88,7 +88,7 @@ class TaylorMotion(IntegratedMotion):
     def _turning_times(self) -> Integers:
         """Three times one after the other at which theta' is 0."""
         times: Integers = []
-        before, time, step = 0, mpz(0), 0
+        before, time, step = 0, self.to_integer(Fraction(0)), 0
         while len(times) < 3:
             if step == len(self.forward.steps):
                 self.advance(self.forward)
@@ -118,7 +118,7 @@ class TaylorMotion(IntegratedMotion):
                 high, at_high = middle, value
         return low
 
-    def _slope(self, time: int) -> int:
+    def _slope(self, time: int) -> Any:
         """du/dt in units of 2^(-2 bits), twice too small."""
         w, x, y, z, a, b, _ = self.state(time)
         gx, gy = (x * z - w * y) >> self.bits, (y * z + w * x) >> self.bits

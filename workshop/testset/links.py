@@ -11,10 +11,11 @@ import math
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from testset.problems import Setting
 
+from symtop_ros.arrays import Real
 from symtop_ros.models.urdf import MUJOCO_BOUND
 from symtop_ros.physics import Motion, State, Top
+from workshop.testset.problems import Setting
 
 SPAN = 20.0  # s; beyond it the effect grows with the time
 # J/Ix of a trial, far above the errors of an integration; its effect is in proportion to J.
@@ -48,7 +49,7 @@ def find_lowest_sine(top: Top, start: State) -> float:
     return min(map(math.sin, Motion(top, start).turning_angles))
 
 
-def follow(top: Top, start: State, J: float, times: np.ndarray) -> np.ndarray:
+def follow(top: Top, start: State, J: float, times: Real) -> Real:
     """Return the quaternions (n, 4) of the chain with links of J."""
     Ix, Iz, Mgl = top.moments
     angles, rates = start.euler_angles, start.euler_rates
@@ -56,7 +57,7 @@ def follow(top: Top, start: State, J: float, times: np.ndarray) -> np.ndarray:
     p_psi = Iz * (rates.psi + rates.phi * u)
     p_phi = (Ix * math.sin(angles.theta) ** 2 + 2 * J) * rates.phi + p_psi * u
 
-    def slope(_, y):
+    def slope(_: float, y: Real) -> tuple[float, ...]:
         _, theta, _, theta_dot = y
         u, s = math.cos(theta), math.sin(theta)
         phi_dot = (p_phi - p_psi * u) / (Ix * s * s + 2 * J) if p_phi or p_psi else 0.0

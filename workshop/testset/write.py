@@ -4,7 +4,7 @@ Each state is computed by the closed form in 150 digits, and again by a Taylor s
 that shares no formula with it; a difference in the 33rd digit ends the program. It takes twelve
 minutes with two processors:
 
-    PYTHONPATH=.:test python test/testset/write_testset.py
+    python -m workshop.testset.write
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from multiprocessing import Pool
 from typing import Any
 
 from mpmath import mp, mpf
-from physics.exact_motion import DIGITS, Inputs, distance, exact_motion, perturb
-from physics.taylor_motion import TaylorMotion
-from testset.forces import find_forces, find_world_state
-from testset.links import find_link_effect
-from testset.problems import SETTINGS, Setting
 
 from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.testset.score import FILE, read_problems
 from symtop_ros.testset.tables import FORCES, LIMITS, WORLD, format_problems
+from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion, perturb
+from workshop.taylor_motion import TaylorMotion
+from workshop.testset.forces import find_forces, find_world_state
+from workshop.testset.links import find_link_effect
+from workshop.testset.problems import SETTINGS, Setting
 
 PACKED = FILE.with_suffix(".json.xz")
 SHOWN = 30  # digits
@@ -105,8 +105,8 @@ def describe_forces(setting: Setting, states: list[State]) -> dict[str, Any]:
     """Accelerations, pivot forces and energies, at the start and at the times."""
     with mp.workdps(DIGITS):
         found = [find_forces(setting, *each) for each in (find_start(setting), *states)]
-        energies = [each.energy for each in found]
-        if max(energies) - min(energies) > AGREEMENT * max(map(abs, energies)):
+        sizes = [each.energy for each in found]
+        if max(sizes) - min(sizes) > AGREEMENT * max(map(abs, sizes)):
             sys.exit(f"{setting.name}: the energy changes")
     *vectors, energies = zip(*found, strict=True)
     lists = [*([digits(each) for each in column] for column in vectors), digits(energies)]
@@ -128,6 +128,7 @@ def find_start(setting: Setting) -> State:
 
 
 def digits(numbers: Any) -> list[str]:
+    """Return numbers with the digits of the set."""
     # The axial rate is a double; mpf() would round the others to the precision of the moment.
     return [mp.nstr(n if isinstance(n, mpf) else mpf(n), SHOWN) for n in numbers]
 
@@ -138,6 +139,7 @@ def read_effects() -> dict[str, float | None]:
 
 
 def main() -> None:
+    """Compute all problems, and pack them."""
     problems, effects = [], read_effects()
     with Pool() as pool:
         for setting, problem in zip(SETTINGS, pool.imap(describe, SETTINGS), strict=True):
