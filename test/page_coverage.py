@@ -54,11 +54,17 @@ class Counter:
 
     def take(self) -> None:
         """Take over what the open tabs have run."""
+        from playwright import sync_api as api
+
         for tab, session in self._sessions:
             if tab.is_closed():
                 continue
             for script in session.send("Profiler.takePreciseCoverage")["result"]:
-                found = session.send("Debugger.getScriptSource", {"scriptId": script["scriptId"]})
+                wanted = {"scriptId": script["scriptId"]}
+                try:
+                    found = session.send("Debugger.getScriptSource", wanted)
+                except api.Error:  # of a page that was loaded again
+                    continue
                 self._add(script["url"], found["scriptSource"], script["functions"])
         self._sessions = [each for each in self._sessions if not each[0].is_closed()]
 
