@@ -3,16 +3,17 @@
 /**
  * Follow it now, and whenever it changes.
  * @param {string} opening what a file opens whose address has no such end
+ * @param {boolean} isReloaded the run that the address has started is there already
  * @param {(step: number) => void} openLesson
  * @param {(link: {[name: string]: string}) => void} start
  */
-export const followAddress = (opening, openLesson, start) => {
-  const follow = () => {
+export const followAddress = (opening, isReloaded, openLesson, start) => {
+  const follow = (isNew = true) => {
     const text = location.hash.slice(1) || opening;
     const { lesson, ...link } = Object.fromEntries(new URLSearchParams(text));
     if (lesson !== undefined) openLesson(Number(lesson));
-    if (Object.keys(link).length) start(link);
+    if (isNew && Object.keys(link).length) start(link);
   };
-  addEventListener("hashchange", follow);
-  follow();
+  addEventListener("hashchange", () => follow());
+  follow(!isReloaded);
 };

@@ -1,6 +1,7 @@
 // The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
 
 import { find, findAll, make, say } from "./document.js";
+import { recall, remember } from "./memory.js";
 
 /**
  * A button of a step, as in lesson.yaml.
@@ -33,10 +34,9 @@ export class Lesson {
     /** The link of the motion that the step has started. @type {string | null} */
     this.begun = null;
     this.isAwaited = false; // the motion that a button has asked for
-    // What was written is kept by the browser for this tab, and survives a reload. A step is an
-    // entry of its history: Back is the step before. A frame of another site may not have one.
+    // What was written survives a reload; a step is an entry of the history: Back is the step before.
     /** @type {{[step: number]: string}} */
-    this.predictions = { ...history.state };
+    this.predictions = recall().predictions ?? {};
     this.select.append(
       ...steps.map(({ title }, k) => make("option", { textContent: `${k + 1}. ${title}` })),
     );
@@ -84,11 +84,7 @@ export class Lesson {
    */
   keep(number, text, isNew = false) {
     this.predictions[number] = text;
-    try {
-      history[isNew ? "pushState" : "replaceState"](this.predictions, "", `#lesson=${number}`);
-    } catch {
-      // The history is not that of this page: what is written lasts as long as the page.
-    }
+    remember({ predictions: this.predictions }, `#lesson=${number}`, isNew);
   }
 
   /**

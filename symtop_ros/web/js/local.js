@@ -4,6 +4,7 @@ import { holdTorque, perform } from "./acts.js";
 import { NANO } from "./course.js";
 import { chooseWindow, describe } from "./facts.js";
 import { nameRequest } from "./history.js";
+import { recall, rememberRun } from "./memory.js";
 import { findConstants } from "./potential.js";
 import { Run } from "./run.js";
 import { State } from "./state.js";
@@ -68,7 +69,11 @@ export class LocalTop {
   open() {
     const { scenes, lesson, layers, run } = this.content;
     perform(this, { act: "scene", name: "hurry_slow" });
-    if (run) this.load(run);
+    const { run: last, speed = SPEED, isRunning = false } = recall();
+    if (last ?? run) this.load(last ?? run);
+    this.speed = speed;
+    this.isRunning = isRunning || !(last ?? run);
+    rememberRun(this);
     this.tellFacts();
     this.tell({ hello: { scenes, layers, lesson } });
     this.animate();

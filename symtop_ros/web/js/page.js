@@ -10,6 +10,7 @@ import { actWhileHeld } from "./hold.js";
 import { listenToKeys } from "./keys.js";
 import { Layers } from "./layers.js";
 import { Lesson } from "./lesson.js";
+import { recall } from "./memory.js";
 import { dismissRefusals, refuse, showLoss } from "./notices.js";
 import { drawKinds } from "./kinds_chart.js";
 import { drawLedger } from "./ledger_chart.js";
@@ -115,9 +116,10 @@ export class Page {
     const lesson = new Lesson(steps, this.send.bind(this), this.layers.choose.bind(this.layers));
     this.lesson = lesson;
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (!this.content.node && (isCalm || this.content.run)) this.send({ act: "rest" });
-    const { opening = "" } = this.content;
-    followAddress(opening, lesson.open.bind(lesson), (link) => this.followLink(link));
+    const { node, run, opening = "" } = this.content;
+    const isReloaded = !node && Boolean(recall().run);
+    if (!node && (isCalm || (run && !isReloaded))) this.send({ act: "rest" });
+    followAddress(opening, isReloaded, lesson.open.bind(lesson), (link) => this.followLink(link));
   }
 
   /**

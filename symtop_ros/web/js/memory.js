@@ -1,0 +1,49 @@
+// What a tab keeps over a reload: its entry of the browser's history holds the run and what was
+// written in the lesson. A frame of another site may have no history; then it lasts as long as the
+// page.
+
+/**
+ * Predictions by the number of their step; the run as in run.json, the speed of its top, and whether
+ * it runs.
+ * @typedef {{predictions?: {[step: number]: string}, run?: any, speed?: number,
+ *   isRunning?: boolean}} Memory
+ */
+
+/** @type {Memory} */
+const memory = { ...history.state };
+
+/** @returns {Memory} */
+export const recall = () => memory;
+
+/**
+ * @param {Memory} changes
+ * @param {string} [fragment] of the address
+ * @param {boolean} [isNew] a step of its own for the button Back
+ */
+export const remember = (changes, fragment, isNew = false) => {
+  Object.assign(memory, changes);
+  try {
+    history[isNew ? "pushState" : "replaceState"](memory, "", fragment);
+  } catch {
+    // The history is not that of this page.
+  }
+};
+
+const PERIOD = 2000; // ms; browsers allow some hundred changes of the history in half a minute
+
+/**
+ * Remember the run of a top from now on.
+ * @param {{json: any, speed: number, isRunning: boolean}} top
+ */
+export const rememberRun = (top) => {
+  let last = "";
+  const keep = () => {
+    const { json: run, speed, isRunning } = top;
+    const now = JSON.stringify([run, speed, isRunning]);
+    if (now !== last) remember({ run, speed, isRunning });
+    last = now;
+  };
+  setInterval(keep, PERIOD);
+  addEventListener("beforeunload", keep);
+  document.addEventListener("visibilitychange", keep);
+};

@@ -1,0 +1,203 @@
+"""Firefox and WebKit on a screen in memory, by their own drivers."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Protocol
+
+import pytest
+
+TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
+HELP = "sh test/get_browsers.sh, as root"
+# The scene is drawn by software, and Firefox calls nobody.
+FIREFOX_PREFERENCES = {
+    "webgl.force-enabled": True,
+    "webgl.disabled": False,
+    "gfx.webrender.software": True,
+    "browser.shell.checkDefaultBrowser": False,
+    "datareporting.policy.dataSubmissionEnabled": False,
+    "app.update.enabled": False,
+    "network.captive-portal-service.enabled": False,
+    "security.fileuri.strict_origin_policy": True,
+}
+
+
+class Driver(Protocol):
+    """What the tests ask of a browser."""
+
+    def open(self, url: str) -> None:
+        """Open an address."""
+
+    def run(self, script: str, *arguments: Any) -> Any:
+        """Run the body of an asynchronous function in the page, and return its value."""
+
+    def reload(self) -> None:
+        """Load the page again."""
+
+
+def until(driver: Driver, condition: str) -> None:
+    """Wait until an expression is true in the page."""
+    deadline = time.monotonic() + TIMEOUT
+    while not driver.run(f"return Boolean({condition});"):
+        assert time.monotonic() < deadline, condition
+        time.sleep(0.1)
+
+
+def find_port() -> int:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return int(free.getsockname()[1])
+
+
+# A driver gives an asynchronous script a function as its last argument, which takes its value.
+WRAPPED = """
+const [text, values, done] = arguments;
+const answer = (value) => done([true, value === undefined ? null : value]);
+const fail = (error) => done([false, String(error)]);
+SCRIPT(...values).then(answer, fail);
+"""
+
+
+def wrap(script: str) -> str:
+    function = f"(async (...given) => {{ {script} }})"
+    return WRAPPED.replace("SCRIPT", function)
+
+
+def unwrap(answer: Any) -> Any:
+    succeeded, value = answer
+    assert succeeded, value
+    return value
+
+
+class Firefox:
+    """Firefox, by Marionette."""
+
+    def __init__(self, client: Any) -> None:
+        self.client = client
+
+    def open(self, url: str) -> None:
+        self.client.navigate(url)
+
+    def run(self, script: str, *arguments: Any) -> Any:
+        arguments_ = [script, list(arguments)]
+        answer = self.client.execute_async_script(
+            wrap(script), script_args=arguments_, sandbox=None, script_timeout=int(1000 * TIMEOUT)
+        )
+        return unwrap(answer)
+
+    def reload(self) -> None:
+        self.client.refresh()
+
+
+@contextlib.contextmanager
+def running_firefox() -> Iterator[Driver]:
+    """Run Firefox; the test is skipped without it."""
+    module = pytest.importorskip("marionette_driver.marionette", reason=f"no Marionette: {HELP}")
+    program = shutil.which("firefox-esr") or shutil.which("firefox")
+    if not program or not shutil.which("Xvfb"):
+        pytest.skip(f"no Firefox: {HELP}")
+    port = find_port()
+    with tempfile.TemporaryDirectory() as profile:
+        preferences = {**FIREFOX_PREFERENCES, "marionette.port": port}
+        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});" for k, v in preferences.items()]
+        Path(profile, "user.js").write_text("\n".join(lines))
+        command = [program, "--marionette", "--no-remote", "--profile", profile]
+        with running_screen() as screen, running(command, screen):
+            wait_for_port(port)
+            client = module.Marionette(host="127.0.0.1", port=port)
+            client.start_session()
+            client.timeout.script = TIMEOUT
+            try:
+                yield Firefox(client)
+            finally:
+                client.delete_session()
+
+
+class WebKit:
+    """WebKit's MiniBrowser, by the protocol of WebDriver."""
+
+    def __init__(self, port: int) -> None:
+        self.address = f"http://127.0.0.1:{port}/session"
+        binary = next(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
+        options = {"binary": str(binary), "args": ["--automation"]}
+        wanted = {"alwaysMatch": {"webkitgtk:browserOptions": options}}
+        self.address += "/" + self.ask("", {"capabilities": wanted})["sessionId"]
+        self.ask("/timeouts", {"script": int(1000 * TIMEOUT), "pageLoad": int(1000 * TIMEOUT)})
+
+    def ask(self, path: str, body: Any, method: str = "POST") -> Any:
+        data = json.dumps(body).encode() if method == "POST" else None
+        request = urllib.request.Request(self.address + path, data, method=method)
+        request.add_header("Content-Type", "application/json")
+        with urllib.request.urlopen(request, timeout=TIMEOUT) as answer:
+            return json.load(answer)["value"]
+
+    def open(self, url: str) -> None:
+        self.ask("/url", {"url": url})
+
+    def run(self, script: str, *arguments: Any) -> Any:
+        body = {"script": wrap(script), "args": [script, list(arguments)]}
+        return unwrap(self.ask("/execute/async", body))
+
+    def reload(self) -> None:
+        self.ask("/refresh", {})
+
+    def close(self) -> None:
+        self.ask("", None, "DELETE")
+
+
+@contextlib.contextmanager
+def running_webkit() -> Iterator[Driver]:
+    """Run WebKit; the test is skipped without it."""
+    if not shutil.which("WebKitWebDriver") or not shutil.which("Xvfb"):
+        pytest.skip(f"no WebKit: {HELP}")
+    port = find_port()
+    with running_screen() as screen, running(["WebKitWebDriver", f"--port={port}"], screen):
+        wait_for_port(port)
+        driver = WebKit(port)
+        try:
+            yield driver
+        finally:
+            driver.close()
+
+
+@contextlib.contextmanager
+def running_screen() -> Iterator[dict[str, str]]:
+    """Run a screen in memory; yield the environment of programs on it."""
+    screen = f":{find_port()}"
+    with running(["Xvfb", screen, "-screen", "0", "1280x800x24", "-nolisten", "tcp"]):
+        yield {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "GDK_BACKEND": "x11"}
+
+
+@contextlib.contextmanager
+def running(command: list[str], environment: dict[str, str] | None = None) -> Iterator[None]:
+    """Run a program in the background."""
+    with subprocess.Popen(
+        command,
+        env={**os.environ, **(environment or {})},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as process:
+        try:
+            yield
+        finally:
+            process.terminate()
+
+
+def wait_for_port(port: int) -> None:
+    """Wait until a program listens."""
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), 1):
+            return
+        assert time.monotonic() < deadline
+        time.sleep(0.1)

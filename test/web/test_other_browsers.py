@@ -1,0 +1,75 @@
+"""The page in Firefox and WebKit: the bits of Python's kernel, and one pass through the page."""
+
+import base64
+from typing import get_args
+
+import numpy as np
+import pytest
+from other_browsers import running_firefox, running_webkit, until
+from physics.kernel.motions import encode, expect, normalize
+from physics.kernel.test_wasm import KERNEL, SCRIPT, list_samples
+from web.opened import find_time, read_motion
+
+from symtop_ros.physics import Motion, Top, hurry, kick_verdict
+from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.wording import write
+from workshop.kernel_wasm import MODULE
+
+pytestmark = pytest.mark.long
+
+BROWSERS = {"firefox": running_firefox, "webkit": running_webkit}
+
+
+@pytest.fixture(scope="module", params=[*BROWSERS])
+def driver(request):
+    with BROWSERS[request.param]() as running:
+        yield running
+
+
+def to_text(data):
+    return base64.b64encode(data).decode()
+
+
+def test_two_thousand_motions_have_the_bits_of_python(driver, tmp_path):
+    page = tmp_path / "kernel.html"
+    page.write_text(
+        f"<!doctype html><title>kernel</title><script type='module'>{KERNEL}\n"
+        f"window.Kernel = Kernel;</script><script>{SCRIPT}\nwindow.print_motions = print_motions;"
+        "window.decode = decode;</script>"
+    )
+    driver.open(page.as_uri())
+    until(driver, "window.Kernel")
+    samples = list_samples(range(210), range(34))
+    found = driver.run(
+        """const [kinds, module, samples] = given;
+        window.kernel = await Kernel.load(decode(module));
+        return await print_motions(Kernel, kinds, module, samples);""",
+        list(get_args(Kind)),
+        to_text(MODULE.read_bytes()),
+        to_text(encode(samples)),
+    )
+    assert normalize(np.frombuffer(base64.b64decode(found))) == expect(samples)
+
+
+def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+    until(driver, "document.querySelector('#headline')?.textContent")
+    until(driver, "Number(document.querySelector('#timeline').max) > 0.01")
+    why = driver.run(
+        """document.querySelector("#hurry").click();
+        return document.querySelector("#why").dataset.text;"""
+    )
+    run = driver.run("return window.symtop.run();")
+    *_, start, kick = run["events"]
+    before = read_motion(start).at(find_time(start, kick))
+    after = hurry(before, 1.4)
+    assert kick["orientation"] == after.given_orientation.tolist()
+    assert kick["angular_velocity"] == after.angular_velocity.tolist()
+    assert why == write("kick", kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate"))
+    picture = driver.run("return document.querySelector('canvas').toDataURL().length;")
+    assert picture > 5000
+    assert driver.run("return document.querySelectorAll('#charts svg path').length;") > 20
+    driver.reload()
+    until(driver, "document.querySelector('#headline')?.textContent")
+    assert driver.run("return window.symtop.run();")["events"] == run["events"]
+    assert driver.run("return document.querySelector('#refusal').textContent;") == ""
