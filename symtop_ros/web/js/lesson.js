@@ -1,6 +1,6 @@
 // The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
 
-import { find, findAll, make, say } from "./document.js";
+import { find, findAll, make, say, write } from "./document.js";
 import { recall, remember } from "./memory.js";
 
 /**
@@ -121,7 +121,8 @@ export class Lesson {
     this.hurries = [];
     this.begun = null;
     const buttons = acts.map((act) => {
-      const button = make("button", { textContent: act.button, disabled: !act.start });
+      const button = make("button", { disabled: !act.start, "aria-label": act.button });
+      write(button, act.button);
       if (!act.start) this.hurries.push(button);
       button.addEventListener("click", () => this.do(act, scene));
       return button;

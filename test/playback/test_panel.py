@@ -4,7 +4,7 @@ import pytest
 from log_files import ARTICLE
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.playback.view.panel import describe_motion
+from symtop_ros.playback.panel import describe_motion
 from symtop_ros.simulation.segment import Segment
 
 
