@@ -1,4 +1,4 @@
-// Twin of wording/numbers.py: how a number is written, in every sentence.
+// Twin of the rounding in wording/templates.py: how a number is written, in every sentence.
 
 import { Big, LONGEST } from "../physics/big.js";
 
