@@ -137,6 +137,7 @@ setup(
             "log/definitions.json",
             "web/*.css",
             "web/js/*.js",
+            "web/js/*/*.js",
             "web/*.html",
             "web/*.yaml",
             "web/*.wasm",

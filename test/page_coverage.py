@@ -19,6 +19,7 @@ sys.path.append(str(Path(__file__).parents[1]))
 from symtop_ros.web.join import EXPORT, IMPORT, MODULES, drop_comments
 
 FOLDER = os.environ.get("PAGE_COVERAGE")
+PLACES = {path.stem: path for path in MODULES.rglob("*.js")}  # no two have the same name
 LEAST = 90.0  # %
 START = re.compile(r"^const module_(\w+) = \(\(\) => \{\n", re.MULTILINE)
 BRACKETS = set("{}[]();, ")
@@ -27,7 +28,7 @@ Ran = dict[str, list[bool]]  # of the lines of each module, by its name
 
 def list_lines(name: str) -> list[str]:
     """Return the lines of a module as the joined page has them."""
-    text = drop_comments((MODULES / f"{name}.js").read_text(encoding="utf-8"))
+    text = drop_comments(PLACES[name].read_text(encoding="utf-8"))
     return EXPORT.sub(r"\1 \2", IMPORT.sub("", text)).strip().split("\n")
 
 
@@ -75,7 +76,7 @@ class Counter:
         known.update({place: leave(place) for place in found})
         has_run = mark(source, [*{**known, **found}.values()])
         stem = Path(url).stem
-        if url.endswith(".js") and (MODULES / f"{stem}.js").is_file():
+        if url.endswith(".js") and stem in PLACES:
             self._add_module(stem, source, has_run)
         places = [*START.finditer(source)]
         for place in places:
@@ -132,7 +133,7 @@ def align(wanted: Sequence[str], lines: Iterable[tuple[str, bool]]) -> list[bool
 
 def main() -> int:
     """Print the coverage that test processes have written to a folder."""
-    ran: Ran = {path.stem: [False] * len(list_lines(path.stem)) for path in MODULES.glob("*.js")}
+    ran: Ran = {name: [False] * len(list_lines(name)) for name in PLACES}
     for path in Path(sys.argv[1]).glob("*.json"):
         for name, lines in json.loads(path.read_text()).items():
             ran[name] = [a or b for a, b in zip(ran[name], lines, strict=True)]

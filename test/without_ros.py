@@ -12,7 +12,7 @@ BLOCKED = (
     *("rerun", "rerun_cli", "rerun_sdk"),
 )
 # They compare with ROS itself.
-WITH_ROS = ("test_definitions.py", "test_node_source.py")
+WITH_ROS = ("test_definitions.py", "test_bridge.py")
 
 for name in BLOCKED:
     sys.modules[name] = None  # an import of it raises ModuleNotFoundError

@@ -22,6 +22,7 @@ DELAY_FACTOR = 1 / 1.4  # of the precession rate; undoes a hurry with the defaul
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
 QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
+UPDATE_PERIOD = 0.1  # s
 
 
 def follow_keys(top: Connection) -> None:
@@ -122,9 +123,6 @@ def _split(data: str) -> Iterator[str]:
         length = 3 if data.startswith("\x1b[") else 1
         yield data[:length]
         data = data[length:]
-
-
-UPDATE_PERIOD = 0.1  # s
 
 
 def watch(connection: Connection, seconds: float, timeout: float) -> None:

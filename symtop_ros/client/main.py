@@ -21,6 +21,7 @@ from symtop_ros.simulation.validation import one_line
 Answer = tuple[bool, str]
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
+MAX_SHOWN = 60  # characters of a word in a message
 
 
 def main(args: list[str] | None = None) -> int:
@@ -124,9 +125,6 @@ def _plain(value: Any) -> str:
     if isinstance(value, list):
         return " ".join(map(_plain, value)) or "-"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-MAX_SHOWN = 60  # characters of a word in a message
 
 
 class UsageError(ValueError):

@@ -25,6 +25,9 @@ from symtop_ros.wire.layout import NANOSECONDS
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 PERCENTILES = (50, 90, 99, 100)
 WINDOWS = 10  # of the run, for the growth of the error
+STEP = 2_000_000  # ns; nutation turns by 0.1 rad in it
+MOST_STEPS = 100_000  # a longer run is not integrated
+GAUSS = (0.5 - 0.5 / 3**0.5, 0.5 + 0.5 / 3**0.5)  # places in a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,11 +141,6 @@ def _turn_about_z(rate: float, nanoseconds: Stamps) -> Real:
 
 def _wrap(angle: Real) -> Real:
     return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
-
-
-STEP = 2_000_000  # ns; nutation turns by 0.1 rad in it
-MOST_STEPS = 100_000  # a longer run is not integrated
-GAUSS = (0.5 - 0.5 / 3**0.5, 0.5 + 0.5 / 3**0.5)  # places in a step
 
 
 class Scaling:

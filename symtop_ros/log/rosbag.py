@@ -20,6 +20,10 @@ from symtop_ros.log.reader import MAX_MESSAGES, LogError, McapFile
 # In the order in which they arrived: simulated times may go back.
 MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
 TOPICS = "SELECT id, name, type, serialization_format FROM topics"
+SUFFIX = ".zstd"  # of a file
+START = b"\x28\xb5\x2f\xfd"  # of a zstd frame; a CDR message begins with 0
+MAX_MESSAGE = 16 * 2**20  # bytes; those of a top have some kB
+PIECE = 2**20  # bytes
 
 
 class SqliteBag:
@@ -67,12 +71,6 @@ class SqliteBag:
         name = f"{self.path.absolute().as_uri()}?mode=ro{'' if pending else '&immutable=1'}"
         with closing(sqlite3.connect(name, uri=True)) as database:
             yield from database.execute(query)
-
-
-SUFFIX = ".zstd"  # of a file
-START = b"\x28\xb5\x2f\xfd"  # of a zstd frame; a CDR message begins with 0
-MAX_MESSAGE = 16 * 2**20  # bytes; those of a top have some kB
-PIECE = 2**20  # bytes
 
 
 class CompressedMessages:

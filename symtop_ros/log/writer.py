@@ -82,7 +82,14 @@ class LogFile:
         return 0.0 if self._first is None else (self._last - self._first) * 1e-9
 
     def finish(self, ending: Mapping[str, str]) -> None:
-        """Write the index and close the file."""
+        """Write the index and close the file; without any message it is removed.
+
+        A run may end before its first sample.
+        """
+        if self._first is None:
+            self._file.close()
+            self.path.unlink(missing_ok=True)
+            return
         self.flush()
         self._writer.add_metadata(ENDING, dict(ending))
         self._writer.finish()  # type: ignore[no-untyped-call]

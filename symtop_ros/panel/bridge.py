@@ -32,6 +32,7 @@ SERVICES = ("set_initial_conditions", "kick", "step", "reset", "pause", "record"
 TIMEOUT = 3.0  # s for an answer
 SILENCE = 2.0  # s without samples after which the page says so
 PERIOD = 1 / 60  # s between two messages to a page
+IDLE = 0.2  # s in which a page is noticed, while none is open
 ALIVE = 2.0  # s after which a page without news is sent an empty message: a closed one is noticed
 KEPT = 200  # events of a run that a page is sent when it is opened
 
@@ -179,7 +180,7 @@ class Bridge:
     def _spin(self) -> None:
         with contextlib.suppress(ExternalShutdownException):
             while rclpy.ok(context=self._node.context) and not self._ending.is_set():
-                self._executor.spin_once(timeout_sec=PERIOD)
+                self._executor.spin_once(timeout_sec=PERIOD if self._pages else IDLE)
                 self._subscribe(self._pages > 0)
                 self._take()
 

@@ -68,10 +68,9 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _port(text: str) -> int:
-    port = int(text)
-    if not 0 <= port < 2**16:
-        raise ValueError
-    return port
+    if not text.isdecimal() or int(text) >= 2**16:
+        raise argparse.ArgumentTypeError(f"must be 0 to 65535, got {one_line(text, 60)}")
+    return int(text)
 
 
 def _run(options: argparse.Namespace, arguments: list[str]) -> int:

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.exact.kind import Kind
-from symtop_ros.physics.exact.rates import Rates
+from symtop_ros.physics.exact.kind import Kind, Rates
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top

@@ -26,9 +26,8 @@ from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.exact.closed_form import ClosedFormMotion
 from symtop_ros.physics.exact.elementary import Components, Number
 from symtop_ros.physics.exact.free import FreeMotion
-from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.physics.exact.kind import Kind, Rated, Rates, find_rates
 from symtop_ros.physics.exact.precise import PRECISE
-from symtop_ros.physics.exact.rates import Rated, Rates, find_rates
 from symtop_ros.physics.kernel import PURE, find_kernel
 from symtop_ros.physics.kernel.compiled import CompiledMotion
 from symtop_ros.physics.state import State

@@ -21,7 +21,7 @@ from symtop_ros.physics.arguments import (
     validate_types,
     wrap_states,
 )
-from symtop_ros.physics.exact.rates import Rates
+from symtop_ros.physics.exact.kind import Rates
 from symtop_ros.physics.kernel import PURE, find_kernel
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State

@@ -17,6 +17,8 @@ from pathlib import Path
 import rerun_cli
 
 PROGRAM = Path(rerun_cli.__file__).parent / "rerun"
+HOST = "127.0.0.1"
+KEPT = ("Content-Type", "rerun-final-length")  # headers that the viewer reads
 
 
 def settings() -> dict[str, str]:
@@ -85,10 +87,6 @@ def free_port() -> int:
     with socket.socket() as probe:
         probe.bind((HOST, 0))
         return int(probe.getsockname()[1])
-
-
-HOST = "127.0.0.1"
-KEPT = ("Content-Type", "rerun-final-length")  # headers that the viewer reads
 
 
 def serve_page(page: int, data: int) -> int:

@@ -12,6 +12,8 @@ from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 from symtop_ros.wire.layout import NANOSECONDS
 
+CATCH_UP = 0.1  # s; ticks that are later are dropped, so that a stopped process sends no burst
+
 
 class Block:
     """The samples of a segment at some stamps.
@@ -76,9 +78,6 @@ class Block:
         stamps = self._stamps if self.length > 1 else self.last
         self._samples = Samples.at(self.segment, stamps)
         return self._samples
-
-
-CATCH_UP = 0.1  # s; ticks that are later are dropped, so that a stopped process sends no burst
 
 
 class Ticker:

@@ -19,10 +19,10 @@ from symtop_ros.web.lesson import read_lesson
 from symtop_ros.wording.templates import TEMPLATES
 
 FOLDER = Path(__file__).parent
-MODULES = FOLDER / "js"
-MAIN = "start.js"
+MODULES = FOLDER.resolve() / "js"
+MAIN = MODULES / "start.js"
 STARTS = (*ANGLES, *RATES)
-IMPORT = re.compile(r'^import \{([^}]*)\} from "\./(\w+)\.js";\n', re.M)
+IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
 # Nothing is loaded from anywhere, whatever a saved run holds. A page of a node has its server.
 POLICY = "default-src data: blob: 'unsafe-inline' 'wasm-unsafe-eval'; form-action 'none'"
@@ -83,31 +83,30 @@ def _read_values(name: str) -> dict[str, Any]:
 
 def join_modules() -> str:
     """Return all modules as one script, which starts the page."""
-    ordered: list[str] = []
+    ordered: list[Path] = []
     _order(MAIN, ordered)
-    functions = [_write_function(name) for name in ordered]
-    return "\n".join(
-        [*functions, f"module_{MAIN[:-3]}.start(window.TOP_CONTENT, window.TOP_SOURCE);"]
-    )
+    functions = [_write_function(path) for path in ordered]
+    start = f"module_{MAIN.stem}.start(window.TOP_CONTENT, window.TOP_SOURCE);"
+    return "\n".join([*functions, start])
 
 
-def _order(name: str, ordered: list[str]) -> None:
+def _order(path: Path, ordered: list[Path]) -> None:
     """Add a module after those that it imports."""
-    text = (MODULES / name).read_text(encoding="utf-8")
-    for _, imported in IMPORT.findall(text):
-        if f"{imported}.js" not in ordered:
-            _order(f"{imported}.js", ordered)
-    if name not in ordered:
-        ordered.append(name)
+    for _, imported in IMPORT.findall(path.read_text(encoding="utf-8")):
+        other = (path.parent / f"{imported}.js").resolve()
+        if other not in ordered:
+            _order(other, ordered)
+    if path not in ordered:
+        ordered.append(path)
 
 
-def _write_function(name: str) -> str:
-    text = drop_comments((MODULES / name).read_text(encoding="utf-8"))
+def _write_function(path: Path) -> str:
+    """Return a module as a function; no two modules have the same name."""
+    text = drop_comments(path.read_text(encoding="utf-8"))
     names = [found for _, found in EXPORT.findall(text)]
-    text = IMPORT.sub(lambda m: f"const {{{m[1]}}} = module_{m[2]};\n", text)
+    text = IMPORT.sub(lambda m: f"const {{{m[1]}}} = module_{Path(m[2]).name};\n", text)
     text = EXPORT.sub(r"\1 \2", text)
-    stem = name.removesuffix(".js")
-    return f"const module_{stem} = (() => {{\n{text}return {{ {', '.join(names)} }};\n}})();"
+    return f"const module_{path.stem} = (() => {{\n{text}return {{ {', '.join(names)} }};\n}})();"
 
 
 def drop_comments(text: str) -> str:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR = range(3)
+T = TypeVar("T")
+MAX_RECORDS = 100  # in a tuple that is read; a log may be hostile
 
 
 class Status(NamedTuple):
@@ -66,10 +68,6 @@ def _decode_status(reader: Reader, stamp: int) -> Status:
     reader.string()  # hardware_id
     pairs = [(reader.string(), reader.string()) for _ in range(reader.count())]
     return Status(stamp, level, name, message, dict(pairs))
-
-
-T = TypeVar("T")
-MAX_RECORDS = 100  # in a tuple that is read; a log may be hostile
 
 
 def write_text(value: Any) -> str:

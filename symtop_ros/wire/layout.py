@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 Bytes = NDArray[np.uint8]
 NANOSECONDS = 1_000_000_000
+HEADER = b"\x00\x01\x00\x00"
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,9 +119,6 @@ class Layout:
 
 def _column(rows: Bytes, offset: int, size: int, kind: str) -> NDArray[Any]:
     return np.ascontiguousarray(rows[:, offset : offset + size]).view(kind)
-
-
-HEADER = b"\x00\x01\x00\x00"
 
 
 class DecodeError(ValueError):

@@ -52,6 +52,7 @@ FILE = Path(__file__).with_name("en.json")
 TEMPLATES: dict[str, str] = json.loads(FILE.read_text(encoding="utf-8"))
 Variant = Literal["radians", "degrees"]
 PLACEHOLDER = re.compile(r" ?\{(\w+)(?::(\w+))?\}")
+SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three digits
 
 
 def write(
@@ -125,9 +126,6 @@ class _Writer:
         forms = dict(PLACEHOLDER.findall(template))
         texts = {write_number(record[place], form) for place, form in forms.items()}
         return self._fill(f"{key}.same" if len(texts) == 1 else key, record)
-
-
-SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three digits
 
 
 def write_number(value: float, form: str) -> str:

@@ -6,8 +6,9 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
 
+from symtop_ros.log.definitions import Channel
 from symtop_ros.log.writer import LogFile
-from symtop_ros.simulation.topics import TOPICS
+from symtop_ros.simulation.topics import EVENTS, TOPICS
 
 
 def test_channels_store_the_quality_of_service_that_the_node_offers(tmp_path):
@@ -42,8 +43,16 @@ def test_a_file_without_a_chunk_is_removed_when_it_is_abandoned(tmp_path, monkey
 
 def test_the_distribution_is_written_where_ros2_bag_info_reads_it(tmp_path):
     """rosbag2_storage_mcap: record "rosbag2", an empty text for no further metadata."""
-    log = LogFile(tmp_path, [], {"ros_distro": "jazzy"}, {})
+    log = LogFile(tmp_path, [Channel("/x", EVENTS)], {"ros_distro": "jazzy"}, {})
+    log.write(0, 0, b"")
     log.finish({})
     with log.path.open("rb") as stream:
         found = {each.name: each.metadata for each in make_reader(stream).iter_metadata()}
     assert found["rosbag2"] == {"serialized_metadata": "", "ROS_DISTRO": "jazzy"}
+
+
+def test_a_log_without_any_message_is_removed(tmp_path):
+    """As of a node that is ended before its first sample."""
+    log = LogFile(tmp_path, [Channel("/x", EVENTS)], {}, {0: b"latched"})
+    log.finish({})
+    assert list(tmp_path.iterdir()) == []

@@ -4,11 +4,11 @@ const toRecord = (value) =>
   JSON.parse(JSON.stringify(value, (_, each) => (Object.is(each, -0) ? 0 : each)));
 
 window.judgeCases = async (cases) => {
-  const { State } = await import("/state.js");
-  const kicks = await import("/kicks.js");
-  const { judge, judgeKick } = await import("/verdict.js");
-  const precession = await import("/precession.js");
-  const { EffectivePotential, findConstants } = await import("/potential.js");
+  const { State } = await import("/physics/state.js");
+  const kicks = await import("/physics/kicks.js");
+  const { judge, judgeKick } = await import("/physics/verdict.js");
+  const precession = await import("/physics/precession.js");
+  const { EffectivePotential, findConstants } = await import("/physics/potential.js");
   const solve = (top, start, driven = {}) => ({
     top,
     start,

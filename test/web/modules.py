@@ -33,8 +33,8 @@ def load_kernel(tab):
     ]
     tab.evaluate(
         """async ([module, templates]) => {
-            const { Kernel } = await import("/kernel.js");
-            const { Writer } = await import("/wording.js");
+            const { Kernel } = await import("/physics/kernel.js");
+            const { Writer } = await import("/words/wording.js");
             const decode = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
             window.kernel = await Kernel.load(decode(module));
             window.writer = new Writer(JSON.parse(templates));

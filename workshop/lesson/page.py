@@ -29,6 +29,7 @@ def _write_step(number: int, step: LessonStep) -> str:
             f"## {number}. {step.title}",
             _wrap(f"Predict: {step.predict}"),
             *map(_wrap, filter(None, step.compute.split("\n"))),
+            f"[On the page](../top.html#lesson={number}), or with a node:",
             f"```sh\n{commands}\n```",
             _wrap(f"Observe: {step.look}{_name_view(step)}"),
             f"![{step.picture}](lesson/step_{number:02}.png)",

@@ -13,11 +13,12 @@ from workshop.article.figures import FIGURES
 from workshop.article.maps import draw_map, map_spin
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import write_lesson
-from workshop.pictures.pack import SHADES, pack, pack_figure
+from workshop.pictures.pack import pack, pack_figure
 from workshop.pictures.replay import write_replays
 from workshop.pictures.traces import draw_traces
 
 POINTS = 1000  # along each side of the map of Perry's rule
+MAP_COLORS = 64
 
 
 def write_pictures(docs: Path) -> int:
@@ -31,7 +32,7 @@ def write_pictures(docs: Path) -> int:
     write_lesson(docs / "lesson")
     drawn = io.BytesIO()
     draw_map(map_spin(POINTS), drawn)
-    (docs / "perry.png").write_bytes(pack(drawn, SHADES))
+    (docs / "perry.png").write_bytes(pack(drawn, MAP_COLORS))
     print(f"wrote {docs / 'perry.png'}")
     try:
         write_replays(docs)

@@ -11,7 +11,7 @@ from PIL import Image
 
 from symtop_ros.figures import SETTINGS
 
-RESOLUTION = 130  # dots per inch
+RESOLUTION = 110  # dots per inch: some 700 in the width of a page
 COLORS, SHADES = 24, 128  # of the palettes of figures and of shaded bodies
 ROUNDS = 10  # in which colours are chosen
 

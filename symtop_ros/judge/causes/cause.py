@@ -13,6 +13,10 @@ from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
 
 PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "scale": SCALE}
+FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down
+FLIP_BODY = np.array([0.0, 1.0, 0.0, 0.0])  # forward-left-up to forward-right-down
+ALL = tuple(LEVELS)
+Change = Callable[[Estimates], Estimates]
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,12 +78,6 @@ def keep_rotations(offset: Offset, level: str) -> Offset:
 def measure_turns(offset: Offset) -> float:
     """Return the sum of both rotations in rad."""
     return float(sum(offset.angles))
-
-
-FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down
-FLIP_BODY = np.array([0.0, 1.0, 0.0, 0.0])  # forward-left-up to forward-right-down
-ALL = tuple(LEVELS)
-Change = Callable[[Estimates], Estimates]
 
 
 def _turn(change: Callable[[Real], Real]) -> Change:

@@ -25,6 +25,7 @@ LEVELS: dict[str, tuple[tuple[int, ...], float]] = {
     "body": ((3, 4, 5), 2.5),
     "both": ((0, 1, 2, 3, 4, 5), 5.0),
 }
+FLIPS = np.eye(4)  # no turn, and half turns about x, y and z
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +91,6 @@ def _mean(q: Real) -> Real:
     """Return the mean of rotations, (4,)."""
     mean: Real = np.linalg.eigh(q.T @ q)[1][:, -1]
     return np.asarray(mean * np.copysign(1.0, mean[0]))
-
-
-FLIPS = np.eye(4)  # no turn, and half turns about x, y and z
 
 
 def fit_rotations(q: Real, exact: Real) -> Offset:

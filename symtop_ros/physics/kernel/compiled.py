@@ -4,8 +4,7 @@ from fractions import Fraction
 from typing import Any, get_args
 
 from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.exact.kind import Kind
-from symtop_ros.physics.exact.rates import Rates
+from symtop_ros.physics.exact.kind import Kind, Rates
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction
 

@@ -1,27 +1,27 @@
 // The page around the scene: what it asks of the top, and what it shows of the answers.
 
-import { followAddress } from "./address.js";
-import { Charts } from "./charts.js";
-import { keepChoice } from "./choices.js";
-import { find, findAll, make, say, write, writeSymbols } from "./document.js";
-import { Fields } from "./fields.js";
-import { offerFiles, openDropped } from "./files.js";
-import { actWhileHeld } from "./hold.js";
-import { listenToKeys } from "./keys.js";
-import { Layers } from "./layers.js";
-import { Lesson } from "./lesson.js";
-import { recall } from "./memory.js";
-import { dismissRefusals, refuse, showLoss } from "./notices.js";
-import { drawKinds } from "./kinds_chart.js";
-import { drawLedger } from "./ledger_chart.js";
-import { inDegrees, shorten } from "./quantities.js";
-import { offerScenes } from "./scenes.js";
-import { SpeedList } from "./speed.js";
-import { addTabs } from "./tabs.js";
-import { followTheme } from "./theme.js";
-import { Timeline } from "./timeline.js";
+import { followAddress } from "./run/address.js";
+import { Charts } from "./charts/charts.js";
+import { keepChoice } from "./controls/choices.js";
+import { find, findAll, make, say, write, writeSymbols } from "./controls/document.js";
+import { Fields } from "./controls/fields.js";
+import { offerFiles, openDropped } from "./run/files.js";
+import { actWhileHeld } from "./controls/hold.js";
+import { listenToKeys } from "./controls/keys.js";
+import { Layers } from "./controls/layers.js";
+import { Lesson } from "./controls/lesson.js";
+import { recall } from "./run/memory.js";
+import { dismissRefusals, refuse, showLoss } from "./controls/notices.js";
+import { drawKinds } from "./charts/kinds_chart.js";
+import { drawLedger } from "./charts/ledger_chart.js";
+import { inDegrees, shorten } from "./words/quantities.js";
+import { offerScenes } from "./controls/scenes.js";
+import { SpeedList } from "./controls/speed.js";
+import { addTabs } from "./controls/tabs.js";
+import { followTheme } from "./controls/theme.js";
+import { Timeline } from "./controls/timeline.js";
 
-/** @typedef {import("./facts.js").Facts} Facts */
+/** @typedef {import("./words/facts.js").Facts} Facts */
 /** @typedef {{[name: string]: any}} Message */
 /**
  * A top of the page: it takes messages, and its answers are told.

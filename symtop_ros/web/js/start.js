@@ -1,14 +1,14 @@
 // The beginning of the page: the kernel, the top, its scene, and the page around it.
 
-import { LAYERS } from "./colors.js";
-import { Kernel } from "./kernel.js";
-import { LocalTop } from "./local.js";
-import { NodeTop } from "./node.js";
-import { refuse } from "./notices.js";
+import { LAYERS } from "./scene/colors.js";
+import { Kernel } from "./physics/kernel.js";
+import { LocalTop } from "./run/local.js";
+import { NodeTop } from "./run/node.js";
+import { refuse } from "./controls/notices.js";
 import { Page } from "./page.js";
-import { Scene } from "./scene.js";
-import { find } from "./document.js";
-import { Writer } from "./wording.js";
+import { Scene } from "./scene/scene.js";
+import { find } from "./controls/document.js";
+import { Writer } from "./words/wording.js";
 
 /**
  * What the file holds: the module in base64, the templates, scenes and the lesson; what it opens as

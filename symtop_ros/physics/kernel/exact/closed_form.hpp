@@ -4,7 +4,7 @@
 // the same order. What is computed here with Precise, in 57 digits, is computed there with Decimal,
 // in 50: where such numbers become doubles they are the same, and all else is doubles in the same
 // order of operations. Where a function has another name, a comment gives that of Python. theta.py
-// has its twin in `compute_series`, rates.py in ../gravity.hpp. Read the Python first; it says
+// has its twin in `compute_series`, the rates of kind.py in ../gravity.hpp. Read the Python first; it says
 // where each formula comes from and why it is written so.
 #pragma once
 

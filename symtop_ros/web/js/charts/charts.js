@@ -1,0 +1,60 @@
+// The charts of the page. Those that are out of sight are not drawn.
+
+import { showConstants } from "./constants_table.js";
+import { findAll } from "../controls/document.js";
+import { FreeChart } from "./free_chart.js";
+import { drawRule } from "./rule_chart.js";
+import { drawOneSeries } from "./series_charts.js";
+import { drawWell } from "./well_chart.js";
+
+/** @typedef {import("../words/facts.js").Facts} Facts */
+/** @typedef {import("../run/local.js").Row} Row */
+/**
+ * What a frame shows: samples and their rows, and the constants of the motion.
+ * @typedef {{samples: import("../run/local.js").Sample[], series: Row[],
+ *   constants: import("./constants_table.js").Constants}} Frame
+ */
+/** @typedef {(facts: Facts, frame: Frame, factor: number) => void} Draw */
+
+export class Charts {
+  /** @param {(isKept: boolean) => void} keep a run for comparison, or let it go */
+  constructor(keep) {
+    const free = new FreeChart(keep);
+    /** @type {{[name: string]: Draw}} */
+    this.all = {
+      rule: (facts, { series }, factor) => drawRule(facts, last(series), factor),
+      well: ({ potential }, { series }) => drawWell(potential, last(series)[1]),
+      theta: (facts, { series }) => drawOneSeries("theta", series, facts),
+      phi_dot: (facts, { series }) => drawOneSeries("phi_dot", series, facts),
+      psi_dot: (facts, { series }) => drawOneSeries("psi_dot", series, facts),
+      free: (_, { samples }) => free.draw(samples),
+      constants: ({ table }, { constants }) => showConstants(table, constants),
+    };
+    /** Names of the charts in sight. @type {Set<string>} */
+    this.seen = new Set();
+    this.isComplete = false; // each has been drawn once, and has its height
+    const observer = new IntersectionObserver((changes) => changes.forEach(this.follow, this));
+    for (const place of findAll("[data-chart]")) observer.observe(place);
+  }
+
+  /** @param {IntersectionObserverEntry} change */
+  follow({ target, isIntersecting }) {
+    const { chart = "" } = /** @type {HTMLElement} */ (target).dataset;
+    if (isIntersecting) this.seen.add(chart);
+    else this.seen.delete(chart);
+  }
+
+  /**
+   * @param {Facts} facts
+   * @param {Frame} frame
+   * @param {number} factor by which Hurry multiplies phi'
+   */
+  draw(facts, frame, factor) {
+    for (const name of this.seen) this.all[name]?.(facts, frame, factor);
+    if (!this.isComplete) for (const each of Object.values(this.all)) each(facts, frame, factor);
+    this.isComplete = true;
+  }
+}
+
+/** @param {Row[]} rows */
+const last = (rows) => rows[rows.length - 1];

@@ -1,0 +1,142 @@
+// The chart whose axes the user chooses, with the values under the pointer, and a run that is kept
+// for comparison.
+
+import { QUANTITIES } from "./axes_list.js";
+import { keepChoice } from "../controls/choices.js";
+import { find, make, write } from "../controls/document.js";
+import {
+  createFrame,
+  draw,
+  drawCurve,
+  drawDot,
+  findSpan,
+  LEFT,
+  listTicks,
+  WIDE,
+  writeBelow,
+} from "./plot.js";
+import { angleUnit, shorten, toUnit } from "../words/quantities.js";
+
+/** @typedef {import("../run/local.js").Sample} Sample */
+/** @typedef {import("./axes_list.js").Quantity} Quantity */
+/** @typedef {[number, number]} Pair */
+/** @typedef {"state" | "ghost" | "kept"} Whose */
+
+const HEIGHT = 180;
+/** @type {[Whose, string][]} */
+const CURVES = [
+  [
+    "kept",
+    'stroke="var(--kept)" stroke-width="1.6" stroke-dasharray="1 3" stroke-linecap="round" id="kept"',
+  ],
+  ["ghost", 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3"'],
+  ["state", 'stroke="var(--phi)" stroke-width="1.8" id="chosen"'],
+];
+
+/**
+ * @param {Quantity} quantity
+ * @param {Sample} sample
+ * @param {Whose} whose
+ */
+const measure = ({ pick, isAngle }, sample, whose) => {
+  const state = sample[whose];
+  if (!state) return NaN;
+  const course = (whose === "kept" && sample.keptCourse) || sample.course;
+  const value = pick(sample.time, state, course);
+  return isAngle ? toUnit(value) : value;
+};
+
+/** @param {Quantity} quantity */
+const nameUnit = ({ unit, isAngle }) => (isAngle ? angleUnit() : unit);
+
+export class FreeChart {
+  /** @param {(isKept: boolean) => void} keep the present run, or let the kept one go */
+  constructor(keep) {
+    this.x = this.offer("free-x", "theta");
+    this.y = this.offer("free-y", "theta_dot");
+    this.place = find("free-place", HTMLInputElement);
+    /** Points of the present curve in units of the drawing. @type {Pair[]} */
+    this.points = [];
+    this.isKept = false;
+    const button = find("free-keep");
+    button.addEventListener("click", () => {
+      this.isKept = !this.isKept;
+      button.textContent = this.isKept ? "Let the kept run go" : "Keep this run for comparison";
+      keep(this.isKept);
+    });
+    find("free").addEventListener("pointermove", (event) => this.follow(event));
+  }
+
+  /**
+   * @param {string} id
+   * @param {string} chosen
+   */
+  offer(id, chosen) {
+    const list = find(id, HTMLSelectElement);
+    for (const [value, { name, unit }] of Object.entries(QUANTITIES)) {
+      list.append(make("option", { value, textContent: `${name} (${unit})` }));
+    }
+    list.value = chosen;
+    keepChoice(id, () => {});
+    return list;
+  }
+
+  /** The sample that is nearest to the pointer is the one whose values are shown. */
+  /** @param {PointerEvent} event */
+  follow({ clientX, clientY }) {
+    const { left, top, width } = find("free").getBoundingClientRect();
+    const [x, y] = [clientX - left, clientY - top].map((each) => (each * WIDE) / width);
+    const distances = this.points.map(([px, py]) => Math.hypot(px - x, py - y));
+    const nearest = distances.reduce((best, each, k) => (each < distances[best] ? k : best), 0);
+    this.place.value = String(nearest / Math.max(distances.length - 1, 1));
+  }
+
+  /** @param {Sample[]} samples */
+  draw(samples) {
+    const [horizontal, vertical] = [this.x, this.y].map((list) => QUANTITIES[list.value]);
+    const curves = CURVES.map(([whose, style]) => {
+      const values = samples.map((each) => [
+        measure(horizontal, each, whose),
+        measure(vertical, each, whose),
+      ]);
+      return { style, values: /** @type {Pair[]} */ (values) };
+    });
+    const [range, edges] = [0, 1].map((k) =>
+      findSpan(
+        curves.flatMap(({ values }) => values.map((each) => each[k])),
+        1e-6,
+      ),
+    );
+    const frame = createFrame(HEIGHT, range, edges, 4);
+    const paths = curves.map(({ style, values }) =>
+      drawCurve(
+        values.map(([x, y]) => [frame.x(x), frame.y(y)]),
+        style,
+      ),
+    );
+    const own = curves[curves.length - 1].values;
+    this.points = own.map(([x, y]) => [frame.x(x), frame.y(y)]);
+    const shown = Math.round(Number(this.place.value) * (samples.length - 1));
+    draw(
+      "free",
+      HEIGHT,
+      `${vertical.name} over ${horizontal.name}`,
+      `${frame.axes}${paths.join("")}
+      ${drawDot(...this.points[shown], 'fill="var(--theta)"')}
+      <text x="${LEFT + 2}" y="18">${nameUnit(vertical)}</text>
+      <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">${nameUnit(horizontal)}</text>
+      ${writeBelow(frame, listTicks(...range, 4))}`,
+    );
+    this.writeValues(own[shown]);
+  }
+
+  /** @param {Pair} values */
+  writeValues(values) {
+    const texts = [this.x, this.y].map((list, k) => {
+      const quantity = QUANTITIES[list.value];
+      return `${quantity.name} ${shorten(values[k], 5)} ${nameUnit(quantity)}`;
+    });
+    write(find("free-values"), texts.join(", "));
+    this.place.setAttribute("aria-valuetext", texts.join(", "));
+  }
+}

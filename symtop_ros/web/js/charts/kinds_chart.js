@@ -1,0 +1,135 @@
+// Chart of the kinds of motion over psi' and phi', with the present motion as a dot.
+
+import { find } from "../controls/document.js";
+import { findBoundaries, makesLoops } from "../physics/kinds.js";
+import {
+  createFrame,
+  draw,
+  drawCurve,
+  drawDot,
+  findSpan,
+  LEFT,
+  level,
+  listTicks,
+  WIDE,
+  writeBelow,
+} from "./plot.js";
+import { findRegularRates } from "../physics/precession.js";
+import { shorten } from "../words/quantities.js";
+
+/** @typedef {import("../physics/precession.js").Top} Top */
+/** @typedef {import("./plot.js").Frame} Frame */
+/** @typedef {{theta: number, phi_dot: number, psi_dot: number}} Turning */
+/** @typedef {[number, number]} Pair */
+
+const HEIGHT = 190;
+const [ROWS, COLUMNS] = [86, 84]; // cells of the regions
+const POINTS = 200; // of a boundary, on each side of phi' = 0
+const LARGEST = 200; // rad/s; rates of regular precession beyond it do not widen the map
+/** @type {{[name: string]: string}} */
+const LOOKS = {
+  cusps: 'stroke="var(--red)" stroke-width="2" class="cusps"',
+  regular: 'stroke="var(--text)" stroke-width="1.6" stroke-dasharray="6 3" class="regular"',
+  upper: 'stroke="var(--grey)" stroke-width="1.4" stroke-dasharray="2 2"',
+  lower: 'stroke="var(--grey)" stroke-width="1.4" stroke-dasharray="2 2"',
+};
+
+/**
+ * The ranges of psi' and of phi'.
+ * @param {Top} top
+ * @param {Turning} turning
+ * @returns {[Pair, Pair]}
+ */
+const findRanges = (top, { theta, phi_dot, psi_dot }) => {
+  const roots = findRegularRates(top, theta, psi_dot).filter((rate) => Math.abs(rate) < LARGEST);
+  const spin = 1.6 * Math.max(Math.abs(psi_dot), 100);
+  const [low, high] = findSpan([0, phi_dot, ...roots, -10, 10], 1);
+  const room = 0.25 * (high - low);
+  return [
+    [-spin, spin],
+    [low - room, high + room],
+  ];
+};
+
+/**
+ * The cells in which motions make loops, as one path.
+ * @param {Frame} frame
+ * @param {Top} top
+ * @param {number} theta
+ * @param {[Pair, Pair]} ranges
+ */
+const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
+  const [width, height] = [(right - left) / COLUMNS, (high - low) / ROWS];
+  const [w, h] = [frame.x(width) - frame.x(0), frame.y(0) - frame.y(height)].map((each) =>
+    (each + 0.3).toFixed(1),
+  );
+  let path = "";
+  for (let row = 0; row < ROWS; row += 1) {
+    for (let column = 0; column < COLUMNS; column += 1) {
+      const [psi, phi] = [left + column * width, low + row * height];
+      if (!makesLoops(top, theta, phi + height / 2, psi + width / 2)) continue;
+      path += `M${frame.x(psi).toFixed(1)} ${frame.y(phi + height).toFixed(1)}h${w}v${h}h-${w}z`;
+    }
+  }
+  return `<path d="${path}" fill="var(--loops)"/>`;
+};
+
+/**
+ * @param {Frame} frame
+ * @param {Top} top
+ * @param {number} theta
+ * @param {[Pair, Pair]} ranges
+ */
+const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
+  const sides = [
+    [low, 0],
+    [0, high],
+  ].map(([begin, end]) =>
+    Array.from({ length: POINTS }, (_, k) => begin + ((k + 0.5) / POINTS) * (end - begin)),
+  );
+  const cut = (/** @type {number} */ psi) => (psi >= left && psi <= right ? psi : NaN);
+  return sides
+    .flatMap((side) => {
+      const found = side.map((phi) => ({ phi, ...findBoundaries(top, theta, phi) }));
+      return Object.entries(LOOKS).map(([name, style]) => {
+        const points = found.map((each) => {
+          const psi = cut(each[/** @type {"cusps" | "regular" | "upper" | "lower"} */ (name)]);
+          return /** @type {Pair} */ ([frame.x(psi), Number.isNaN(psi) ? NaN : frame.y(each.phi)]);
+        });
+        return drawCurve(points, style);
+      });
+    })
+    .join("");
+};
+
+/** What was drawn last: regions and boundaries hold for a top and a tilt. */
+const drawn = { key: "", text: "" };
+
+/**
+ * @param {Top} top
+ * @param {Turning | null} turning
+ */
+export const drawKinds = (top, turning) => {
+  find("kinds-chart").hidden = !turning;
+  if (!turning) return;
+  const ranges = findRanges(top, turning);
+  const [horizontal, vertical] = ranges;
+  const frame = createFrame(HEIGHT, horizontal, vertical);
+  const key = JSON.stringify([top, turning.theta, ranges]);
+  if (key !== drawn.key) {
+    const parts = [drawLoops, drawBoundaries].map((part) =>
+      part(frame, top, turning.theta, ranges),
+    );
+    Object.assign(drawn, { key, text: parts[0] + frame.axes + parts[1] });
+  }
+  draw(
+    "kinds",
+    HEIGHT,
+    "Kinds of motion over spin rate and precession rate",
+    `${drawn.text}${level(frame.y(0), LOOKS.cusps)}
+    ${drawDot(frame.x(turning.psi_dot), frame.y(turning.phi_dot), 'fill="var(--theta)" id="present"')}
+    <text x="${LEFT + 2}" y="18">\u03c6\u0307 in rad/s</text>
+    <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">\u03c8\u0307 in rad/s</text>
+    ${writeBelow(frame, listTicks(...horizontal, 4), (value) => shorten(value))}`,
+  );
+};

@@ -1,0 +1,76 @@
+// Chart of the energy: what the last kick put into its parts, as bars.
+
+import { find, say } from "../controls/document.js";
+import { findRest } from "../physics/energies.js";
+import { createFrame, draw, findSpan, level } from "./plot.js";
+import { shorten } from "../words/quantities.js";
+
+/** @typedef {import("../physics/energies.js").Energies} Energies */
+/** @typedef {import("../physics/energies.js").Ledger} Ledger */
+
+const HEIGHT = 150;
+const WIDTH = 0.2; // of a bar; groups are 1 apart
+/** @type {[name: string, color: string, pick: (parts: Energies) => number][]} */
+const BARS = [
+  ["weight", "var(--theta)", ({ weight }) => weight],
+  ["precession", "var(--phi)", ({ precession }) => precession],
+  ["nutation", "var(--grey)", ({ nutation }) => nutation],
+  ["E'", "var(--gold)", findRest],
+];
+const ROUNDING = 1e-9; // of the largest change; less is drawn as none
+
+/** @param {number} value */
+const writeSigned = (value) =>
+  value ? `${value > 0 ? "+" : "\u2212"}${shorten(Math.abs(value), 3)}` : "0";
+
+/** @param {Ledger} ledger @returns {number[][]} heights in mJ of each group */
+const listHeights = ({ kick, far }) => {
+  const heights = [kick, far].map((parts) => BARS.map(([, , pick]) => pick(parts)));
+  const least = ROUNDING * Math.max(...heights.flat().map(Math.abs), 0);
+  return heights.map((group) => group.map((each) => (Math.abs(each) > least ? each : 0)));
+};
+
+/**
+ * @param {import("./plot.js").Frame} frame
+ * @param {number} group
+ * @param {number} place
+ * @param {number} height
+ */
+const drawBar = (frame, group, place, height) => {
+  const left = frame.x(group + WIDTH * (place - BARS.length / 2));
+  const right = frame.x(group + WIDTH * (place + 1 - BARS.length / 2)) - 1;
+  const [zero, end] = [frame.y(0), frame.y(height)];
+  const middle = ((left + right) / 2).toFixed(1);
+  const above = height < 0 ? end + 10 : end - 3;
+  return `<rect x="${left.toFixed(1)}" y="${Math.min(zero, end).toFixed(1)}" fill="${BARS[place][1]}"
+      width="${(right - left).toFixed(1)}" height="${Math.abs(end - zero).toFixed(1)}"/>
+    <text class="tick" x="${middle}" y="${above.toFixed(1)}" text-anchor="middle">${writeSigned(height)}</text>`;
+};
+
+/**
+ * @param {Ledger | null} ledger
+ * @param {string} sentence
+ */
+export const drawLedger = (ledger, sentence) => {
+  find("ledger-chart").hidden = !ledger;
+  if (!ledger) return;
+  const heights = listHeights(ledger);
+  const [low, high] = findSpan([0, ...heights.flat()], 1e-6);
+  const room = 0.12 * (high - low);
+  const frame = createFrame(HEIGHT, [-0.5, 1.5], [low - room, high + room]);
+  const bars = heights.flatMap((group, g) =>
+    group.map((height, k) => drawBar(frame, g, k, height)),
+  );
+  const names = ["just after the kick", `at its ${ledger.point} point`].map(
+    (name, group) =>
+      `<text class="tick" x="${frame.x(group)}" y="${frame.bottom + 12}" text-anchor="middle">${name}</text>`,
+  );
+  draw(
+    "ledger",
+    HEIGHT,
+    sentence,
+    `${frame.axes}${level(frame.y(0), 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
+  );
+  find("ledger").querySelector("svg")?.setAttribute("aria-label", sentence);
+  say("ledger-text", sentence);
+};

@@ -1,0 +1,66 @@
+// Elements of the page's document.
+
+import { typeset } from "../words/typeset.js";
+
+/**
+ * The element of an id; another kind of element is a mistake in the markup.
+ * @template {HTMLElement} T
+ * @param {string} id
+ * @param {new () => T} [kind]
+ * @returns {T}
+ */
+export const find = (id, kind) => {
+  const element = document.getElementById(id);
+  if (!(element instanceof (kind ?? HTMLElement))) throw new Error(`the page has no ${id}`);
+  return /** @type {T} */ (element);
+};
+
+/**
+ * All elements that a selector matches, inside an element or in the page.
+ * @param {string} selector
+ * @param {ParentNode} inside
+ * @returns {HTMLElement[]}
+ */
+export const findAll = (selector, inside = document) =>
+  [...inside.querySelectorAll(selector)].map((each) => /** @type {HTMLElement} */ (each));
+
+/**
+ * A new element with properties, attributes (of names with a hyphen, and role) and children.
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} name
+ * @param {{[name: string]: any}} properties
+ * @param {(Node | string)[]} children
+ * @returns {HTMLElementTagNameMap[K]}
+ */
+export const make = (name, properties = {}, ...children) => {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(properties)) {
+    if (key === "role" || key.includes("-")) element.setAttribute(key, value);
+    else Object.assign(element, { [key]: value });
+  }
+  element.append(...children);
+  return element;
+};
+
+/**
+ * Write a text into an element, with its symbols as formulas; one that is there already is not
+ * announced again. The text itself stays with the element.
+ * @param {HTMLElement} element
+ * @param {string} text
+ */
+export const write = (element, text) => {
+  if (element.dataset.text === text) return;
+  element.dataset.text = text;
+  element.replaceChildren(...typeset(text));
+};
+
+/**
+ * @param {string} id
+ * @param {string} text
+ */
+export const say = (id, text) => write(find(id), text);
+
+/** Texts of the markup that have symbols. */
+export const writeSymbols = () => {
+  for (const element of findAll("[data-math]")) write(element, element.textContent ?? "");
+};

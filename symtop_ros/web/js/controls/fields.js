@@ -1,0 +1,262 @@
+// Fields of numbers: a value is taken over on Enter or when the field is left, never while it is
+// typed, and nothing is written into a field that has the focus.
+
+import { findAll, make, write } from "./document.js";
+import { refuse } from "./notices.js";
+import { angleUnit, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
+
+/**
+ * @typedef {object} Field
+ * @property {string} label
+ * @property {boolean} [isAngle]
+ * @property {boolean} [isPositive]
+ * @property {boolean} [isNotNegative]
+ * @property {number} [low] of its slider
+ * @property {number} [high]
+ * @property {number} [step]
+ */
+/** @typedef {(name: string, value: number) => void} Change */
+
+/** @type {{[name: string]: Field}} */
+const FIELDS = {
+  factor: {
+    label: "factor of the precession rate phi'",
+    isPositive: true,
+    low: 1.05,
+    high: 3,
+    step: 0.05,
+  },
+  theta: { label: "tilt theta", isAngle: true, low: 0, high: Math.PI, step: 0.01 },
+  psi_dot: { label: "spin rate psi' (rad/s)", low: -400, high: 400, step: 1 },
+  phi_dot: { label: "precession rate phi' (rad/s)", low: -12, high: 12, step: 0.1 },
+  "top.Ix": { label: "Ix, across the axis (kg m\u00b2)", isPositive: true },
+  "top.Iz": { label: "Iz, about the axis (kg m\u00b2)", isPositive: true },
+  "top.Mgl": { label: "Mgl, moment of gravity (J)" },
+  "friction.axial": { label: "friction, axial (N m s)", isNotNegative: true },
+  "friction.transverse": { label: "friction, transverse (N m s)", isNotNegative: true },
+};
+/** @type {{[key: string]: number}} */
+const SIGNS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
+const BETWEEN = 100; // ms; of the moves of a slider the last one in this time is sent
+const REFUSED = 1000; // ms that a refused text stays after its field is left
+
+/** A field in the page, with its text and its slider. */
+class Entry {
+  /**
+   * @param {HTMLElement} place
+   * @param {Fields} fields
+   */
+  constructor(place, fields) {
+    this.name = place.dataset.field ?? "";
+    this.field = FIELDS[this.name];
+    this.fields = fields;
+    const id = `field-${this.name}`;
+    const { label } = this.field;
+    this.label = make("label", { htmlFor: id });
+    write(this.label, label);
+    this.text = make("input", { id, type: "text", autocomplete: "off", "aria-label": label });
+    place.append(this.label, this.text);
+    this.isTyped = false; // and not yet taken over
+    this.followText();
+    /** @type {HTMLInputElement | null} */
+    this.slider = null;
+    this.isDragged = false;
+    if (this.field.low !== undefined) this.addSlider(place);
+  }
+
+  /** What is shown for a value, as a share of it. */
+  get scale() {
+    return this.field.isAngle && inDegrees() ? 180 / Math.PI : 1;
+  }
+
+  followText() {
+    this.text.addEventListener("keydown", ({ key }) => {
+      if (key === "Enter") this.commit();
+      if (key === "Escape") this.cancel();
+    });
+    this.text.addEventListener("input", () => {
+      this.isTyped = true;
+    });
+    this.text.addEventListener("blur", () => {
+      this.commit();
+      setTimeout(() => this.write(), REFUSED);
+    });
+  }
+
+  cancel() {
+    this.isTyped = false;
+    refuse("");
+    this.text.blur();
+    this.write();
+  }
+
+  commit() {
+    if (!this.isTyped) return;
+    this.isTyped = false;
+    const value = parseQuantity(this.text.value, Boolean(this.field.isAngle));
+    const refusal = this.check(value);
+    if (refusal)
+      this.refuse(
+        `${this.field.label} must be ${refusal}, got ${this.text.value.trim() || "nothing"}`,
+      );
+    else this.fields.change(this.name, value);
+  }
+
+  /** What a value must be, if it is not; otherwise empty. @param {number} value */
+  check(value) {
+    const { isAngle, isPositive, isNotNegative } = this.field;
+    if (!Number.isFinite(value)) return "a number";
+    if (isAngle && !(value >= 0 && value <= Math.PI)) {
+      return `0 to ${inDegrees() ? "180\u00b0" : "pi rad"}`;
+    }
+    if (isPositive && !(value > 0)) return "positive";
+    return isNotNegative && value < 0 ? "0 or more" : "";
+  }
+
+  /** @param {string} text */
+  refuse(text) {
+    refuse(text);
+    this.text.setAttribute("aria-invalid", "true");
+  }
+
+  /** @param {HTMLElement} place */
+  addSlider(place) {
+    const { low: min, high: max, label } = this.field;
+    const slider = make("input", { type: "range", min, max, step: "any", "aria-label": label });
+    this.slider = slider;
+    slider.addEventListener("keydown", (event) => this.moveByKey(event));
+    slider.addEventListener("input", () => this.drag());
+    for (const end of ["change", "pointerup", "blur"])
+      slider.addEventListener(end, () => {
+        this.isDragged = false;
+      });
+    place.append(slider);
+  }
+
+  /** @param {KeyboardEvent} event */
+  moveByKey(event) {
+    const sign = SIGNS[event.key];
+    if (!sign || !this.slider) return;
+    event.preventDefault();
+    const { min, max } = this.slider;
+    const value = Number(
+      (this.fields.values[this.name] + sign * (this.field.step ?? 1)).toPrecision(12),
+    );
+    this.fields.change(this.name, Math.min(Math.max(value, Number(min)), Number(max)));
+  }
+
+  drag() {
+    if (!this.slider) return;
+    this.isDragged = true;
+    const decimals = (this.field.step ?? 1) < 0.1 ? 3 : 1;
+    const value = Math.min(
+      Number(Number(this.slider.value).toFixed(decimals)),
+      Number(this.slider.max),
+    );
+    this.text.value = shorten(value * this.scale, 6);
+    this.fields.later(() => this.fields.change(this.name, value));
+  }
+
+  write() {
+    const value = this.fields.values[this.name];
+    if (value === undefined) return;
+    const shown = shorten(value * this.scale, 6);
+    if (document.activeElement !== this.text) {
+      this.text.value = shown;
+      this.text.removeAttribute("aria-invalid");
+    }
+    if (!this.slider || this.isDragged) return;
+    this.slider.value = String(value);
+    this.slider.setAttribute("aria-valuetext", shown);
+  }
+
+  showUnit() {
+    if (!this.field.isAngle) return;
+    const text = `${this.field.label} (${angleUnit()})`;
+    write(this.label, text);
+    this.text.setAttribute("aria-label", text);
+    this.slider?.setAttribute("aria-label", text);
+  }
+
+  /** Let the slider reach some values on both sides. @param {number[]} reached */
+  widen(reached) {
+    const high = Math.ceil(1.15 * Math.max(...reached.map(Math.abs)));
+    if (this.slider) Object.assign(this.slider, { min: -high, max: high });
+  }
+}
+
+export class Fields {
+  /** @param {(message: {[name: string]: any}) => void} send */
+  constructor(send) {
+    this.send = send;
+    /** @type {{[name: string]: number}} */
+    this.values = { factor: 1.4 };
+    /** @type {(() => void) | null} */
+    this.last = null;
+    const entries = findAll("[data-field]").map((place) => new Entry(place, this));
+    /** @type {{[name: string]: Entry}} */
+    this.entries = Object.fromEntries(entries.map((entry) => [entry.name, entry]));
+    /** The field whose value was sent last. @type {Entry | null} */
+    this.asked = null;
+    this.showUnit();
+    this.entries.factor.write();
+  }
+
+  /**
+   * @param {string} name
+   * @param {number} value
+   */
+  change(name, value) {
+    this.asked = this.entries[name];
+    this.asked.text.removeAttribute("aria-invalid");
+    if (name === "factor") {
+      this.values.factor = value;
+      this.asked.write();
+    } else if (name.includes(".")) this.send({ act: "set", name, value });
+    else {
+      /** @type {{[name: string]: number}} */
+      const { theta, phi_dot, psi_dot } = { ...this.values, [name]: value };
+      this.send({ act: "start", theta, phi_dot, psi_dot });
+    }
+  }
+
+  /** @param {() => void} act */
+  later(act) {
+    if (!this.last) {
+      setTimeout(() => {
+        this.last?.();
+        this.last = null;
+      }, BETWEEN);
+    }
+    this.last = act;
+  }
+
+  /** What was asked for has been done. */
+  grant() {
+    this.asked = null;
+  }
+
+  /** What was asked for has been refused. */
+  markRefused() {
+    this.asked?.text.setAttribute("aria-invalid", "true");
+  }
+
+  /** @param {import("../words/facts.js").Facts} facts */
+  show({ start, top, roots }) {
+    Object.assign(this.values, start, top);
+    this.entries.psi_dot.widen([340, start.psi_dot]);
+    this.entries.phi_dot.widen([
+      10,
+      start.phi_dot,
+      ...roots.filter((rate) => Math.abs(rate) < 1e4),
+    ]);
+    for (const entry of Object.values(this.entries)) entry.write();
+  }
+
+  showUnit() {
+    for (const entry of Object.values(this.entries)) {
+      entry.showUnit();
+      entry.write();
+    }
+  }
+}

@@ -1,0 +1,157 @@
+// The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
+
+import { find, findAll, make, say, write } from "./document.js";
+import { recall, remember } from "../run/memory.js";
+
+/**
+ * A button of a step, as in lesson.yaml.
+ * @typedef {{button: string, start: {[name: string]: any} | null, hurry: number | null, hold: string}} Act
+ */
+/**
+ * @typedef {{title: string, acts: Act[], scene: string, charts: string[], layers: string[],
+ *   [text: string]: any}} Step
+ */
+/** @typedef {(message: {[name: string]: any}) => void} Send */
+
+const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
+
+export class Lesson {
+  /**
+   * @param {Step[]} steps
+   * @param {Send} send
+   * @param {(layers: string[]) => void} chooseLayers
+   */
+  constructor(steps, send, chooseLayers) {
+    this.steps = steps;
+    this.send = send;
+    this.chooseLayers = chooseLayers;
+    this.select = find("steps", HTMLSelectElement);
+    this.field = find("prediction", HTMLTextAreaElement);
+    /** Number of the step that is shown. @type {number | null} */
+    this.shown = null;
+    /** @type {HTMLButtonElement[]} */
+    this.hurries = [];
+    /** The link of the motion that the step has started. @type {string | null} */
+    this.begun = null;
+    this.isAwaited = false; // the motion that a button has asked for
+    // What was written survives a reload; a step is an entry of the history: Back is the step before.
+    /** @type {{[step: number]: string}} */
+    this.predictions = recall().predictions ?? {};
+    this.select.append(
+      ...steps.map(({ title }, k) => make("option", { textContent: `${k + 1}. ${title}` })),
+    );
+    this.listen();
+  }
+
+  listen() {
+    this.select.addEventListener("change", () => this.show(this.current));
+    this.field.addEventListener("input", () => this.keep(this.current, this.field.value));
+    find("step-back").addEventListener("click", (event) => this.go(-1, event));
+    find("step-next").addEventListener("click", (event) => this.go(1, event));
+    find("tab-lesson").addEventListener("click", () => {
+      if (!location.hash.startsWith("#lesson=")) this.show(this.current);
+    });
+    addEventListener("popstate", () => {
+      const [, number] = location.hash.match(/^#lesson=(\d+)$/) ?? [];
+      if (number && Number(number) !== this.shown) this.show(Number(number), true);
+    });
+  }
+
+  get current() {
+    return this.select.selectedIndex + 1;
+  }
+
+  /** Open the tab of the lesson at a step. @param {number} number */
+  open(number) {
+    find("tab-lesson").click();
+    this.show(Math.min(Math.max(Math.round(number) || 1, 1), this.steps.length));
+  }
+
+  /**
+   * @param {number} by
+   * @param {MouseEvent} event
+   */
+  go(by, event) {
+    this.show(this.current + by);
+    if (event.detail) this.select.scrollIntoView();
+    else this.select.focus();
+  }
+
+  /**
+   * @param {number} number
+   * @param {string} text
+   * @param {boolean} isNew
+   */
+  keep(number, text, isNew = false) {
+    this.predictions[number] = text;
+    remember({ predictions: this.predictions }, `#lesson=${number}`, isNew);
+  }
+
+  /**
+   * @param {number} number
+   * @param {boolean} isBack
+   */
+  show(number, isBack = false) {
+    const isNew = this.shown !== null && this.shown !== number && !isBack;
+    this.shown = number;
+    const step = this.steps[number - 1];
+    this.select.selectedIndex = number - 1;
+    for (const name of TEXTS) say(`lesson-${name}`, step[name] ?? "");
+    for (const details of find("lesson").querySelectorAll("details")) details.open = false;
+    this.markCharts(step.charts);
+    this.chooseLayers(step.layers);
+    this.field.value = this.predictions[number] ?? "";
+    find("step-back", HTMLButtonElement).disabled = number === 1;
+    find("step-next", HTMLButtonElement).disabled = number === this.steps.length;
+    this.offerActs(step);
+    this.keep(number, this.field.value, isNew);
+    this.send({ act: "rest" }); // nothing moves before the prediction
+  }
+
+  /** @param {string[]} names of the charts to look at, which come first */
+  markCharts(names) {
+    for (const chart of findAll("[data-chart]")) {
+      chart.classList.toggle("looked", names.includes(chart.dataset.chart ?? ""));
+    }
+    find("charts").scrollTop = 0;
+  }
+
+  /** @param {Step} step */
+  offerActs({ acts, scene }) {
+    this.hurries = [];
+    this.begun = null;
+    const buttons = acts.map((act) => {
+      const button = make("button", { disabled: !act.start, "aria-label": act.button });
+      write(button, act.button);
+      if (!act.start) this.hurries.push(button);
+      button.addEventListener("click", () => this.do(act, scene));
+      return button;
+    });
+    find("lesson-acts").replaceChildren(...buttons);
+  }
+
+  /**
+   * @param {Act} act
+   * @param {string} scene
+   */
+  do({ start, hurry: factor, hold }, scene) {
+    if (!start) {
+      this.send({ act: "kick", factor, hold });
+      return;
+    }
+    this.isAwaited = true;
+    this.send({ act: "link", link: { scene, ...start } });
+    this.send({ act: "run" });
+  }
+
+  /**
+   * A hurry is that of the step only after a start of the step, and only once: a Reset makes it
+   * possible again.
+   * @param {import("../words/facts.js").Facts} facts
+   */
+  follow({ isFresh, link }) {
+    if (isFresh && this.isAwaited) this.begun = link;
+    if (isFresh) this.isAwaited = false;
+    for (const button of this.hurries) button.disabled = !isFresh || link !== this.begun;
+  }
+}

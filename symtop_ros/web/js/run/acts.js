@@ -1,0 +1,205 @@
+// What a page asks of its top: kicks, pushes, torques, starts, and the time of the run.
+
+import { applyImpulse, hurry, setPrecessionRate } from "../physics/kicks.js";
+import { Course, NANO } from "../physics/course.js";
+import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
+
+/** @typedef {import("./local.js").LocalTop} LocalTop */
+/** @typedef {import("../physics/state.js").State} State */
+/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kicks.js").Hold} Hold */
+/** @typedef {import("./links.js").Beginning} Beginning */
+/** @typedef {{[name: string]: any}} Message */
+/** @typedef {(top: LocalTop, message: Message) => void} Act */
+
+const PUSH = 1; // rad/s by which a push changes a rate
+const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
+const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
+const TORQUE_LASTS = 150; // ms after the last message of a button that is held
+const STEPS = 24; // of a nutation
+const LONGEST_STEP = 0.05; // s of the motion
+/** @type {{[way: string]: number}} */
+const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
+
+/**
+ * @param {LocalTop} top
+ * @param {State} after
+ * @param {import("./run.js").Asked} asked
+ */
+const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
+
+/** @param {LocalTop} top @param {Message} message */
+const kick = (top, { factor, hold = "spin_rate" }) => {
+  const after = hurry(top.state, factor, hold);
+  addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold });
+};
+
+/**
+ * @param {LocalTop} top
+ * @param {Vector} impulse N m s, in the world frame
+ * @param {string} kind of the request
+ */
+const addImpulse = (top, impulse, kind) => {
+  const after = applyImpulse(top.course.top, top.state, impulse);
+  const request = top.writer.write("request", { kind });
+  addKick(top, after, { act: { angular_impulse: impulse }, hold: null, request });
+};
+
+/** @param {LocalTop} top @param {Message} message */
+const push = (top, { way }) => {
+  const change = SIGNS[way] * PUSH;
+  if (way === "along" || way === "back") {
+    const hold = "spin_momentum";
+    const after = setPrecessionRate(top.state, top.state.rates.phi + change, hold);
+    addKick(top, after, { act: { precession_rate_change: change, hold }, hold });
+    return;
+  }
+  const size = top.course.top.Ix * change;
+  const { phi } = top.state.angles;
+  addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], way);
+};
+
+/**
+ * The angular impulse, in N m s, of a pull at the end of the axle to a point in scene units.
+ * @param {Course} course
+ * @param {State} state
+ * @param {Vector} end
+ * @returns {Vector}
+ */
+export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
+  const [a, b, c] = state.toWorld([0, 0, 1]);
+  const [x, y, z] = [end[0] - a, end[1] - b, end[2] - c];
+  const size = PULL * Ix * (Math.sqrt(Math.abs(Mgl) / Ix) || 1);
+  return [size * (b * z - c * y), size * (c * x - a * z), size * (a * y - b * x)];
+};
+
+/**
+ * The torque of the buttons, about the vertical, in N m.
+ * @param {Course} course
+ */
+export const findTorque = ({ top: { Ix, Mgl } }) => TORQUE_SHARE * (Math.abs(Mgl) || Ix);
+
+/**
+ * Apply a torque about the vertical together with that of the scene.
+ * @param {LocalTop} top
+ * @param {number} sign 0 for no torque
+ */
+export const holdTorque = (top, sign) => {
+  const [x, y, z] = top.steady;
+  /** @type {Vector} */
+  const torque = [x, y, z + sign * findTorque(top.course)];
+  top.torqueUntil = sign ? performance.now() + TORQUE_LASTS : 0;
+  if (top.course.torque[2] === torque[2]) return;
+  top.add("torque", top.course.continue(top.state, { torque }));
+  top.tellFacts();
+};
+
+/**
+ * @param {LocalTop} top
+ * @param {Beginning} beginning
+ * @param {string} [request]
+ */
+const begin = (top, { top: own, friction, start }, request) => {
+  const course = new Course(top.kernel, own, start, friction, top.steady);
+  top.add("start", course, request === undefined ? {} : { request });
+  top.initial = start;
+};
+
+/** @param {LocalTop} top @param {Message} message */
+const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
+  const start = createStart(top.course.top, { theta: Number(theta), phi_dot, psi_dot }, precession);
+  begin(top, { ...top.course, start });
+};
+
+/** A start with the rates of now, in another direction of the axis. @type {Act} */
+const tilt = (top, { theta, phi }) => {
+  const { psi_dot, phi_dot } = describeStart(top.state);
+  const { psi } = top.state.angles;
+  begin(top, {
+    ...top.course,
+    start: createStart(top.course.top, { theta, phi, psi, phi_dot, psi_dot }),
+  });
+};
+
+/** @param {LocalTop} top @param {Message} message */
+const chooseScene = (top, { name }) => {
+  const scene = findScene(top.content.scenes, name);
+  top.steady = scene.torque;
+  begin(top, readScene(scene), scene.title);
+};
+
+/** @param {LocalTop} top @param {Message} message */
+const followLink = (top, { link: { scene: name, ...texts } }) => {
+  const scene = name === undefined ? null : findScene(top.content.scenes, name);
+  const beginning = readLink(texts, scene ? readScene(scene) : top.course);
+  if (scene) top.steady = scene.torque;
+  begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : undefined);
+};
+
+/** @param {LocalTop} top */
+const reset = (top) => {
+  const request = top.writer.write("request", { kind: "reset" });
+  begin(top, { ...top.course, start: top.initial }, request);
+};
+
+/** @param {LocalTop} top @param {Message} message */
+const restart = (top, { entry }) => {
+  const { course, asked } = top.run.moments[entry];
+  begin(top, course, asked.request);
+};
+
+/** @param {LocalTop} top @param {Message} message */
+const setParameter = (top, { name, value }) => {
+  const [group, key] = name.split(".");
+  const friction = /** @type {[number, number]} */ ([...top.course.friction]);
+  const own = { ...top.course.top };
+  if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
+  else own[/** @type {keyof typeof own} */ (key)] = value;
+  const request = top.writer.write("request", { kind: "parameter", name: key, value });
+  top.add("change", top.course.continue(top.state, { top: own, friction }), { request });
+};
+
+/** @param {LocalTop} top */
+const step = (top) => {
+  const length = Math.min(top.course.free.motion.nutation_period / STEPS, LONGEST_STEP);
+  top.step(Math.round(length * NANO));
+};
+
+/** What makes an event: what came later is no longer part of the run. @type {{[act: string]: Act}} */
+const EVENTS = {
+  kick,
+  push,
+  restart,
+  link: followLink,
+  pull: (top, { end }) => addImpulse(top, findPull(top.course, top.state, end), "pull"),
+  reset,
+  scene: chooseScene,
+  set: setParameter,
+  start: startWith,
+  tilt,
+  torque: (top, { sign }) => holdTorque(top, sign),
+};
+
+/** What only changes what is shown. @type {{[act: string]: Act}} */
+const VIEWS = {
+  step,
+  keep: (top, { kept }) => top.keep(kept),
+  load: (top, { run }) => top.load(run),
+  pause: (top) => top.setRunning(!top.isRunning),
+  rest: (top) => top.setRunning(false),
+  run: (top) => top.setRunning(true),
+  seek: (top, { time }) => top.seek(Math.round(time * NANO)),
+  show: (top, { layer, shown }) => {
+    top.layers[layer] = shown;
+  },
+  speed: (top, { factor }) => top.setSpeed(factor),
+};
+
+/** Do what a page asks for; a refusal is thrown. @type {Act} */
+export const perform = (top, message) => {
+  const event = EVENTS[message.act];
+  if (event) {
+    event(top, message);
+    top.end = top.time;
+  } else VIEWS[message.act](top, message);
+};

@@ -1,0 +1,79 @@
+// A run as files: saved from the page, and opened by dropping it there.
+
+import { find, make } from "../controls/document.js";
+import { refuse } from "../controls/notices.js";
+
+/** @typedef {{json: object, csv: string}} Saved what a top has to be saved */
+
+// The run in a page: the first place of this form, because data precede the modules.
+const RUN = /\/\*RUN\*\/window\.TOP_CONTENT\.run = (.*?);\/\*END\*\//;
+const KEPT = 10_000; // ms until the browser has begun to save
+
+/**
+ * @param {string} name
+ * @param {string} type
+ * @param {string} text
+ */
+const save = (name, type, text) => {
+  const url = URL.createObjectURL(new Blob([text], { type }));
+  make("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), KEPT);
+};
+
+const savePicture = () => {
+  const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("canvas"));
+  make("a", { href: canvas.toDataURL("image/png"), download: "top.png" }).click();
+};
+
+/**
+ * The page as it was opened, with the events of a run in it; no end of a script is among them.
+ * @param {string} source
+ * @param {string} run
+ */
+const writePage = (source, run) =>
+  source.replace(
+    RUN,
+    () => `/*RUN*/window.TOP_CONTENT.run = ${run.replaceAll("<", "\\u003c")};/*END*/`,
+  );
+
+/**
+ * @param {Saved} top
+ * @param {string} source the page as it was opened
+ */
+export const offerFiles = (top, source) => {
+  const writeRun = () => JSON.stringify(top.json);
+  /** @type {{[id: string]: () => void}} */
+  const ways = {
+    "save-page": () => save("top.html", "text/html", writePage(source, writeRun())),
+    "save-run": () => save("run.json", "application/json", writeRun()),
+    "save-series": () => save("top.csv", "text/csv", top.csv),
+    "save-picture": savePicture,
+  };
+  for (const [id, way] of Object.entries(ways)) find(id).addEventListener("click", way);
+};
+
+/**
+ * @param {File} file a run.json or a saved page
+ * @param {(run: any) => void} load
+ */
+const open = async (file, load) => {
+  const text = await file.text();
+  let run = null;
+  try {
+    run = JSON.parse(text.match(RUN)?.[1] ?? text);
+  } catch {
+    refuse(`${file.name} must be a run.json or a saved page`);
+    return;
+  }
+  load(run);
+};
+
+/** @param {(run: any) => void} load */
+export const openDropped = (load) => {
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    const file = event.dataTransfer?.files[0];
+    if (file) open(file, load);
+  });
+};

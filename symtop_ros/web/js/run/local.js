@@ -1,0 +1,271 @@
+// A top that lives in the page: what the page asks for is done here, and what follows is told.
+
+import { holdTorque, perform } from "./acts.js";
+import { NANO } from "../physics/course.js";
+import { chooseWindow, describe } from "../words/facts.js";
+import { nameRequest } from "../words/history.js";
+import { recall, rememberRun } from "./memory.js";
+import { findConstants } from "../physics/potential.js";
+import { Run } from "./run.js";
+import { State } from "../physics/state.js";
+
+/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
+/** @typedef {import("../words/wording.js").Writer} Writer */
+/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/course.js").Course} Course */
+/** @typedef {{[name: string]: any}} Message */
+/**
+ * States at a time of the run, in ns: of the top, of the ghost, and of a run that is kept for
+ * comparison, at the same time since its start.
+ * @typedef {{time: number, state: State, course: Course, ghost: State | null, kept: State | null,
+ *   keptCourse: Course | null}} Sample
+ */
+/**
+ * What charts show of a time in s: theta, phi', psi', and theta of the ghost.
+ * @typedef {[time: number, theta: number, phi_dot: number, psi_dot: number, ghost: number | null]} Row
+ */
+
+const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
+const SPEED = 0.1; // of real time: nutation is too fast for the eye
+const MOST_STEPS = 3000; // of an integration, for one frame
+const POINTS = 240; // of trace and charts
+const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
+
+export class LocalTop {
+  /**
+   * @param {Kernel} kernel
+   * @param {Writer} writer
+   * @param {{scenes: import("./links.js").SceneFile[], lesson: any[],
+   *   layers: {[layer: string]: boolean}, run?: any}} content
+   */
+  constructor(kernel, writer, content) {
+    this.kernel = kernel;
+    this.writer = writer;
+    this.content = content;
+    this.run = new Run(kernel);
+    this.time = 0; // ns of the run, whole
+    this.end = 0; // ns; the latest time that was reached
+    this.window = 1; // s that trace and charts show
+    this.isRunning = true;
+    this.isRecording = false; // a node can record
+    this.speed = SPEED;
+    this.layers = { ...content.layers };
+    this.torqueUntil = 0;
+    /** @type {(message: Message) => void} */
+    this.tell = () => {};
+    /** Draws the state of now and those before it. @type {(state: State, states: State[]) => void} */
+    this.draw = () => {};
+    /** Called when another motion begins. */
+    this.begin = () => {};
+    /** What Reset starts from. */
+    this.initial = State.fromEuler({ theta: 0 });
+    /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
+    this.kept = null;
+    /** The torque of the scene. @type {Vector} */
+    this.steady = [0, 0, 0];
+  }
+
+  /** Begin, with a page that is told and a function that draws. */
+  open() {
+    const { scenes, lesson, layers, run } = this.content;
+    perform(this, { act: "scene", name: "hurry_slow" });
+    const { run: last, speed = SPEED, isRunning = false } = recall();
+    if (last ?? run) this.load(last ?? run);
+    this.speed = speed;
+    this.isRunning = isRunning || !(last ?? run);
+    rememberRun(this);
+    this.tellFacts();
+    this.tell({ hello: { scenes, layers, lesson } });
+    this.animate();
+  }
+
+  /** Advance and draw with every frame from now on. */
+  animate() {
+    let before = performance.now();
+    const step = (/** @type {number} */ now) => {
+      this.advance(now - before, now);
+      before = now;
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
+  }
+
+  /**
+   * @param {number} passed ms
+   * @param {number} now ms
+   */
+  advance(passed, now) {
+    if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
+    if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
+    this.show();
+  }
+
+  /** Move, or wait at the end of what the kernel computes. @param {number} passed s of the clock */
+  tryToMove(passed) {
+    try {
+      this.move(passed);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.isRunning = false;
+      this.tellFacts();
+      this.tell({ refused: error.message });
+    }
+  }
+
+  /** @param {number} passed s of the clock */
+  move(passed) {
+    const { course, time } = this.run.find(this.time);
+    const wanted = this.time + Math.round(passed * this.speed * NANO);
+    this.time = time + course.reach(wanted - time, MOST_STEPS);
+    this.end = Math.max(this.end, this.time);
+    if (this.course !== course) this.changed();
+  }
+
+  /**
+   * Add an event at the present time.
+   * @param {import("./run.js").Kind} kind
+   * @param {import("../physics/course.js").Course} course that follows
+   * @param {import("./run.js").Asked} asked
+   */
+  add(kind, course, asked = {}) {
+    const request = nameRequest(this.writer, kind, asked, course);
+    this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
+    this.changed();
+  }
+
+  /** @param {boolean} isRunning */
+  setRunning(isRunning) {
+    this.isRunning = isRunning;
+  }
+
+  /** @param {number} speed of real time */
+  setSpeed(speed) {
+    this.speed = speed;
+  }
+
+  /** Pause, and advance by a part of a motion. @param {number} length ns */
+  step(length) {
+    this.isRunning = false;
+    this.time += length;
+    this.end = Math.max(this.end, this.time);
+  }
+
+  /** Go to a time of the run. @param {number} time ns */
+  seek(time) {
+    this.time = Math.min(Math.max(time, 0), this.end);
+    this.isRunning = false;
+    this.changed();
+    this.tellFacts();
+  }
+
+  /** Keep the run for comparison, from its last start to now; or let it go. @param {boolean} kept */
+  keep(kept) {
+    this.kept = kept ? this.run.keep(this.time) : null;
+  }
+
+  /** What holds for the motion of now has changed. */
+  changed() {
+    this.window = chooseWindow(this.course.free);
+    this.begin();
+  }
+
+  get course() {
+    return this.run.find(this.time).course;
+  }
+
+  get state() {
+    return this.run.at(this.time);
+  }
+
+  /** States of the last window, for trace and charts. @returns {Sample[]} */
+  sample() {
+    const start = this.run.findStart(this.time);
+    const begin = Math.max(start, this.time - this.window * NANO);
+    return Array.from({ length: POINTS + 1 }, (_, n) => {
+      const time =
+        n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS);
+      const state = n === POINTS ? this.state : this.run.at(time);
+      const { course } = this.run.find(time);
+      const kept = this.kept?.find(time - start) ?? { state: null, course: null };
+      const ghost = this.run.findGhost(time);
+      return { time, state, course, ghost, kept: kept.state, keptCourse: kept.course };
+    });
+  }
+
+  /** Tell and draw the state of now. */
+  show() {
+    const samples = this.sample();
+    const { state } = samples[POINTS];
+    const series = samples.map(({ time, state: each, ghost }) => {
+      const { phi, psi } = each.rates;
+      return [time / NANO, each.angles.theta, phi, psi, ghost ? ghost.angles.theta : null];
+    });
+    const times = [this.time / NANO, this.end / NANO];
+    this.tell({ samples, series, constants: this.compareConstants(state), time: times });
+    this.draw(
+      state,
+      samples.map((each) => each.state),
+    );
+  }
+
+  /** Constants of the motion, and how much they have changed since its start. @param {State} state */
+  compareConstants(state) {
+    const { top, start } = this.course;
+    const [now, before] = [findConstants(top, state), findConstants(top, start)];
+    const names = /** @type {(keyof typeof UNITS)[]} */ (Object.keys(UNITS));
+    return Object.fromEntries(
+      names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
+    );
+  }
+
+  tellFacts() {
+    const facts = describe(this.run, this.writer, this.time);
+    const { isRunning: running, speed: factor, isRecording: recording } = this;
+    this.tell({ facts: { ...facts, running, factor, recording } });
+  }
+
+  /**
+   * Do what the page asks for; a refusal is told.
+   * @param {Message} message
+   */
+  take(message) {
+    try {
+      perform(this, message);
+      this.tell({ granted: true });
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.tell({ refused: error.message });
+    }
+    this.tellFacts();
+  }
+
+  /** What run.json holds. */
+  get json() {
+    return { ...this.run.json, end: this.end / NANO };
+  }
+
+  /** @param {any} run of run.json */
+  load(run) {
+    this.run.load(run);
+    const last = this.run.moments[this.run.moments.length - 1].time;
+    this.time = this.end = Math.max(last, Math.round((run.end ?? 0) * NANO));
+    this.initial = this.run.moments[0].course.start;
+    this.isRunning = false;
+    this.changed();
+  }
+
+  /** The series of the run as comma-separated values, 200 in a window. */
+  get csv() {
+    const lines = ["time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"];
+    const { moments } = this.run;
+    moments.forEach(({ time: begin, course }, k) => {
+      const end = moments[k + 1]?.time ?? this.time;
+      const step = Math.max(Math.round((chooseWindow(course.free) / 200) * NANO), 1);
+      for (let time = begin; time < end; time += step) {
+        const { angles, rates } = course.at(time - begin);
+        lines.push([time / NANO, angles.theta, rates.phi, rates.psi].join(","));
+      }
+    });
+    return `${lines.join("\n")}\n`;
+  }
+}

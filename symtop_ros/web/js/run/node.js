@@ -1,0 +1,204 @@
+// A running node as the top of the page: its events and its attitude come from the server of the
+// page, and what the page asks for goes to the services of the node.
+
+import { findTorque, perform } from "./acts.js";
+import { NANO } from "../physics/course.js";
+import { LocalTop } from "./local.js";
+import { State } from "../physics/state.js";
+
+/** @typedef {import("./local.js").Message} Message */
+/** @typedef {import("../physics/course.js").Course} Course */
+/** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
+
+const DISCONNECTED = "the connection is lost: is top_panel still running?";
+const TOLD = ["record", "failure"]; // events of which the page says what the node said
+
+export class NodeTop extends LocalTop {
+  /** @type {import("../physics/state.js").Quaternion | null} */
+  orientation = null; // that the node has published last
+  isGreeted = false;
+  stamp = ""; // ns of the node's clock, of the last event
+  /** Requests of the act that is performed. @type {Request[]} */
+  requests = [];
+
+  /** Begin: the page is greeted with the first news of the node. */
+  open() {
+    const news = new EventSource("/news");
+    news.onmessage = ({ data }) => this.follow(JSON.parse(data));
+    news.onerror = () => this.tell({ lost: DISCONNECTED });
+  }
+
+  /** @param {Message} message of the server */
+  follow({ events = [], new: isNew = false, time, orientation, lost }) {
+    if (isNew) this.beginRun(events);
+    for (const event of events) this.followEvent(event);
+    if (lost !== undefined) this.tell({ lost });
+    if (!this.run.moments.length) return;
+    if (time !== undefined) {
+      this.time = this.end = Math.max(time, this.run.moments[this.run.moments.length - 1].time);
+      this.orientation = orientation;
+    }
+    if (isNew) this.greet();
+    if (events.length) this.tellFacts();
+  }
+
+  /**
+   * The page sees a node for the first time, the server was started again, or the node was.
+   * @param {Message[]} events of the run
+   */
+  beginRun(events) {
+    const isKnown = events.some(({ stamp }) => stamp === this.stamp);
+    if (this.stamp && !isKnown) this.tell({ said: "new run: the node was started again" });
+    this.run.moments = [];
+  }
+
+  greet() {
+    if (this.isGreeted) return;
+    this.isGreeted = true;
+    this.tellFacts();
+    const { scenes, lesson, layers } = this.content;
+    this.tell({ hello: { scenes, lesson, layers } });
+    this.animate();
+  }
+
+  /** @param {Message} event */
+  followEvent({ record, running, factor, recording, said, name, stamp }) {
+    this.stamp = stamp;
+    if (record) {
+      this.run.append(record);
+      this.time = this.end = Math.max(this.time, Math.round(record.time * NANO));
+      this.orientation = null;
+      if (record.kind !== "torque") this.steady = this.course.torque;
+      this.changed();
+    }
+    this.isRunning = running;
+    this.speed = factor;
+    if (recording !== undefined) this.isRecording = recording;
+    if (TOLD.includes(name)) this.tell({ said });
+  }
+
+  /** The published attitude; all else follows from the events. */
+  get state() {
+    const computed = super.state;
+    return this.orientation ? new State(this.orientation, computed.omega) : computed;
+  }
+
+  /** Show what has come: the node has the time. */
+  advance() {
+    this.show();
+  }
+
+  /** @param {Message} message */
+  take(message) {
+    this.requests = [];
+    try {
+      if (message.act === "reset") this.ask("reset");
+      else if (message.act === "record") this.ask("record", !this.isRecording);
+      else if (message.act === "torque") this.holdTorque(message.sign);
+      else perform(this, message);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.tell({ refused: error.message });
+      return;
+    }
+    this.send(this.requests);
+  }
+
+  /** @param {number} sign */
+  holdTorque(sign) {
+    this.requests.push({ torque: [0, 0, sign * findTorque(this.course)] });
+  }
+
+  /**
+   * @param {string} service
+   * @param {any} [argument]
+   */
+  ask(service, argument = null) {
+    this.requests.push({ service, argument });
+  }
+
+  /**
+   * Ask for an event; the node sends it when it has taken effect.
+   * @param {import("./run.js").Kind} kind
+   * @param {Course} course
+   * @param {import("./run.js").Asked} [asked]
+   */
+  add(kind, course, asked) {
+    if (kind === "kick") {
+      this.ask("kick", asked?.act);
+      return;
+    }
+    const changes = listChanges(this.course, course);
+    if (Object.keys(changes).length) this.ask("set_parameters_atomically", changes);
+    if (kind !== "start") return;
+    const [w, x, y, z] = course.start.given;
+    const { omega } = course.start;
+    this.ask("set_initial_conditions", { orientation: [x, y, z, w], angular_velocity: omega });
+  }
+
+  /** @param {boolean} isRunning */
+  setRunning(isRunning) {
+    if (isRunning !== this.isRunning) this.ask("pause", !isRunning);
+  }
+
+  /** @param {number} speed */
+  setSpeed(speed) {
+    this.ask("set_parameters_atomically", { real_time_factor: speed });
+  }
+
+  /** @param {number} length ns */
+  step(length) {
+    this.setRunning(false);
+    this.ask("step", { duration: length / NANO });
+  }
+
+  load() {
+    throw new RangeError("a run must be opened in a page without a node, got one with a node");
+  }
+
+  /** Ask one after the other, until one is refused. @param {Request[]} requests */
+  async send(requests) {
+    for (const request of requests) {
+      const { granted, answer } = await post(request);
+      if (!granted) {
+        this.tell({ refused: answer });
+        return;
+      }
+    }
+    this.tell({ granted: true });
+  }
+}
+
+/**
+ * The parameters of a node that differ between two courses.
+ * @param {Course} before
+ * @param {Course} after
+ */
+const listChanges = (before, after) => {
+  const [old, wanted] = [listParameters(before), listParameters(after)];
+  const changed = Object.entries(wanted).filter(
+    ([name, value]) => String(value) !== String(old[name]),
+  );
+  return Object.fromEntries(changed);
+};
+
+/** @param {Course} course @returns {{[name: string]: number | number[]}} */
+const listParameters = ({ top: { Ix, Iz, Mgl }, friction: [axial, transverse], torque }) => ({
+  "top.Ix": Ix,
+  "top.Iz": Iz,
+  "top.Mgl": Mgl,
+  "friction.axial": axial,
+  "friction.transverse": transverse,
+  steady_torque: torque,
+});
+
+/** @param {Request} request @returns {Promise<{granted: boolean, answer: string}>} */
+const post = async (request) => {
+  try {
+    const answer = await fetch("/request", { method: "POST", body: JSON.stringify(request) });
+    if (answer.ok) return await answer.json();
+    return { granted: false, answer: await answer.text() };
+  } catch {
+    return { granted: false, answer: DISCONNECTED };
+  }
+};

@@ -1,0 +1,160 @@
+// A run in the page: its events, each with the exact doubles from which the motion goes on.
+//
+// Between two events the motion is computed by the kernel, at any time. So a run is its events, and
+// nothing else has to be kept of it. Times are whole nanoseconds, as those of a node.
+
+import { Course, NANO } from "../physics/course.js";
+import { State } from "../physics/state.js";
+
+/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
+/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/state.js").Quaternion} Quaternion */
+/** @typedef {import("../physics/kicks.js").Hold} Hold */
+/** @typedef {"start" | "kick" | "change" | "torque"} Kind */
+/**
+ * What was asked for: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
+ * impulse, and the request in words.
+ * @typedef {{act?: {[name: string]: any}, hold?: Hold | null, request?: string}} Asked
+ */
+/**
+ * An event as in run.json; its time is in s, and whole nanoseconds.
+ * @typedef {{kind: Kind, time: number, top: [number, number, number], orientation: Quaternion,
+ *   angular_velocity: Vector, friction: [number, number], torque: Vector} & Asked} EventRecord
+ */
+/**
+ * A course in a run: its times count from `since`, in ns of the run.
+ * @typedef {{course: Course, since: number}} Placed
+ */
+/**
+ * An event with its time in ns and its motion, the state just before it, the course that it ended,
+ * and the ghost: the run without its last kick.
+ * @typedef {{kind: Kind, time: number, asked: Asked, course: Course, before: State | null,
+ *   last: Course | null, ghost: Placed | null}} Moment
+ */
+
+/**
+ * A part of a run, kept for comparison: the state at a time since its start, or nothing after its end.
+ * @typedef {{find: (passed: number) => {state: State, course: Course} | null}} Kept
+ */
+
+const FORMAT = 1;
+
+export class Run {
+  /** @param {Kernel} kernel */
+  constructor(kernel) {
+    this.kernel = kernel;
+    /** @type {Moment[]} */
+    this.moments = [];
+  }
+
+  /**
+   * The last event before a time, or the first one.
+   * @param {number} time ns
+   * @returns {Moment}
+   */
+  find(time) {
+    return this.moments[Math.max(0, this.findPlace(time))];
+  }
+
+  /** @param {number} time ns */
+  findPlace(time) {
+    return this.moments.findLastIndex((moment) => moment.time <= time);
+  }
+
+  /** The time in ns of the last start before a time. @param {number} time ns */
+  findStart(time) {
+    return this.moments.findLast((each) => each.kind === "start" && each.time <= time)?.time ?? 0;
+  }
+
+  /** @param {number} time ns */
+  at(time) {
+    const { course, time: since } = this.find(time);
+    return course.at(time - since);
+  }
+
+  /** The state of the ghost, or null. @param {number} time ns */
+  findGhost(time) {
+    const { ghost } = this.find(time);
+    return ghost ? ghost.course.at(time - ghost.since) : null;
+  }
+
+  /**
+   * Add an event; what came after its time is no longer part of the run.
+   * @param {Kind} kind
+   * @param {number} time ns
+   * @param {Course} course
+   * @param {Asked} asked
+   */
+  add(kind, time, course, asked = {}) {
+    const last = this.moments.length && kind !== "start" ? this.find(time) : null;
+    const before = last ? this.at(time) : null;
+    const ghost = last ? this.findNextGhost(kind, time, course, last) : null;
+    this.moments.length = this.findPlace(time) + 1;
+    this.moments.push({ kind, time, asked, course, before, last: last?.course ?? null, ghost });
+  }
+
+  /**
+   * @param {Kind} kind
+   * @param {number} time ns
+   * @param {Course} course
+   * @param {Moment} last
+   * @returns {Placed | null}
+   */
+  findNextGhost(kind, time, course, last) {
+    if (kind === "kick") return { course: last.course, since: last.time };
+    if (!last.ghost) return null;
+    const { top, friction, torque } = course;
+    const state = last.ghost.course.at(time - last.ghost.since);
+    return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
+  }
+
+  /** The run from its last start to a time, whatever becomes of it. @param {number} end ns @returns {Kept} */
+  keep(end) {
+    const start = this.findStart(end);
+    const copy = new Run(this.kernel);
+    copy.moments = [...this.moments];
+    const find = (/** @type {number} */ passed) => {
+      const time = start + passed;
+      return time > end ? null : { state: copy.at(time), course: copy.find(time).course };
+    };
+    return { find };
+  }
+
+  /** What run.json holds. @returns {{format: number, events: EventRecord[]}} */
+  get json() {
+    const events = this.moments.map(
+      ({ kind, time, asked, course: { top, start, friction, torque } }) => ({
+        kind,
+        time: time / NANO,
+        top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
+        orientation: start.given,
+        angular_velocity: start.omega,
+        friction,
+        torque,
+        ...asked,
+      }),
+    );
+    return { format: FORMAT, events };
+  }
+
+  /**
+   * Take over a run of run.json; one that cannot be read leaves this run as it is.
+   * @param {{format: number, events: EventRecord[]}} json
+   */
+  load({ format, events }) {
+    if (format !== FORMAT || !Array.isArray(events) || !events.length) {
+      throw new RangeError(`a run must have format ${FORMAT} and some events`);
+    }
+    const read = new Run(this.kernel);
+    for (const event of events) read.append(event);
+    this.moments = read.moments;
+  }
+
+  /** @param {EventRecord} event */
+  append({ kind, time, top, orientation, angular_velocity, friction, torque, ...asked }) {
+    const [Ix, Iz, Mgl] = top;
+    const start = new State(orientation, angular_velocity);
+    const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
+    this.add(kind, Math.round(time * NANO), course, asked);
+  }
+}

@@ -1,0 +1,168 @@
+// The shapes of the scene as triangles: surfaces of revolution, in sectors of two colours that make
+// the spin visible. Lengths are in scene units: the pivot is the origin, and the axis ends at 1.
+
+/** @typedef {[number, number, number]} Color red, green and blue, 0 to 1 */
+/** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
+/** Positions, normals and colours, three numbers for each corner of a triangle. */
+/** @typedef {{positions: number[], normals: number[], colors: number[]}} Mesh */
+
+const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
+const FACETS = 10; // of a sector
+
+/** @param {string} hex @returns {Color} */
+export const readColor = (hex) =>
+  /** @type {Color} */ ([1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255));
+const STEEL = readColor("#c4cad2");
+const BRASS = readColor("#deb25c");
+const ENAMEL = readColor("#96202c");
+const IVORY = readColor("#f0e6cd");
+const STONE = readColor("#707682");
+
+/** @param {Mesh[]} meshes @returns {Mesh} */
+export const joinMeshes = (meshes) => ({
+  positions: meshes.flatMap((each) => each.positions),
+  normals: meshes.flatMap((each) => each.normals),
+  colors: meshes.flatMap((each) => each.colors),
+});
+
+/**
+ * The surface of a profile turned about z. Normals are those of a cone for each edge.
+ * @param {Profile} profile
+ * @param {Color} first
+ * @param {Color} second
+ * @returns {Mesh}
+ */
+export const createLathe = (profile, first, second = first) => {
+  /** @type {Mesh} */
+  const mesh = { positions: [], normals: [], colors: [] };
+  const count = SECTORS * FACETS;
+  for (let edge = 0; edge + 1 < profile.length; edge += 1) {
+    const [[r, z], [s, y]] = [profile[edge], profile[edge + 1]];
+    const length = Math.hypot(y - z, r - s) || 1;
+    const [out, up] = [(y - z) / length, (r - s) / length];
+    for (let facet = 0; facet < count; facet += 1) {
+      const color = Math.floor(facet / FACETS) % 2 ? second : first;
+      for (const [corner, isUpper] of [
+        [0, 0],
+        [1, 0],
+        [0, 1],
+        [1, 0],
+        [1, 1],
+        [0, 1],
+      ]) {
+        const angle = (2 * Math.PI * (facet + corner)) / count;
+        const [c, s1] = [Math.cos(angle), Math.sin(angle)];
+        const [radius, height] = isUpper ? [s, y] : [r, z];
+        mesh.positions.push(radius * c, radius * s1, height);
+        mesh.normals.push(out * c, out * s1, up);
+        mesh.colors.push(...color);
+      }
+    }
+  }
+  return mesh;
+};
+
+/**
+ * The rotor: a flat pear, widest at the centre of mass.
+ * @param {number} radius
+ * @param {number} height
+ */
+const createRotor = (radius, height) => {
+  /** @type {Profile} */
+  const shape = [
+    [0.022, -0.2],
+    [0.1, -0.17],
+    [0.35, -0.11],
+    [0.72, -0.06],
+    [0.94, -0.035],
+    [0.94, 0.035],
+    [0.8, 0.05],
+    [0.45, 0.075],
+    [0.16, 0.105],
+    [0.022, 0.14],
+  ];
+  const scaled = shape.map(
+    ([r, z]) => /** @type {[number, number]} */ ([Math.max(0.022, r * radius), height + z]),
+  );
+  /** @type {Profile} */
+  const rim = Array.from({ length: 9 }, (_, k) => {
+    const angle = (Math.PI * k) / 8 - Math.PI / 2;
+    return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
+  });
+  return joinMeshes([
+    createLathe(scaled.slice(0, 5), IVORY, ENAMEL),
+    createLathe(scaled.slice(5), IVORY, ENAMEL),
+    createLathe(rim, BRASS),
+  ]);
+};
+
+/**
+ * The body of a top: its rotor is at the centre of mass, and wider for a larger Iz/Ix.
+ * @param {import("../physics/precession.js").Top} top
+ */
+export const createBody = ({ Ix, Iz, Mgl }) => {
+  const [radius, height] = [0.2 + 0.26 * Math.sqrt(Iz / Ix), 0.56 * Math.sign(Mgl)];
+  const low = Math.min(0, height - 0.22);
+  /** @type {Profile} */
+  const axle = [
+    [0, low],
+    [0.022, low + 0.03],
+    [0.022, 0.93],
+    [0.034, 0.95],
+    [0.034, 0.985],
+    [0, 1],
+  ];
+  return joinMeshes([createLathe(axle, STEEL), createRotor(radius, height)]);
+};
+
+export const createStand = () =>
+  createLathe(
+    [
+      [0.17, -0.32],
+      [0.17, -0.28],
+      [0.05, -0.22],
+      [0.03, -0.03],
+      [0, -0.02],
+    ],
+    STONE,
+  );
+
+/** A shaft of length 1 along z, to be scaled, and a head whose tip is the origin. @param {Color} color */
+export const createArrow = (color) => ({
+  shaft: createLathe(
+    [
+      [0, 0],
+      [0.013, 0],
+      [0.013, 1],
+    ],
+    color,
+  ),
+  head: createLathe(
+    [
+      [0, -0.1],
+      [0.036, -0.1],
+      [0, 0],
+    ],
+    color,
+  ),
+});
+
+/** A ball of radius 1. @param {Color} color */
+export const createBall = (color) => {
+  /** @type {Profile} */
+  const profile = Array.from({ length: 17 }, (_, k) => {
+    const angle = (Math.PI * k) / 16;
+    return [Math.sin(angle), -Math.cos(angle)];
+  });
+  return createLathe(profile, color);
+};
+
+/** A flat disc of radius 1. @param {Color} color */
+export const createDisc = (color) =>
+  createLathe(
+    [
+      [1, 0],
+      [0, 0],
+    ],
+    color,
+  );

@@ -1,0 +1,228 @@
+// The scene: the top, its arrows and lines, the ghost, and the ball that is pulled.
+
+import { Camera } from "./camera.js";
+import { listParallel, listPieces, listSphere } from "./curves.js";
+import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
+import {
+  createArrow,
+  createBall,
+  createBody,
+  createDisc,
+  createStand,
+  readColor,
+} from "./meshes.js";
+import { COLORS, FICTITIOUS } from "./colors.js";
+import { Grip } from "./grip.js";
+import { Labels } from "./labels.js";
+import { Painter } from "./painter.js";
+import { findTorques, findVectors } from "./vectors.js";
+
+/** @typedef {import("../run/local.js").LocalTop} LocalTop */
+/** @typedef {import("../physics/state.js").State} State */
+/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("./meshes.js").Color} Color */
+
+const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion
+const DEPTHS = { gravity: 0.08, Coriolis: 0.15, centrifugal: 0.22, sum: -0.08 }; // below the pivot
+const LONGEST = 2.5; // of a fictitious torque
+const SHORTEST = 0.02; // arrows that are shorter have no direction that can be seen
+const GHOST_OPACITY = 0.28;
+const BALL = 0.055;
+const HORIZON = 1.65; // rad; the axis goes below the pivot: no stand, and the whole sphere
+const GROUND = -0.33;
+/** @type {[Vector, Vector][]} */
+const VIEWS = [
+  [
+    [1.9, -2.2, 1.35],
+    [0, 0, 0.45],
+  ],
+  [
+    [2.75, -3.2, 1.3],
+    [0, 0, 0],
+  ],
+  [
+    [2.75, -3.2, -1.3],
+    [0, 0, 0],
+  ],
+];
+const STILL = createPose([1, 0, 0, 0]);
+
+export class Scene {
+  /**
+   * @param {HTMLElement} place in which the scene is shown
+   * @param {LocalTop} top
+   */
+  constructor(place, top) {
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", "The top in three dimensions");
+    const labels = document.createElement("div");
+    place.prepend(canvas, labels);
+    this.painter = new Painter(canvas);
+    this.camera = new Camera(canvas);
+    this.labels = new Labels(labels, this.camera);
+    this.top = top;
+    const paint = (/** @type {keyof typeof COLORS} */ name) => readColor(COLORS[name]);
+    this.arrows = Object.fromEntries(
+      ["L", "omega", "torque", "ball", ...Object.keys(DEPTHS)].map((name) => {
+        const { shaft, head } = createArrow(paint(/** @type {keyof typeof COLORS} */ (name)));
+        return [name, { shaft: this.painter.load(shaft), head: this.painter.load(head) }];
+      }),
+    );
+    this.stand = this.painter.load(createStand());
+    this.ball = this.painter.load(createBall(paint("ball")));
+    this.disc = this.painter.load(createDisc([0, 0, 0]));
+    this.paint = paint;
+    /** @type {{[name: string]: number}} */
+    this.scales = {};
+    this.bodyKey = "";
+    this.view = -1; // index of `VIEWS`
+    this.torqueScale = 1;
+    this.grip = new Grip(canvas, this.camera, top);
+  }
+
+  /** What holds for a whole motion: the body, circles, the scales of the arrows, the camera. */
+  begin() {
+    const { course, state } = this.top;
+    const key = JSON.stringify(course.top);
+    if (key !== this.bodyKey) {
+      this.body = this.painter.load(createBody(course.top));
+      this.bodyKey = key;
+    }
+    const angles = course.free.motion.turning_angles;
+    this.circles = new Float32Array(angles.flatMap(listParallel));
+    for (const [name, vector] of Object.entries(findVectors(this.top.course, state))) {
+      const largest = name === "torque" ? Math.abs(course.top.Mgl) : findSize(vector);
+      this.scales[name] = largest
+        ? LENGTHS[/** @type {keyof typeof LENGTHS} */ (name)] / largest
+        : 0;
+    }
+    const torques = findTorques(this.top.course.top, state);
+    this.torqueScale =
+      Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
+    const isBelow = course.top.Mgl < 0 || angles[1] > HORIZON;
+    const momentum = findVectors(this.top.course, state).L[2];
+    const view = isBelow ? (course.top.Mgl < 0 && momentum < 0 ? 2 : 1) : 0;
+    if (view !== this.view) {
+      this.view = view;
+      this.camera.place(...VIEWS[view]);
+      this.sphere = listSphere(view > 0);
+    }
+  }
+
+  /**
+   * @param {State} state now
+   * @param {State[]} states of the trace
+   */
+  draw(state, states) {
+    const { painter, camera, grip } = this;
+    painter.begin(camera.matrix, camera.eye, camera.size);
+    this.labels.begin();
+    this.drawBody(grip.preview ?? state);
+    this.drawLines(state, states);
+    if (!grip.preview) this.drawVectors(state);
+    const ghost = this.top.layers.ghost ? this.top.run.findGhost(this.top.time) : null;
+    if (ghost && this.body)
+      painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
+    this.labels.end();
+  }
+
+  /** The top on its stand, with its shadow and its ball. @param {State} state */
+  drawBody(state) {
+    const { painter } = this;
+    const axis = state.toWorld([0, 0, 1]);
+    if (this.view === 0) {
+      painter.drawShadow(
+        this.disc,
+        createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]),
+        [0.56 * axis[0], 0.56 * axis[1], 0],
+        0.6,
+        0.3,
+      );
+      painter.drawMesh(this.stand, STILL);
+    }
+    if (this.body) painter.drawMesh(this.body, createPose(state.orientation));
+    if (this.top.layers.handle) this.drawHandle(axis);
+  }
+
+  /** @param {State} state */
+  drawVectors(state) {
+    const { layers, course } = this.top;
+    for (const [name, vector] of Object.entries(findVectors(course, state))) {
+      if (layers[name]) this.drawArrow(name, scale(vector, this.scales[name]), [0, 0, 0], name);
+    }
+    if (layers[FICTITIOUS]) this.drawTorques(state);
+  }
+
+  /**
+   * @param {State} state
+   * @param {State[]} states
+   */
+  drawLines(state, states) {
+    const {
+      painter,
+      top: { layers },
+    } = this;
+    if (layers.sphere && this.sphere)
+      painter.drawLines(this.sphere, this.paint("sphere"), 1, STILL, 0.55);
+    if (layers["turning circles"] && this.circles)
+      painter.drawLines(this.circles, this.paint("circles"), 2, STILL);
+    const { phi } = state.angles;
+    const turned = createPose([Math.cos(phi / 2), 0, 0, Math.sin(phi / 2)]);
+    if (layers["line of nodes"])
+      painter.drawLines(new Float32Array([-0.4, 0, 0, 0.4, 0, 0]), this.paint("nodes"), 2, turned);
+    const trace = listPieces(states.map((each) => each.toWorld([0, 0, 1])));
+    if (layers.trace) painter.drawLines(new Float32Array(trace), this.paint("trace"), 3, STILL);
+  }
+
+  /**
+   * @param {string} name
+   * @param {Vector} vector
+   * @param {Vector} origin
+   * @param {string} label
+   */
+  drawArrow(name, vector, origin, label) {
+    const length = findSize(vector);
+    if (!(length > SHORTEST)) return;
+    const direction = normalize(vector);
+    const rotation = turnTo(direction);
+    const tip = add(origin, vector);
+    const { shaft, head } = this.arrows[name];
+    const size = Math.min(1, length / 0.15);
+    this.painter.drawMesh(
+      shaft,
+      createPose(rotation, [size, size, Math.max(length - 0.1 * size, 0)], origin),
+    );
+    this.painter.drawMesh(head, createPose(rotation, [size, size, size], tip));
+    if (label)
+      this.labels.put(
+        label,
+        COLORS[/** @type {keyof typeof COLORS} */ (name)],
+        add(tip, scale(direction, 0.08)),
+      );
+  }
+
+  /** Arrows along the line of nodes, head to tail: the third ends below the pivot if theta'' is 0. */
+  /** @param {State} state */
+  drawTorques(state) {
+    const { phi } = state.angles;
+    const torques = findTorques(this.top.course.top, state);
+    const sizes = Object.values(torques).map((each) => each / this.torqueScale);
+    if (!sizes.every((each) => Math.abs(each) <= LONGEST)) return;
+    let end = 0;
+    Object.entries(DEPTHS).forEach(([name, depth], k) => {
+      const begin = name === "sum" ? 0 : end;
+      end = begin + sizes[k];
+      const along = (/** @type {number} */ x) =>
+        /** @type {Vector} */ ([x * Math.cos(phi), x * Math.sin(phi), -depth]);
+      this.drawArrow(name, subtract(along(end), along(begin)), along(begin), name);
+    });
+  }
+
+  /** @param {Vector} axis */
+  drawHandle(axis) {
+    this.painter.drawMesh(this.ball, createPose([1, 0, 0, 0], [BALL, BALL, BALL], axis));
+    const { end, isTilting } = this.grip;
+    if (end && !isTilting) this.drawArrow("ball", subtract(end, axis), axis, "");
+  }
+}

@@ -1,0 +1,35 @@
+// The vectors of a state that the scene draws, in the world frame.
+
+import { add } from "./matrices.js";
+import { findFrameTorques } from "../physics/precession.js";
+
+/** @typedef {import("../physics/state.js").State} State */
+/** @typedef {import("../physics/state.js").Vector} Vector */
+
+/**
+ * @param {import("../physics/course.js").Course} course
+ * @param {State} state
+ * @returns {{L: Vector, omega: Vector, torque: Vector}}
+ */
+export const findVectors = ({ top: { Ix, Iz, Mgl }, friction, torque }, state) => {
+  const [x, y, z] = state.omega;
+  const [a, b] = state.toWorld([0, 0, Mgl]);
+  const damping = state.toWorld([-friction[1] * x, -friction[1] * y, -friction[0] * z]);
+  return {
+    L: state.toWorld([Ix * x, Ix * y, Iz * z]),
+    omega: state.toWorld(state.omega),
+    torque: add(add([-b, a, 0], damping), torque),
+  };
+};
+
+/**
+ * The torques along the line of nodes for an observer who precesses with the top.
+ * @param {import("../physics/precession.js").Top} top
+ * @param {State} state
+ */
+export const findTorques = (top, state) => {
+  const { phi, psi } = state.rates;
+  const torques = findFrameTorques(top, state.angles.theta, phi, psi);
+  const { gravity, coriolis: Coriolis, centrifugal, total: sum } = torques;
+  return { gravity, Coriolis, centrifugal, sum };
+};

@@ -1,0 +1,176 @@
+// What the page says and plots of a run: sentences, rates, roots, the potential.
+
+import { NANO } from "../physics/course.js";
+import { findLedger, findRest } from "../physics/energies.js";
+import { findOutcome } from "./headline.js";
+import { listHistory } from "./history.js";
+import { findTurning } from "../physics/kinds.js";
+import { describeStart } from "../run/links.js";
+import { EffectivePotential } from "../physics/potential.js";
+import { findRegularRates } from "../physics/precession.js";
+
+/** @typedef {import("../run/run.js").Run} Run */
+/** @typedef {import("../run/run.js").Moment} Moment */
+/** @typedef {import("../physics/course.js").Course} Course */
+/** @typedef {import("../physics/state.js").State} State */
+/** @typedef {import("./wording.js").Writer} Writer */
+/** @typedef {import("./wording.js").Variant} Variant */
+/**
+ * What holds for a whole motion, and how its top runs.
+ * @typedef {ReturnType<typeof describe> & {running: boolean, factor: number, recording: boolean}} Facts
+ */
+
+const CURVE = 241; // points of a potential
+const SEARCHED = 2001; // tilts among which the box of the potential is found
+const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
+const TRACE_NUTATIONS = 12; // longest plot, in nutations
+
+/** @param {number[]} numbers */
+const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
+
+/**
+ * Numbers at equal distances.
+ * @param {number} low
+ * @param {number} high
+ * @param {number} count
+ */
+const spread = (low, high, count) =>
+  Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
+
+/** The time in s that the plots show: one turn of the precession, or some nutations. */
+/** @param {Course} course */
+export const chooseWindow = ({ motion }) => {
+  const { mean_precession_rate: rate, nutation_period: period } = motion.rates;
+  const turn = rate ? (2 * Math.PI) / Math.abs(rate) : Infinity;
+  const shown = Math.min(Number.isNaN(turn) ? Infinity : turn, TRACE_NUTATIONS * period);
+  return Number.isFinite(shown) ? Math.min(Math.max(shown, 0.05), 30) : 5;
+};
+
+/**
+ * The box of the potential, its curve in it, and the curve before the last change.
+ * @param {Course} course
+ * @param {State} state
+ * @param {Moment} moment
+ */
+const describePotential = (course, state, { before, last }) => {
+  const potential = new EffectivePotential(course.top, state);
+  const angles = course.continueFree(state).motion.turning_angles;
+  const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
+  const heights = tilts.map((tilt) => potential.at(tilt));
+  const bottom = Math.min(findLeast(heights), potential.energy);
+  const depth = potential.energy - bottom;
+  const least = LEAST * Math.max(Math.abs(course.top.Mgl), Math.abs(depth), 1e-12);
+  const top = potential.energy + Math.max(ABOVE * depth, least);
+  const near = tilts.filter((_, k) => heights[k] <= top);
+  const [low, high] = [
+    Math.min(near[0] ?? angles[0], angles[0]),
+    Math.max(near.at(-1) ?? angles[1], angles[1]),
+  ];
+  const margin = 0.04 * Math.max(high - low, 0.1);
+  const [left, right] = [Math.max(0, low - margin), Math.min(Math.PI, high + margin)];
+  const shown = [...spread(left, right, CURVE), ...angles].sort((a, b) => a - b);
+  const sample = (/** @type {EffectivePotential} */ each) => ({
+    theta: shown,
+    height: shown.map((tilt) => Math.min(each.at(tilt), top + (top - bottom))),
+  });
+  return {
+    left,
+    right,
+    bottom: bottom - 0.08 * (top - bottom),
+    top,
+    energy: potential.energy,
+    angles,
+    ...sample(potential),
+    before: before && last ? sample(new EffectivePotential(last.top, before)) : null,
+  };
+};
+
+/** @param {Course} course */
+const listRates = ({ motion }) => {
+  const { nutation_period, mean_precession_rate } = motion.rates;
+  const rows = [["motion", motion.kind]];
+  if (Number.isFinite(nutation_period))
+    rows.push(["nutation period", `${Number(nutation_period.toPrecision(4))} s`]);
+  if (Number.isFinite(mean_precession_rate))
+    rows.push(["mean phi'", `${Number(mean_precession_rate.toPrecision(4))} rad/s`]);
+  return rows;
+};
+
+/** The part of an address that starts the motion of the last event. @param {Course} course */
+const writeLink = ({ top, friction, start }) => {
+  const { phi, theta, psi } = start.angles;
+  const rates = start.rates;
+  const values = {
+    ...top,
+    axial: friction[0],
+    transverse: friction[1],
+    phi,
+    theta,
+    psi,
+    theta_dot: rates.theta,
+    phi_dot: rates.phi,
+    psi_dot: rates.psi,
+  };
+  return Object.entries(values)
+    .map(([name, value]) => `${name}=${Number(value.toPrecision(6))}`)
+    .join("&");
+};
+
+/** The record of the ledger, in mJ. @param {Moment} moment */
+const nameLedger = (moment) => {
+  const ledger = findLedger(moment);
+  if (!ledger) return { kind: "none" };
+  const { kick, far, point } = ledger;
+  const { weight, precession } = far;
+  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
+};
+
+/**
+ * All that holds for the motion after the last event.
+ * @param {Run} run
+ * @param {Writer} writer
+ * @param {number} time ns
+ */
+export const describe = (run, writer, time) => {
+  const moment = run.find(time);
+  const state = run.at(time);
+  const { course } = moment;
+  const past = run.moments.slice(0, run.findPlace(time) + 1);
+  const announced = past.findLast(({ kind }) => kind !== "torque") ?? moment;
+  const { headline, name, outcome } = findOutcome(moment);
+  const say = (/** @type {Variant} */ variant) => ({
+    headline: writer.write("headline", headline, variant),
+    why: writer.write(name, outcome, variant),
+    history: listHistory(run, writer, variant),
+  });
+  const start = describeStart(course.start);
+  const isNew = announced.kind === "start";
+  return {
+    ...say("radians"),
+    degrees: say("degrees"),
+    top: {
+      "top.Ix": course.top.Ix,
+      "top.Iz": course.top.Iz,
+      "top.Mgl": course.top.Mgl,
+      "friction.axial": course.friction[0],
+      "friction.transverse": course.friction[1],
+    },
+    start,
+    roots: findRegularRates(course.top, start.theta, start.psi_dot),
+    window: chooseWindow(course.free),
+    since: run.findStart(time) / NANO,
+    marks: run.moments.filter(({ kind }) => kind === "kick").map((each) => each.time / NANO),
+    potential: describePotential(
+      course,
+      course.isDriven ? state : course.start,
+      isNew ? { ...moment, before: null } : announced,
+    ),
+    table: listRates(course.free),
+    link: writeLink(course),
+    ledger: findLedger(announced),
+    energies: writer.write("ledger", nameLedger(announced)),
+    turning: findTurning(course),
+    body: course.top,
+    isFresh: moment.kind === "start",
+  };
+};

@@ -1,0 +1,59 @@
+// The history of a run: what was asked for, as records for the templates `request`.
+
+/** @typedef {import("../run/run.js").Run} Run */
+/** @typedef {import("../run/run.js").Asked} Asked */
+/** @typedef {import("../physics/course.js").Course} Course */
+/** @typedef {import("./wording.js").Writer} Writer */
+/** @typedef {import("./wording.js").Variant} Variant */
+
+const LISTED = 10; // entries
+
+/**
+ * What was asked for, as far as the event itself says it.
+ * @param {import("../run/run.js").Kind} kind
+ * @param {Asked} asked
+ * @param {Course} course that followed
+ */
+const findRequest = (kind, { act = {} }, { start }) => {
+  const { phi: phi_dot, psi: psi_dot } = start.rates;
+  const { precession_rate_factor: factor, precession_rate_change: change } = act;
+  if (kind === "change") return { kind: "change" };
+  if (kind !== "kick") return { kind: "started", theta: start.angles.theta, phi_dot, psi_dot };
+  if (factor !== undefined) return { kind: factor > 1 ? "hurried" : "delayed", factor };
+  if (change !== undefined) return { kind: change > 0 ? "along" : "back" };
+  return act.angular_impulse ? { kind: "impulse" } : { kind: "rate", phi_dot };
+};
+
+/**
+ * What was asked for, in words.
+ * @param {Writer} writer
+ * @param {import("../run/run.js").Kind} kind
+ * @param {Asked} asked
+ * @param {Course} course
+ * @param {Variant} variant
+ */
+export const nameRequest = (writer, kind, asked, course, variant = "radians") => {
+  const record = findRequest(kind, asked, course);
+  const text = writer.write("request", record);
+  // Words that are not those of the record, such as the title of a scene, have no variant.
+  if (asked.request !== undefined && asked.request !== text) return asked.request;
+  return writer.write("request", record, variant);
+};
+
+/**
+ * The last events: their places in the run, and what was asked for.
+ * @param {Run} run
+ * @param {Writer} writer
+ * @param {Variant} variant
+ * @returns {[number, string][]}
+ */
+export const listHistory = ({ moments }, writer, variant) => {
+  const places = [...moments.keys()].filter((place) => moments[place].kind !== "torque");
+  return places
+    .slice(-LISTED)
+    .reverse()
+    .map((place) => {
+      const { kind, asked, course } = moments[place];
+      return [place, nameRequest(writer, kind, asked, course, variant)];
+    });
+};
