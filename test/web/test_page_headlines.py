@@ -50,6 +50,7 @@ def test_a_torque_that_is_held_is_said_and_so_is_its_end(opened):
     opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
 
 
+@pytest.mark.wording
 @pytest.mark.parametrize("Mgl", [0.068, -0.068])
 def test_headline_and_reason_agree(opened, Mgl):
     """A top that falls at first and yet moves higher is said to do both."""

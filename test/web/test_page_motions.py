@@ -35,6 +35,7 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
     assert opened.say("headline").startswith("The top moves higher than without the kick, by 0.063")
 
 
+@pytest.mark.wording
 def test_a_start_is_judged_as_by_python(opened):
     opened.tab.fill("#field-theta", "1.1")
     opened.tab.press("#field-theta", "Enter")
@@ -129,3 +130,28 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
     before = read_motion(kick).at(find_time(kick, up))
     after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
     assert up["angular_velocity"] == after.angular_velocity.tolist()
+
+
+def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
+    opened.tab.click("#pause")
+    opened.tab.wait_for_timeout(300)
+
+    def read():
+        """Return the places of the labels, which move with the camera."""
+        opened.tab.wait_for_timeout(300)
+        return opened.tab.locator(".label:visible").evaluate_all(
+            "all => all.map(e => e.style.transform)"
+        )
+
+    box = opened.tab.locator("canvas").bounding_box()
+    x, y = box["x"] + 60, box["y"] + 60
+    before = read()
+    opened.tab.mouse.move(x, y)
+    opened.tab.mouse.down()
+    opened.tab.mouse.move(x + 80, y + 20)
+    opened.tab.mouse.up()
+    turned = read()
+    assert turned != before
+    opened.tab.mouse.wheel(0, 300)
+    assert read() != turned
+    assert len(opened.read_run()["events"]) == 1  # the top is not touched
