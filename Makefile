@@ -36,7 +36,7 @@ test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/tes
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
-	@rm -rf .venv/coverage
+	@rm -rf .venv/coverage/data* $(VENV)/coverage/page
 	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
