@@ -29,6 +29,7 @@ const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sl
 const SPEED = 0.1; // of real time: nutation is too fast for the eye
 const MOST_STEPS = 3000; // of an integration, for one frame
 const POINTS = 240; // of trace and charts
+const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
 const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
 
 export class LocalTop {
@@ -51,6 +52,7 @@ export class LocalTop {
     this.speed = SPEED;
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
+    this.chartsDue = 0; // ms
     /** @type {(message: Message) => void} */
     this.tell = () => {};
     /** Draws the state of now and those before it. @type {(state: State, states: State[]) => void} */
@@ -97,7 +99,7 @@ export class LocalTop {
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
     if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
-    this.show();
+    this.show(now);
   }
 
   /** Move, or wait at the end of what the kernel computes. @param {number} passed s of the clock */
@@ -166,6 +168,7 @@ export class LocalTop {
   /** What holds for the motion of now has changed. */
   changed() {
     this.window = chooseWindow(this.course.free);
+    this.chartsDue = 0;
     this.begin();
   }
 
@@ -177,35 +180,44 @@ export class LocalTop {
     return this.run.at(this.time);
   }
 
-  /** States of the last window, for trace and charts. @returns {Sample[]} */
-  sample() {
+  /** Times of the last window in ns, for trace and charts; the last one is now. */
+  listTimes() {
     const start = this.run.findStart(this.time);
     const begin = Math.max(start, this.time - this.window * NANO);
-    return Array.from({ length: POINTS + 1 }, (_, n) => {
-      const time =
-        n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS);
-      const state = n === POINTS ? this.state : this.run.at(time);
-      const { course } = this.run.find(time);
-      const kept = this.kept?.find(time - start) ?? { state: null, course: null };
-      const ghost = this.run.findGhost(time);
-      return { time, state, course, ghost, kept: kept.state, keptCourse: kept.course };
-    });
+    return Array.from({ length: POINTS + 1 }, (_, n) =>
+      n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS),
+    );
   }
 
-  /** Tell and draw the state of now. */
-  show() {
-    const samples = this.sample();
-    const { state } = samples[POINTS];
-    const series = samples.map(({ time, state: each, ghost }) => {
-      const { phi, psi } = each.rates;
-      return [time / NANO, each.angles.theta, phi, psi, ghost ? ghost.angles.theta : null];
+  /**
+   * Draw the state of now with its trace, and tell the charts when they are due.
+   * @param {number} now ms
+   */
+  show(now) {
+    const times = this.listTimes();
+    const states = times.map((time, n) => (n === POINTS ? this.state : this.run.at(time)));
+    this.draw(states[POINTS], states);
+    if (now < this.chartsDue) return;
+    this.chartsDue = now + CHARTS;
+    this.tellSeries(times, states);
+  }
+
+  /**
+   * @param {number[]} times ns
+   * @param {State[]} states
+   */
+  tellSeries(times, states) {
+    const start = this.run.findStart(this.time);
+    const samples = times.map((time, n) => {
+      const kept = this.kept?.find(time - start) ?? { state: null, course: null };
+      const [{ course }, ghost] = [this.run.find(time), this.run.findGhost(time)];
+      return { time, state: states[n], course, ghost, kept: kept.state, keptCourse: kept.course };
     });
-    const times = [this.time / NANO, this.end / NANO];
-    this.tell({ samples, series, constants: this.compareConstants(state), time: times });
-    this.draw(
-      state,
-      samples.map((each) => each.state),
-    );
+    const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
+      return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
+    });
+    const constants = this.compareConstants(states[POINTS]);
+    this.tell({ samples, series, constants, time: [this.time / NANO, this.end / NANO] });
   }
 
   /** Constants of the motion, and how much they have changed since its start. @param {State} state */

@@ -83,9 +83,13 @@ export class NodeTop extends LocalTop {
     return this.orientation ? new State(this.orientation, computed.omega) : computed;
   }
 
-  /** Show what has come: the node has the time. */
-  advance() {
-    this.show();
+  /**
+   * Show what has come: the node has the time.
+   * @param {number} _ ms
+   * @param {number} now ms
+   */
+  advance(_, now) {
+    this.show(now);
   }
 
   /** @param {Message} message */
