@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from browser import running_browser
 from PIL import Image
+from web.opened import UNDRAWN
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.join import write_file
@@ -61,6 +62,7 @@ def _tab(tmp_path_factory):
     path.write_text(write_file(), encoding="utf-8")
     with running_browser() as browser:
         tab = browser.new_page()
+        tab.add_init_script(UNDRAWN)
         tab.goto(path.as_uri())
         tab.wait_for_selector("#headline:not(:empty)")
         yield tab

@@ -11,12 +11,17 @@ FEW_FRAMES = """
 const requestFrame = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => setTimeout(() => requestFrame(draw), 120);
 """
+# Most tests do not look at the scene, and software would draw it on their processors.
+UNDRAWN = """
+WebGL2RenderingContext.prototype.drawArrays = () => {};
+WebGL2RenderingContext.prototype.drawElements = () => {};
+"""
 
 
 class Opened:
     """The file in a tab, with what went wrong."""
 
-    def __init__(self, browser, path, fragment="", script=FEW_FRAMES, **options):
+    def __init__(self, browser, path, fragment="", script=FEW_FRAMES + UNDRAWN, **options):
         self.context = browser.new_context(offline=True, accept_downloads=True, **options)
         self.context.add_init_script(script)
         self.tab = self.context.new_page()
@@ -71,7 +76,7 @@ class Opened:
         """Wait, while the browser works; its own way would need what the page forbids."""
         deadline = time.monotonic() + TIMEOUT
         while not condition():
-            assert time.monotonic() < deadline
+            assert time.monotonic() < deadline, (self.say("headline"), self.say("refusal"))
             self.tab.wait_for_timeout(20)
 
     def wait_for_time(self, seconds):

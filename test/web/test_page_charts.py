@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from web.opened import read_motion, read_state
+from web.opened import FEW_FRAMES, read_motion, read_state
 
 from symtop_ros.physics import (
     Motion,
@@ -200,7 +200,8 @@ def find_ball(page):
     )
 
 
-def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed(opened):
+def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed(open_page):
+    opened = open_page(script=FEW_FRAMES)  # drawn: the ball is found by its colour
     opened.open_tab("view")
     for name in ("trace", "turning circles"):
         opened.tab.get_by_label(name).uncheck()

@@ -63,7 +63,7 @@ def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened):
 
 
 def test_the_slider_reaches_the_lower_vertical(opened):
-    slider = opened.tab.get_by_label("tilt theta").locator("visible=true").last
+    slider = opened.tab.locator("[data-field=theta] input[type=range]")
     slider.evaluate("(each) => { each.value = 3.15; each.dispatchEvent(new Event('input')); }")
     opened.until(lambda: "3.142" in opened.say("headline"))
     assert opened.say("refusal") == ""

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from web.opened import FEW_FRAMES
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.join import write_file
@@ -88,8 +89,8 @@ def test_scripts_find_the_motions_of_python(opened):
     assert found == [state, motion.kind, list(motion.turning_angles), motion.nutation_period]
 
 
-def test_the_picture_moves_and_can_be_saved(opened, tmp_path):
-    pictures = set()
+def test_the_picture_moves_and_can_be_saved(open_page, tmp_path):
+    pictures, opened = set(), open_page(script=FEW_FRAMES)  # drawn
     for _ in range(2):
         pictures.add(opened.save("Picture (PNG)", tmp_path).read_bytes())
         opened.tab.click("text=Step")

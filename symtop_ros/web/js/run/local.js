@@ -53,6 +53,8 @@ export class LocalTop {
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
     this.chartsDue = 0; // ms
+    /** States of the last frame by their times in ns. @type {Map<number, State>} */
+    this.states = new Map();
     /** @type {(message: Message) => void} */
     this.tell = () => {};
     /** Draws the state of now and those before it. @type {(state: State, states: State[]) => void} */
@@ -169,6 +171,7 @@ export class LocalTop {
   changed() {
     this.window = chooseWindow(this.course.free);
     this.chartsDue = 0;
+    this.states.clear();
     this.begin();
   }
 
@@ -180,13 +183,25 @@ export class LocalTop {
     return this.run.at(this.time);
   }
 
-  /** Times of the last window in ns, for trace and charts; the last one is now. */
+  /** Times of the last window in ns, for trace and charts: those of a grid, and now. */
   listTimes() {
-    const start = this.run.findStart(this.time);
-    const begin = Math.max(start, this.time - this.window * NANO);
-    return Array.from({ length: POINTS + 1 }, (_, n) =>
-      n === POINTS ? this.time : Math.round(begin + ((this.time - begin) * n) / POINTS),
-    );
+    const begin = Math.max(this.run.findStart(this.time), this.time - this.window * NANO);
+    const step = Math.max(1, Math.round((this.window * NANO) / POINTS));
+    const first = Math.ceil(begin / step) * step;
+    const count = Math.max(0, Math.ceil((this.time - first) / step));
+    return [...Array.from({ length: count }, (_, n) => first + n * step), this.time];
+  }
+
+  /**
+   * States at times, the last of which is now. Those of the frame before are kept: in a frame a few
+   * are new.
+   * @param {number[]} times ns
+   */
+  findStates(times) {
+    const before = this.states;
+    const past = times.slice(0, -1).map((time) => before.get(time) ?? this.run.at(time));
+    this.states = new Map(past.map((state, n) => [times[n], state]));
+    return [...past, this.state];
   }
 
   /**
@@ -195,8 +210,8 @@ export class LocalTop {
    */
   show(now) {
     const times = this.listTimes();
-    const states = times.map((time, n) => (n === POINTS ? this.state : this.run.at(time)));
-    this.draw(states[POINTS], states);
+    const states = this.findStates(times);
+    this.draw(states[states.length - 1], states);
     if (now < this.chartsDue) return;
     this.chartsDue = now + CHARTS;
     this.tellSeries(times, states);
@@ -216,7 +231,7 @@ export class LocalTop {
     const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
       return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
     });
-    const constants = this.compareConstants(states[POINTS]);
+    const constants = this.compareConstants(states[states.length - 1]);
     this.tell({ samples, series, constants, time: [this.time / NANO, this.end / NANO] });
   }
 
