@@ -19,7 +19,7 @@ import pytest
 
 TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
 HELP = "sh test/get_browsers.sh, as root"
-# The scene is drawn by software, and Firefox calls nobody.
+# The scene is drawn by software, and Firefox makes no request.
 FIREFOX_PREFERENCES = {
     "webgl.force-enabled": True,
     "webgl.disabled": False,
@@ -33,7 +33,7 @@ FIREFOX_PREFERENCES = {
 
 
 class Driver(Protocol):
-    """What the tests ask of a browser."""
+    """Requests of the tests to a browser."""
 
     def open(self, url: str) -> None:
         """Open an address."""

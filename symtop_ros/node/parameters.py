@@ -128,7 +128,7 @@ def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
     """Return a handler of a service (full name) of parameters; those of others are unchanged.
 
     rclpy's own handlers raise an exception for unknown types, which would end the node. Ranges are
-    told and not declared: rclpy would refuse what is outside before we do, in other words.
+    only described, not declared: rclpy would refuse what is outside before we do, in other words.
     """
 
     def set_all(request: Any, response: Any) -> Any:

@@ -111,7 +111,7 @@ def test_the_policy_allows_top_judge_what_it_uses():
 
 @contextlib.contextmanager
 def open_page(url):
-    """What a page of a node asks for, and is sent; the server may still be starting."""
+    """Ask for the news of a node, as its page does; the server may still be starting."""
     deadline = time.monotonic() + TIMEOUT
     while True:
         try:

@@ -95,7 +95,7 @@ XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1
 
 
 def to_lab(color):
-    """CIE L*a*b* of a colour (sRGB, 0 to 255) as it is seen with deuteranopia."""
+    """CIE L*a*b* of a colour (sRGB, 0 to 255) with deuteranopia."""
     share = np.array(color) / 255
     linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
     x, y, z = np.cbrt(XYZ @ (DEUTERANOPIA @ linear).clip(0, 1) / (0.9505, 1.0, 1.089))

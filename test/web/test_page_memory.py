@@ -54,12 +54,12 @@ def test_a_sleep_of_the_computer_loses_nothing(open_page):
     page = open_page()
     page.tab.click("#hurry")
     events, before = page.read_run()["events"], page.read_run()["end"]
-    # nothing runs for some time, and the clock goes on
+    # nothing runs for some time, and the clock runs
     page.tab.evaluate("const end = performance.now() + 3000; while (performance.now() < end) {}")
     page.tab.wait_for_timeout(400)
     run = page.read_run()
     assert run["events"] == events
-    assert before < run["end"] < before + 0.1  # s: it goes on from where it was
+    assert before < run["end"] < before + 0.1  # s: it continues from where it was
     page.wait_for_time(run["end"])
 
 
