@@ -67,7 +67,7 @@ class PageServer(ThreadingHTTPServer):
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Report an unexpected exception in one line, but not a page that was closed."""
-        error = sys.exception() if hasattr(sys, "exception") else sys.exc_info()[1]
+        error = sys.exc_info()[1]
         if not isinstance(error, OSError):
             print(f"top_panel: a request failed: {error!r}", file=sys.stderr)
 
