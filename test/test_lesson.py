@@ -70,7 +70,7 @@ def do(tops, line):
 
 
 def test_the_page_has_the_steps_of_the_data():
-    """Otherwise: PYTHONPATH=test python test/write_lesson.py."""
+    """Otherwise: make pictures."""
     assert write_page() == LESSON
     assert [tuple(typed(part)) for part in PARTS] == [tuple(step.commands) for step in STEPS]
 

@@ -25,6 +25,8 @@ from workshop.pictures.pack import pack_shaded
 
 DOCS = Path(__file__).parents[2] / "docs"
 TIMEOUT = 60_000  # ms
+# The canvas is drawn twice as large and shrunk: its edges are smooth, as with a graphics card.
+SMOOTH = "Object.defineProperty(window, 'devicePixelRatio', {value: 2})"
 HURRY = {"precession_rate_factor": 1.4}
 
 
@@ -77,6 +79,7 @@ def draw(browser: Any, picture: Picture, folder: Path) -> Path:
         page = Path(place, "top.html")
         page.write_text(write_file(run=play(picture)), encoding="utf-8")
         tab = browser.new_page(viewport=size, color_scheme=picture.scheme)
+        tab.add_init_script(SMOOTH)
         tab.goto(page.as_uri() + (STEP if picture is LESSON else ""))
         tab.wait_for_selector("#headline:not(:empty)", timeout=TIMEOUT)
         if picture is LESSON:

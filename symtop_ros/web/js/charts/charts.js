@@ -1,4 +1,5 @@
-// The charts of the page. Those that are out of sight are not drawn.
+// The charts of the page. Those that are out of sight are not drawn, and the others in turn, one in a
+// frame: drawn together, they would take longer than all else in it.
 
 import { showConstants } from "./constants_table.js";
 import { findAll } from "../controls/document.js";
@@ -32,6 +33,8 @@ export class Charts {
     };
     /** Names of the charts in sight. @type {Set<string>} */
     this.seen = new Set();
+    /** Those that are still to be drawn. @type {string[]} */
+    this.waiting = [];
     this.isComplete = false; // each has been drawn once, and has its height
     const observer = new IntersectionObserver((changes) => changes.forEach(this.follow, this));
     for (const place of findAll("[data-chart]")) observer.observe(place);
@@ -45,14 +48,24 @@ export class Charts {
   }
 
   /**
+   * Draw what a frame shows, in this frame and the next ones.
    * @param {Facts} facts
    * @param {Frame} frame
    * @param {number} factor by which Hurry multiplies phi'
    */
   draw(facts, frame, factor) {
-    for (const name of this.seen) this.all[name]?.(facts, frame, factor);
-    if (!this.isComplete) for (const each of Object.values(this.all)) each(facts, frame, factor);
+    this.drawOne = (/** @type {string} */ name) => this.all[name]?.(facts, frame, factor);
+    if (!this.isComplete) Object.keys(this.all).forEach(this.drawOne);
     this.isComplete = true;
+    if (this.waiting.length) return; // these will be drawn from what is shown now
+    this.waiting = [...this.seen];
+    this.drawNext();
+  }
+
+  drawNext() {
+    const name = this.waiting.shift();
+    if (name) this.drawOne?.(name);
+    if (this.waiting.length) requestAnimationFrame(() => this.drawNext());
   }
 }
 

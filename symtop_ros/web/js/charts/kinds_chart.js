@@ -14,7 +14,7 @@ import {
   WIDE,
   writeBelow,
 } from "./plot.js";
-import { findRegularRates } from "../physics/precession.js";
+import { estimateRoots } from "../physics/precession.js";
 import { shorten } from "../words/quantities.js";
 
 /** @typedef {import("../physics/precession.js").Top} Top */
@@ -24,6 +24,7 @@ import { shorten } from "../words/quantities.js";
 
 const HEIGHT = 190;
 const [ROWS, COLUMNS] = [86, 84]; // cells of the regions
+const OVERLAP = 0.3; // of rows, so that no gaps are seen between them
 const POINTS = 200; // of a boundary, on each side of phi' = 0
 const LARGEST = 200; // rad/s; rates of regular precession beyond it do not widen the map
 /** @type {{[name: string]: string}} */
@@ -41,7 +42,7 @@ const LOOKS = {
  * @returns {[Pair, Pair]}
  */
 const findRanges = (top, { theta, phi_dot, psi_dot }) => {
-  const roots = findRegularRates(top, theta, psi_dot).filter((rate) => Math.abs(rate) < LARGEST);
+  const roots = estimateRoots(top, theta, psi_dot).filter((rate) => Math.abs(rate) < LARGEST);
   const spin = 1.6 * Math.max(Math.abs(psi_dot), 100);
   const [low, high] = findSpan([0, phi_dot, ...roots, -10, 10], 1);
   const room = 0.25 * (high - low);
@@ -52,7 +53,7 @@ const findRanges = (top, { theta, phi_dot, psi_dot }) => {
 };
 
 /**
- * The cells in which motions make loops, as one path.
+ * Where motions make loops: rows of cells, as one path.
  * @param {Frame} frame
  * @param {Top} top
  * @param {number} theta
@@ -60,15 +61,21 @@ const findRanges = (top, { theta, phi_dot, psi_dot }) => {
  */
 const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
   const [width, height] = [(right - left) / COLUMNS, (high - low) / ROWS];
-  const [w, h] = [frame.x(width) - frame.x(0), frame.y(0) - frame.y(height)].map((each) =>
-    (each + 0.3).toFixed(1),
-  );
+  const tall = (frame.y(0) - frame.y(height) + OVERLAP).toFixed(1);
   let path = "";
   for (let row = 0; row < ROWS; row += 1) {
-    for (let column = 0; column < COLUMNS; column += 1) {
-      const [psi, phi] = [left + column * width, low + row * height];
-      if (!makesLoops(top, theta, phi + height / 2, psi + width / 2)) continue;
-      path += `M${frame.x(psi).toFixed(1)} ${frame.y(phi + height).toFixed(1)}h${w}v${h}h-${w}z`;
+    const phi = low + (row + 0.5) * height;
+    const y = frame.y(phi + height / 2).toFixed(1);
+    let begin = -1; // of a run of cells
+    for (let column = 0; column <= COLUMNS; column += 1) {
+      const psi = left + (column + 0.5) * width;
+      const isInside = column < COLUMNS && makesLoops(top, theta, phi, psi);
+      if (isInside && begin < 0) begin = column;
+      if (isInside || begin < 0) continue;
+      const x = frame.x(left + begin * width);
+      const wide = (frame.x(left + column * width) - x).toFixed(1);
+      path += `M${x.toFixed(1)} ${y}h${wide}v${tall}h-${wide}z`;
+      begin = -1;
     }
   }
   return `<path d="${path}" fill="var(--loops)"/>`;

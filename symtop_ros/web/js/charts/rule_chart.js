@@ -12,7 +12,7 @@ import {
   WIDE,
   writeBelow,
 } from "./plot.js";
-import { findTiltAcceleration } from "../physics/precession.js";
+import { estimateRoots, findTiltAcceleration } from "../physics/precession.js";
 import { shorten } from "../words/quantities.js";
 
 /** @typedef {import("../words/facts.js").Facts} Facts */
@@ -25,28 +25,13 @@ const LARGEST = 1e4; // rad/s; a root beyond it is not shown
 const keepShown = (rates) => rates.filter((rate) => Math.abs(rate) < LARGEST);
 
 /**
- * Rates with theta'' = 0, as exact as a picture needs: with long numbers they take longer than all
- * other parts of a frame.
- * @param {import("../physics/precession.js").Top} top
- * @param {number} theta
- * @param {number} spin psi'
- */
-const findRoots = ({ Ix, Iz, Mgl }, theta, spin) => {
-  const [a, b] = [(Ix - Iz) * Math.cos(theta), Iz * spin];
-  const inner = Math.sqrt(b * b - 4 * a * Mgl);
-  if (Number.isNaN(inner)) return [];
-  const far = b < 0 ? b - inner : b + inner; // without cancellation: one is the quotient of the other
-  return keepShown([far / (2 * a), (2 * Mgl) / far]);
-};
-
-/**
  * @param {Facts} facts
  * @param {import("../run/local.js").Row} row of now
  * @param {number} factor by which Hurry multiplies phi'
  */
 export const drawRule = ({ body, start, roots: first }, [, theta, rate, spin], factor) => {
   const at = (/** @type {number} */ each) => findTiltAcceleration(body, theta, each, spin);
-  const roots = findRoots(body, theta, spin);
+  const roots = keepShown(estimateRoots(body, theta, spin));
   const hurried = rate * factor;
   const range = findSpan([0, ...roots, ...keepShown(first), start.phi_dot, rate, hurried], 1);
   const rates = Array.from(

@@ -107,6 +107,20 @@ export const findRegularRates = ({ Ix, Iz, Mgl }, theta, spin) => {
 };
 
 /**
+ * The same as exact as a picture needs: long numbers take longer than all other parts of a frame.
+ * @param {Top} top
+ * @param {number} theta
+ * @param {number} spin psi'
+ */
+export const estimateRoots = ({ Ix, Iz, Mgl }, theta, spin) => {
+  const [a, b] = [(Ix - Iz) * Math.cos(theta), Iz * spin];
+  const inner = Math.sqrt(b * b - 4 * a * Mgl);
+  if (Number.isNaN(inner)) return [];
+  const far = b < 0 ? b - inner : b + inner; // without cancellation: one is the quotient of the other
+  return [far / (2 * a), (2 * Mgl) / far];
+};
+
+/**
  * theta'' in rad/s^2.
  * @param {Top} top
  * @param {number} theta

@@ -32,5 +32,5 @@ export const listSphere = (isWhole) => {
       }),
     ),
   );
-  return new Float32Array([...tilts.flatMap(listParallel), ...meridians.flat()]);
+  return [...tilts.flatMap(listParallel), ...meridians.flat()];
 };

@@ -3,8 +3,8 @@
 
 /** @typedef {[number, number, number]} Color red, green and blue, 0 to 1 */
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
-/** Positions, normals and colours, three numbers for each corner of a triangle. */
-/** @typedef {{positions: number[], normals: number[], colors: number[]}} Mesh */
+/** Place, normal and colour, three numbers each, of every corner of a triangle. */
+/** @typedef {number[]} Mesh */
 
 const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
 const FACETS = 10; // of a sector
@@ -18,13 +18,6 @@ const ENAMEL = readColor("#96202c");
 const IVORY = readColor("#f0e6cd");
 const STONE = readColor("#707682");
 
-/** @param {Mesh[]} meshes @returns {Mesh} */
-export const joinMeshes = (meshes) => ({
-  positions: meshes.flatMap((each) => each.positions),
-  normals: meshes.flatMap((each) => each.normals),
-  colors: meshes.flatMap((each) => each.colors),
-});
-
 /**
  * The surface of a profile turned about z. Normals are those of a cone for each edge.
  * @param {Profile} profile
@@ -34,7 +27,7 @@ export const joinMeshes = (meshes) => ({
  */
 export const createLathe = (profile, first, second = first) => {
   /** @type {Mesh} */
-  const mesh = { positions: [], normals: [], colors: [] };
+  const mesh = [];
   const count = SECTORS * FACETS;
   for (let edge = 0; edge + 1 < profile.length; edge += 1) {
     const [[r, z], [s, y]] = [profile[edge], profile[edge + 1]];
@@ -53,9 +46,7 @@ export const createLathe = (profile, first, second = first) => {
         const angle = (2 * Math.PI * (facet + corner)) / count;
         const [c, s1] = [Math.cos(angle), Math.sin(angle)];
         const [radius, height] = isUpper ? [s, y] : [r, z];
-        mesh.positions.push(radius * c, radius * s1, height);
-        mesh.normals.push(out * c, out * s1, up);
-        mesh.colors.push(...color);
+        mesh.push(radius * c, radius * s1, height, out * c, out * s1, up, ...color);
       }
     }
   }
@@ -89,11 +80,11 @@ const createRotor = (radius, height) => {
     const angle = (Math.PI * k) / 8 - Math.PI / 2;
     return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
   });
-  return joinMeshes([
-    createLathe(scaled.slice(0, 5), IVORY, ENAMEL),
-    createLathe(scaled.slice(5), IVORY, ENAMEL),
-    createLathe(rim, BRASS),
-  ]);
+  return [
+    ...createLathe(scaled.slice(0, 5), IVORY, ENAMEL),
+    ...createLathe(scaled.slice(5), IVORY, ENAMEL),
+    ...createLathe(rim, BRASS),
+  ];
 };
 
 /**
@@ -112,7 +103,7 @@ export const createBody = ({ Ix, Iz, Mgl }) => {
     [0.034, 0.985],
     [0, 1],
   ];
-  return joinMeshes([createLathe(axle, STEEL), createRotor(radius, height)]);
+  return [...createLathe(axle, STEEL), ...createRotor(radius, height)];
 };
 
 export const createStand = () =>

@@ -2,7 +2,10 @@
 
 /** @typedef {import("./meshes.js").Mesh} Mesh */
 /** @typedef {import("./meshes.js").Color} Color */
-/** @typedef {{array: WebGLVertexArrayObject, count: number}} Model a mesh on the graphics card */
+/**
+ * Corners of triangles on the graphics card, and how many numbers one has.
+ * @typedef {{array: WebGLVertexArrayObject, buffer: WebGLBuffer, width: number, count: number}} Model
+ */
 
 const MESH_VERTEX = `#version 300 es
 layout(location = 0) in vec3 position;
@@ -40,20 +43,28 @@ layout(location = 1) in vec3 to;
 layout(location = 2) in vec2 corner;
 uniform mat4 view, pose;
 uniform vec2 screen;
-uniform float width;
+uniform highp float width;
+out float side;
 void main() {
   vec4 a = view * pose * vec4(from, 1.0), b = view * pose * vec4(to, 1.0);
   vec2 along = (b.xy / b.w - a.xy / a.w) * screen;
   vec2 across = length(along) > 1e-6 ? normalize(vec2(-along.y, along.x)) : vec2(0.0, 1.0);
   vec4 end = corner.x > 0.5 ? b : a;
-  end.xy += across * corner.y * width / screen * end.w;
+  side = corner.y * (width + 0.5);
+  end.xy += across * side / screen * end.w;
   gl_Position = end;
 }`;
+// An edge fades over one px, with or without the smoothing of a graphics card.
 const LINE_FRAGMENT = `#version 300 es
 precision highp float;
+in float side;
 uniform vec4 color;
+uniform highp float width;
 out vec4 result;
-void main() { result = vec4(color.rgb * color.a, color.a); }`;
+void main() {
+  float opacity = color.a * clamp(width + 0.5 - abs(side), 0.0, 1.0);
+  result = vec4(color.rgb * opacity, opacity);
+}`;
 // A soft shadow: darkest in the middle of its disc.
 const SHADOW_FRAGMENT = `#version 300 es
 precision highp float;
@@ -65,16 +76,27 @@ void main() {
   float far = length(at.xy - middle.xy) / radius;
   result = vec4(0.0, 0.0, 0.0, opacity * pow(max(1.0 - far, 0.0), 1.5));
 }`;
-const CORNERS = [0, -1, 0, 1, 1, -1, 1, 1];
+const CORNERS = [
+  [0, -1],
+  [0, 1],
+  [1, -1],
+  [1, -1],
+  [0, 1],
+  [1, 1],
+];
+const PIECE = 6; // numbers of its two ends
 
 export class Painter {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
-    const gl = canvas.getContext("webgl2", {
-      antialias: true,
-      alpha: true,
-      preserveDrawingBuffer: true,
-    });
+    const options = { alpha: true, preserveDrawingBuffer: true };
+    // A graphics card smooths edges for nothing; software would need four times as long for it.
+    const gl =
+      canvas.getContext("webgl2", {
+        ...options,
+        antialias: true,
+        failIfMajorPerformanceCaveat: true,
+      }) ?? canvas.getContext("webgl2", { ...options, antialias: false });
     if (!gl) throw new Error("this browser has no WebGL 2: the scene cannot be drawn");
     this.gl = gl;
     this.canvas = canvas;
@@ -83,8 +105,6 @@ export class Painter {
     this.meshes = this.link(MESH_VERTEX, MESH_FRAGMENT);
     this.lines = this.link(LINE_VERTEX, LINE_FRAGMENT);
     this.shadows = this.link(MESH_VERTEX, SHADOW_FRAGMENT);
-    this.corners = this.fill(new Float32Array(CORNERS));
-    this.pieces = /** @type {WebGLBuffer} */ (gl.createBuffer());
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -113,30 +133,65 @@ export class Painter {
     return program;
   }
 
-  /** @param {Float32Array} numbers */
-  fill(numbers) {
+  /**
+   * A model that has no corners yet.
+   * @param {number[]} sizes of the numbers of a corner
+   * @returns {Model}
+   */
+  create(sizes) {
     const { gl } = this;
+    const array = /** @type {WebGLVertexArrayObject} */ (gl.createVertexArray());
     const buffer = /** @type {WebGLBuffer} */ (gl.createBuffer());
+    const width = sizes.reduce((sum, each) => sum + each);
+    gl.bindVertexArray(array);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
-    return buffer;
+    sizes.reduce((begin, size, place) => {
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribPointer(place, size, gl.FLOAT, false, 4 * width, 4 * begin);
+      return begin + size;
+    }, 0);
+    gl.bindVertexArray(null);
+    return { array, buffer, width, count: 0 };
+  }
+
+  /**
+   * Give a model other corners.
+   * @param {Model} model
+   * @param {Float32Array} numbers
+   */
+  fill(model, numbers) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, model.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.DYNAMIC_DRAW);
+    model.count = numbers.length / model.width;
   }
 
   /**
    * @param {Mesh} mesh
-   * @returns {Model}
+   * @param {Model} model that it becomes
    */
-  load({ positions, normals, colors }) {
-    const { gl } = this;
-    const array = /** @type {WebGLVertexArrayObject} */ (gl.createVertexArray());
-    gl.bindVertexArray(array);
-    [positions, normals, colors].forEach((numbers, place) => {
-      this.fill(new Float32Array(numbers));
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
-    });
-    gl.bindVertexArray(null);
-    return { array, count: positions.length / 3 };
+  loadMesh(mesh, model = this.create([3, 3, 3])) {
+    this.fill(model, new Float32Array(mesh));
+    return model;
+  }
+
+  /**
+   * Pieces of lines become ribbons, two triangles each. Every corner has the numbers of its piece:
+   * software takes long for many instances.
+   * @param {number[]} pieces each from one point to the next: six numbers a piece
+   * @param {Model} model that they become
+   */
+  loadLines(pieces, model = this.create([3, 3, 2])) {
+    const numbers = new Float32Array((pieces.length / PIECE) * CORNERS.length * model.width);
+    for (let begin = 0, end = 0; begin < pieces.length; begin += PIECE) {
+      for (const corner of CORNERS) {
+        for (let k = 0; k < PIECE; k += 1) numbers[end + k] = pieces[begin + k];
+        numbers.set(corner, end + PIECE);
+        end += model.width;
+      }
+    }
+    this.fill(model, numbers);
+    return model;
   }
 
   /**
@@ -224,34 +279,21 @@ export class Painter {
   }
 
   /**
-   * Draw pieces of lines, each from one point to the next: six numbers a piece.
-   * @param {Float32Array} pieces
+   * @param {Model} ribbons
    * @param {Color} color
    * @param {number} width in px
    * @param {number[]} pose
    * @param {number} opacity
    */
-  drawLines(pieces, color, width, pose, opacity = 1) {
+  drawLines({ array, count }, color, width, pose, opacity = 1) {
     const { gl, canvas } = this;
-    if (!pieces.length) return;
     const find = this.use(this.lines, pose);
     gl.uniform2f(find("screen"), canvas.width / 2, canvas.height / 2);
     gl.uniform1f(find("width"), (width * (this.ratio ?? 1)) / 2);
     gl.uniform4f(find("color"), ...color, opacity);
-    gl.bindVertexArray(null);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.pieces);
-    gl.bufferData(gl.ARRAY_BUFFER, pieces, gl.DYNAMIC_DRAW);
-    for (const place of [0, 1]) {
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 24, 12 * place);
-      gl.vertexAttribDivisor(place, 1);
-    }
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
-    gl.enableVertexAttribArray(2);
-    gl.vertexAttribPointer(2, 2, gl.FLOAT, false, 0, 0);
-    gl.vertexAttribDivisor(2, 0);
     gl.depthMask(opacity === 1);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, pieces.length / 6);
+    gl.bindVertexArray(array);
+    gl.drawArrays(gl.TRIANGLES, 0, count);
     gl.depthMask(true);
   }
 }

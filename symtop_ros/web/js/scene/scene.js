@@ -66,12 +66,17 @@ export class Scene {
     this.arrows = Object.fromEntries(
       ["L", "omega", "torque", "ball", ...Object.keys(DEPTHS)].map((name) => {
         const { shaft, head } = createArrow(paint(/** @type {keyof typeof COLORS} */ (name)));
-        return [name, { shaft: this.painter.load(shaft), head: this.painter.load(head) }];
+        return [name, { shaft: this.painter.loadMesh(shaft), head: this.painter.loadMesh(head) }];
       }),
     );
-    this.stand = this.painter.load(createStand());
-    this.ball = this.painter.load(createBall(paint("ball")));
-    this.disc = this.painter.load(createDisc([0, 0, 0]));
+    this.stand = this.painter.loadMesh(createStand());
+    this.ball = this.painter.loadMesh(createBall(paint("ball")));
+    this.disc = this.painter.loadMesh(createDisc([0, 0, 0]));
+    this.nodes = this.painter.loadLines([-0.4, 0, 0, 0.4, 0, 0]);
+    this.sphere = this.painter.loadLines([]);
+    this.circles = this.painter.loadLines([]);
+    this.trace = this.painter.loadLines([]);
+    this.body = this.painter.loadMesh([]);
     this.paint = paint;
     /** @type {{[name: string]: number}} */
     this.scales = {};
@@ -83,14 +88,17 @@ export class Scene {
 
   /** What holds for a whole motion: the body, circles, the scales of the arrows, the camera. */
   begin() {
-    const { course, state } = this.top;
+    const {
+      painter,
+      top: { course, state },
+    } = this;
     const key = JSON.stringify(course.top);
     if (key !== this.bodyKey) {
-      this.body = this.painter.load(createBody(course.top));
+      painter.loadMesh(createBody(course.top), this.body);
       this.bodyKey = key;
     }
     const angles = course.free.motion.turning_angles;
-    this.circles = new Float32Array(angles.flatMap(listParallel));
+    painter.loadLines(angles.flatMap(listParallel), this.circles);
     for (const [name, vector] of Object.entries(findVectors(this.top.course, state))) {
       const largest = name === "torque" ? Math.abs(course.top.Mgl) : findSize(vector);
       this.scales[name] = largest
@@ -106,7 +114,7 @@ export class Scene {
     if (view !== this.view) {
       this.view = view;
       this.camera.place(...VIEWS[view]);
-      this.sphere = listSphere(view > 0);
+      painter.loadLines(listSphere(view > 0), this.sphere);
     }
   }
 
@@ -122,8 +130,7 @@ export class Scene {
     this.drawLines(state, states);
     if (!grip.preview) this.drawVectors(state);
     const ghost = this.top.layers.ghost ? this.top.run.findGhost(this.top.time) : null;
-    if (ghost && this.body)
-      painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
+    if (ghost) painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
     this.labels.end();
   }
 
@@ -141,7 +148,7 @@ export class Scene {
       );
       painter.drawMesh(this.stand, STILL);
     }
-    if (this.body) painter.drawMesh(this.body, createPose(state.orientation));
+    painter.drawMesh(this.body, createPose(state.orientation));
     if (this.top.layers.handle) this.drawHandle(axis);
   }
 
@@ -163,16 +170,15 @@ export class Scene {
       painter,
       top: { layers },
     } = this;
-    if (layers.sphere && this.sphere)
-      painter.drawLines(this.sphere, this.paint("sphere"), 1, STILL, 0.55);
-    if (layers["turning circles"] && this.circles)
-      painter.drawLines(this.circles, this.paint("circles"), 2, STILL);
+    if (layers.sphere) painter.drawLines(this.sphere, this.paint("sphere"), 1, STILL, 0.55);
+    if (layers["turning circles"]) painter.drawLines(this.circles, this.paint("circles"), 2, STILL);
     const { phi } = state.angles;
     const turned = createPose([Math.cos(phi / 2), 0, 0, Math.sin(phi / 2)]);
-    if (layers["line of nodes"])
-      painter.drawLines(new Float32Array([-0.4, 0, 0, 0.4, 0, 0]), this.paint("nodes"), 2, turned);
+    if (layers["line of nodes"]) painter.drawLines(this.nodes, this.paint("nodes"), 2, turned);
+    if (!layers.trace) return;
     const trace = listPieces(states.map((each) => each.toWorld([0, 0, 1])));
-    if (layers.trace) painter.drawLines(new Float32Array(trace), this.paint("trace"), 3, STILL);
+    painter.loadLines(trace, this.trace);
+    painter.drawLines(this.trace, this.paint("trace"), 3, STILL);
   }
 
   /**

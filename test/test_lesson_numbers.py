@@ -1,0 +1,160 @@
+"""Every number with decimals in the lesson is one that its motions have, with the digits shown."""
+
+import re
+
+import numpy as np
+import pytest
+
+from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques
+from symtop_ros.physics import regular_precession_rates as find_roots
+from symtop_ros.web.lesson import read_lesson
+from workshop.article.answers.ledger import hurry_ledger
+from workshop.article.motions import FAST, HANGING_DISC, SLOW, SLOW_ROOT_HURRIED, TOP
+from workshop.article.pivot import SHORT_ARM
+
+THETA, SPIN, FACTOR = 0.5, 200.0, 1.4
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.\d+(?!\w)")
+PUSH = max(np.roots([TOP.Iz * np.cos(THETA), TOP.Iz * SPIN, -2 * TOP.Mgl]))
+SLOW_STATE, FAST_STATE = (
+    State.from_euler(theta=THETA, phi_dot=rate, psi_dot=SPIN) for rate in (SLOW, FAST)
+)
+DISC_SPIN = -25.0
+
+
+def start(phi_dot, spin=SPIN, top=TOP):
+    return Motion(top, State.from_euler(theta=THETA, phi_dot=phi_dot, psi_dot=spin))
+
+
+def hurried(state, hold, top=TOP):
+    """The turning angles after a hurry."""
+    return Motion(top, hurry(state, FACTOR, hold)).turning_angles
+
+
+def momentum(state):
+    """Size, horizontal part and lean of the angular momentum."""
+    x, y, z = TOP.angular_momentum(state)
+    return np.sqrt(x * x + y * y + z * z), np.hypot(x, y), np.arctan2(np.hypot(x, y), z)
+
+
+def let_go():
+    motion = start(0.0)
+    (first, fell, _), (later, lower, _) = (motion.at(t).euler_angles for t in (1e-3, 1e-2))
+    period = motion.nutation_period
+    fastest = motion.at(period / 2).euler_rates.phi
+    return [
+        *(f"{1e3 * (fell - THETA):.3f}", f"{1e3 * first:.4f}"),
+        *(f"{1e3 * (lower - THETA):.1f}", f"{1e3 * later:.1f}"),
+        *(f"{period:.2f}", f"{10 * period:.1f}", f"{fastest:.1f}"),
+    ]
+
+
+def depths():
+    p_psi, lowest = TOP.Iz * SPIN, start(0.0).turning_angles[1]
+    slow, fast = (start(0.0, spin).turning_angles for spin in (150.0, 300.0))
+    return [
+        *(f"{p_psi:.5f}", f"{p_psi**2 / (2 * TOP.Ix * TOP.Mgl):.2f}"),
+        *(f"{np.cos(lowest):.3f}", f"{lowest:.3f}"),
+        *(f"{angle:.2f}" for angle in (*slow, *fast)),
+    ]
+
+
+def slow_root():
+    size, flat, lean = momentum(SLOW_STATE)
+    L, (torque, _, _) = TOP.angular_momentum(SLOW_STATE), TOP.gravity_torque(SLOW_STATE)
+    turned = np.cross(SLOW_STATE.to_world(SLOW_STATE.angular_velocity), L)[0]
+    turn = 2 * np.pi / SLOW
+    return [
+        *(f"{SLOW:.2f}", f"{turn:.2f}", f"{10 * turn:.1f}", f"{size:.4f}", f"{lean:.2f}"),
+        *(f"{flat:.5f}", f"{torque:.4f}", f"{torque / flat:.2f}"),
+        f"{TOP.Mgl / (TOP.Iz * SPIN):.2f}",
+        *(f"{torque - turned:+.3f}", f"{turned:+.3f}", f"{torque:+.3f}"),
+    ]
+
+
+def fast_root():
+    size, flat, lean = momentum(FAST_STATE)
+    torque, body = TOP.gravity_torque(FAST_STATE)[0], Body.of(TOP)
+    friction = np.sin(THETA) * FAST**2 / body.gravity  # that a peg needs, for an arm of 1 m
+    return [
+        *(f"{torque:.4f}", f"{FAST:.1f}", f"{2 * np.pi / FAST:.3f}", f"{size:.4f}"),
+        *(f"{momentum(SLOW_STATE)[0]:.4f}", f"{lean:.2f}", f"{flat:.6f}", f"{torque / flat:.1f}"),
+        *(f"{1e3 * SHORT_ARM:.1f}", f"{SHORT_ARM * friction:.2f}", f"{1e3 / friction:.1f}"),
+        *(f"{1e3 * body.arm:.1f}", f"{body.arm * friction:.1f}", f"{body.mass:.3f}"),
+    ]
+
+
+def three_pushes():
+    def at_top(push):
+        motion = start(push)
+        return motion.at(motion.nutation_period / 2).euler_rates.phi
+
+    highest = start(PUSH).turning_angles[0]
+    p_psi = TOP.Iz * (SPIN + PUSH * np.cos(THETA))
+    return [
+        *(f"{PUSH:.3f}", f"{at_top(9.0):.2f}", f"{highest:.3f}", f"{at_top(20.0):.1f}"),
+        *(f"{p_psi:.4f}", f"{np.cos(highest):.3f}", f"{at_top(11.325):.4f}"),
+    ]
+
+
+def below_and_above():
+    down, up = start(3.0).turning_angles[1], start(9.0).turning_angles[0]
+    return [f"{SLOW:.2f}", f"{THETA:.1f}", f"{down:.3f}", f"{up:.3f}"]
+
+
+def hurry_on():
+    found = hurry_ledger(TOP, SLOW_ROOT_HURRIED, "spin_rate")
+    heights = (hurried(SLOW_STATE, hold)[0] for hold in ("spin_rate", "spin_momentum"))
+    energies = (found.far.weight, found.kick.rest, -found.far.precession)
+    return [
+        *(f"{FACTOR:.1f}", f"{found.kick.spin:.1f}"),
+        *(f"{height:.3f}" for height in heights),
+        *(f"{energy:.2f}" for energy in energies),
+    ]
+
+
+def observer():
+    torques = [precessing_frame_torques(TOP, THETA, r, SPIN) for r in (SLOW, 9.0, FAST, 73.0)]
+    return [
+        f"{TOP.Mgl * np.sin(THETA):.4f}",
+        *(f"{each:.4f}" for t in torques for each in (t.coriolis, t.centrifugal)),
+        *(f"{t.total:.4f}" for t in torques[1::2]),
+        f"{(SLOW + FAST) / 2:.1f}",
+    ]
+
+
+def disc():
+    slow, fast = find_roots(HANGING_DISC, THETA, DISC_SPIN)
+    states = [
+        State.from_euler(theta=THETA, phi_dot=rate, psi_dot=DISC_SPIN) for rate in (slow, fast)
+    ]
+    fallen = hurried(states[0], "spin_rate", HANGING_DISC)[1]
+    risen = hurried(states[1], "spin_rate", HANGING_DISC)[0]
+    pushed = hurried(states[1], "spin_momentum", HANGING_DISC)[1]
+    return [f"{fast:.2f}", *(f"{angle:.3f}" for angle in (THETA, fallen, risen, pushed))]
+
+
+NUMBERS = {
+    1: let_go,
+    3: depths,
+    4: slow_root,
+    5: fast_root,
+    6: three_pushes,
+    7: below_and_above,
+    8: hurry_on,
+    10: observer,
+    11: disc,
+}
+
+
+@pytest.mark.parametrize(
+    ("number", "step"),
+    [*enumerate(read_lesson(), 1)],
+    ids=lambda each: str(getattr(each, "title", each)),
+)
+def test_the_numbers_of_a_step_are_those_of_its_motions(number, step):
+    """The two accelerations of step 11 have a test of their own."""
+    texts = (step.predict, step.compute, step.look, step.seen, step.question, step.answer)
+    shown = {each for text in texts for each in NUMBER.findall(text)}
+    computed = set(NUMBERS[number]()) if number in NUMBERS else set()
+    given = {"0.5", "0.000228", "0.0000572", "0.068"}  # starts and tops
+    assert shown - given == computed - given
