@@ -109,7 +109,7 @@ def test_back_is_the_step_before(open_page):
     assert page.tab.input_value("#prediction") == "it falls"
 
 
-def test_after_a_reset_the_hurry_of_the_step_works_again(open_page):
+def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     page = open_page("#lesson=8")
     start, hurry = page.tab.locator("#lesson-acts button").all()[:2]
     assert hurry.is_disabled()
@@ -117,6 +117,8 @@ def test_after_a_reset_the_hurry_of_the_step_works_again(open_page):
     hurry.click()
     assert hurry.is_disabled()  # a second one would not be that of the step
     page.tab.click("text=Reset")
+    page.tab.reload()
+    page.tab.wait_for_selector("#headline:not(:empty)")
     hurry.click()
     assert "higher" in page.say("headline")
     page.enter("theta", "1")  # another motion, for which the step has no words

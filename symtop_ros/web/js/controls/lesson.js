@@ -31,8 +31,6 @@ export class Lesson {
     this.shown = null;
     /** @type {HTMLButtonElement[]} */
     this.hurries = [];
-    /** The link of the motion that the step has started. @type {string | null} */
-    this.begun = null;
     this.isAwaited = false; // the motion that a button has asked for
     // What was written survives a reload; a step is an entry of the history: Back is the step before.
     /** @type {{[step: number]: string}} */
@@ -119,7 +117,6 @@ export class Lesson {
   /** @param {Step} step */
   offerActs({ acts, scene }) {
     this.hurries = [];
-    this.begun = null;
     const buttons = acts.map((act) => {
       const button = make("button", { disabled: !act.start, "aria-label": act.button });
       write(button, act.button);
@@ -150,8 +147,11 @@ export class Lesson {
    * @param {import("../words/facts.js").Facts} facts
    */
   follow({ isFresh, link }) {
-    if (isFresh && this.isAwaited) this.begun = link;
+    const step = this.shown ?? 0;
+    if (isFresh && this.isAwaited) remember({ begun: { step, link } });
     if (isFresh) this.isAwaited = false;
-    for (const button of this.hurries) button.disabled = !isFresh || link !== this.begun;
+    const { begun } = recall();
+    const isOfStep = isFresh && begun?.step === step && begun.link === link;
+    for (const button of this.hurries) button.disabled = !isOfStep;
   }
 }

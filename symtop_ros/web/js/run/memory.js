@@ -3,10 +3,10 @@
 // page.
 
 /**
- * Predictions by the number of their step; the run as in run.json, the speed of its top, and whether
- * it runs.
- * @typedef {{predictions?: {[step: number]: string}, run?: any, speed?: number,
- *   isRunning?: boolean}} Memory
+ * Predictions by the number of their step; the step that has started a motion, with its link; the run
+ * as in run.json, the speed of its top, and whether it runs.
+ * @typedef {{predictions?: {[step: number]: string}, begun?: {step: number, link: string},
+ *   run?: any, speed?: number, isRunning?: boolean}} Memory
  */
 
 /** @type {Memory} */
