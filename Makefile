@@ -65,7 +65,7 @@ test-keys: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests
 	@$(BIN)/python test/groups.py --keys
 
 matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
-	@$(BIN)/python test/matrix.py
+	@$(BIN)/python workshop/matrix.py
 
 test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
 	@$(KILTED)/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \

@@ -1,5 +1,6 @@
-import matrix
 import pytest
+
+from workshop import matrix
 
 
 def test_there_are_cells_for_each_distribution_that_can_be_installed():

@@ -1,7 +1,7 @@
 """Try the node in each supported combination of ROS 2, Python and NumPy; print a table.
 
-python test/matrix.py [--folder .venv/matrix]: each cell gets a separate environment, in which it
-installs the package and runs TESTS. The table is for docs/ros.md.
+python workshop/matrix.py [--folder .venv/matrix]: each cell gets a separate environment, in which
+it installs the package and runs TESTS. The table is for docs/ros.md.
 """
 
 from __future__ import annotations

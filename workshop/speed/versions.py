@@ -1,6 +1,6 @@
 """Accuracy by version of NumPy and SciPy, and by CPU features: run by hand, it needs a network.
 
-    python test/report/versions.py [FOLDER]
+    python workshop/speed/versions.py [FOLDER]
 
 It sets up an environment for each pair of versions (in FOLDER, or in a temporary one) and prints a
 table in Markdown. NPY_DISABLE_CPU_FEATURES makes NumPy use its code for simpler processors, whose
