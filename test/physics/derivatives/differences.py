@@ -10,8 +10,7 @@ from mpmath import mp, mpf
 from workshop.taylor_motion import TaylorMotion
 
 DIGITS = 70
-STEP = Fraction(1, 10**18)  # of a parameter of size 1: the square of it is the relative error
-DRIVEN_STEP = Fraction(1, 10**12)  # these motions have 40 digits
+FEW_DIGITS = 34  # enough in the first nutations: derivatives with some 20 digits
 BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 
 
@@ -24,7 +23,7 @@ def differentiate(motion, times, returns=True, digits=DIGITS):
             exact.reach(max(times))
         return [exact.state_at(t) for t in times]
 
-    return _differentiate(motion, follow, STEP, digits)
+    return _differentiate(motion, follow, digits)
 
 
 def differentiate_driven(motion, times):
@@ -33,13 +32,15 @@ def differentiate_driven(motion, times):
 
     def follow(moments, orientation, omega):
         drive = {"friction": friction, "torque": motion.applied_torque}
-        exact = TaylorMotion(moments, orientation, omega, 40, **drive)
+        exact = TaylorMotion(moments, orientation, omega, FEW_DIGITS, **drive)
         return [exact.state_at(t) for t in times]
 
-    return _differentiate(motion, follow, DRIVEN_STEP, 50)
+    return _differentiate(motion, follow, FEW_DIGITS)
 
 
-def _differentiate(motion, follow, step, digits):
+def _differentiate(motion, follow, digits):
+    # Of a parameter of size 1: its square is the relative error, as much as rounding leaves.
+    step = Fraction(1, 10 ** (digits // 3))
     moments = [Fraction(each) for each in motion.top.moments]
     orientation = [Fraction(each) for each in motion.start.given_orientation.tolist()]
     omega = [Fraction(each) for each in motion.start.angular_velocity.tolist()]

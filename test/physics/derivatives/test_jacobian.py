@@ -4,7 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from physics.derivatives.differences import differentiate, differentiate_driven, find_errors
+from physics.derivatives.differences import (
+    FEW_DIGITS,
+    differentiate,
+    differentiate_driven,
+    find_errors,
+)
 from physics.tops import ARTICLE, CUSPS, seeds
 
 from symtop_ros.arrays import compose
@@ -55,7 +60,7 @@ DRIVEN = {
 def test_derivatives_of_a_motion_that_returns_are_exact(name):
     motion = Motion(*RETURNING[name])
     times = [0.13 * motion.nutation_period, 2.71 * motion.nutation_period]
-    errors = find_errors(motion.jacobian(times), differentiate(motion, times, digits=50))
+    errors = find_errors(motion.jacobian(times), differentiate(motion, times, digits=FEW_DIGITS))
     assert errors.max() < CLOSE
 
 
@@ -63,7 +68,7 @@ def test_derivatives_of_a_motion_that_returns_are_exact(name):
 def test_derivatives_of_a_motion_that_does_not_return_are_exact(name):
     top, start, end = NOT_RETURNING[name]
     motion, times = Motion(top, start), [0.2 * end, end]
-    right = differentiate(motion, times, returns=False, digits=50)
+    right = differentiate(motion, times, returns=False, digits=FEW_DIGITS)
     assert find_errors(motion.jacobian(times), right).max() < CLOSE
 
 
