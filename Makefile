@@ -32,10 +32,10 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 	@$(BIN)/top_panel
 
-test: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
+test: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
-coverage: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
+coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
 	@rm -rf .venv/coverage/data* $(VENV)/coverage/page
 	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
 	@$(BIN)/coverage combine --quiet
@@ -47,7 +47,7 @@ coverage-js: $(VENV)/test $(VENV)/chromium  ## coverage of the lines of the page
 	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python -m pytest -q -m "not long" test/web test/panel
 	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
 
-test-nodes: $(VENV)/test $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
+test-nodes: $(VENV)/test $(VENV)/messages/done $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
 test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, judge, article
 test-plain: $(VENV)/test  ## report, messages, models, test set
 test-physics: $(VENV)/test  ## the library
@@ -61,13 +61,14 @@ $(addprefix test-,$(GROUPS)):
 test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
 	@$(BIN)/python -m pytest -m long test
 
-test-keys: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
+test-keys: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
 	@$(BIN)/python test/groups.py --keys
 
 matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
 	@$(BIN)/python workshop/matrix.py
 
 test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
+	@$(KILTED)/bin/python test/build_messages.py
 	@$(KILTED)/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \
 	  test/node test/client test/log test/simulation/test_simulation.py
 
@@ -161,6 +162,12 @@ $(VENV)/peers: setup.py $(VENV)/ros
 $(VENV)/test: setup.py $(VENV)/ros
 	@echo "Setting up .venv: test tools (once) ..."
 	$(INSTALL) '.[ros,playback,report,test,lint,docs]'
+	@touch $@
+
+$(VENV)/messages/done: test/build_messages.py $(wildcard test/interfaces/*/*/*) $(VENV)/test
+	@echo "Setting up $(VENV)/messages: messages that PyPI does not have (once) ..."
+	@$(TICK) $(BIN)/python test/build_messages.py
+	@mkdir -p $(@D)
 	@touch $@
 
 $(VENV)/docs: setup.py $(VENV)/ros

@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import importlib.util
 import os
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-BUILD = Path(__file__).parents[1] / "build_messages.py"
+BUILT = Path(sys.prefix, "messages")
 
 
-def with_messages(package: str, folder: Path, variables: dict[str, str]) -> dict[str, str]:
-    """Return variables with which a package of messages is found; build what is not installed."""
+def find_messages(package: str) -> Path | None:
+    """Return the folder in which build_messages.py has built a package; None if it is installed."""
     if importlib.util.find_spec(package):
+        return None
+    folder = BUILT / package
+    if not folder.is_dir():
+        pytest.skip(f"{package} is not built: python test/build_messages.py")
+    return folder
+
+
+def with_messages(package: str, variables: dict[str, str]) -> dict[str, str]:
+    """Return variables with which a package of messages is found."""
+    folder = find_messages(package)
+    if folder is None:
         return variables
-    if not (shutil.which("gcc") and shutil.which("g++")):
-        pytest.skip(f"{package} is not installed, and there is no compiler to build it")
-    subprocess.run(
-        [sys.executable, BUILD, package, folder],
-        check=True,
-        capture_output=True,
-        timeout=240,
-        text=True,
-    )
     places = {"PYTHONPATH": folder, "LD_LIBRARY_PATH": folder / "lib"}
     found = {name: [str(place), variables.get(name)] for name, place in places.items()}
     return variables | {name: os.pathsep.join(filter(None, each)) for name, each in found.items()}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import importlib
-import os
 import sys
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import pytest
 import yaml
 from documents import commands, names, rows
 from geometry_msgs.msg import QuaternionStamped
-from node.built_messages import with_messages
+from node.built_messages import find_messages
 from node.running_top import stamp_of
 from rclpy.action import ActionClient
 from rosgraph_msgs.msg import Clock
@@ -29,14 +28,14 @@ STOPPED, PLAYING, PAUSED, QUITTING = 0, 1, 2, 3
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _messages(tmp_path_factory):
+def _messages():
     """Make the messages importable for the tests of this module."""
-    folder = tmp_path_factory.mktemp("messages")
-    with_messages("simulation_interfaces", folder, dict(os.environ))
+    folder = find_messages("simulation_interfaces")
     with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(folder)
-        for path in (folder / "lib").glob("*typesupport_*_c.so"):
-            ctypes.CDLL(path)  # ROS asks the loader for its name, which does not know the folder
+        if folder:
+            patch.syspath_prepend(folder)
+            for path in (folder / "lib").glob("*typesupport_*_c.so"):
+                ctypes.CDLL(path)  # ROS asks the loader, which does not know the folder
         yield
     for name in [each for each in sys.modules if "simulation_interfaces" in each]:
         del sys.modules[name]

@@ -55,9 +55,9 @@ print(json.dumps({
 
 
 @pytest.fixture(scope="module")
-def with_tf2(tmp_path_factory):
+def with_tf2():
     """An environment in which tf2_msgs can be imported."""
-    return with_messages("tf2_msgs", tmp_path_factory.mktemp("tf2"), environment(DOMAIN))
+    return with_messages("tf2_msgs", environment(DOMAIN))
 
 
 def test_tf_is_published_with_the_quaternion_of_the_topic_and_the_type_of_the_log(with_tf2):
