@@ -7,7 +7,7 @@ errors 2 |q - q_exact|, with the sign of q that makes it smaller.
 import json
 import lzma
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +85,7 @@ class ReferenceMotion:
 
 @dataclass(frozen=True)
 class Reference:
-    """The reference motions that the package ships."""
+    """The reference motions of the report."""
 
     # the article's seven motions, two next to a pole, and its cusps with friction
     article: list[ReferenceMotion]
@@ -94,8 +94,9 @@ class Reference:
     driven: list[ReferenceMotion]
 
     @classmethod
+    @cache
     def read(cls) -> "Reference":
-        """Read the file that is shipped with the package."""
+        """Return what the file of the reference has; it is read once."""
         data = read_entries()
         return cls(**{part: [ReferenceMotion.read(each) for each in data[part]] for part in PARTS})
 

@@ -312,7 +312,9 @@ def test_a_tiny_torque_moves_a_resting_top_as_much_as_it_should():
     assert off < 2 * EPS * largest  # 0.1 eps measured
 
 
-@pytest.mark.parametrize("nanoseconds", [999_999_937, 9_999_999_967])
+@pytest.mark.parametrize(
+    "nanoseconds", [999_999_937, pytest.param(9_999_999_967, marks=pytest.mark.long)]
+)
 def test_exact_times_are_not_rounded_to_doubles(nanoseconds):
     friction, torque = DRIVES["friction"]
     times = ExactTimes(np.array([5, nanoseconds]), factor=0.7, elapsed=Fraction(1, 4))
