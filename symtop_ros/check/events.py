@@ -22,7 +22,7 @@ from symtop_ros.physics import (
     kick_verdict,
 )
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
-from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.kick import plan_kick, read_kick
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -41,7 +41,6 @@ NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
 ENGINE = ("computed_by",)  # nothing else in a log says which
 MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
-VECTORS = ("angular_impulse",)  # of the request for a kick; "hold" is a word
 
 
 def is_of_this_version(event: Event) -> bool:
@@ -156,7 +155,7 @@ def _restart(known: Known) -> Following:
 
 
 def _kick(known: Known) -> Following:
-    motion, hold = plan_kick(known.previous.motion, known.before, _read_kick(known.event.request))
+    motion, hold = plan_kick(known.previous.motion, known.before, read_kick(known.event.request))
     following = known.previous.replace_motion(motion, known.event.stamp)
     return following, kick_verdict(motion, known.before, hold)
 
@@ -167,12 +166,12 @@ def _pause(known: Known) -> Following:
         reached = float(request["reached"])
         following = following.slow_down(reached, following.factor, known.event.stamp)
     following = following.pause(known.event.stamp)
-    return following, Pause(_seconds(following))
+    return following, Pause(following.begin_time)
 
 
 def _resume(known: Known) -> Following:
     following = known.previous.resume(known.event.stamp)
-    return following, Pause(_seconds(following))
+    return following, Pause(following.begin_time)
 
 
 def _step(known: Known) -> Following:
@@ -183,7 +182,7 @@ def _step(known: Known) -> Following:
     if not event.request:
         return previous, Step("none")
     following = previous.step(float(event.request["duration"]), event.stamp)
-    return following, Step("stepped", _seconds(following))
+    return following, Step("stepped", following.begin_time)
 
 
 def _move_clock(known: Known) -> Following:
@@ -224,7 +223,7 @@ def _change_parameters(known: Known) -> Following:
         following = following.set_factor(float(request["real_time_factor"]), stamp)
     if "publish_rate" in request and previous.rig.imu:
         imu = replace(previous.rig.imu, rate=float(request["publish_rate"]))
-        following = following.equip(replace(previous.rig, imu=imu))
+        following = replace(following, rig=replace(previous.rig, imu=imu))
     return following, _list_changes(known.event)
 
 
@@ -274,18 +273,6 @@ FOLLOW: dict[str, Callable[[Known], Following]] = {
     "record": _change_nothing,
     "failure": _fail,
 }
-
-
-def _seconds(segment: Segment) -> float:
-    return float(segment.time_at(segment.stamp))
-
-
-def _read_kick(request: dict[str, str]) -> dict[str, object]:
-    """Return the request for a kick, as given."""
-    return {
-        name: text if name == "hold" else _numbers(text) if name in VECTORS else float(text)
-        for name, text in request.items()
-    }
 
 
 def _numbers(text: str) -> tuple[float, ...]:

@@ -115,13 +115,7 @@ def _run(options: argparse.Namespace) -> int:
         print(f"wrote {count} messages to {options.repair}")
         return 0
     with open_file(options.files, options.node) as log:
-        return _play(log, options)
-
-
-def _play(log: TopLog, options: argparse.Namespace) -> int:
-    if options.check:
-        return _check(log)
-    return _show(log, options)
+        return _check(log) if options.check else _show(log, options)
 
 
 def _check(log: TopLog) -> int:

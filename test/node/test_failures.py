@@ -11,8 +11,9 @@ from node.running_top import LATCHED
 from programs import environment
 
 from symtop_ros.session.outputs import Output, Outputs
-from symtop_ros.simulation.changes.outcomes import Failure, describe
+from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.wording import write
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
@@ -20,7 +21,7 @@ BUG = "ZeroDivisionError: by a bug"
 
 
 def report_of(action):
-    return describe("failure", Failure(action, "ZeroDivisionError", "by a bug"))
+    return write("failure", Failure(action, "ZeroDivisionError", "by a bug"))
 
 
 def fail(*_):

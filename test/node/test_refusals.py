@@ -9,7 +9,8 @@ from node.running_top import LATCHED, segment_of, stamp_of
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 
-from symtop_ros.simulation.changes.outcomes import Failure, describe
+from symtop_ros.simulation.changes.outcomes import Failure
+from symtop_ros.wording import write
 
 START = "set_initial_conditions"
 IDENTITY = [0.0, 0.0, 0.0, 1.0]
@@ -237,7 +238,7 @@ def test_a_request_with_an_unexpected_exception_is_reported_and_the_motion_keeps
     monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
     before = run.top.simulation.segment
     failure = Failure("~/hurry_precession", "ZeroDivisionError", "by a bug")
-    report = describe("failure", failure)
+    report = write("failure", failure)
     assert run.trigger("hurry_precession") == (False, report)
     run.spin_until(lambda: len(events) > 1)
     assert (events[-1].status[0].name, events[-1].status[0].message) == ("top: failure", report)

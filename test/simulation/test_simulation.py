@@ -6,8 +6,9 @@ from itertools import pairwise
 import pytest
 from simulation.runs import SECOND, Run
 
-from symtop_ros.simulation.changes.outcomes import Failure, describe
+from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wording import write
 
 MS = SECOND // 1000
 
@@ -164,7 +165,7 @@ def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running()
     for _ in range(2):
         with run.simulation.turn("a test") as turn:
             raise ZeroDivisionError("by\na bug")
-        report = describe("failure", Failure("a test", "ZeroDivisionError", "by a bug"))
+        report = write("failure", Failure("a test", "ZeroDivisionError", "by a bug"))
         assert turn.failure == report
     assert run.sink.errors == [report]
     assert [event.name for event in run.sink.events] == ["start", "failure"]

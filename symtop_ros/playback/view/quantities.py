@@ -1,6 +1,6 @@
 """Quantities that are drawn but not logged, computed from the logged samples as arrays."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -9,23 +9,6 @@ from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Top
 
 ColumnsByTopic = Mapping[str, Columns]
-
-
-def attitudes(samples: ColumnsByTopic) -> tuple[Stamps, Real] | None:
-    """Return stamps and quaternions x, y, z, w (n, 4), None if the log has no attitude.
-
-    They are taken from ~/orientation, else from /tf, else from the Euler angles.
-    """
-    if "orientation" in samples:
-        columns = samples["orientation"]
-        return columns.stamps, columns.numbers
-    if "tf" in samples:
-        columns = samples["tf"]
-        return columns.stamps, columns.numbers[:, 3:]
-    if "euler_angles" in samples:
-        columns = samples["euler_angles"]
-        return columns.stamps, _from_euler_angles(columns.numbers)
-    return None
 
 
 def _from_euler_angles(angles: Real) -> Real:
@@ -38,6 +21,22 @@ def _from_euler_angles(angles: Real) -> Real:
         c * np.cos(phi + psi),
     )
     return np.stack(parts, axis=1)
+
+
+# By the topic, first of all that of the attitude itself.
+READ_ATTITUDE: dict[str, Callable[[Real], Real]] = {
+    "orientation": lambda quaternions: quaternions,
+    "tf": lambda transforms: transforms[:, 3:],
+    "euler_angles": _from_euler_angles,
+}
+
+
+def attitudes(samples: ColumnsByTopic) -> tuple[Stamps, Real] | None:
+    """Return stamps and quaternions x, y, z, w (n, 4), None if the log has no attitude."""
+    for topic, read in READ_ATTITUDE.items():
+        if topic in samples:
+            return samples[topic].stamps, read(samples[topic].numbers)
+    return None
 
 
 def axis_of(quaternions: Real) -> Real:

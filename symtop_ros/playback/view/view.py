@@ -125,7 +125,7 @@ class View:
         self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = "; ".join(f"{name}={text}" for name, text in event.request.items())
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
-        self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
+        self.log_text(sentence, "INFO")
         scales = {
             arrow.label: f"{self._scales[name]:g} {arrow.unit}"
             for name, arrow in ARROWS.items()
