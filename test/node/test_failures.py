@@ -7,7 +7,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
-from node.running_top import LATCHED
+from node.running_top import LATCHED, torque_of
 from programs import environment
 
 from symtop_ros.session.outputs import Output, Outputs
@@ -56,10 +56,7 @@ def assert_keeps_running(run):
 
 
 def push(run):
-    publisher = run.publisher(WrenchStamped, "/top/applied_torque")
-    message = WrenchStamped()
-    message.wrench.torque.z = 1e-4
-    publisher.publish(message)
+    run.publisher(WrenchStamped, "/top/applied_torque").publish(torque_of(z=1e-4))
 
 
 def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(

@@ -14,6 +14,7 @@ from node.running_top import (
     segment_of,
     stamp_of,
     status_of,
+    torque_of,
 )
 
 from symtop_ros.physics import Friction
@@ -33,11 +34,7 @@ class Hand:
         self.publisher = run.publisher(WrenchStamped, "/top/applied_torque")
 
     def push(self, x=0.0, y=0.0, z=0.0, frame="world"):
-        message = WrenchStamped()
-        message.header.frame_id = frame
-        torque = message.wrench.torque
-        torque.x, torque.y, torque.z = x, y, z
-        self.publisher.publish(message)
+        self.publisher.publish(torque_of(x, y, z, frame))
 
 
 def start(start_top, **parameters):

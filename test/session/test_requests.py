@@ -7,7 +7,6 @@ from simulation.runs import Run
 
 from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.changes.outcomes import Pause, Step
-from symtop_ros.simulation.settings import Settings
 from symtop_ros.wording import write
 
 REFUSALS = {
@@ -111,7 +110,6 @@ def test_the_state_says_since_when_its_time_counts():
 def test_reset_starts_from_initial_parameters_that_were_set_after_the_last_start():
     run = Run("cusps")
     run.ask("set_initial_conditions", {"theta": 1.0})
-    values = {**run.simulation.settings.values, "initial.theta": 0.75}
-    run.simulation.apply_settings(Settings.from_values(values))
+    run.change({"initial.theta": 0.75})
     assert run.ask("reset")[0]
     assert run.simulation.state.euler_angles.theta == 0.75

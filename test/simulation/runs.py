@@ -89,6 +89,12 @@ class Run:
         while (wait := self.simulation.tick()) is not None and wait <= 0.0:
             pass
 
+    def change(self, changes: dict[str, Any]) -> None:
+        """Set some parameters."""
+        settings = Settings.from_values({**self.simulation.settings.values, **changes})
+        with self.simulation.turn("parameters"):
+            self.simulation.apply_settings(settings)
+
     def ask(self, name: str, argument: Any = None) -> tuple[bool, str]:
         """Carry out a request by its name; return success and the answer."""
         act = SERVICES[name].act

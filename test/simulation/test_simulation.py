@@ -146,11 +146,7 @@ def test_other_settings_continue_from_the_current_state():
     run = Run()
     run.advance(0.2)
     before = run.simulation.state
-    settings = type(run.simulation.settings).from_values(
-        {**run.simulation.settings.values, "top.Mgl": -0.05, "real_time_factor": 0.5}
-    )
-    with run.simulation.turn("parameters"):
-        run.simulation.apply_settings(settings)
+    run.change({"top.Mgl": -0.05, "real_time_factor": 0.5})
     event = run.sink.events[-1]
     assert event.request == {"top.Mgl": "-0.05", "real_time_factor": "0.5"}
     assert run.simulation.segment.motion.start == before
