@@ -202,7 +202,7 @@ def _change_pace(known: Known) -> Following:
 
 def _change_torque(known: Known) -> Following:
     previous, outcome = known.previous, known.event.outcome()
-    x, y, z = _numbers(known.event.request.get("torque", ""))
+    x, y, z = map(float, known.event.request.get("torque", "").split())
     if (x, y, z) != previous.motion.applied_torque:
         previous = previous.change(known.event.stamp, torque=(x, y, z))
     return previous, replace(outcome, torque=(x, y, z)) if isinstance(outcome, Torque) else None
@@ -210,14 +210,11 @@ def _change_torque(known: Known) -> Following:
 
 def _change_parameters(known: Known) -> Following:
     previous, given, stamp = known.previous, known.given, known.event.stamp
-    request = known.event.request
-    numbers = {name: _numbers(text) for name, text in request.items() if name in MOMENTS}
-    following = previous
-    if numbers:
-        before = (*previous.motion.top.moments, *_coefficients(previous.motion.friction))
-        after = [*zip(MOMENTS, before, strict=True)]
-        Ix, Iz, Mgl, axial, transverse = (numbers.get(name, (each,))[0] for name, each in after)
-        following = previous.change(stamp, Top(Ix, Iz, Mgl), Friction(axial, transverse))
+    request, following, friction = known.event.request, previous, previous.motion.friction
+    before = (*previous.motion.top.moments, friction.axial, friction.transverse)
+    after = [float(request.get(name, each)) for name, each in zip(MOMENTS, before, strict=True)]
+    if tuple(after) != before:
+        following = previous.change(stamp, Top(*after[:3]), Friction(*after[3:]))
     if "real_time_factor" in request and given.factor != previous.factor:
         # With a published clock the factor stays 1, whatever is asked.
         following = following.set_factor(float(request["real_time_factor"]), stamp)
@@ -237,10 +234,6 @@ def _list_changes(event: Event) -> Outcome | None:
         Setting(name, text if _is_number(text) else each.value) for (name, text), each in pairs
     ]
     return Parameters(tuple(numbers))
-
-
-def _coefficients(friction: Friction) -> tuple[float, float]:
-    return friction.axial, friction.transverse
 
 
 def _is_number(text: str) -> bool:
@@ -273,7 +266,3 @@ FOLLOW: dict[str, Callable[[Known], Following]] = {
     "record": _change_nothing,
     "failure": _fail,
 }
-
-
-def _numbers(text: str) -> tuple[float, ...]:
-    return tuple(map(float, text.split()))

@@ -43,7 +43,7 @@ class Format:
     @property
     def width(self) -> int:
         """Number of doubles in a message."""
-        return _width(self.quantities)
+        return max(int(place.stop) for place in self.quantities.values())
 
 
 def _place(**sizes: int) -> dict[str, slice]:
@@ -52,10 +52,6 @@ def _place(**sizes: int) -> dict[str, slice]:
     return {
         name: slice(end - size, end) for (name, size), end in zip(sizes.items(), ends, strict=True)
     }
-
-
-def _width(quantities: Mapping[str, slice]) -> int:
-    return max(int(place.stop) for place in quantities.values())
 
 
 def _read_names(integers: int, count: int, data: bytes) -> tuple[str, ...]:
@@ -91,12 +87,11 @@ def _joint_state(frame: str, *names: str) -> Layout:
 
 def define_stamped(message_type: str, **sizes: int) -> Format:
     """Return the format of a type that consists of a header and some quantities."""
-    quantities = _place(**sizes)
 
     def layout(frame: str) -> Layout:
-        return Layout(Stamp(), Text(frame), Doubles(_width(quantities)))
+        return Layout(Stamp(), Text(frame), Doubles(sum(sizes.values())))
 
-    return Format(message_type, quantities, layout, partial(_read_names, 2, 1))
+    return Format(message_type, _place(**sizes), layout, partial(_read_names, 2, 1))
 
 
 QUATERNION = define_stamped("geometry_msgs/msg/QuaternionStamped", orientation=4)

@@ -1,6 +1,7 @@
 """Quantities that are drawn but not logged, computed from the logged samples as arrays."""
 
 from collections.abc import Callable, Mapping
+from functools import reduce
 
 import numpy as np
 
@@ -61,8 +62,7 @@ def join(samples: ColumnsByTopic, *topics: str) -> tuple[Stamps, list[Real]] | N
     stamps = chosen[0].stamps
     if all(np.array_equal(stamps, each.stamps) for each in chosen):
         return stamps, [each.numbers for each in chosen]
-    for each in chosen:
-        stamps = np.intersect1d(stamps, each.stamps)
+    stamps = reduce(np.intersect1d, (each.stamps for each in chosen))
     places = [np.intersect1d(each.stamps, stamps, return_indices=True)[1] for each in chosen]
     numbers = [each.numbers[place] for each, place in zip(chosen, places, strict=True)]
     return (stamps, numbers) if len(stamps) else None
