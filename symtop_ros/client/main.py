@@ -13,7 +13,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 
 from symtop_ros.client.connection import Connection
-from symtop_ros.client.keys import watch
+from symtop_ros.client.keys import follow_keys, watch
 from symtop_ros.session.services import SERVICES
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import one_line
@@ -94,8 +94,6 @@ def _seconds(text: str) -> float:
 
 def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Answer:
     if options.command == "keys":
-        from symtop_ros.client.keys import follow_keys
-
         follow_keys(top)
         return True, ""
     if options.command == "watch":
