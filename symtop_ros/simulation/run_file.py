@@ -81,15 +81,24 @@ class RunRecorder:
         if not is_new:
             return None
         kind = "start" if previous is None or event.name in RESTARTS else event.name
-        time = max(0, round(self._begin))
-        given = {name: text for name, text in event.request.items() if name in FIELDS and text}
-        act = read_kick(given) if kind == "kick" else {}
-        return RunEvent(kind if kind in KINDS else "change", time, segment.motion, act)
+        act = _read_act(event) if kind == "kick" else {}
+        if kind not in KINDS or (kind == "kick" and not act):
+            kind = "change"
+        return RunEvent(kind, max(0, round(self._begin)), segment.motion, act)
 
     def time_at(self, stamp: int) -> int:
         """Return the time of the run (ns) at a stamp (ns) after the last event."""
         elapsed = self._segment.elapsed_at(stamp) if self._segment else 0
         return round(self._begin + elapsed)
+
+
+def _read_act(event: Event) -> dict[str, Any]:
+    """Return the fields of a kick; none if a log has some that cannot be read."""
+    given = {name: text for name, text in event.request.items() if name in FIELDS and text}
+    try:
+        return read_kick(given)
+    except ValueError:
+        return {}
 
 
 def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int]:

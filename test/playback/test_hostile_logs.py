@@ -1,6 +1,7 @@
 """Logs that are sound as files and absurd in what they say: one sentence, soon and cheaply."""
 
 import itertools
+import re
 import resource
 import struct
 import time
@@ -35,10 +36,10 @@ MOTION = (
 ALL_KEYS = (*KEYS, *(f"motion.{name}" for name in MOTION))
 
 
-def with_event(folder, changes, friction=FRICTION, seconds=0.5):
-    """A log whose first event says something else."""
-    run = Run(seconds=seconds, rate=40.0, hurried=False, friction=friction)
-    (place, *_) = run.places("events")
+def with_event(folder, changes, number=0):
+    """A log of which one event, the start (0) or a kick (1), says something else."""
+    run = Run(seconds=0.5, rate=40.0, hurried=number > 0, friction=FRICTION)
+    place = run.places("events")[number]
     name, stamp, data = run.messages[place]
     (status,) = decode_statuses(data)
     values = {key: text for key, text in {**status.values, **changes}.items() if text is not None}
@@ -144,6 +145,14 @@ def test_samples_that_are_no_numbers_are_told_and_drawn_without_warnings(tmp_pat
     for options in ((), ("--angles", "--torques", "--fictitious")):
         way = ("--save", tmp_path / "run.rrd", *options)
         assert asked(capsys, path, *way) == (0, [])
+
+
+@pytest.mark.parametrize("text", ["abc", "1 2", "-"])
+def test_a_kick_that_cannot_be_read_is_a_change_of_the_motion_in_the_page(text, tmp_path, capsys):
+    path = with_event(tmp_path, {"request.precession_rate_factor": text}, number=1)
+    assert asked(capsys, path, "--save", tmp_path / "run.html") == (0, [])
+    page = (tmp_path / "run.html").read_text()
+    assert re.findall(r'"kind": "(start|change|kick)", "time"', page) == ["start", "change"]
 
 
 # what is in no log of ours
