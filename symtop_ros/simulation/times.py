@@ -99,14 +99,14 @@ class RunClock:
     is_simulated = False
 
     def __init__(self, real: Clock, factor: float) -> None:
-        self._real, self._running = real, True
+        self._real, self.is_running = real, True
         self._time, self._since = 0, real.now  # ns of the run, and the real time at which it was so
         self.factor = factor  # seconds of the run per second of real time
 
     @property
     def now(self) -> int:
         """Current time in ns."""
-        passed = self._real.now - self._since if self._running else 0
+        passed = self._real.now - self._since if self.is_running else 0
         return self._time + int(passed * self.factor)
 
     def set_factor(self, factor: float) -> None:
@@ -121,16 +121,12 @@ class RunClock:
     def stop(self, time: int) -> None:
         """Stand still at a time (ns)."""
         self.set(time)
-        self._running = False
+        self.is_running = False
 
     def start(self) -> None:
         """Continue from where it stands."""
         self.set(self._time)
-        self._running = True
-
-    def seconds_until(self, stamp: int) -> float | None:
-        """Return the seconds of real time until a stamp (ns); None while it stands still."""
-        return (stamp - self.now) / NANOSECONDS / self.factor if self._running else None
+        self.is_running = True
 
 
 class RunTime(Time):
@@ -158,7 +154,8 @@ class RunTime(Time):
 
     def seconds_until(self, stamp: int) -> float | None:
         """Return the seconds of real time until a stamp; None in a pause."""
-        return self.clock.seconds_until(stamp)
+        wait = (stamp - self.clock.now) / NANOSECONDS / self.clock.factor
+        return wait if self.clock.is_running else None
 
     def hold(self, stamp: int) -> None:
         """Wait for a process that was stopped, so that no sample is missed."""
