@@ -90,15 +90,14 @@ class Ticker:
     def __init__(self, rate: float, now: int) -> None:
         self.late = 0  # ticks that were published more than a period after their stamp
         self.missed = 0  # ticks that were dropped
-        self.restart(rate, now)
+        self.rate = rate  # ticks per second
+        self._start, self._next = now, 0  # ns, and number of the next tick
+        self._ticks, self._nanoseconds = _ratio(rate)
 
     def restart(self, rate: float, start: int) -> None:
         """Begin a new grid with its first tick at `start` (ns)."""
-        self.rate = rate  # ticks per second
-        self._start, self._next = start, 0  # ns, and number of the next tick
-        # Their quotient is the rate.
-        self._ticks, seconds = rate.as_integer_ratio()
-        self._nanoseconds = seconds * NANOSECONDS
+        self.rate, self._start, self._next = rate, start, 0
+        self._ticks, self._nanoseconds = _ratio(rate)
 
     @property
     def next_stamp(self) -> int:
@@ -128,6 +127,12 @@ class Ticker:
 
     def _stamp(self, k: int) -> int:
         return self._start + _divide(k * self._nanoseconds, self._ticks)
+
+
+def _ratio(rate: float) -> tuple[int, int]:
+    """Return ticks and nanoseconds, whose quotient is the rate."""
+    ticks, seconds = rate.as_integer_ratio()
+    return ticks, seconds * NANOSECONDS
 
 
 def _divide(numerator: int, denominator: int) -> int:
