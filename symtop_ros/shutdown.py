@@ -1,8 +1,10 @@
 """Orderly shutdown of a ROS program by SIGINT, SIGTERM and SIGHUP."""
 
+import argparse
 import os
 import re
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -14,6 +16,7 @@ from rclpy.signals import (
     install_signal_handlers,
     uninstall_signal_handlers,
 )
+from rclpy.utilities import remove_ros_args
 
 from symtop_ros.simulation.validation import one_line
 
@@ -78,3 +81,24 @@ def ros_context(arguments: list[str]) -> Iterator[Callable[[], None]]:
         uninstall_signal_handlers()
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def run_with_ros(
+    parser: argparse.ArgumentParser,
+    args: list[str] | None,
+    run: Callable[[argparse.Namespace, Callable[[], None]], int],
+) -> int:
+    """Run a ROS program until it ends or is shut down; return the exit status.
+
+    `run` gets the options and the function of `ros_context`.
+    """
+    arguments = sys.argv if args is None else [parser.prog, *args]
+    try:
+        options = parser.parse_args(remove_ros_args(arguments)[1:])
+        with ros_context(arguments) as listen:
+            return run(options, listen)
+    except ExternalShutdownException:
+        return 0
+    except Exception as error:
+        print(f"{parser.prog}: {describe_failure(error)}", file=sys.stderr)
+        return 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from symtop_ros.check.run import check_run
+from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import accelerated
@@ -26,9 +27,21 @@ def assert_exact(path: Path) -> int:
     for each in deviations.values():
         assert (each.largest, each.unchecked, each.unreached) == (0.0, 0, 0)
     counts = [each.samples for each in deviations.values()]
-    assert max(counts) - min(counts) <= ("symtop_ros.end" not in log.file.metadata)
+    is_finished = "symtop_ros.end" in log.file.metadata
+    assert max(counts) - min(counts) <= (not is_finished)
+    assert not (is_finished and log.problems)
     assert min(counts) > 0
     return min(counts)
+
+
+def assert_agrees(log: TopLog, samples: int) -> None:
+    """Assert that a log is sound, with so many samples of each topic, exact and in their order."""
+    deviations = check_log(log)
+    assert log.problems == []
+    assert set(deviations) == set(STATES)
+    for each in deviations.values():
+        found = each.samples, each.largest, each.unchecked, each.unreached, each.unordered
+        assert found == (samples, 0.0, 0, 0, 0)
 
 
 def stamps_of(path: Path, topic: str = "/orientation") -> list[int]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
+from symtop_ros.arrays import Real
 from symtop_ros.log.writer import Channel, LogFile
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict
@@ -16,6 +18,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples
 from symtop_ros.wire.layout import encode_string
+from symtop_ros.wire.messages import decode_messages
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
@@ -82,6 +85,17 @@ class Run:
         for k, stamp in enumerate(stamps):
             for name, layout in layouts.items():
                 self.messages.append((name, stamp, layout.encode(stamp, columns[name][k])))
+
+    def places(self, name: str) -> list[int]:
+        """Places of the messages of a topic."""
+        return [place for place, each in enumerate(self.messages) if each[0] == name]
+
+    def change(self, place: int, act: Callable[[Real], Real]) -> None:
+        """Change the numbers of a sample."""
+        name, stamp, data = self.messages[place]
+        ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
+        changed = LAYOUTS[name].encode(stamp, act(found.numbers[0]).tolist())
+        self.messages[place] = name, stamp, changed
 
     def write(self, folder: Path) -> Path:
         """Write the log, with a chunk for each half second, and return its path."""

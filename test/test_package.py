@@ -215,14 +215,20 @@ PREPARED = {"Stepper", "Phases"}
 
 
 def test_attributes_are_made_in_the_constructor():
+    """In that of the class, or of its base."""
+    classes = []
     for path in sorted((ROOT / "symtop_ros").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.ClassDef) and node.name not in PREPARED:
                 methods = [each for each in node.body if isinstance(each, ast.FunctionDef)]
+                bases = [each.id for each in node.bases if isinstance(each, ast.Name)]
                 made = attributes_of(methods)
-                first = made.pop("__init__", None)
-                if first is not None:
-                    assert set().union(*made.values()) <= first, (path, node.name)
+                classes.append((path, node.name, bases, made.pop("__init__", None), made))
+    constructed = {name: first or set() for _, name, _, first, _ in classes}
+    for path, name, bases, first, made in classes:
+        if first is not None:
+            inherited = (constructed.get(base, set()) for base in bases)
+            assert set().union(*made.values()) <= first.union(*inherited), (path, name)
 
 
 # Files that look names of other programs up: message classes and fields of ROS.

@@ -40,7 +40,8 @@ def find_damage(path: Path) -> list[str]:
             found.take(opcode, head, file.read(length), file.tell())
             if opcode == Opcode.FOOTER:
                 found.end(file.read())
-    found.close()
+    if found.in_summary:  # a damaged length leads past the footer
+        found.problems.append("the summary is damaged: it has no end")
     return found.problems
 
 
@@ -53,7 +54,7 @@ class Walk:
         self._after_magic = 0  # the same without the first bytes of the file
         self._expected: Index | None = None  # indexes that follow from the last chunk
         self._found: Index = {}
-        self._in_summary = False  # True from the end of the data to the footer
+        self.in_summary = False  # True from the end of the data to the footer
 
     def take(self, opcode: int, head: bytes, data: bytes, end: int) -> None:
         """Take a record with its head, and the offset of its end."""
@@ -62,7 +63,7 @@ class Walk:
         except DAMAGE:
             self.problems.append(f"the record before byte {end} is damaged")
         if opcode == Opcode.DATA_END:
-            self.checksum, self._in_summary = 0, True
+            self.checksum, self.in_summary = 0, True
         else:
             for part in (head, data):
                 self.checksum = zlib.crc32(part, self.checksum)
@@ -97,14 +98,9 @@ class Walk:
         if footer.summary_crc and footer.summary_crc != zlib.crc32(head, self.checksum):
             self.problems.append("the checksum of the summary is not that of its bytes")
 
-    def close(self) -> None:
-        """End the walk: a damaged length leads past the footer."""
-        if self._in_summary:
-            self.problems.append("the summary is damaged: it has no end")
-
     def end(self, rest: bytes) -> None:
         """Take what follows the footer."""
-        self._in_summary = False
+        self.in_summary = False
         if rest != MAGIC:
             self.problems.append("the last bytes are not those of an MCAP file")
 

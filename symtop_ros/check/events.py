@@ -22,7 +22,7 @@ from symtop_ros.physics import (
     kick_verdict,
 )
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
-from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.kick import plan_kick, read_kick
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -41,7 +41,6 @@ NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
 ENGINE = ("computed_by",)  # nothing else in a log says which
 MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
-VECTORS = ("angular_impulse",)  # of the request for a kick; "hold" is a word
 
 
 def is_of_this_version(event: Event) -> bool:
@@ -156,7 +155,7 @@ def _restart(known: Known) -> Following:
 
 
 def _kick(known: Known) -> Following:
-    motion, hold = plan_kick(known.previous.motion, known.before, _read_kick(known.event.request))
+    motion, hold = plan_kick(known.previous.motion, known.before, read_kick(known.event.request))
     following = known.previous.replace_motion(motion, known.event.stamp)
     return following, kick_verdict(motion, known.before, hold)
 
@@ -167,12 +166,12 @@ def _pause(known: Known) -> Following:
         reached = float(request["reached"])
         following = following.slow_down(reached, following.factor, known.event.stamp)
     following = following.pause(known.event.stamp)
-    return following, Pause(_seconds(following))
+    return following, Pause(following.begin_time)
 
 
 def _resume(known: Known) -> Following:
     following = known.previous.resume(known.event.stamp)
-    return following, Pause(_seconds(following))
+    return following, Pause(following.begin_time)
 
 
 def _step(known: Known) -> Following:
@@ -183,7 +182,7 @@ def _step(known: Known) -> Following:
     if not event.request:
         return previous, Step("none")
     following = previous.step(float(event.request["duration"]), event.stamp)
-    return following, Step("stepped", _seconds(following))
+    return following, Step("stepped", following.begin_time)
 
 
 def _move_clock(known: Known) -> Following:
@@ -203,7 +202,7 @@ def _change_pace(known: Known) -> Following:
 
 def _change_torque(known: Known) -> Following:
     previous, outcome = known.previous, known.event.outcome()
-    x, y, z = _numbers(known.event.request.get("torque", ""))
+    x, y, z = map(float, known.event.request.get("torque", "").split())
     if (x, y, z) != previous.motion.applied_torque:
         previous = previous.change(known.event.stamp, torque=(x, y, z))
     return previous, replace(outcome, torque=(x, y, z)) if isinstance(outcome, Torque) else None
@@ -211,20 +210,17 @@ def _change_torque(known: Known) -> Following:
 
 def _change_parameters(known: Known) -> Following:
     previous, given, stamp = known.previous, known.given, known.event.stamp
-    request = known.event.request
-    numbers = {name: _numbers(text) for name, text in request.items() if name in MOMENTS}
-    following = previous
-    if numbers:
-        before = (*previous.motion.top.moments, *_coefficients(previous.motion.friction))
-        after = [*zip(MOMENTS, before, strict=True)]
-        Ix, Iz, Mgl, axial, transverse = (numbers.get(name, (each,))[0] for name, each in after)
-        following = previous.change(stamp, Top(Ix, Iz, Mgl), Friction(axial, transverse))
+    request, following, friction = known.event.request, previous, previous.motion.friction
+    before = (*previous.motion.top.moments, friction.axial, friction.transverse)
+    after = [float(request.get(name, each)) for name, each in zip(MOMENTS, before, strict=True)]
+    if tuple(after) != before:
+        following = previous.change(stamp, Top(*after[:3]), Friction(*after[3:]))
     if "real_time_factor" in request and given.factor != previous.factor:
         # With a published clock the factor stays 1, whatever is asked.
         following = following.set_factor(float(request["real_time_factor"]), stamp)
     if "publish_rate" in request and previous.rig.imu:
         imu = replace(previous.rig.imu, rate=float(request["publish_rate"]))
-        following = following.equip(replace(previous.rig, imu=imu))
+        following = replace(following, rig=replace(previous.rig, imu=imu))
     return following, _list_changes(known.event)
 
 
@@ -238,10 +234,6 @@ def _list_changes(event: Event) -> Outcome | None:
         Setting(name, text if _is_number(text) else each.value) for (name, text), each in pairs
     ]
     return Parameters(tuple(numbers))
-
-
-def _coefficients(friction: Friction) -> tuple[float, float]:
-    return friction.axial, friction.transverse
 
 
 def _is_number(text: str) -> bool:
@@ -274,19 +266,3 @@ FOLLOW: dict[str, Callable[[Known], Following]] = {
     "record": _change_nothing,
     "failure": _fail,
 }
-
-
-def _seconds(segment: Segment) -> float:
-    return float(segment.time_at(segment.stamp))
-
-
-def _read_kick(request: dict[str, str]) -> dict[str, object]:
-    """Return the request for a kick, as given."""
-    return {
-        name: text if name == "hold" else _numbers(text) if name in VECTORS else float(text)
-        for name, text in request.items()
-    }
-
-
-def _numbers(text: str) -> tuple[float, ...]:
-    return tuple(map(float, text.split()))

@@ -7,8 +7,7 @@ from symtop_ros.check.course import Course
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.samples import Deviation, check_log
 from symtop_ros.log.bag import MessageSource, SeveralFiles
-from symtop_ros.log.reader import LogError, McapFile
-from symtop_ros.log.rosbag import CompressedMessages
+from symtop_ros.log.reader import McapFile, log_errors
 from symtop_ros.log.top_log import TopLog
 
 
@@ -44,9 +43,5 @@ def _find_damage(file: MessageSource) -> list[str]:
     """Return the damage in all files of a run, with their names if there are several."""
     if isinstance(file, SeveralFiles):
         return [f"{each.path.name}: {text}" for each in file.sources for text in _find_damage(each)]
-    if isinstance(file, CompressedMessages):
-        return _find_damage(file.source)
-    try:
+    with log_errors("read", file.path):
         return checksums.find_damage(file.path) if isinstance(file, McapFile) else []
-    except OSError as error:
-        raise LogError(f"cannot read {file.path}: {error.strerror}") from None

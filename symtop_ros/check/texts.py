@@ -24,7 +24,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.sensor import Rig, find_body
 from symtop_ros.simulation.topics import DIAGNOSTICS, EVENTS, TF_STATIC, choose_description
 from symtop_ros.wire.diagnostics import Status, decode_statuses
-from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Reader
+from symtop_ros.wire.layout import DecodeError, Reader
 from symtop_ros.wire.messages import encode_transforms
 
 Kind = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame
@@ -81,7 +81,7 @@ class TextCheck:
     def _judge_frames(self, name: str, message: Message, _: int) -> Iterator[Mismatch]:
         reader = Reader(message.data)
         reader.count()
-        stamp = reader.integer("i") * NANOSECONDS + reader.integer("I")
+        stamp = reader.stamp()
         child = self._kinds[0][2].encode()
         if not self._is_whole or child not in message.data:
             return  # of another node

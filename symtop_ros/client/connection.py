@@ -4,7 +4,6 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.client import Client
 from rclpy.executors import SingleThreadedExecutor
@@ -40,7 +39,8 @@ class Connection:
 
     def set(self, service: str, values: Mapping[str, Any]) -> tuple[bool, str]:
         """Call a service that takes named values; return success and the answer."""
-        request = SetParametersAtomically.Request(parameters=_parameter_messages(values))
+        named = [Parameter(name, value=each).to_parameter_msg() for name, each in values.items()]
+        request = SetParametersAtomically.Request(parameters=named)
         result = self._call(SetParametersAtomically, service, request).result
         return result.successful, result.reason
 
@@ -104,7 +104,3 @@ class Connection:
                 f"{self.name}/{service} did not answer within {self._timeout:g} s"
             )
         return future.result()
-
-
-def _parameter_messages(values: Mapping[str, Any]) -> list[ParameterMessage]:
-    return [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]

@@ -5,9 +5,7 @@ import math
 import os
 import select
 import sys
-import termios
 import time
-import tty
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
@@ -99,6 +97,9 @@ KEYS = {
 @contextmanager
 def _single_keys(descriptor: int) -> Iterator[int]:
     """Deliver each key at once and without echo; signals of the terminal are kept."""
+    import termios  # not on every system
+    import tty
+
     before = termios.tcgetattr(descriptor)
     try:
         tty.setcbreak(descriptor, termios.TCSADRAIN)  # keys that were pressed early are kept

@@ -13,7 +13,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 
 from symtop_ros.client.connection import Connection
-from symtop_ros.client.keys import watch
+from symtop_ros.client.keys import follow_keys, watch
 from symtop_ros.session.services import SERVICES
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import one_line
@@ -94,8 +94,6 @@ def _seconds(text: str) -> float:
 
 def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Answer:
     if options.command == "keys":
-        from symtop_ros.client.keys import follow_keys
-
         follow_keys(top)
         return True, ""
     if options.command == "watch":
@@ -104,11 +102,9 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
     if options.command == "resume":
         return top.switch("pause", False)
     service = BY_COMMAND[options.command]
-    if SERVICES[service].kind == "switch":  # `pause` has no word: it means on
-        return top.switch(service, vars(options).get("switch", "on") == "on")
-    if SERVICES[service].kind == "named":
-        return top.set(service, values)
-    granted, text = top.trigger(service)
+    on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
+    argument = {"named": values, "switch": on, "plain": None}[SERVICES[service].kind]
+    granted, text = top.request(service, argument)
     if options.command == "state" and granted and not options.json:
         text = _readable(json.loads(text))
     return granted, text
@@ -147,18 +143,10 @@ def parse_values(words: Iterable[str]) -> dict[str, Any]:
 
 
 def _value(text: str) -> Any:
-    number = _number(text)
-    if number is not None:
-        return number
-    if text.startswith("[") or "," in text:
-        parts = [_number(part) for part in text.strip("[]").split(",")]
-        if all(part is not None for part in parts):
-            return parts
-    return text
-
-
-def _number(text: str) -> float | None:
+    """Return a number, a list of numbers, or else the text as it is."""
     try:
+        if text.startswith("[") or "," in text:
+            return [float(part) for part in text.strip("[]").split(",")]
         return float(text)
     except ValueError:
-        return None
+        return text

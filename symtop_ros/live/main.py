@@ -7,12 +7,11 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import rclpy
 import rerun as rr
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.utilities import remove_ros_args
+from rclpy.executors import SingleThreadedExecutor
 
 from symtop_ros.live.feed import Feed
 from symtop_ros.log.reader import LogError
@@ -21,7 +20,7 @@ from symtop_ros.playback.main import add_view_options, view_options
 from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.playback.viewer import HOST
-from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.shutdown import run_with_ros
 from symtop_ros.simulation.validation import full_name
 
 PORT = 9876  # default of Rerun
@@ -33,22 +32,17 @@ START_TIMEOUT = 30.0  # s for the viewer to start
 
 def main(args: list[str] | None = None) -> int:
     """Stream until interrupted, or until the viewer that was opened is closed."""
-    arguments = sys.argv if args is None else ["top_live", *args]
-    try:
-        options = _parser().parse_args(remove_ros_args(arguments)[1:])
-        with ros_context(arguments) as listen:
-            node = rclpy.create_node("top_live", start_parameter_services=False)
-            executor = SingleThreadedExecutor()
-            executor.add_node(node)
-            feed = Feed(node, full_name(options.node))
-            listen()
-            with _viewer(options.port, options.web) as process:
-                _stream(executor, feed, options, process)
-    except ExternalShutdownException:
-        return 0
-    except Exception as error:
-        print(f"top_live: {describe_failure(error)}", file=sys.stderr)
-        return 1
+    return run_with_ros(_parser(), args, _run)
+
+
+def _run(options: argparse.Namespace, listen: Callable[[], None]) -> int:
+    node = rclpy.create_node("top_live", start_parameter_services=False)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    feed = Feed(node, full_name(options.node))
+    listen()
+    with _viewer(options.port, options.web) as process:
+        _stream(executor, feed, options, process)
     return 0
 
 
@@ -139,15 +133,10 @@ def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View
     if view is None:
         print(f"showing the top in the viewer on port {port}", flush=True)
         feed.repeat_event()
-        drawn = ViewOptions(**view_options(options))
-        view = View(_recording(port), live=True, options=drawn)
+        recording = rr.RecordingStream(APPLICATION)
+        recording.connect_grpc(f"rerun+http://{HOST}:{port}/proxy")
+        view = View(recording, live=True, options=ViewOptions(**view_options(options)))
     return view
-
-
-def _recording(port: int) -> rr.RecordingStream:
-    recording = rr.RecordingStream(APPLICATION)
-    recording.connect_grpc(f"rerun+http://{HOST}:{port}/proxy")
-    return recording
 
 
 def _spin(executor: SingleThreadedExecutor, deadline: float) -> None:

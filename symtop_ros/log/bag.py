@@ -1,51 +1,33 @@
-"""Runs in several files: rosbag2 folders and split recordings.
+"""Runs in other files than one MCAP file: bags of rosbag2, split recordings, compressed files.
 
 A bag of any kind is read like one `McapFile`, as a `MessageSource`.
 """
 
 import os
+import sqlite3
+import tempfile
 import weakref
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
+from typing import Any
 
+import zstandard
 from mcap.records import Channel, Message, Schema
 
-from symtop_ros.log.reader import LogError, McapFile
-from symtop_ros.log.rosbag import SUFFIX as ZSTD
-from symtop_ros.log.rosbag import CompressedMessages, SqliteBag, is_compressed, unpack_file
+from symtop_ros.log.reader import MAX_MESSAGES, LogError, McapFile
+from symtop_ros.log.source import ZSTD_START, MessageSource
 
-MCAP, SQLITE = ".mcap", ".db3"
+__all__ = ["MessageSource", "SeveralFiles", "open_run"]
+
+MCAP, SQLITE, ZSTD = ".mcap", ".db3", ".zstd"
 SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
 MAX_FILES = 10_000  # of one run
-
-
-class MessageSource(Protocol):
-    """Messages of a log, in the order of their arrival, with the descriptions of their channels.
-
-    The attributes are those of `McapFile`.
-    """
-
-    path: Path
-    schemas: dict[int, Schema]
-    channels: dict[int, Channel]
-    size: int
-
-    @property
-    def metadata(self) -> Mapping[str, Mapping[str, str]]:
-        """Metadata records by name."""
-
-    @property
-    def problems(self) -> list[str]:
-        """Everything that is missing or damaged."""
-
-    @property
-    def offset(self) -> int:
-        """Bytes that were read."""
-
-    def chunks(self) -> Iterator[list[Message]]:
-        """Yield lists of messages."""
+PIECE = 2**20  # bytes
+# In the order in which they arrived: simulated times may go back.
+MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
+TOPICS = "SELECT id, name, type, serialization_format FROM topics"
 
 
 def open_run(paths: Sequence[Path]) -> MessageSource:
@@ -69,51 +51,96 @@ def _files_of(path: Path) -> list[Path]:
 def _open(path: Path) -> MessageSource:
     """Open a file that may be compressed, or hold compressed messages."""
     if path.suffix == ZSTD:
-        copy, folder = unpack_file(path)
+        copy, folder = _unpack(path)
         source = _open(copy)
         weakref.finalize(source, folder.cleanup)  # when the source is no longer read
         return source
     source = SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
-    return CompressedMessages(source) if is_compressed(source) else source
+    first = next(source.chunks(), [])
+    source.is_packed = any(message.data.startswith(ZSTD_START) for message in first)
+    return source
 
 
-class SeveralFiles:
+def _unpack(path: Path) -> tuple[Path, tempfile.TemporaryDirectory[str]]:
+    """Return a copy of a file that was compressed as a whole, and the folder that removes it.
+
+    LogError if the file cannot be read.
+    """
+    folder = tempfile.TemporaryDirectory(prefix="symtop_ros_")
+    copy = Path(folder.name, path.name.removesuffix(ZSTD))
+    try:
+        with path.open("rb") as packed, copy.open("wb") as file:
+            zstandard.ZstdDecompressor().copy_stream(packed, file, PIECE, PIECE)
+    except (zstandard.ZstdError, OSError) as error:
+        folder.cleanup()
+        text = getattr(error, "strerror", None) or f"it cannot be decompressed: {error}"
+        raise LogError(f"cannot open {path}: {text}") from None
+    return copy, folder
+
+
+class SqliteBag(MessageSource):
+    """A bag of rosbag2's sqlite3 storage, which has no metadata."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        try:
+            self.size = path.stat().st_size
+            for row in self._rows(TOPICS):
+                number, (name, kind, encoding) = int(row[0]), map(str, row[1:])
+                self.schemas[number] = Schema(number, b"", "ros2msg", kind)
+                self.channels[number] = Channel(number, name, encoding, {}, number)
+        except OSError as error:
+            raise LogError(f"cannot open {path}: {error.strerror}") from None
+        except (sqlite3.Error, ValueError) as error:
+            raise LogError(f"cannot open {path}: not a bag of rosbag2 ({error})") from None
+
+    def _read(self) -> Iterator[list[Message]]:
+        """Yield messages in the order of their arrival."""
+        messages: list[Message] = []
+        try:
+            for number, time, data in self._rows(MESSAGES):
+                messages.append(Message(number, time, bytes(data), time, 0))
+                if len(messages) == MAX_MESSAGES:
+                    yield messages
+                    messages = []
+        except (sqlite3.Error, ValueError, TypeError) as error:
+            self.problems.append(f"the bag is damaged after the messages that were read: {error}")
+        self.offset = self.size
+        yield messages
+
+    def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
+        # Immutable: without locks and files next to the bag, whose disk may be read-only. But a
+        # recorder that was killed may have left messages in a file next to it (write-ahead log),
+        # which SQLite would then ignore.
+        pending = self.path.with_name(f"{self.path.name}-wal").exists()
+        name = f"{self.path.absolute().as_uri()}?mode=ro{'' if pending else '&immutable=1'}"
+        with closing(sqlite3.connect(name, uri=True)) as database:
+            yield from database.execute(query)
+
+
+class SeveralFiles(MessageSource):
     """Several logs, read one after the other in the order of their first messages."""
 
     def __init__(self, path: Path, sources: Sequence[MessageSource]) -> None:
-        self.path = path
+        super().__init__(path)
         self.sources = sorted(sources, key=_begin)
-        self.schemas: dict[int, Schema] = {}
-        self.channels: dict[int, Channel] = {}
         self._numbers: dict[tuple[int, int], int] = {}
         self.size = sum(source.size for source in sources)
         for place, source in enumerate(self.sources):
             self._describe(place, source)
 
-    @property
-    def offset(self) -> int:
-        """Bytes that were read."""
-        return sum(source.offset for source in self.sources)
-
-    @property
-    def metadata(self) -> Mapping[str, Mapping[str, str]]:
-        """Metadata records by name; of several the first."""
-        return {k: v for each in reversed(self.sources) for k, v in each.metadata.items()}
-
-    @property
-    def problems(self) -> list[str]:
-        """Everything that is missing or damaged, with the name of its file."""
-        return [f"{each.path.name}: {text}" for each in self.sources for text in each.problems]
-
-    def chunks(self) -> Iterator[list[Message]]:
-        """Yield messages, those of a chunk together; numbers of channels are those of this run."""
+    def _read(self) -> Iterator[list[Message]]:
+        """Yield messages; numbers of channels are those of this run."""
         for place, source in enumerate(self.sources):
             for messages in source.chunks():
                 self._describe(place, source)
+                self.offset = sum(each.offset for each in self.sources)
                 yield [
                     replace(each, channel_id=self._number(place, each.channel_id))
                     for each in messages
                 ]
+            self.metadata = source.metadata | self.metadata  # of several the first
+            self.problems += [f"{source.path.name}: {text}" for text in source.problems]
 
     def _describe(self, place: int, source: MessageSource) -> None:
         """Take over the channels of a file that are new."""

@@ -8,7 +8,7 @@ import struct
 import zlib
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import islice
@@ -31,6 +31,7 @@ from mcap.records import (
     Schema,
 )
 
+from symtop_ros.log.source import MessageSource
 from symtop_ros.log.writer import ENDING, METADATA
 from symtop_ros.simulation.validation import one_line
 
@@ -93,41 +94,34 @@ def list_problems(problems: Sequence[str]) -> list[str]:
     return [one_line(each) for each in problems[:MAX_PROBLEMS]] + rest
 
 
-class McapFile:
+@contextmanager
+def log_errors(act: str, path: Path) -> Iterator[None]:
+    """Turn an OSError into a LogError that says what cannot be done with a file."""
+    try:
+        yield
+    except OSError as error:
+        raise LogError(f"cannot {act} {path}: {error.strerror}") from None
+
+
+class McapFile(MessageSource):
     """A log on disk."""
 
     def __init__(self, path: Path) -> None:
-        self.path = path
+        super().__init__(path)
         self.profile = ""  # "ros2" for logs of ROS 2
-        # All of these are complete when all chunks are read.
-        self.schemas: dict[int, Schema] = {}  # by their ids
-        self.channels: dict[int, Channel] = {}  # by their ids
-        self.metadata: dict[str, dict[str, str]] = {}  # metadata records by name
-        self.problems: list[str] = []  # everything that is missing or damaged
-        self.offset = 0  # bytes that were read
         self._span: tuple[int, int] | None = None  # log times of the first and latest message
         self._chunk_offsets: list[int] = []
         self._described = 0  # bytes of all descriptions, about
-        try:
-            with path.open("rb") as file:
-                self.size = file.seek(0, 2)  # bytes of the file
-                file.seek(0)
-                if file.read(len(MAGIC)) != MAGIC:
-                    raise LogError(f"cannot open {path}: not an MCAP file")
-                self._read_summary(file)
-        except OSError as error:
-            raise LogError(f"cannot open {path}: {error.strerror}") from None
+        with log_errors("open", path), path.open("rb") as file:
+            self.size = file.seek(0, 2)
+            file.seek(0)
+            if file.read(len(MAGIC)) != MAGIC:
+                raise LogError(f"cannot open {path}: not an MCAP file")
+            self._read_summary(file)
 
-    def chunks(self) -> Iterator[list[Message]]:
+    def _read(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the file, those of a chunk together."""
-        try:
-            yield from self._read_chunks()
-        except OSError as error:
-            raise LogError(f"cannot read {self.path}: {error.strerror}") from None
-
-    def _read_chunks(self) -> Iterator[list[Message]]:
-        self.problems.clear()
-        with self.path.open("rb") as file:
+        with log_errors("read", self.path), self.path.open("rb") as file:
             file.seek(len(MAGIC))
             damaged: list[Chunk] = []
             lost, chunked = 0, False

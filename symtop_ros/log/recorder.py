@@ -9,11 +9,11 @@ import time
 from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from symtop_ros.log.definitions import Channel
+from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.topics import Topic
 
 if TYPE_CHECKING:
@@ -26,18 +26,6 @@ FLUSH_PERIOD = 0.4  # s; at most half a second is promised
 Queued = tuple[int, int, bytes]  # channel, stamp in ns, message
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """Limits of one file; the recording then continues in a new one. 0: no limit."""
-
-    size: float = 0.0  # in bytes
-    duration: float = 0.0  # in s, between the stamps of its messages
-
-    def are_reached(self, file: "LogFile") -> bool:
-        """Return True if a file has reached a limit."""
-        return 0 < self.size <= file.size or 0 < self.duration <= file.duration
-
-
 def describe_error(error: Exception) -> str:
     """Return the text of an error without its number and path."""
     return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
@@ -46,8 +34,8 @@ def describe_error(error: Exception) -> str:
 class Recorder:
     """Writes messages to files in a thread."""
 
-    def __init__(self, directory: Path, limits: Limits) -> None:
-        self._directory, self.limits = directory, limits
+    def __init__(self, settings: RecordSettings) -> None:
+        self.settings = settings  # its limits may be changed while a recording runs
         self._channels: list[Channel] = []
         self._latched: dict[int, bytes] = {}
         self._queue: deque[Queued] = deque()
@@ -92,7 +80,7 @@ class Recorder:
         # It needs mcap, without which a top moves and is published, but not recorded.
         from symtop_ros.log.writer import LogFile
 
-        return LogFile(self._directory, self._channels, metadata, latched)
+        return LogFile(Path(self.settings.directory), self._channels, metadata, latched)
 
     def add(self, channel: int, stamp: int, data: bytes) -> None:
         """Queue a message with its stamp (ns); the last latched ones are kept for later files."""
@@ -171,11 +159,16 @@ class Recorder:
             if ending:
                 return True
             # Asked last: an empty file may be larger than a small limit, and would be for ever.
-            if self.limits.are_reached(file):
+            if self._is_full(file):
                 return False
             if time.monotonic() - flushed > FLUSH_PERIOD - WRITE_PERIOD:
                 flushed = time.monotonic()
                 file.flush()
+
+    def _is_full(self, file: "LogFile") -> bool:
+        """Return True if a file has reached a limit; 0 is none."""
+        size, duration = self.settings.max_size, self.settings.max_duration
+        return 0 < size <= file.size or 0 < duration <= file.duration
 
     def _drain(self, file: "LogFile", latched: dict[int, bytes]) -> None:
         for _ in range(len(self._queue)):

@@ -6,21 +6,19 @@ from pathlib import Path
 
 from mcap.writer import CompressionType, Writer
 
-from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.reader import LogError, McapFile, log_errors
 
 
 def repair(file: McapFile, target: Path) -> int:
     """Write the readable messages with new indexes and checksums; return their number."""
-    try:
+    with log_errors("write", target):
+        if target.exists():
+            raise LogError(f"{target} must not exist (nothing is overwritten)")
         with target.open("xb") as stream, _remove_on_failure(target):
             writer = Writer(stream, compression=CompressionType.ZSTD)
             writer.start(file.profile, "symtop_ros top_replay --repair")
             count = _copy(file, writer)
             writer.finish()  # type: ignore[no-untyped-call]
-    except FileExistsError:
-        raise LogError(f"{target} must not exist (nothing is overwritten)") from None
-    except OSError as error:
-        raise LogError(f"cannot write {target}: {error.strerror}") from None
     return count
 
 

@@ -5,6 +5,7 @@ other topics in the file do not matter. Topics that are missing are missing in t
 """
 
 from collections.abc import Iterator
+from functools import cache
 
 from mcap.records import Message
 
@@ -29,7 +30,7 @@ class TopLog:
         # full names of the topics that were found, by their names in `simulation.topics`
         self.topics: dict[str, str] = {}
         self.others: set[str] = set()  # full names of other nodes with tops in the file
-        self._names: dict[int, str] = {}  # name of the topic by channel, "" for others
+        self._name = cache(self._find_name)  # by channel
         self._reader = BatchReader()
 
     def batches(self) -> Iterator[Batch]:
@@ -86,12 +87,8 @@ class TopLog:
         named = ((self._name(message.channel_id), message.data) for message in messages)
         return [each for each in named if each[0]]
 
-    def _name(self, channel: int) -> str:
-        if channel not in self._names:
-            self._names[channel] = self._find_name(channel)
-        return self._names[channel]
-
     def _find_name(self, number: int) -> str:
+        """Return the name of the topic of a channel; "" for those of others."""
         node, name = self._node_and_name(number)
         if name and name != TF and node != self.node:
             self.others.add(node)

@@ -35,7 +35,7 @@ class LogFile:
         directory.mkdir(parents=True, exist_ok=True)
         self.path = _unused_path(directory.absolute())
         self._file = self.path.open("xb")
-        self._flushed = 0  # bytes that a killed process does not lose
+        self.size = 0  # bytes of complete chunks, which a killed process does not lose
         self._head = dict(sorted(head.items()))
         self._first: int | None = None
         self._last = 0
@@ -69,12 +69,7 @@ class LogFile:
         self._writer.flush()  # type: ignore[no-untyped-call]
         if not self._exists():
             raise FileNotFoundError("the file was removed")
-        self._flushed = self._file.tell()
-
-    @property
-    def size(self) -> int:
-        """Size in bytes of the chunks that are complete."""
-        return self._flushed
+        self.size = self._file.tell()
 
     @property
     def duration(self) -> float:
@@ -105,9 +100,9 @@ class LogFile:
         with suppress(OSError):
             self._file.close()
         with suppress(OSError):
-            if not self._flushed:
+            if not self.size:
                 self.path.unlink()
-            os.truncate(self.path, self._flushed)
+            os.truncate(self.path, self.size)
             with self.path.open("ab") as file:
                 file.write(_end())
 

@@ -9,14 +9,13 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from symtop_ros.node.duplicates import DuplicateClocks, DuplicateNodes, Duplicates
+from symtop_ros.node.duplicates import find_duplicates
 from symtop_ros.node.markers import Markers
 from symtop_ros.simulation.block import Block
-from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import Topic
 from symtop_ros.simulation.validation import RefusedError, one_line
-from symtop_ros.wire.diagnostics import Status
+from symtop_ros.wire.diagnostics import OK, Status
 
 
 class NodePublisher:
@@ -55,11 +54,8 @@ class NodeHost:
     """The node; see `OutputHost` for the methods."""
 
     def __init__(self, node: Node, settings: Settings) -> None:
-        self._node = node
-        self._duplicates: list[Duplicates] = [
-            DuplicateNodes(node),
-            DuplicateClocks(node, settings.publish_clock),
-        ]
+        self._node, self._publishes_clock = node, settings.publish_clock
+        self._levels: dict[str, int] = {}  # of the last statuses, by their names
         self._markers = Markers(node, settings.world_frame) if settings.publish_markers else None
 
     @property
@@ -97,14 +93,17 @@ class NodeHost:
         if self._markers:
             self._markers.send(stamp, block)
 
-    def watch_event(self, event: Event) -> None:
-        """Do nothing: events are published and logged."""
-
     def update_statuses(self) -> list[Status]:
-        """Count the nodes of the same name and the publishers of /clock; return the statuses."""
-        for each in self._duplicates:
-            each.update()
-        return [each.status for each in self._duplicates]
+        """Return statuses on duplicates; log when these appear and when they are gone."""
+        statuses = find_duplicates(self._node, self._publishes_clock)
+        for status in statuses:
+            before = self._levels.get(status.name, OK)
+            if status.level > before:
+                self.warn(status.message)
+            elif status.level < before:
+                self.inform(status.message)
+            self._levels[status.name] = status.level
+        return statuses
 
     def inform(self, text: str) -> None:
         """Log a sentence. Each level needs a separate line of code, because rclpy asks for it."""

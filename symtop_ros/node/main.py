@@ -6,12 +6,11 @@ import sys
 from collections.abc import Callable
 
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.utilities import remove_ros_args
+from rclpy.executors import SingleThreadedExecutor
 
 from symtop_ros.distribution import use_profile
 from symtop_ros.node.top_node import TopNode
-from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.shutdown import run_with_ros
 from symtop_ros.simulation.presets import scene_names
 
 HELP = """\
@@ -29,27 +28,18 @@ SWITCH_INTERVAL = 1e-4  # s that a tick may wait for the thread that writes the 
 
 def main(args: list[str] | None = None) -> int:
     """Run the node until it is shut down; return the exit status."""
-    arguments = sys.argv if args is None else ["top_node", *args]
     parser = argparse.ArgumentParser(
         prog="top_node",
         description="Simulate a heavy symmetric top in real time. Parameters are ROS parameters.",
         epilog=HELP.format(scenes=", ".join(scene_names())),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    try:
-        parser.parse_args(remove_ros_args(arguments)[1:])
-        sys.setswitchinterval(SWITCH_INTERVAL)
-        use_profile(PROFILE)
-        with ros_context(arguments) as listen:
-            return _run(listen)
-    except ExternalShutdownException:
-        return 0
-    except Exception as error:
-        print(f"top_node: {describe_failure(error)}", file=sys.stderr)
-        return 1
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    use_profile(PROFILE)
+    return run_with_ros(parser, args, _run)
 
 
-def _run(listen: Callable[[], None]) -> int:
+def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
     # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted).
     executor = SingleThreadedExecutor()

@@ -152,11 +152,14 @@ class Simulator:
     def _set_state(self, request: Any, _: Any) -> None:
         target, options = request.state.state, (STOPPED, PLAYING, PAUSED)
         if target not in options:
-            refusal = reject("state", "0 (stopped), 1 (playing) or 2 (paused)", target)
-            raise ResultError(UNSUPPORTED, refusal)
+            raise ResultError(
+                UNSUPPORTED, reject("state", "0 (stopped), 1 (playing) or 2 (paused)", target)
+            )
         if target == self._state:
-            refusal = reject("state", "another one than now", target)
-            raise ResultError(SetSimulationState.Response.ALREADY_IN_TARGET_STATE, refusal)
+            raise ResultError(
+                SetSimulationState.Response.ALREADY_IN_TARGET_STATE,
+                reject("state", "another one than now", target),
+            )
         if self._simulation.segment.running != (target == PLAYING):
             self._demand("pause", target != PLAYING)
         self._stopped = None
@@ -169,8 +172,9 @@ class Simulator:
 
     def _reset(self, request: Any, _: Any) -> None:
         if request.scope not in SCOPES:
-            refusal = reject("scope", "0, 2 or 255: the time is not set back", request.scope)
-            raise ResultError(UNSUPPORTED, refusal)
+            raise ResultError(
+                UNSUPPORTED, reject("scope", "0, 2 or 255: the time is not set back", request.scope)
+            )
         self._begin_again()
 
     def _step(self, request: Any, _: Any) -> None:
@@ -227,8 +231,7 @@ class Simulator:
 
     def _check_name(self, entity: str) -> None:
         if entity != self._name:
-            refusal = reject("entity", f"'{self._name}'", entity)
-            raise ResultError(Result.RESULT_NOT_FOUND, refusal)
+            raise ResultError(Result.RESULT_NOT_FOUND, reject("entity", f"'{self._name}'", entity))
 
     def _get_entity_state(self, request: Any, response: Any) -> None:
         self._check_name(request.entity)
@@ -246,8 +249,9 @@ class Simulator:
         self._check_name(request.entity)
         given, world = request.state, self._simulation.settings.world_frame
         if request.set_acceleration:
-            refusal = reject("set_acceleration", "false: it follows from the torque", True)
-            raise ResultError(UNSUPPORTED, refusal)
+            raise ResultError(
+                UNSUPPORTED, reject("set_acceleration", "false: it follows from the torque", True)
+            )
         if given.header.frame_id not in ("", world):
             raise reject("header.frame_id", f"'{world}'", given.header.frame_id)
         now = self._simulation.state

@@ -77,14 +77,17 @@ class TopNode(Node):
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
         self.failure: Exception | None = None  # the exception that ended the ticks
-        environment = {
-            "rmw": get_rmw_implementation_identifier(),
-            "ros_distro": distribution_name(),
-        }
-        scene, host = str(self.get_parameter("scene").value), NodeHost(self, settings)
-        full_name = self.get_fully_qualified_name()
-        clock = SteadyClock() if settings.publish_clock else NodeClock(self)
-        self.session = Session(settings, clock, host, scene, environment, full_name)
+        self.session = Session(
+            settings,
+            SteadyClock() if settings.publish_clock else NodeClock(self),
+            NodeHost(self, settings),
+            scene=str(self.get_parameter("scene").value),
+            environment={
+                "rmw": get_rmw_implementation_identifier(),
+                "ros_distro": distribution_name(),
+            },
+            name=self.get_fully_qualified_name(),
+        )
         warn_of_unused_qos(self)
         for name, service in SERVICES.items():
             kind, read = TYPES[service.kind]
@@ -97,9 +100,9 @@ class TopNode(Node):
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.create_timer(1.0, self.session.keep_up)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._announce_speed(settings)
         self._clock_is_missing = False
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(CLOCK_WAIT, self._check_clock, clock=steady)
         self._pacer = Pacer(self.simulation.tick, self._fail)
         self._simulator = self._offer_standard_interface()
@@ -117,10 +120,9 @@ class TopNode(Node):
     def _announce_speed(self, settings: Settings) -> None:
         """Report what computes the states, and whether real-time scheduling is granted."""
         self.get_logger().info(f"states are computed by {describe_engine()}")
-        if settings.scheduling_priority:
-            failure = use_real_time(settings.scheduling_priority)
-            if failure:
-                self.get_logger().warning(failure)
+        priority = settings.scheduling_priority
+        if priority and (failure := use_real_time(priority)):
+            self.get_logger().warning(failure)
 
     @property
     def simulation(self) -> Simulation:
@@ -166,10 +168,8 @@ class TopNode(Node):
             min_backward=Duration(nanoseconds=-1),
             on_clock_change=True,
         )
-        clock = self.get_clock()
-        begin = self.simulation.begin_jump
-        return clock.create_jump_callback(
-            threshold, pre_callback=begin, post_callback=self._clock_set
+        return self.get_clock().create_jump_callback(
+            threshold, pre_callback=self.simulation.begin_jump, post_callback=self._clock_set
         )
 
     def _clock_set(self, jump: TimeJump) -> None:

@@ -115,13 +115,7 @@ def _run(options: argparse.Namespace) -> int:
         print(f"wrote {count} messages to {options.repair}")
         return 0
     with open_file(options.files, options.node) as log:
-        return _play(log, options)
-
-
-def _play(log: TopLog, options: argparse.Namespace) -> int:
-    if options.check:
-        return _check(log)
-    return _show(log, options)
+        return _check(log) if options.check else _show(log, options)
 
 
 def _check(log: TopLog) -> int:
@@ -159,15 +153,12 @@ def _row(topic: str, deviation: Deviation) -> str:
     row = f"{topic:28}{deviation.samples:9} samples, largest difference {deviation.largest:g}"
     if deviation.largest:
         row += f" ({deviation.relative:.1e} of its size)"
-    if deviation.unchecked:
-        row += f"; {deviation.unchecked} before the first event not checked"
-    if deviation.unjudged:
-        row += f"; {deviation.unjudged} after missing events not judged"
-    if deviation.unordered:
-        row += (
-            f"; {deviation.unordered} agree with an event, but the order of messages is not known"
-        )
-    return row
+    notes = {
+        "before the first event not checked": deviation.unchecked,
+        "after missing events not judged": deviation.unjudged,
+        "agree with an event, but the order of messages is not known": deviation.unordered,
+    }
+    return row + "".join(f"; {count} {text}" for text, count in notes.items() if count)
 
 
 def _show(log: TopLog, options: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from symtop_ros.log.bag import open_run
-from symtop_ros.log.reader import LogError
+from symtop_ros.log.reader import LogError, log_errors
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.session.run_log import write_run_log
 from symtop_ros.simulation.run_file import RunEvent, read_run, record_run, write_run
@@ -26,10 +26,8 @@ def read(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
     """Return the events of a run of the page, and its end in ns."""
     if len(paths) != 1:
         raise LogError(f"a run of the page must be one file, got {len(paths)}")
-    try:
+    with log_errors("open", paths[0]):
         return read_run(paths[0])
-    except OSError as error:
-        raise LogError(f"cannot open {paths[0]}: {error.strerror}") from None
 
 
 @contextmanager
@@ -53,10 +51,8 @@ def save_page(log: TopLog, path: Path) -> None:
     run, reached = record_run(log.events(), end)
     if not run:
         raise LogError(f"{log.file.path}: a run must have an event to be saved")
-    try:
+    with log_errors("write", path):
         path.write_text(write_file(run=write_run(run, reached)), encoding="utf-8")
-    except OSError as error:
-        raise LogError(f"cannot write {path}: {error.strerror}") from None
 
 
 def write_mcap(paths: Sequence[Path], path: Path, rate: float) -> None:
@@ -64,7 +60,5 @@ def write_mcap(paths: Sequence[Path], path: Path, rate: float) -> None:
     if path.suffix != ".mcap" or not path.parent.is_dir():
         raise LogError(f"--mcap must be a name that ends in .mcap in a folder, got {path}")
     number("--rate", rate, "Hz", 1.0, MAX_PUBLISH_RATE)
-    try:
+    with log_errors("write", path):
         write_run_log(*read(paths), path, rate)
-    except OSError as error:
-        raise LogError(f"cannot write {path}: {error.strerror}") from None

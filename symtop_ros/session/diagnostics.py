@@ -8,7 +8,7 @@ from symtop_ros.physics import Motion, State, Top, balance, describe_engine, per
 from symtop_ros.simulation.block import CATCH_UP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status
+from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, write_text
 
 MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start
 
@@ -68,40 +68,29 @@ def _pace_status(simulation: Simulation) -> Status:
         "real_time_factor.achieved": achieved,
         "states_computed_by": describe_engine(),
     }
+    level = WARN if kept < asked or ticker.missed >= CATCH_UP * ticker.rate else OK
+    message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
     if kept < asked:
         message = (
             f"the motion is too fast for the compute budget: real-time factor {kept:.3g} "
             f"instead of {asked:.3g}"
         )
-    elif ticker.missed:
-        message = f"{ticker.missed} ticks missed"
-        if ticker.missed < CATCH_UP * ticker.rate:
-            return make_status("pace", OK, message, facts)
-    else:
-        return make_status("pace", OK, "on time", facts)
-    return make_status("pace", WARN, message, facts)
+    return make_status("pace", level, message, facts)
 
 
 def _log_status(recorder: Recorder) -> Status:
     facts = {"file": recorder.path or "", "dropped": recorder.dropped}
+    level, message = OK, "recording" if recorder.running else "not recording"
     if recorder.failure:
-        return make_status("log", ERROR, recorder.failure, facts)
-    if recorder.dropped:
-        message = f"{recorder.dropped} messages dropped: the disk is too slow"
-        return make_status("log", WARN, message, facts)
-    message = "recording" if recorder.running else "not recording"
-    return make_status("log", OK, message, facts)
+        level, message = ERROR, recorder.failure
+    elif recorder.dropped:
+        level, message = WARN, f"{recorder.dropped} messages dropped: the disk is too slow"
+    return make_status("log", level, message, facts)
 
 
 def make_status(name: str, level: int, message: str, facts: dict[str, Any]) -> Status:
     """Return a status of which the facts are written as text."""
-    return Status(0, level, name, message, {key: _text(value) for key, value in facts.items()})
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, list):
-        return " ".join(map(repr, value))
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return Status(0, level, name, message, {key: write_text(value) for key, value in facts.items()})
 
 
 def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[str, Any]:

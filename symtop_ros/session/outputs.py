@@ -4,6 +4,7 @@ A topic without a subscriber is not computed unless it is logged.
 """
 
 from contextlib import AbstractContextManager
+from functools import partial
 from typing import Protocol
 
 from symtop_ros.log.recorder import Recorder
@@ -55,9 +56,6 @@ class OutputHost(Host, Protocol):
     def watch_sample(self, stamp: int, block: Block) -> None:
         """Take note of the sample of a stamp (ns)."""
 
-    def watch_event(self, event: Event) -> None:
-        """Take note of an event."""
-
     def update_statuses(self) -> list[Status]:
         """Bring its own part of the diagnostics up to date, and return it."""
 
@@ -96,9 +94,7 @@ class Outputs:
     """All topics of a run; the sink of its simulation."""
 
     def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder, name: str) -> None:
-        def add(topic: Topic) -> Output:
-            return Output(topic, host, recorder)
-
+        add = partial(Output, host=host, recorder=recorder)
         self._host, self._recorder, self._name = host, recorder, name
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
@@ -138,7 +134,6 @@ class Outputs:
 
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""
-        self._host.watch_event(event)
         self._events.send(event.stamp, event.encode(self._frame, self._name))
 
     def send_description(self, stamp: int, settings: Settings) -> None:

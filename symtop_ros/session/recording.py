@@ -7,31 +7,21 @@ from pathlib import Path
 from typing import Literal
 
 from symtop_ros import __version__
-from symtop_ros.log.recorder import Limits, Recorder, describe_error
+from symtop_ros.log.recorder import Recorder, describe_error
 from symtop_ros.simulation.changes.outcomes import Record
-from symtop_ros.simulation.settings import RecordSettings
-from symtop_ros.simulation.simulation import Host, Simulation
+from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wording import write
-
-
-def limits_of(settings: RecordSettings) -> Limits:
-    """Return the limits of a file that the parameters ask for."""
-    return Limits(settings.max_size, settings.max_duration)
 
 
 class Recording:
     """Begins and ends recordings of a simulation."""
 
     def __init__(
-        self,
-        recorder: Recorder,
-        simulation: Simulation,
-        environment: Mapping[str, str],
-        host: Host,
+        self, recorder: Recorder, simulation: Simulation, environment: Mapping[str, str]
     ) -> None:
         self._recorder, self._simulation = recorder, simulation
-        self._environment, self._host = environment, host
+        self._host, self._environment = simulation.host, environment
         self._failure_reported = False
 
     def begin(self) -> Path:

@@ -15,7 +15,6 @@ import numpy as np
 from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.block import Block
-from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.run_file import RunEvent
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import Topic
@@ -51,9 +50,6 @@ class Silent:
         """Return None: topics are only logged."""
 
     def watch_sample(self, stamp: int, block: Block) -> None:
-        """Do nothing."""
-
-    def watch_event(self, event: Event) -> None:
         """Do nothing."""
 
     def update_statuses(self) -> list[Status]:
@@ -94,10 +90,10 @@ class _Again:
 
     def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
         self._clock, self._host = RunClock(), Silent()
-        values = _initial_values(first, rate, folder)
-        settings = Settings.from_values(values)
-        environment = {"program": "top_replay"}
-        self._session = Session(settings, self._clock, self._host, "run.json", environment, NODE)
+        settings = Settings.from_values(_initial_values(first, rate, folder))
+        self._session = Session(
+            settings, self._clock, self._host, "run.json", {"program": "top_replay"}, NODE
+        )
         self._simulation = self._session.simulation
         self._told = 0  # s of the last diagnostics
 

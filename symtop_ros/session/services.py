@@ -4,7 +4,7 @@ The node offers what this table says, the page and `top_ctl` call it. It imports
 `top_ctl` starts without the library.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 if TYPE_CHECKING:
@@ -13,61 +13,59 @@ if TYPE_CHECKING:
 ServiceKind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument
 
 
-class Named(NamedTuple):
-    """A service with named values."""
+class Service(NamedTuple):
+    """A service of the top."""
 
-    act: "Callable[[Requests, Mapping[str, Any]], str]"
+    kind: ServiceKind
     command: str  # of top_ctl
     help: str
-    kind: ServiceKind = "named"
+    act: "Callable[[Requests, Any], str]"  # gets the argument, which is None if it has none
 
 
-class Switch(NamedTuple):
-    """A service that switches on or off."""
-
-    act: "Callable[[Requests, bool], str]"
-    command: str
-    help: str
-    kind: ServiceKind = "switch"
-
-
-class Plain(NamedTuple):
-    """A service without an argument."""
-
-    act: "Callable[[Requests], str]"
-    command: str
-    help: str
-    kind: ServiceKind = "plain"
-
-
-Service = Named | Switch | Plain
 SERVICES: dict[str, Service] = {
-    "set_initial_conditions": Named(
-        lambda requests, values: requests.set_initial_conditions(values),
+    "set_initial_conditions": Service(
+        "named",
         "start",
         "restart: theta=0.5 psi_dot=200 precession=slow ...",
+        lambda requests, values: requests.set_initial_conditions(values),
     ),
-    "kick": Named(
-        lambda requests, values: requests.kick(values),
+    "kick": Service(
+        "named",
         "kick",
         "precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4",
+        lambda requests, values: requests.kick(values),
     ),
-    "step": Named(
-        lambda requests, values: requests.step(values), "step", "while paused: duration=0.01"
+    "step": Service(
+        "named",
+        "step",
+        "while paused: duration=0.01",
+        lambda requests, values: requests.step(values),
     ),
-    "hurry_precession": Plain(
-        lambda requests: requests.hurry_precession(),
+    "hurry_precession": Service(
+        "plain",
         "hurry",
         "multiply the precession rate by the parameter hurry_factor",
+        lambda requests, _: requests.hurry_precession(),
     ),
-    "reset": Plain(
-        lambda requests: requests.reset(), "reset", "back to the last initial conditions"
+    "reset": Service(
+        "plain",
+        "reset",
+        "back to the last initial conditions",
+        lambda requests, _: requests.reset(),
     ),
-    "pause": Switch(
-        lambda requests, on: requests.pause(on), "pause", "stop the motion; `resume` continues it"
+    "pause": Service(
+        "switch",
+        "pause",
+        "stop the motion; `resume` continues it",
+        lambda requests, on: requests.pause(on),
     ),
-    "record": Switch(lambda requests, on: requests.record(on), "record", "start or stop a log"),
-    "get_state": Plain(
-        lambda requests: requests.get_state(), "state", "full state, constants and verdict"
+    "record": Service(
+        "switch", "record", "start or stop a log", lambda requests, on: requests.record(on)
+    ),
+    "get_state": Service(
+        "plain",
+        "state",
+        "full state, constants and verdict",
+        lambda requests, _: requests.get_state(),
     ),
 }

@@ -4,15 +4,14 @@ The node and the page are hosts of a session. They translate: ROS, or what is pr
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.session.diagnostics import collect_statuses
 from symtop_ros.session.outputs import OutputHost, Outputs
-from symtop_ros.session.recording import Recording, limits_of
+from symtop_ros.session.recording import Recording
 from symtop_ros.session.requests import Requests
-from symtop_ros.session.services import SERVICES, Plain, Service, Switch
+from symtop_ros.session.services import SERVICES
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
@@ -35,13 +34,13 @@ class Session:
         name: str = "/top",
     ) -> None:
         self._host = host
-        self._recorder = Recorder(Path(settings.record.directory), limits_of(settings.record))
+        self._recorder = Recorder(settings.record)
         self._outputs = Outputs(settings, host, self._recorder, name)
         self.simulation = Simulation(settings, clock, self._outputs, host)
         start = self.simulation.timeline.verdict
         verdict = self.simulation.report("start", start, {"scene": scene})
         metadata = {"scene": scene, **environment}
-        self.recording = Recording(self._recorder, self.simulation, metadata, host)
+        self.recording = Recording(self._recorder, self.simulation, metadata)
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
@@ -49,14 +48,8 @@ class Session:
 
     def answer(self, service: str, read: Callable[[], Any]) -> Answer:
         """Carry out a request; `read` returns its argument, or raises RefusedError."""
-        return self.simulation.answer(service, lambda: self._carry_out(SERVICES[service], read))
-
-    def _carry_out(self, service: Service, read: Callable[[], Any]) -> str:
-        if isinstance(service, Plain):
-            return service.act(self._requests)
-        if isinstance(service, Switch):
-            return service.act(self._requests, bool(read()))
-        return service.act(self._requests, read())
+        act = SERVICES[service].act
+        return self.simulation.answer(service, lambda: act(self._requests, read()))
 
     def log_torque(self, data: bytes) -> None:
         """Log the bytes of an applied torque, accepted or not."""
@@ -82,7 +75,7 @@ class Session:
         """Continue with changed values, in a turn of the caller."""
         settings = self.plan_settings(changes)
         self._outputs.enable_tf(settings.publish_tf)
-        self._recorder.limits = limits_of(settings.record)
+        self._recorder.settings = settings.record
         self.simulation.apply_settings(settings)
 
     def keep_up(self) -> None:

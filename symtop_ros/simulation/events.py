@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from symtop_ros import __version__
 from symtop_ros.physics import Friction, Motion, State, Top, describe_engine
-from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start, describe
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
 from symtop_ros.simulation.validation import one_line
@@ -25,6 +25,7 @@ from symtop_ros.wire.diagnostics import (
     write_fields,
     write_text,
 )
+from symtop_ros.wording import write
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
 PREFIX = "top: "  # of the name of an event as a diagnostic status
@@ -99,7 +100,7 @@ class Event:
             "computed_by": describe_engine(),
             "version": __version__,
         }
-        return cls(stamp, name, describe(name, outcome) if outcome else "", values)
+        return cls(stamp, name, write(name, outcome) if outcome else "", values)
 
     def encode(self, frame: str, node: str = "") -> bytes:
         """Encode the event of a node (full name) as a DiagnosticArray with one status."""

@@ -11,9 +11,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.arrays import Vector
 from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
-from symtop_ros.simulation.changes.kick import FIELDS
+from symtop_ros.simulation.changes.kick import FIELDS, read_kick
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT
@@ -30,7 +29,8 @@ from symtop_ros.simulation.validation import (
 from symtop_ros.wire.layout import NANOSECONDS
 
 FORMAT = 1
-KINDS = ("start", "kick", "change", "torque")
+ACTS = ("start", "kick")
+KINDS = (*ACTS, "change", "torque")
 MAX_BYTES = 100_000_000
 MAX_TIME = 4e6  # s; up to here a double in s has its own ns
 MOTION = ("top", "friction", "applied_torque", "motion.orientation", "motion.angular_velocity")
@@ -48,6 +48,8 @@ class RunEvent:
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
         motion, start = self.motion, self.motion.start
+        # the quantity that a kick leaves unchanged; None for an angular impulse
+        hold = None if "angular_impulse" in self.act else self.act.get("hold", HOLDS[0])
         return {
             "kind": self.kind,
             "time": self.time / NANOSECONDS,
@@ -56,18 +58,8 @@ class RunEvent:
             "angular_velocity": start.angular_velocity.tolist(),
             "friction": (motion.friction.axial, motion.friction.transverse),
             "torque": motion.applied_torque,
-            **({"act": self.act, "hold": self.hold} if self.act else {}),
+            **({"act": self.act, "hold": hold} if self.act else {}),
         }
-
-    @property
-    def is_act(self) -> bool:
-        """False for a change of the top or of the torque, which another may replace."""
-        return self.kind in ("start", "kick")
-
-    @property
-    def hold(self) -> str | None:
-        """The quantity that a kick leaves unchanged; None for an angular impulse."""
-        return None if "angular_impulse" in self.act else self.act.get("hold", HOLDS[0])
 
 
 class RunRecorder:
@@ -89,9 +81,10 @@ class RunRecorder:
         if not is_new:
             return None
         kind = "start" if previous is None or event.name in RESTARTS else event.name
-        time = max(0, round(self._begin))
-        act = _read_act(event.request) if kind == "kick" else {}
-        return RunEvent(kind if kind in KINDS else "change", time, segment.motion, act)
+        act = _read_act(event) if kind == "kick" else {}
+        if kind not in KINDS or (kind == "kick" and not act):
+            kind = "change"
+        return RunEvent(kind, max(0, round(self._begin)), segment.motion, act)
 
     def time_at(self, stamp: int) -> int:
         """Return the time of the run (ns) at a stamp (ns) after the last event."""
@@ -99,12 +92,21 @@ class RunRecorder:
         return round(self._begin + elapsed)
 
 
+def _read_act(event: Event) -> dict[str, Any]:
+    """Return the fields of a kick; none if a log has some that cannot be read."""
+    given = {name: text for name, text in event.request.items() if name in FIELDS and text}
+    try:
+        return read_kick(given)
+    except ValueError:
+        return {}
+
+
 def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int]:
     """Return the run of the events of a log, and the time in ns that it has at a stamp (ns)."""
     recorder, found = RunRecorder(), list[RunEvent]()
     for event in filter(None, map(recorder.add, events)):
         # A change of several parameters at once is a sequence of events; the last one holds.
-        if len(found) > 1 and found[-1].time == event.time and not found[-1].is_act:
+        if len(found) > 1 and found[-1].time == event.time and found[-1].kind not in ACTS:
             found.pop()
         found.append(event)
     return found, max(recorder.time_at(stamp), *(event.time for event in found[-1:]), 0)
@@ -114,18 +116,6 @@ def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
     """Return the content of run.json, of a run that has reached a time in ns."""
     written = [event.to_json() for event in events]
     return {"format": FORMAT, "events": written, "end": end / NANOSECONDS}
-
-
-def _read_act(request: Mapping[str, str]) -> dict[str, Any]:
-    """Return the fields of a kick from their texts in an event."""
-
-    def read(name: str, text: str) -> Any:
-        if name == "hold":
-            return text
-        values = [float(each) for each in text.split()]
-        return values if name == "angular_impulse" else values[0]
-
-    return {name: read(name, text) for name, text in request.items() if name in FIELDS and text}
 
 
 def read_run(path: Path) -> tuple[list[RunEvent], int]:
@@ -175,7 +165,7 @@ def _read_event(given: Mapping[str, Any]) -> RunEvent:
     omega = vector("angular_velocity", given.get("angular_velocity"), 3, MAX_RATE, "rad/s")
     Ix, Iz, Mgl = vector("top", given.get("top"), 3, MAX_MOMENT, "Ix, Iz, Mgl")
     axial, transverse = vector("friction", given.get("friction", (0, 0)), 2, MAX_MOMENT, "N m s")
-    torque: Vector = _three(vector("torque", given.get("torque", (0, 0, 0)), 3, MAX_MOMENT, "N m"))
+    torque = vector("torque", given.get("torque", (0, 0, 0)), 3, MAX_MOMENT, "N m")
     motion = Motion(
         Top(Ix=Ix, Iz=Iz, Mgl=Mgl),
         State((w, x, y, z), omega),
@@ -187,8 +177,3 @@ def _read_event(given: Mapping[str, Any]) -> RunEvent:
         raise reject("act", "the fields of a kick", act)
     validate_names(act, FIELDS)
     return RunEvent(kind, round(time * NANOSECONDS), motion, act)
-
-
-def _three(values: tuple[float, ...]) -> Vector:
-    x, y, z = values
-    return x, y, z

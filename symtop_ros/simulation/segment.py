@@ -36,6 +36,11 @@ class Segment:
         """Return the first segment of a motion that starts at a stamp."""
         return cls(motion, stamp, START, factor, running=True, rig=rig)
 
+    @property
+    def begin_time(self) -> float:
+        """Time of the motion (s) at the first stamp."""
+        return float(self.time_at(self.stamp))
+
     def times_at(self, stamp: Any) -> Any:
         """Return the exact times of the motion at a stamp (ns) or an array of stamps.
 
@@ -63,9 +68,7 @@ class Segment:
 
     def restart(self, start: State, stamp: int) -> "Segment":
         """Continue from another state."""
-        motion = self.motion
-        following = Motion(motion.top, start, motion.friction, motion.applied_torque)
-        return self.replace_motion(following, stamp)
+        return self.change(stamp, start=start)
 
     def change(
         self,
@@ -73,12 +76,13 @@ class Segment:
         top: Top | None = None,
         friction: Friction | None = None,
         torque: Sequence[float] | None = None,
+        start: State | None = None,
     ) -> "Segment":
-        """Continue from the state at a stamp with another top, friction or applied torque."""
+        """Continue with another top, friction, applied torque or state at a stamp."""
         motion = self.motion
         following = Motion(
             motion.top if top is None else top,
-            self.state_at(stamp),
+            self.state_at(stamp) if start is None else start,
             motion.friction if friction is None else friction,
             motion.applied_torque if torque is None else torque,
         )
@@ -107,10 +111,6 @@ class Segment:
     def set_factor(self, factor: float, stamp: int) -> "Segment":
         """Continue at another real-time factor."""
         return replace(self, stamp=stamp, elapsed=self.elapsed_at(stamp), factor=factor)
-
-    def equip(self, rig: Rig) -> "Segment":
-        """Continue with another gravity or sensor."""
-        return replace(self, rig=rig)
 
     def slow_down(self, reached: float, factor: float, stamp: int) -> "Segment":
         """Continue at another factor, from the time (s) that the integration has reached."""

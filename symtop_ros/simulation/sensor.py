@@ -174,15 +174,10 @@ class Rig:
         """Return the values for an event, in decimals that read back to the same doubles."""
         values = {"gravity": repr(self.gravity)}
         if self.imu:
-            imu = self.imu
-            parts = (*imu.position, *imu.orientation)
-            noise = (
-                *(imu.gyroscope_noise_density, imu.gyroscope_random_walk),
-                *(imu.accelerometer_noise_density, imu.accelerometer_random_walk, imu.rate),
-            )
-            values["imu.mount"] = " ".join(map(repr, parts))
-            values["imu.noise"] = " ".join(map(repr, noise))
-            values["imu.seed"], values["imu.begin"] = str(imu.seed), str(imu.begin)
+            imu = asdict(self.imu)
+            values["imu.mount"] = " ".join(map(repr, (*imu["position"], *imu["orientation"])))
+            values["imu.noise"] = " ".join(repr(imu[name]) for name in (*NOISE, "rate"))
+            values["imu.seed"], values["imu.begin"] = str(imu["seed"]), str(imu["begin"])
         return values
 
     @classmethod
@@ -194,10 +189,12 @@ class Rig:
         if "imu.mount" not in values:
             return cls(gravity)
         a, b, c, x, y, z, w = map(float, values["imu.mount"].split())
-        gyro, gyro_walk, accel, accel_walk, rate = map(float, values["imu.noise"].split())
+        *noise, rate = map(float, values["imu.noise"].split())
         seed, begin = int(values["imu.seed"]), int(values["imu.begin"])
-        imu = Imu((a, b, c), (x, y, z, w), gyro, gyro_walk, accel, accel_walk, seed, rate, begin)
-        return cls(gravity, imu)
+        named = dict(zip(NOISE, noise, strict=True))
+        return cls(
+            gravity, Imu((a, b, c), (x, y, z, w), seed=seed, rate=rate, begin=begin, **named)
+        )
 
 
 @lru_cache(maxsize=8)

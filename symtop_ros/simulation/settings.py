@@ -30,6 +30,7 @@ MAX_ARM = 1e6  # m
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
 MAX_PRIORITY = 99  # of SCHED_FIFO
+FOLDER, MAX_PATH = "the name of a folder (printable characters)", 4096  # characters
 MAX_FRAME = 200  # characters of a frame name, which stands in every message
 
 
@@ -54,14 +55,6 @@ def _number(default: float, description: str, unit: str, low: float, high: float
         partial(number, unit=unit, low=low, high=high),
         limits=(low, high),
     )
-
-
-def _angle(name: str, low: float = -MAX_ANGLE, high: float = MAX_ANGLE) -> Parameter:
-    return _number(0.0, f"initial {name}", "rad", low, high)
-
-
-def _rate(description: str) -> Parameter:
-    return _number(0.0, description, "rad/s", -MAX_RATE, MAX_RATE)
 
 
 def _moment(default: float, description: str, unit: str, low: float) -> Parameter:
@@ -96,11 +89,6 @@ def _printable(condition: str, max_length: int, name: str, value: Any) -> str:
     return value
 
 
-def _text(default: str, description: str, condition: str, max_length: int) -> Parameter:
-    validate = partial(_printable, condition, max_length)
-    return Parameter(default, description, condition, validate, read_only=True)
-
-
 def _frame(default: str, description: str) -> Parameter:
     condition = f"the name of a frame (1 to {MAX_FRAME} printable characters, no leading slash)"
 
@@ -115,10 +103,6 @@ def _frame(default: str, description: str) -> Parameter:
 
 def _flag(default: bool, description: str, read_only: bool = False) -> Parameter:
     return Parameter(default, description, "true or false", flag, read_only)
-
-
-def _precession(name: str, value: Any) -> str:
-    return choice(name, value, ("", *PRECESSIONS))
 
 
 def _fix(parameter: Parameter) -> Parameter:
@@ -143,14 +127,17 @@ PARAMETERS: dict[str, Parameter] = {
         5.72e-5, "moment of inertia about the axis, at most 2 Ix", "kg m^2", 1 / MAX_MOMENT
     ),
     "top.Mgl": _moment(0.068, "weight times distance of the centre of mass", "J", -MAX_MOMENT),
-    "initial.theta": _angle("tilt", 0.0, math.pi),
-    "initial.phi": _angle("precession angle"),
-    "initial.psi": _angle("spin angle"),
-    "initial.theta_dot": _rate("initial rate of the tilt"),
-    "initial.phi_dot": _rate("initial precession rate"),
-    "initial.psi_dot": _rate("initial spin rate"),
+    "initial.theta": _number(0.0, "initial tilt", "rad", 0.0, math.pi),
+    "initial.phi": _number(0.0, "initial precession angle", "rad", -MAX_ANGLE, MAX_ANGLE),
+    "initial.psi": _number(0.0, "initial spin angle", "rad", -MAX_ANGLE, MAX_ANGLE),
+    "initial.theta_dot": _number(0.0, "initial rate of the tilt", "rad/s", -MAX_RATE, MAX_RATE),
+    "initial.phi_dot": _number(0.0, "initial precession rate", "rad/s", -MAX_RATE, MAX_RATE),
+    "initial.psi_dot": _number(0.0, "initial spin rate", "rad/s", -MAX_RATE, MAX_RATE),
     "initial.precession": Parameter(
-        "", "start on a root of regular precession", "slow, fast, or empty: not set", _precession
+        "",
+        "start on a root of regular precession",
+        "slow, fast, or empty: not set",
+        partial(choice, options=("", *PRECESSIONS)),
     ),
     "initial.orientation": _vector("initial quaternion, body -> world", 4, 2.0, "x, y, z, w"),
     "initial.angular_velocity": _vector(
@@ -175,8 +162,12 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "publish_markers": _flag(False, "publish ~/markers for rviz", read_only=True),
     "record.enabled": _flag(False, "record from the start", read_only=True),
-    "record.directory": _text(
-        "./logs", "folder of the logs", "the name of a folder (printable characters)", 4096
+    "record.directory": Parameter(
+        "./logs",
+        "folder of the logs",
+        FOLDER,
+        partial(_printable, FOLDER, MAX_PATH),
+        read_only=True,
     ),
     "record.max_size": _number(0.0, "size at which a new log begins; 0: none", "B", 0.0, 1e15),
     "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
@@ -232,8 +223,9 @@ class RecordSettings:
 
     enabled: bool
     directory: str
-    max_size: float  # in bytes; 0: no limit
-    max_duration: float  # in s; 0: no limit
+    # of one file; the recording then continues in a new one
+    max_size: float = 0.0  # in bytes; 0: no limit
+    max_duration: float = 0.0  # in s, between the stamps of its messages; 0: no limit
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,14 +14,15 @@ from typing import Protocol
 from symtop_ros.physics import State
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
-from symtop_ros.simulation.changes.outcomes import Failure, Outcome, describe
+from symtop_ros.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.simulation.changes.timeline import Change, Request, Timeline
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.times import JUMP, Clock, GivenTime, RunTime, Time
+from symtop_ros.simulation.times import JUMP, Clock, RunTime, Time
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS
+from symtop_ros.wording import write
 
 AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
 # Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
@@ -78,8 +79,8 @@ class Simulation:
     """
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
-        self._sink, self._host = sink, host
-        self._time: Time = GivenTime(clock)
+        self._sink, self.host = sink, host
+        self._time = Time(clock)
         if settings.publish_clock:
             self._time = RunTime(clock, settings.real_time_factor)
         self._lock = threading.RLock()
@@ -143,17 +144,17 @@ class Simulation:
                 yield turn
                 self._failures.pop(name, None)
             except Exception as error:
-                if not self._host.is_open:
+                if not self.host.is_open:
                     raise
                 failure = Failure(name, type(error).__name__, one_line(error))
-                turn.failure = describe("failure", failure)
+                turn.failure = write("failure", failure)
                 self._report_failure(failure, stamp, before)
 
     def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
         name = failure.action
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
-            self._host.report_error(describe("failure", failure))
+            self.host.report_error(write("failure", failure))
             change = self.timeline.report("failure", failure, {}, stamp)
             self.apply(replace(change, before=before.segment.state_at(stamp)))
 
@@ -246,7 +247,7 @@ class Simulation:
         if seconds < CATCH_UP or (last is not None and abs(self.now - last) < GAP_PERIOD):
             return
         since = "" if last is None else " since the last warning of this kind"
-        self._host.warn(
+        self.host.warn(
             f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: the process was "
             "stopped or has too little CPU time; the motion follows the clock "
             f"({self.ticker.missed} missed in all)"
@@ -269,10 +270,6 @@ class Simulation:
                 factor = min(factor, 2 * current)
             self.apply(self.timeline.set_pace(self.stamp, current, factor))
             self._time.set_factor(factor)
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-        self._host.warn(text)
 
     # Changes
 

@@ -1,19 +1,21 @@
 """The time of a run: what its stamps are, and how it follows a motion that is hard to compute.
 
-A simulation has one of two. With `GivenTime` stamps are times of the clock of its host. With
+A simulation has one of two. With `Time` stamps are times of the clock of its host. With
 `RunTime` (parameter publish_clock) they are the elapsed time of the run, which is published on
 /clock: it advances by the real-time factor, stands still in a pause and never goes back, so that
 rates are derivatives by the stamps at every factor. Gazebo's /clock is of this kind.
 """
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from symtop_ros.simulation.block import CATCH_UP, Ticker
-from symtop_ros.simulation.budget import ComputeBudget
-from symtop_ros.simulation.changes.outcomes import Outcome, Step
-from symtop_ros.simulation.changes.timeline import Change, Timeline
+from symtop_ros.simulation.block import CATCH_UP
+from symtop_ros.simulation.changes.outcomes import Step
+from symtop_ros.simulation.changes.timeline import Change
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.wire.layout import NANOSECONDS
+
+if TYPE_CHECKING:
+    from symtop_ros.simulation.simulation import Simulation
 
 CALLS = 20  # of 1 ms for a request; the lock is held meanwhile
 JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
@@ -31,93 +33,10 @@ class Clock(Protocol):
         """True if the time is set from outside (use_sim_time)."""
 
 
-class Paced(Protocol):
-    """A run as its time sees it."""
+class Time:
+    """The time of a run by a clock that is not its own."""
 
-    ticker: Ticker
-    timeline: Timeline
-    budget: ComputeBudget
-    last: int  # stamp of the last sample
-
-    @property
-    def segment(self) -> Segment:
-        """The motion of the next stamp."""
-
-    @property
-    def stamp(self) -> int:
-        """Next stamp in ns."""
-
-    def apply(self, change: Change) -> str:
-        """Continue with the timeline of a change and announce it; return the verdict."""
-
-    def report(self, name: str, outcome: Outcome) -> str:
-        """Announce an event that changes nothing of the motion; return the verdict."""
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-
-    def restart_grid(self, stamp: int) -> None:
-        """Continue with a grid of stamps that begins at a stamp."""
-
-    def settle(self) -> None:
-        """Bring the run up to date."""
-
-    def publish(self) -> bool:
-        """Publish what is due."""
-
-
-class Time(Protocol):
-    """The time of a run."""
-
-    @property
-    def clock(self) -> Clock:
-        """The clock of the stamps."""
-
-    @property
-    def can_jump(self) -> bool:
-        """True if the clock can be set while the run uses it."""
-
-    @property
-    def catch_up(self) -> float:
-        """Seconds of samples that are sent late; older ones are dropped."""
-
-    def factor(self, segment: Segment) -> float:
-        """Return the real-time factor that is kept when a motion runs."""
-
-    def set_factor(self, factor: float) -> None:
-        """Continue at another real-time factor."""
-
-    def seconds_until(self, stamp: int) -> float | None:
-        """Return the seconds of real time until a stamp; None if a change must wake the run."""
-
-    def hold(self, stamp: int) -> None:
-        """Let the time wait, if it can, for a stamp (ns) that is late."""
-
-    def prepare(self, run: Paced, stamp: int) -> bool:
-        """Work towards a stamp; return True if its state is ready."""
-
-    def integrate_to(self, run: Paced, stamp: int) -> bool:
-        """Work until the state at a stamp is ready; False if a nearer stamp became the next."""
-
-    def check_pace(self, run: Paced, stamp: int) -> None:
-        """Slow the motion down if it cannot be followed."""
-
-    def pause(self, run: Paced, paused: bool) -> str:
-        """Stop the motion, or continue it; return the verdict."""
-
-    def step(self, run: Paced, duration: float) -> str:
-        """Advance a paused motion by a duration in s; return the verdict."""
-
-
-def warn_of_end(run: Paced, change: Change) -> None:
-    """Pause a motion that cannot continue."""
-    run.warn(f"the motion becomes too fast for doubles: {run.apply(change)}")
-
-
-class GivenTime:
-    """The time of a clock that is not the run's own; see `Time` for the methods."""
-
-    can_jump = True
+    can_jump = True  # the clock may be set while the run uses it
 
     def __init__(self, clock: Clock) -> None:
         self.clock = clock
@@ -128,46 +47,50 @@ class GivenTime:
         return JUMP if self.clock.is_simulated else CATCH_UP
 
     def factor(self, segment: Segment) -> float:
-        """Return the factor of the segment."""
+        """Return the real-time factor that is kept when a motion runs."""
         return segment.factor
 
     def set_factor(self, factor: float) -> None:
-        """Do nothing: segments have the factor."""
+        """Continue at another real-time factor, which segments have already."""
 
     def seconds_until(self, stamp: int) -> float | None:
-        """Return the seconds until a stamp; None if only a change of the clock can bring it."""
+        """Return the seconds of real time until a stamp; None if a change must wake the run."""
         wait = (stamp - self.clock.now) / NANOSECONDS
         return None if self.clock.is_simulated and wait > 0 else wait
 
     def hold(self, stamp: int) -> None:
-        """Do nothing: the clock does not wait."""
+        """Let the time wait for a stamp (ns) that is late; this clock does not wait."""
 
-    def prepare(self, run: Paced, stamp: int) -> bool:
+    def prepare(self, run: "Simulation", stamp: int) -> bool:
         """Work towards a stamp; return True if its state is ready."""
         ready = run.budget.prepare(run.segment, stamp)
         if run.budget.end is not None:
             warn_of_end(run, run.timeline.stop(run.stamp, run.budget.end))
         return ready
 
-    def integrate_to(self, run: Paced, stamp: int) -> bool:
-        """Work until the state at a stamp is ready."""
+    def integrate_to(self, run: "Simulation", stamp: int) -> bool:
+        """Work until the state at a stamp is ready; False if a nearer stamp became the next."""
         while not self.prepare(run, stamp):
             self.check_pace(run, stamp)
         return True
 
-    def check_pace(self, run: Paced, stamp: int) -> None:
+    def check_pace(self, run: "Simulation", stamp: int) -> None:
         """Slow the motion down if it cannot be followed."""
-        shortfall = run.budget.shortfall
-        if shortfall:
-            run.warn(run.apply(run.timeline.slow_down(stamp, shortfall)))
+        if shortfall := run.budget.shortfall:
+            run.host.warn(run.apply(run.timeline.slow_down(stamp, shortfall)))
 
-    def pause(self, run: Paced, paused: bool) -> str:
-        """Stop the motion, or continue it."""
+    def pause(self, run: "Simulation", paused: bool) -> str:
+        """Stop the motion, or continue it; return the verdict."""
         return run.apply(run.timeline.pause(run.stamp, paused))
 
-    def step(self, run: Paced, duration: float) -> str:
-        """Advance a paused motion."""
+    def step(self, run: "Simulation", duration: float) -> str:
+        """Advance a paused motion by a duration in s; return the verdict."""
         return run.apply(run.timeline.step(run.stamp, duration))
+
+
+def warn_of_end(run: "Simulation", change: Change) -> None:
+    """Pause a motion that cannot continue."""
+    run.host.warn(f"the motion becomes too fast for doubles: {run.apply(change)}")
 
 
 class RunClock:
@@ -176,14 +99,14 @@ class RunClock:
     is_simulated = False
 
     def __init__(self, real: Clock, factor: float) -> None:
-        self._real, self._running = real, True
+        self._real, self.is_running = real, True
         self._time, self._since = 0, real.now  # ns of the run, and the real time at which it was so
         self.factor = factor  # seconds of the run per second of real time
 
     @property
     def now(self) -> int:
         """Current time in ns."""
-        passed = self._real.now - self._since if self._running else 0
+        passed = self._real.now - self._since if self.is_running else 0
         return self._time + int(passed * self.factor)
 
     def set_factor(self, factor: float) -> None:
@@ -198,25 +121,22 @@ class RunClock:
     def stop(self, time: int) -> None:
         """Stand still at a time (ns)."""
         self.set(time)
-        self._running = False
+        self.is_running = False
 
     def start(self) -> None:
         """Continue from where it stands."""
         self.set(self._time)
-        self._running = True
-
-    def seconds_until(self, stamp: int) -> float | None:
-        """Return the seconds of real time until a stamp (ns); None while it stands still."""
-        return (stamp - self.now) / NANOSECONDS / self.factor if self._running else None
+        self.is_running = True
 
 
-class RunTime:
-    """The elapsed time of a run; see `Time`. The factor of its segments is 1."""
+class RunTime(Time):
+    """The elapsed time of a run. The factor of its segments is 1."""
 
+    clock: RunClock
     can_jump = False  # no other program sets this clock
 
     def __init__(self, real: Clock, factor: float) -> None:
-        self.clock = RunClock(real, factor)
+        super().__init__(RunClock(real, factor))
 
     @property
     def catch_up(self) -> float:
@@ -234,7 +154,8 @@ class RunTime:
 
     def seconds_until(self, stamp: int) -> float | None:
         """Return the seconds of real time until a stamp; None in a pause."""
-        return self.clock.seconds_until(stamp)
+        wait = (stamp - self.clock.now) / NANOSECONDS / self.clock.factor
+        return wait if self.clock.is_running else None
 
     def hold(self, stamp: int) -> None:
         """Wait for a process that was stopped, so that no sample is missed."""
@@ -242,14 +163,14 @@ class RunTime:
         if late > 0:
             self.clock.set(self.clock.now - late)
 
-    def prepare(self, run: Paced, stamp: int) -> bool:
+    def prepare(self, run: "Simulation", stamp: int) -> bool:
         """Work towards a stamp; return True if its state is ready."""
         ready = run.budget.prepare(run.segment, stamp, self.clock.factor)
         if run.budget.end is not None:
             self._end(run, run.budget.end)
         return ready
 
-    def _end(self, run: Paced, reached: float) -> None:
+    def _end(self, run: "Simulation", reached: float) -> None:
         """Bring a motion that cannot continue to its last time in s, and pause it there."""
         before = run.stamp
         self._bring_forward(run, reached)
@@ -257,12 +178,12 @@ class RunTime:
             self._stop(run)
             warn_of_end(run, run.timeline.stop(run.stamp, reached))
 
-    def _stop(self, run: Paced) -> None:
+    def _stop(self, run: "Simulation") -> None:
         """Let the time stand still: what is changed from now on acts 1 ns after the last sample."""
         self.clock.stop(max(run.last, run.segment.stamp - 1))
         run.restart_grid(self.clock.now + 1)
 
-    def integrate_to(self, run: Paced, stamp: int) -> bool:
+    def integrate_to(self, run: "Simulation", stamp: int) -> bool:
         """Work for some ms until the state at a stamp is ready; else a nearer stamp is the next."""
         for _ in range(CALLS):
             if self.prepare(run, stamp):
@@ -274,16 +195,15 @@ class RunTime:
             pass
         return False
 
-    def check_pace(self, run: Paced, stamp: int) -> None:
+    def check_pace(self, run: "Simulation", stamp: int) -> None:
         """Slow the time down if the motion cannot be followed; a sample shows what was reached."""
-        shortfall = run.budget.shortfall
-        if shortfall:
+        if shortfall := run.budget.shortfall:
             self._bring_forward(run, shortfall.reached)
             change = run.timeline.set_pace(run.stamp, self.clock.factor, shortfall.factor)
-            run.warn(run.apply(change))
+            run.host.warn(run.apply(change))
             self.clock.set_factor(shortfall.factor)
 
-    def _bring_forward(self, run: Paced, reached: float) -> None:
+    def _bring_forward(self, run: "Simulation", reached: float) -> None:
         """Let the next stamp be that of a time (s of the motion) that is integrated."""
         segment = run.segment
         stamp = max(run.last + 1, segment.stamp, segment.stamp_at(reached))
@@ -292,7 +212,7 @@ class RunTime:
             if self.clock.now > stamp:
                 self.clock.set(stamp)
 
-    def pause(self, run: Paced, paused: bool) -> str:
+    def pause(self, run: "Simulation", paused: bool) -> str:
         """Stop the motion and its time, or continue both."""
         if paused:
             self._stop(run)
@@ -302,7 +222,7 @@ class RunTime:
             self.clock.start()
         return verdict
 
-    def step(self, run: Paced, duration: float) -> str:
+    def step(self, run: "Simulation", duration: float) -> str:
         """Advance a paused motion and its time, with one sample at the end."""
         now = self.clock.now + round(duration * NANOSECONDS)
         if now == self.clock.now:

@@ -47,9 +47,12 @@ def number(
     condition = describe_range(low, high, unit) if bounded else f"a finite number ({unit})"
     if isinstance(value, str) and NUMBER.fullmatch(value):
         value = float(value)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise reject(name, condition, value)
-    if not low <= value <= high or not math.isfinite(value):
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, int | float)
+        or not low <= value <= high
+        or not math.isfinite(value)
+    ):
         raise reject(name, condition, value)
     return float(value)
 

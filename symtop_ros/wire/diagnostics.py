@@ -13,7 +13,7 @@ from dataclasses import asdict, fields, is_dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from symtop_ros.wire.layout import NANOSECONDS, Reader, Writer
+from symtop_ros.wire.layout import Reader, Writer
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -39,9 +39,7 @@ def encode_statuses(
 ) -> bytes:
     """Encode an array of statuses of one piece of hardware."""
     writer = Writer()
-    seconds, nanoseconds = divmod(stamp, NANOSECONDS)
-    writer.integer(seconds, "i")
-    writer.integer(nanoseconds)
+    writer.stamp(stamp)
     writer.string(frame)
     writer.integer(len(statuses))
     for status in statuses:
@@ -58,7 +56,7 @@ def encode_statuses(
 def decode_statuses(data: bytes) -> list[Status]:
     """Decode an array of statuses."""
     reader = Reader(data)
-    stamp = reader.integer("i") * NANOSECONDS + reader.integer("I")
+    stamp = reader.stamp()
     reader.string()
     return [_decode_status(reader, stamp) for _ in range(reader.count())]
 
@@ -76,7 +74,7 @@ def write_text(value: Any) -> str:
         return str(value).lower()
     if isinstance(value, Sequence) and not isinstance(value, str):
         return " ".join(each if isinstance(each, str) else repr(float(each)) for each in value)
-    return repr(value) if isinstance(value, float) else str(value)
+    return repr(float(value)) if isinstance(value, float) else str(value)
 
 
 def write_fields(prefix: str, record: "DataclassInstance") -> dict[str, str]:

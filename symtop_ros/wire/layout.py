@@ -141,6 +141,12 @@ class Writer:
         self._data += bytes(-(len(self._data) - len(HEADER)) % struct.calcsize(f"<{code}"))
         self._data += struct.pack(f"<{code}", value)
 
+    def stamp(self, stamp: int) -> None:
+        """Append a stamp (ns): seconds and nanoseconds."""
+        seconds, nanoseconds = divmod(stamp, NANOSECONDS)
+        self.integer(seconds, "i")
+        self.integer(nanoseconds)
+
     def number(self, value: float) -> None:
         """Append a double."""
         self._data += bytes(-(len(self._data) - len(HEADER)) % 8) + struct.pack("<d", value)
@@ -174,6 +180,10 @@ class Reader:
         self._align(size)
         (value,) = struct.unpack(f"<{code}", self._take(size))
         return int(value)
+
+    def stamp(self) -> int:
+        """Return a stamp in ns."""
+        return self.integer("i") * NANOSECONDS + self.integer()
 
     def number(self) -> float:
         """Return a double."""

@@ -6,13 +6,13 @@ Doubles are in the order of the message: quaternions x, y, z, w; linear (or forc
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.wire.layout import (
-    NANOSECONDS,
     Count,
     DecodeError,
     Doubles,
@@ -43,7 +43,7 @@ class Format:
     @property
     def width(self) -> int:
         """Number of doubles in a message."""
-        return _width(self.quantities)
+        return max(int(place.stop) for place in self.quantities.values())
 
 
 def _place(**sizes: int) -> dict[str, slice]:
@@ -54,14 +54,11 @@ def _place(**sizes: int) -> dict[str, slice]:
     }
 
 
-def _width(quantities: Mapping[str, slice]) -> int:
-    return max(int(place.stop) for place in quantities.values())
-
-
-def _read_frame(data: bytes) -> tuple[str, ...]:
+def _read_names(integers: int, count: int, data: bytes) -> tuple[str, ...]:
+    """Return names that follow some integers: those of the stamp, and lengths."""
     reader = Reader(data)
-    reader.skip(4, 2)  # stamp
-    return (reader.string(),)
+    reader.skip(4, integers)
+    return tuple(reader.string() for _ in range(count))
 
 
 def _read_joints(data: bytes) -> tuple[str, ...]:
@@ -71,18 +68,6 @@ def _read_joints(data: bytes) -> tuple[str, ...]:
     if len(names) != len(JOINTS):
         raise DecodeError(f"JointState must have {len(JOINTS)} joints, got {len(names)}")
     return (frame, *names)
-
-
-def _read_transform_frames(data: bytes) -> tuple[str, ...]:
-    reader = Reader(data)
-    reader.skip(4, 3)  # number of transforms, stamp
-    return reader.string(), reader.string()
-
-
-def _read_frame_and_child(data: bytes) -> tuple[str, ...]:
-    reader = Reader(data)
-    reader.skip(4, 2)
-    return reader.string(), reader.string()
 
 
 def _joint_state(frame: str, *names: str) -> Layout:
@@ -102,12 +87,11 @@ def _joint_state(frame: str, *names: str) -> Layout:
 
 def define_stamped(message_type: str, **sizes: int) -> Format:
     """Return the format of a type that consists of a header and some quantities."""
-    quantities = _place(**sizes)
 
     def layout(frame: str) -> Layout:
-        return Layout(Stamp(), Text(frame), Doubles(_width(quantities)))
+        return Layout(Stamp(), Text(frame), Doubles(sum(sizes.values())))
 
-    return Format(message_type, quantities, layout, _read_frame)
+    return Format(message_type, _place(**sizes), layout, partial(_read_names, 2, 1))
 
 
 QUATERNION = define_stamped("geometry_msgs/msg/QuaternionStamped", orientation=4)
@@ -130,13 +114,13 @@ TRANSFORM = Format(  # tf2_msgs/TFMessage with one transform
     "tf2_msgs/msg/TFMessage",
     _place(translation=3, rotation=4),
     lambda frame, child: Layout(Count(1), Stamp(), Text(frame), Text(child), Doubles(7)),
-    _read_transform_frames,
+    partial(_read_names, 3, 2),
 )
 ODOMETRY = Format(
     "nav_msgs/msg/Odometry",
     _place(position=3, orientation=4, pose_covariance=36, linear=3, angular=3, twist_covariance=36),
     lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(85)),
-    _read_frame_and_child,
+    partial(_read_names, 2, 2),
 )
 CLOCK = Layout(Stamp())  # rosgraph_msgs/Clock
 
@@ -156,9 +140,7 @@ def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
     writer = Writer()
     writer.integer(len(transforms))
     for each in transforms:
-        seconds, nanoseconds = divmod(stamp, NANOSECONDS)
-        writer.integer(seconds, "i")
-        writer.integer(nanoseconds)
+        writer.stamp(stamp)
         writer.string(each.parent)
         writer.string(each.child)
         for number in (*each.translation, *each.rotation):

@@ -9,8 +9,6 @@ from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction, State, Top
 from symtop_ros.playback.main import main
-from symtop_ros.simulation.topics import STATE_TOPICS
-from symtop_ros.wire.messages import decode_messages
 
 EPS = np.finfo(float).eps
 
@@ -54,57 +52,47 @@ def test_a_log_with_other_friction_than_its_events_is_detected(tmp_path):
 @pytest.mark.parametrize("name", list(LAYOUTS))
 @pytest.mark.parametrize("size", [1e-9, 1.0, np.nan])
 def test_one_wrong_number_is_found(name, size, tmp_path):
+    def falsify(numbers):
+        wrong = numbers[-1] * (1 + size) if numbers[-1] else size
+        return np.append(numbers[:-1], wrong)
+
     run = Run()
-    k = [k for k, each in enumerate(run.messages) if each[0] == name][100]
-    _, stamp, data = run.messages[k]
-    ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
-    numbers = found.numbers[0].copy()
-    wrong = numbers[-1] * (1 + size) if numbers[-1] else size
-    numbers[-1] = wrong
-    run.messages[k] = name, stamp, LAYOUTS[name].encode(stamp, numbers.tolist())
+    run.change(run.places(name)[100], falsify)
     deviations = deviations_of(run, tmp_path)
     assert not deviations[name].is_rounding
     assert all(each.largest == 0.0 for other, each in deviations.items() if other != name)
 
 
 def test_rounding_of_another_version_is_accepted_in_angles_alone(tmp_path):
-    run = Run()
-    run.messages = [
-        (name, stamp, _perturb(name, stamp, data) if name in LAYOUTS else data)
-        for name, stamp, data in run.messages
-    ]
-    for name, deviation in deviations_of(run, tmp_path).items():
+    for name, deviation in deviations_of(perturb(Run()), tmp_path).items():
         assert 0 < deviation.relative < BOUND
         assert deviation.is_rounding == (name == "euler_angles")
 
 
 def test_rounding_is_accepted_in_a_driven_motion(tmp_path):
-    run = Run(friction=Friction(1e-6, 1e-6))
-    run.messages = [
-        (name, stamp, _perturb(name, stamp, data) if name in LAYOUTS else data)
-        for name, stamp, data in run.messages
-    ]
+    run = perturb(Run(friction=Friction(1e-6, 1e-6)))
     assert all(deviation.is_rounding for deviation in deviations_of(run, tmp_path).values())
 
 
-def _perturb(name, stamp, data):
-    ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
-    return LAYOUTS[name].encode(stamp, (found.numbers[0] * (1 + 4 * EPS)).tolist())
+def perturb(run):
+    """Change all numbers of a run in their last bits."""
+    for place, (name, *_) in enumerate(run.messages):
+        if name in LAYOUTS:
+            run.change(place, lambda numbers: numbers * (1 + 4 * EPS))
+    return run
 
 
 def test_an_angle_that_is_a_turn_off_is_the_same_angle(tmp_path):
     run = Run()
-    for k, (name, stamp, data) in enumerate(run.messages):
-        if name == "euler_angles":
-            ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
-            turned = found.numbers[0] + np.array([2 * np.pi, 0, -2 * np.pi, 0, 0, 0])
-            run.messages[k] = name, stamp, LAYOUTS[name].encode(stamp, turned.tolist())
+    turn = np.array([2 * np.pi, 0, -2 * np.pi, 0, 0, 0])
+    for place in run.places("euler_angles"):
+        run.change(place, lambda numbers: numbers + turn)
     assert deviations_of(run, tmp_path)["euler_angles"].is_rounding
 
 
 def test_samples_before_the_first_event_are_counted_and_not_checked(tmp_path):
     run = Run()
-    run.messages = [each for k, each in enumerate(run.messages) if each[0] != "events" or k > 0]
+    del run.messages[0]
     deviations = deviations_of(run, tmp_path)
     assert {each.unchecked for each in deviations.values()} == {200}
     assert {each.samples for each in deviations.values()} == {200}
@@ -112,7 +100,7 @@ def test_samples_before_the_first_event_are_counted_and_not_checked(tmp_path):
 
 def test_an_event_that_arrives_after_its_first_samples_still_governs_them(tmp_path):
     run = Run()
-    k = [k for k, each in enumerate(run.messages) if each[0] == "events"][1]
+    k = run.places("events")[1]
     kick = run.messages.pop(k)
     run.messages.insert(k + 20, kick)  # some samples late, as a recorder of arrivals may log it
     assert all(each.largest == 0.0 for each in deviations_of(run, tmp_path).values())
@@ -120,14 +108,12 @@ def test_an_event_that_arrives_after_its_first_samples_still_governs_them(tmp_pa
 
 @pytest.mark.parametrize("name", list(LAYOUTS))
 def test_one_flipped_bit_of_a_sample_is_damage_however_small_the_difference(name, tmp_path):
+    def flip(numbers):
+        largest = np.abs(numbers) == np.abs(numbers).max()
+        return np.where(largest, np.nextafter(numbers, np.inf), numbers)
+
     run = Run()
-    k = [k for k, each in enumerate(run.messages) if each[0] == name][100]
-    _, stamp, data = run.messages[k]
-    ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
-    numbers = found.numbers[0].copy()
-    place = int(np.argmax(np.abs(numbers)))
-    numbers[place] = np.nextafter(numbers[place], np.inf)  # its last bit
-    run.messages[k] = name, stamp, LAYOUTS[name].encode(stamp, numbers.tolist())
+    run.change(run.places(name)[100], flip)
     deviation = deviations_of(run, tmp_path)[name]
     assert (deviation.differing, deviation.relative < BOUND) == (1, True)
     assert not deviation.is_rounding
@@ -135,7 +121,7 @@ def test_one_flipped_bit_of_a_sample_is_damage_however_small_the_difference(name
 
 def test_a_message_with_another_frame_is_damage(tmp_path):
     run = Run()
-    k = [k for k, each in enumerate(run.messages) if each[0] == "torque"][7]
+    k = run.places("torque")[7]
     _, stamp, data = run.messages[k]
     run.messages[k] = "torque", stamp, data.replace(b"world", b"vorld")
     log = TopLog(McapFile(run.write(tmp_path)))

@@ -1,3 +1,6 @@
+import subprocess
+import sys
+
 import pytest
 
 from symtop_ros.client.main import UsageError, parse_values
@@ -25,3 +28,11 @@ def test_invalid_words_are_refused(words, sentence):
     with pytest.raises(UsageError) as error:
         parse_values(words)
     assert sentence in str(error.value)
+
+
+def test_it_is_imported_where_there_are_no_terminals():
+    """As on Windows: only `top_ctl keys` needs them."""
+    program = (
+        "import sys; sys.modules.update(termios=None, tty=None); import symtop_ros.client.main"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)

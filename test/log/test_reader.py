@@ -26,6 +26,13 @@ def good(tmp_path_factory):
     return RUN.write(tmp_path_factory.mktemp("logs"))
 
 
+def save(folder, data):
+    """A file of these bytes."""
+    path = folder / "odd.mcap"
+    path.write_bytes(data)
+    return path
+
+
 def read(path):
     file = McapFile(path)
     return file, [
@@ -48,9 +55,7 @@ def test_a_good_file_is_read_whole_and_in_order(good):
 def test_a_file_cut_at_any_byte_gives_all_whole_chunks_and_says_so(good, tmp_path_factory, data):
     whole = good.read_bytes()
     size = data.draw(st.integers(8, len(whole) - 1))
-    path = tmp_path_factory.mktemp("cut") / "cut.mcap"
-    path.write_bytes(whole[:size])
-    file, messages = read(path)
+    file, messages = read(save(tmp_path_factory.mktemp("cut"), whole[:size]))
     assert messages == RUN.messages[: len(messages)]
     missing = len(messages) < len(RUN.messages)
     assert len(file.problems) == (1 if missing or size < _end_of_data(whole) else 0)
@@ -70,9 +75,7 @@ def test_a_flipped_bit_costs_a_chunk_at_most_and_is_never_taken_for_a_number(goo
     for _ in range(150):
         damaged = bytearray(whole)
         damaged[rng.randrange(8, len(damaged))] ^= 1 << rng.randrange(8)
-        path = tmp_path / "damaged.mcap"
-        path.write_bytes(damaged)
-        file, messages = read(path)
+        file, messages = read(save(tmp_path, damaged))
         # log times stand in the chunk and under its CRC, like everything else of a message
         assert set(messages) <= set(RUN.messages)
         if len(messages) < len(RUN.messages):
@@ -85,9 +88,7 @@ def test_a_damaged_chunk_is_told_with_its_times_and_the_count_of_its_messages(go
     whole = bytearray(good.read_bytes())
     chunk = whole.index(b"zstd", len(whole) // 2)  # in the header of a chunk
     whole[chunk + 200] ^= 0xFF
-    path = tmp_path / "damaged.mcap"
-    path.write_bytes(whole)
-    file, messages = read(path)
+    file, messages = read(save(tmp_path, whole))
     lost = len(RUN.messages) - len(messages)
     times = [stamp for _, stamp, _ in sorted(set(RUN.messages) - set(messages), key=lambda m: m[1])]
     first, last = ((stamp - BEGIN) * 1e-9 for stamp in (times[0], times[-1]))
@@ -100,9 +101,7 @@ def test_a_nonsense_length_in_the_middle_is_passed_over_by_the_index(good, tmp_p
     chunk = whole.index(b"zstd", len(whole) // 4)
     length = chunk - 4 - 8 - 4 - 8 - 8 - 8  # in front: name, sizes, crc, times
     struct.pack_into("<Q", whole, length, 2**60)
-    path = tmp_path / "damaged.mcap"
-    path.write_bytes(whole)
-    file, messages = read(path)
+    file, messages = read(save(tmp_path, whole))
     assert 0 < len(messages) < len(RUN.messages)
     assert messages[-1] == RUN.messages[-1]  # what comes behind it is there
     assert any("are damaged: messages after" in problem for problem in file.problems)
@@ -110,10 +109,8 @@ def test_a_nonsense_length_in_the_middle_is_passed_over_by_the_index(good, tmp_p
 
 @pytest.mark.parametrize("data", [b"", b"\x89MCAP", b"PK\3\4" + bytes(100), b"\0" * 1000])
 def test_other_files_are_refused(data, tmp_path):
-    path = tmp_path / "other.mcap"
-    path.write_bytes(data)
-    with pytest.raises(LogError, match=r"cannot open \S+other\.mcap: not an MCAP file"):
-        McapFile(path)
+    with pytest.raises(LogError, match=r"cannot open \S+odd\.mcap: not an MCAP file"):
+        McapFile(save(tmp_path, data))
 
 
 def test_a_file_that_is_not_there_and_a_folder_are_refused(tmp_path):
@@ -130,8 +127,7 @@ def test_a_chunk_that_unpacks_to_far_more_than_it_says_is_damaged(compression, t
     bomb = pack(bytes(size))
     builder = RecordBuilder()
     Chunk(compression, bomb, 0, 1, zlib.crc32(b""), 1000).write(builder)
-    path = tmp_path / "bomb.mcap"
-    path.write_bytes(reader.MAGIC + builder.end())
+    path = save(tmp_path, reader.MAGIC + builder.end())
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     file, messages = read(path)
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before  # KiB
@@ -143,8 +139,7 @@ def test_a_chunk_that_unpacks_to_far_more_than_it_says_is_damaged(compression, t
 def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path):
     builder = RecordBuilder()
     Chunk("", b"x", 0, 1, 0, 2**62).write(builder)
-    path = tmp_path / "huge.mcap"
-    path.write_bytes(reader.MAGIC + builder.end())
+    path = save(tmp_path, reader.MAGIC + builder.end())
     assert any("a chunk is damaged" in problem for problem in read(path)[0].problems)
 
 
@@ -168,11 +163,8 @@ def test_files_of_other_writers_are_read(chunked, compression, tmp_path):
 @settings(max_examples=200)
 @given(st.binary(max_size=300))
 def test_any_bytes_behind_the_magic_are_read_or_told(tmp_path_factory, data):
-    path = tmp_path_factory.mktemp("any") / "any.mcap"
-    path.write_bytes(reader.MAGIC + data)
-    file = McapFile(path)
-    for _ in file.chunks():
-        pass
+    file = McapFile(save(tmp_path_factory.mktemp("any"), reader.MAGIC + data))
+    list(file.chunks())
     assert all(problem for problem in file.problems)
 
 
@@ -180,9 +172,7 @@ def test_a_chunk_whose_header_is_damaged_is_reported(good, tmp_path):
     whole = bytearray(good.read_bytes())
     chunk = whole.index(b"zstd", len(whole) // 4)  # the length of this name stands before it
     struct.pack_into("<I", whole, chunk - 4, 4 + 2**14)
-    path = tmp_path / "damaged.mcap"
-    path.write_bytes(whole)
-    file, messages = read(path)
+    file, messages = read(save(tmp_path, whole))
     assert 0 < len(messages) < len(RUN.messages)
     assert any(problem.endswith(" is damaged") for problem in file.problems)
 

@@ -11,8 +11,9 @@ from mcap.reader import make_reader
 
 from symtop_ros.log import recorder as module
 from symtop_ros.log.reader import McapFile
-from symtop_ros.log.recorder import Limits, Recorder
+from symtop_ros.log.recorder import Recorder
 from symtop_ros.log.writer import MAGIC
+from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.topics import Topic
 
 TIMEOUT = 60.0
@@ -20,8 +21,8 @@ LATCHED = Topic("/latched", "std_msgs/msg/String", latched=True)
 PLAIN = Topic("/plain", "std_msgs/msg/String")
 
 
-def create(folder, limits=None):
-    recorder = Recorder(folder, limits or Limits())
+def create(folder, **limits):
+    recorder = Recorder(RecordSettings(True, str(folder), **limits))
     recorder.add_channel("/latched", LATCHED)
     recorder.add_channel("/plain", PLAIN)
     return recorder
@@ -81,7 +82,7 @@ def test_a_file_begins_with_the_current_latched_messages(tmp_path):
 
 
 def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp_path):
-    recorder = create(tmp_path, Limits(duration=1.0))
+    recorder = create(tmp_path, max_duration=1.0)
     path = recorder.start({"scene": "x"})
     recorder.add(0, 0, b"latched")
     for stamp in (0, 1_100_000_000):
@@ -98,7 +99,7 @@ def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp
 
 
 def test_a_recording_that_ends_between_two_files_leaves_none_without_messages(tmp_path):
-    recorder = create(tmp_path, Limits(duration=1.0))
+    recorder = create(tmp_path, max_duration=1.0)
     path = recorder.start({})
     for stamp in (0, 2 * 10**9):
         recorder.add(1, stamp, b"x")
@@ -115,7 +116,7 @@ def is_finished(path):
 
 
 def test_a_file_that_is_large_enough_is_followed_by_another(tmp_path):
-    recorder = create(tmp_path, Limits(size=20_000))
+    recorder = create(tmp_path, max_size=20_000)
     recorder.start({})
     count = 0
     while len(list(tmp_path.iterdir())) < 3:
@@ -129,7 +130,7 @@ def test_a_file_that_is_large_enough_is_followed_by_another(tmp_path):
 
 
 def test_a_limit_below_the_size_of_an_empty_file_loses_nothing_and_ends(tmp_path):
-    recorder = create(tmp_path, Limits(size=1))
+    recorder = create(tmp_path, max_size=1)
     recorder.start({})
     for stamp in range(100):
         recorder.add(1, stamp, b"x")

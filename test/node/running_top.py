@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
+from geometry_msgs.msg import WrenchStamped
 from rclpy.clock_type import ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
@@ -142,6 +143,14 @@ class _SharedConnection(Connection):
     def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
         self._running.spin_until(done, timeout)
         return done()
+
+
+def torque_of(x: float = 0.0, y: float = 0.0, z: float = 0.0, frame: str = "") -> WrenchStamped:
+    """The message of a torque in N m."""
+    message = WrenchStamped()
+    message.header.frame_id, torque = frame, message.wrench.torque
+    torque.x, torque.y, torque.z = x, y, z
+    return message
 
 
 def stamp_of(message: Any) -> int:

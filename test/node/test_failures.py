@@ -7,12 +7,13 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
-from node.running_top import LATCHED
+from node.running_top import LATCHED, torque_of
 from programs import environment
 
 from symtop_ros.session.outputs import Output, Outputs
-from symtop_ros.simulation.changes.outcomes import Failure, describe
+from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.wording import write
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
@@ -20,7 +21,7 @@ BUG = "ZeroDivisionError: by a bug"
 
 
 def report_of(action):
-    return describe("failure", Failure(action, "ZeroDivisionError", "by a bug"))
+    return write("failure", Failure(action, "ZeroDivisionError", "by a bug"))
 
 
 def fail(*_):
@@ -55,10 +56,7 @@ def assert_keeps_running(run):
 
 
 def push(run):
-    publisher = run.publisher(WrenchStamped, "/top/applied_torque")
-    message = WrenchStamped()
-    message.wrench.torque.z = 1e-4
-    publisher.publish(message)
+    run.publisher(WrenchStamped, "/top/applied_torque").publish(torque_of(z=1e-4))
 
 
 def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(

@@ -27,11 +27,7 @@ def test_help_names_the_scenes():
         (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz must be "),
         (["--ros-args", "-p", "scene:=x"], 1, "scene must be "),
         (["--ros-args", "-p", "publish_tf:=1"], 1, "publish_tf must be "),
-        (
-            ["--ros-args", "-p", "top_frame:=/top"],
-            1,
-            "top_frame must be ",
-        ),
+        (["--ros-args", "-p", "top_frame:=/top"], 1, "top_frame must be "),
         (
             ["--ros-args", "-p", "steady_torque:=[0, 0, 0.0001]"],
             1,

@@ -11,7 +11,7 @@ from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from hypothesis import given
 from hypothesis import strategies as st
 from node.odd_messages import parameters
-from node.running_top import RunningTop, stamp_of
+from node.running_top import RunningTop, stamp_of, torque_of
 from odd_values import CONTROL, NUMBERS, SIZES, assert_one_sentence, deterministic, trials
 from rcl_interfaces.msg import Parameter, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
@@ -80,11 +80,7 @@ class Watched(RunningTop):
         assert self.top.failure is None
 
     def push(self, numbers, frame):
-        message = WrenchStamped()
-        message.header.frame_id = frame
-        torque = message.wrench.torque
-        torque.x, torque.y, torque.z = numbers
-        self.hand.publish(message)
+        self.hand.publish(torque_of(*numbers, frame))
 
 
 def _parameter(name, value):

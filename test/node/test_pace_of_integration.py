@@ -9,14 +9,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
-from node.running_top import (
-    LATCHED,
-    assert_recomputed,
-    events_named,
-    facts,
-    stamp_of,
-    status_of,
-)
+from node.running_top import LATCHED, assert_recomputed, events_named, facts, stamp_of, status_of
 from programs import running_node
 
 from workshop.load.domains import claim_domain

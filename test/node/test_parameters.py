@@ -90,11 +90,11 @@ def test_a_scene_starts_the_motion_that_its_name_promises(start_top, scene, kind
         ({"initial__theta": float("nan")}, "initial.theta must be 0 to 3.14159 rad, got nan"),
         (
             {"initial__precession": "odd"},
-            ('initial.precession must be "" or "slow" or "fast", got \'odd\''),
+            'initial.precession must be "" or "slow" or "fast", got \'odd\'',
         ),
         (
             {"initial__orientation": [1.0, 2.0]},
-            ("initial.orientation must have 4 elements (x, y, z, w), got 2"),
+            "initial.orientation must have 4 elements (x, y, z, w), got 2",
         ),
         (
             {"initial__angular_velocity": [0.0, 0.0, 1.0]},

@@ -15,7 +15,7 @@ from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from node.listener import Listener
-from node.running_top import LATCHED, facts, stamp_of, status_of
+from node.running_top import LATCHED, facts, stamp_of, status_of, torque_of
 from programs import command, environment
 from rclpy.parameter import Parameter
 from rosbags.highlevel import AnyReader
@@ -55,6 +55,13 @@ def stop_and_read(run):
     granted, _ = run.switch("record", False)
     assert granted
     return run.last_log
+
+
+def assert_part_is_exact(path):
+    """Check one file of several, which may end between the messages of a sample."""
+    log = TopLog(McapFile(path))
+    assert all(each.largest == 0.0 and not each.unchecked for each in check_log(log).values())
+    assert log.problems == []
 
 
 @pytest.mark.realtime
@@ -161,13 +168,7 @@ def test_a_run_with_everything_in_it_is_computed_again_from_its_log(start_top, t
         granted, answer = act()
         assert granted, answer
         wait_for_samples()
-    log = TopLog(McapFile(stop_and_read(run)))
-    deviations = check_log(log)
-    assert set(deviations) == {*STATES, "tf"}
-    for deviation in deviations.values():
-        assert deviation.samples > 200
-        assert (deviation.largest, deviation.unchecked) == (0.0, 0)
-    assert log.problems == []
+    assert assert_exact(stop_and_read(run)) > 200
 
 
 def test_a_log_that_begins_in_the_middle_of_a_run_can_be_checked_alone(start_top, tmp_path):
@@ -180,10 +181,7 @@ def test_a_log_that_begins_in_the_middle_of_a_run_can_be_checked_alone(start_top
     run.spin_until(lambda: run.now > third + 10**8)  # 20 samples in the third file
     stop_and_read(run)
     for path in tmp_path.iterdir():
-        log = TopLog(McapFile(path))
-        deviations = check_log(log)
-        assert all(each.largest == 0.0 and not each.unchecked for each in deviations.values())
-        assert log.problems == []
+        assert_part_is_exact(path)
 
 
 def test_a_log_that_is_large_enough_is_followed_by_another(start_top, tmp_path):
@@ -193,9 +191,7 @@ def test_a_log_that_is_large_enough_is_followed_by_another(start_top, tmp_path):
     first, second, _ = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
     for path in (first, second):
         assert path.stat().st_size > 50_000
-        log = TopLog(McapFile(path))
-        assert all(each.largest == 0.0 and not each.unchecked for each in check_log(log).values())
-        assert log.problems == []
+        assert_part_is_exact(path)
 
 
 def test_a_folder_that_cannot_be_written_is_refused_and_the_motion_goes_on(start_top, tmp_path):
@@ -285,9 +281,7 @@ def test_a_log_holds_applied_torques_as_they_were_received(start_top, tmp_path):
     heard = run.collect(WrenchStamped, "/top/applied_torque", raw=True)
     hand = run.publisher(WrenchStamped, "/top/applied_torque")
     for frame, size in (("world", 2e-4), ("elsewhere", 1.0), ("", 1e-4)):
-        message = WrenchStamped()
-        message.header.frame_id, message.wrench.torque.z = frame, size
-        hand.publish(message)
+        hand.publish(torque_of(z=size, frame=frame))
         count = len(heard)
         run.spin_until(lambda: len(heard) > count)  # noqa: B023
     run.spin_until(lambda: any("0.0 0.0 0.0001" in str(each) for each in events))
@@ -309,14 +303,12 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
         killed = time.time()
         os.kill(node.pid, signal.SIGKILL)
         node.wait()
-        log = TopLog(McapFile(path))
-        deviations = check_log(log)
-        assert set(deviations) == {*STATES, "tf"}
-        assert all(each.largest == 0.0 and not each.unchecked for each in deviations.values())
-        latest = max(message.log_time for chunk in McapFile(path).chunks() for message in chunk)
+        assert_exact(path)
+        file = McapFile(path)
+        latest = max(message.log_time for chunk in file.chunks() for message in chunk)
         assert killed - latest * 1e-9 < 0.6
-        assert len(log.problems) == 1
-        assert "messages after" in log.problems[0]
+        (problem,) = file.problems
+        assert "messages after" in problem
 
 
 def test_an_independent_reader_agrees_message_for_message(start_top, tmp_path):

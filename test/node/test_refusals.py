@@ -9,7 +9,8 @@ from node.running_top import LATCHED, segment_of, stamp_of
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 
-from symtop_ros.simulation.changes.outcomes import Failure, describe
+from symtop_ros.simulation.changes.outcomes import Failure
+from symtop_ros.wording import write
 
 START = "set_initial_conditions"
 IDENTITY = [0.0, 0.0, 0.0, 1.0]
@@ -18,53 +19,45 @@ UNDEFINED = (
 )
 REFUSED = {
     "unknown start field": (START, {"thetta": 0.5}, "field name must be one of theta, phi, psi,"),
-    "unknown kick field": (
-        "kick",
-        {"rate": 9.0},
-        "field name must be one of precession_rate,",
-    ),
-    "text for a number": (
-        START,
-        {"theta": "a lot"},
-        "theta must be 0 to 3.14159 rad, got 'a lot'",
-    ),
+    "unknown kick field": ("kick", {"rate": 9.0}, "field name must be one of precession_rate,"),
+    "text for a number": (START, {"theta": "a lot"}, "theta must be 0 to 3.14159 rad, got 'a lot'"),
     "flag for a number": (
         "kick",
         {"precession_rate": True},
-        ("precession_rate must be a finite number (rad/s), got True"),
+        "precession_rate must be a finite number (rad/s), got True",
     ),
     "number for a word": (
         START,
         {"precession": 1.0},
-        ('precession must be "slow" or "fast", got 1.0'),
+        'precession must be "slow" or "fast", got 1.0',
     ),
     "other word": (
         START,
         {"precession": "medium"},
-        ('precession must be "slow" or "fast", got \'medium\''),
+        'precession must be "slow" or "fast", got \'medium\'',
     ),
     "nan": (START, {"theta": math.nan}, "theta must be 0 to 3.14159 rad, got nan"),
     "infinity": (
         "kick",
         {"precession_rate": math.inf},
-        ("precession_rate must be a finite number (rad/s), got inf"),
+        "precession_rate must be a finite number (rad/s), got inf",
     ),
     "tilt below zero": (START, {"theta": -0.1}, "theta must be 0 to 3.14159 rad, got -0.1"),
     "tilt above pi": (START, {"theta": 3.2}, "theta must be 0 to 3.14159 rad, got 3.2"),
     "rate too large": (
         START,
         {"psi_dot": 1e12},
-        ("psi_dot must be -1e+09 to 1e+09 rad/s, got 1000000000000.0"),
+        "psi_dot must be -1e+09 to 1e+09 rad/s, got 1000000000000.0",
     ),
     "quaternion alone": (
         START,
         {"orientation": IDENTITY},
-        ("angular_velocity must be given together with orientation, got none"),
+        "angular_velocity must be given together with orientation, got none",
     ),
     "velocity alone": (
         START,
         {"angular_velocity": [0.0] * 3},
-        ("orientation must be given together with angular_velocity"),
+        "orientation must be given together with angular_velocity",
     ),
     "quaternion of norm 2": (
         START,
@@ -143,11 +136,7 @@ REFUSED = {
         "step must be requested while paused (~/pause), got it while running",
     ),
     "step of nothing": ("step", {}, "duration must be 0 to 1e+09 s, got none"),
-    "step backwards": (
-        "step",
-        {"duration": -1.0},
-        "duration must be 0 to 1e+09 s, got -1.0",
-    ),
+    "step backwards": ("step", {"duration": -1.0}, "duration must be 0 to 1e+09 s, got -1.0"),
 }
 
 
@@ -237,7 +226,7 @@ def test_a_request_with_an_unexpected_exception_is_reported_and_the_motion_keeps
     monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
     before = run.top.simulation.segment
     failure = Failure("~/hurry_precession", "ZeroDivisionError", "by a bug")
-    report = describe("failure", failure)
+    report = write("failure", failure)
     assert run.trigger("hurry_precession") == (False, report)
     run.spin_until(lambda: len(events) > 1)
     assert (events[-1].status[0].name, events[-1].status[0].message) == ("top: failure", report)

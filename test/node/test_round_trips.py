@@ -53,8 +53,7 @@ def test_an_override_of_qos_for_a_topic_that_there_is_not_is_warned_about(start_
 
 
 @pytest.mark.parametrize(
-    ("policy", "value"),
-    [("depth", -1), ("depth", "x"), ("reliability", "foo"), ("history", 3)],
+    ("policy", "value"), [("depth", -1), ("depth", "x"), ("reliability", "foo"), ("history", 3)]
 )
 def test_a_bad_override_of_qos_is_refused_in_one_line(start_top, policy, value, capfd):
     name = f"qos_overrides./top/orientation.publisher.{policy}"

@@ -89,10 +89,7 @@ def exact_log_of(run):
 
 def test_a_clock_that_goes_back_and_forth_among_kicks_leaves_the_log_exact(start_top, tmp_path):
     run = start_top(
-        use_sim_time=True,
-        publish_rate=100.0,
-        record__enabled=True,
-        record__directory=str(tmp_path),
+        use_sim_time=True, publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path)
     )
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     clock, chance = SimulatedClock(run), random.Random(1)
@@ -111,10 +108,7 @@ def test_a_clock_that_goes_back_and_forth_among_kicks_leaves_the_log_exact(start
 
 def test_when_the_clock_stops_for_good_requests_are_answered_and_the_log_ends(start_top, tmp_path):
     run = start_top(
-        use_sim_time=True,
-        publish_rate=100.0,
-        record__enabled=True,
-        record__directory=str(tmp_path),
+        use_sim_time=True, publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path)
     )
     clock = SimulatedClock(run)
     clock.run_from(50_000 * MS, 50)

@@ -20,43 +20,50 @@ def vector(message):
     return [message.x, message.y, message.z]
 
 
+# By the topic: its type, what a message says, and what the library says of a state of a motion.
+TOPICS = {
+    "orientation": (
+        QuaternionStamped,
+        lambda m: [m.quaternion.w, *vector(m.quaternion)],
+        lambda _, state: state.orientation.tolist(),
+    ),
+    "angular_velocity": (
+        TwistStamped,
+        lambda m: [vector(m.twist.angular), vector(m.twist.linear)],
+        lambda _, state: [state.to_world(state.angular_velocity).tolist(), [0.0, 0.0, 0.0]],
+    ),
+    "angular_momentum": (
+        Vector3Stamped,
+        lambda m: vector(m.vector),
+        lambda motion, state: motion.top.angular_momentum(state).tolist(),
+    ),
+    "torque": (
+        WrenchStamped,
+        lambda m: [vector(m.wrench.torque), vector(m.wrench.force)],
+        lambda motion, state: [
+            motion.top.gravity_torque(state).tolist(),
+            Body.of(motion.top).pivot_force(motion, state).tolist(),
+        ],
+    ),
+    "euler_angles": (
+        JointState,
+        lambda m: [m.name, *m.position, *m.velocity],
+        lambda _, state: [["precession", "tilt", "spin"], *state.euler_angles, *state.euler_rates],
+    ),
+}
+
+
 def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
     run = start_top(publish_rate=200.0)
-    topics = {
-        "orientation": QuaternionStamped,
-        "angular_velocity": TwistStamped,
-        "angular_momentum": Vector3Stamped,
-        "torque": WrenchStamped,
-        "euler_angles": JointState,
-    }
-    got = {name: run.collect(kind, f"/top/{name}") for name, kind in topics.items()}
+    got = {name: run.collect(kind, f"/top/{name}") for name, (kind, *_) in TOPICS.items()}
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     run.spin_until(lambda: events and all(len(messages) > 20 for messages in got.values()))
     segment = segment_of(events[0])
-    top = segment.motion.top
-    for index in range(5, 20):
-        message = got["orientation"][index]
-        state = segment.state_at(stamp_of(message))
-        q = message.quaternion
-        assert [q.w, q.x, q.y, q.z] == state.orientation.tolist()
-        assert message.header.frame_id == "world"
-        message = got["angular_velocity"][index]
-        state = segment.state_at(stamp_of(message))
-        assert vector(message.twist.angular) == state.to_world(state.angular_velocity).tolist()
-        assert vector(message.twist.linear) == [0.0, 0.0, 0.0]
-        message = got["angular_momentum"][index]
-        state = segment.state_at(stamp_of(message))
-        assert vector(message.vector) == top.angular_momentum(state).tolist()
-        message = got["torque"][index]
-        state = segment.state_at(stamp_of(message))
-        assert vector(message.wrench.torque) == top.gravity_torque(state).tolist()
-        force = Body.of(top).pivot_force(segment.motion, state)
-        assert vector(message.wrench.force) == force.tolist()
-        message = got["euler_angles"][index]
-        state = segment.state_at(stamp_of(message))
-        assert message.name == ["precession", "tilt", "spin"]
-        assert list(message.position) == list(state.euler_angles)
-        assert list(message.velocity) == list(state.euler_rates)
+    for name, (_, read, compute) in TOPICS.items():
+        for message in got[name][5:20]:
+            state = segment.state_at(stamp_of(message))
+            assert (name, read(message)) == (name, compute(segment.motion, state))
+            assert message.header.frame_id == "world"
 
 
 def test_stamps_are_exactly_one_period_apart_and_shared_by_all_topics(start_top):

@@ -14,6 +14,7 @@ from node.running_top import (
     segment_of,
     stamp_of,
     status_of,
+    torque_of,
 )
 
 from symtop_ros.physics import Friction
@@ -33,11 +34,7 @@ class Hand:
         self.publisher = run.publisher(WrenchStamped, "/top/applied_torque")
 
     def push(self, x=0.0, y=0.0, z=0.0, frame="world"):
-        message = WrenchStamped()
-        message.header.frame_id = frame
-        torque = message.wrench.torque
-        torque.x, torque.y, torque.z = x, y, z
-        self.publisher.publish(message)
+        self.publisher.publish(torque_of(x, y, z, frame))
 
 
 def start(start_top, **parameters):
@@ -129,12 +126,12 @@ def test_friction_and_torque_can_change_while_the_top_turns_and_the_run_is_recom
     [
         (
             {"x": float("nan")},
-            ("applied_torque must be 3 numbers from -1e+30 to 1e+30 (N m, world frame), got [nan"),
+            "applied_torque must be 3 numbers from -1e+30 to 1e+30 (N m, world frame), got [nan",
         ),
         ({"z": float("inf")}, "(N m, world frame), got [0.0, 0.0, inf]"),
         (
             {"z": 1.0, "frame": "top"},
-            ("applied_torque frame_id must be \"world\" or empty, got 'top'"),
+            "applied_torque frame_id must be \"world\" or empty, got 'top'",
         ),
     ],
 )
@@ -155,12 +152,12 @@ def test_a_bad_torque_is_reported_and_changes_nothing(start_top, capfd, push, se
         (
             "friction.transverse",
             float("nan"),
-            ("friction.transverse must be 0 to 1e+30 N m s, got nan"),
+            "friction.transverse must be 0 to 1e+30 N m s, got nan",
         ),
         (
             "steady_torque",
             [1.0, 2.0],
-            ("steady_torque must have 3 elements (N m, world frame), got 2"),
+            "steady_torque must have 3 elements (N m, world frame), got 2",
         ),
         ("applied_torque_timeout", 0.0, "applied_torque_timeout must be 0.001 to 1e+06 s, got 0.0"),
     ],

@@ -1,6 +1,7 @@
 """Logs that are sound as files and absurd in what they say: one sentence, soon and cheaply."""
 
 import itertools
+import re
 import resource
 import struct
 import time
@@ -29,21 +30,16 @@ SOON = 5.0  # s of processor time; all but some take milliseconds
 NUMBERS = st.floats().map(repr) | st.sampled_from(["1e12", "-1e18", "1e150", "9" * 5000, "0", ""])
 KEYS = ("top", "friction", "applied_torque", "after.orientation", "after.angular_velocity")
 MOTION = (
-    "orientation",
-    "angular_velocity",
-    "stamp",
-    "elapsed",
-    "elapsed_ns",
-    "real_time_factor",
-    "running",
+    *("orientation", "angular_velocity", "stamp", "elapsed", "elapsed_ns"),
+    *("real_time_factor", "running"),
 )
 ALL_KEYS = (*KEYS, *(f"motion.{name}" for name in MOTION))
 
 
-def with_event(folder, changes, friction=FRICTION, seconds=0.5):
-    """A log whose first event says something else."""
-    run = Run(seconds=seconds, rate=40.0, hurried=False, friction=friction)
-    place = next(k for k, each in enumerate(run.messages) if each[0] == "events")
+def with_event(folder, changes, number=0):
+    """A log of which one event, the start (0) or a kick (1), says something else."""
+    run = Run(seconds=0.5, rate=40.0, hurried=number > 0, friction=FRICTION)
+    place = run.places("events")[number]
     name, stamp, data = run.messages[place]
     (status,) = decode_statuses(data)
     values = {key: text for key, text in {**status.values, **changes}.items() if text is not None}
@@ -64,23 +60,13 @@ def asked(capsys, path, *way):
     return status, lines
 
 
+TOO_LONG = "120 samples cannot be checked: the motion is too fast or too long to integrate"
 ABSURD = {
-    ("motion.elapsed_ns", "1" + "0" * 21): (
-        "120 samples cannot be checked: the motion is too fast or too long to integrate"
-    ),
-    (
-        "motion.elapsed_ns",
-        "-1" + "0" * 21,
-    ): "120 samples cannot be checked: the motion is too fast or too long to integrate",
-    ("motion.stamp", "0"): (
-        "120 samples cannot be checked: the motion is too fast or too long to integrate"
-    ),
-    ("friction", "1e30 0.0"): (
-        "120 samples cannot be checked: the motion is too fast or too long to integrate"
-    ),
-    ("applied_torque", "1e300 0 0"): (
-        "120 samples cannot be checked: the motion is too fast or too long"
-    ),
+    ("motion.elapsed_ns", "1" + "0" * 21): TOO_LONG,
+    ("motion.elapsed_ns", "-1" + "0" * 21): TOO_LONG,
+    ("motion.stamp", "0"): TOO_LONG,
+    ("friction", "1e30 0.0"): TOO_LONG,
+    ("applied_torque", "1e300 0 0"): TOO_LONG,
     ("motion.elapsed_ns", "nan"): "motion.elapsed_ns must be a whole number of ns or a fraction",
     ("motion.elapsed_ns", "x" * 100_000): "motion.elapsed_ns must be a whole number of ns",
     ("motion.stamp", "9" * 4000): (
@@ -151,15 +137,22 @@ def test_the_motion_before_a_log_is_integrated_up_to_the_step_limit(tmp_path, mo
 def test_samples_that_are_no_numbers_are_told_and_drawn_without_warnings(tmp_path, capsys):
     run = Run(seconds=0.5, rate=40.0)
     odd = itertools.cycle([np.nan, np.inf, 1e300, -1e308])
-    for k, (name, stamp, data) in enumerate(run.messages):
-        if name in LAYOUTS and k % 7 == 0:
-            width = len(LAYOUTS[name].decode(np.frombuffer(data, np.uint8)[None])[1][0])
-            run.messages[k] = name, stamp, LAYOUTS[name].encode(stamp, [next(odd)] * width)
+    for place, (name, *_) in enumerate(run.messages):
+        if name in LAYOUTS and place % 7 == 0:
+            run.change(place, lambda numbers: np.full_like(numbers, next(odd)))
     path = run.write(tmp_path)
     assert asked(capsys, path, "--check") == (1, [])
     for options in ((), ("--angles", "--torques", "--fictitious")):
         way = ("--save", tmp_path / "run.rrd", *options)
         assert asked(capsys, path, *way) == (0, [])
+
+
+@pytest.mark.parametrize("text", ["abc", "1 2", "-"])
+def test_a_kick_that_cannot_be_read_is_a_change_of_the_motion_in_the_page(text, tmp_path, capsys):
+    path = with_event(tmp_path, {"request.precession_rate_factor": text}, number=1)
+    assert asked(capsys, path, "--save", tmp_path / "run.html") == (0, [])
+    page = (tmp_path / "run.html").read_text()
+    assert re.findall(r'"kind": "(start|change|kick)", "time"', page) == ["start", "change"]
 
 
 # what is in no log of ours

@@ -10,14 +10,13 @@ import sys
 import sysconfig
 from pathlib import Path
 
+import numpy as np
 import pytest
-from log_files import LAYOUTS, Run
+from log_files import Run
 from simulation.test_run_file import make_run
 
 from symtop_ros.playback import main as module
 from symtop_ros.simulation.run_file import write_run
-from symtop_ros.simulation.topics import STATE_TOPICS
-from symtop_ros.wire.messages import decode_messages
 
 RUN = Run()
 SITE = Path(sysconfig.get_paths()["purelib"])
@@ -103,11 +102,7 @@ def test_without_a_screen_the_message_names_the_options(laptop, log):
 
 def test_a_wrong_log_is_status_1_and_names_the_topic(log, tmp_path, capsys):
     run = Run()
-    k = next(k for k, each in enumerate(run.messages) if each[0] == "torque")
-    _, stamp, data = run.messages[k]
-    ((found,), _) = decode_messages(STATE_TOPICS["torque"].format, [data])
-    force = found.numbers[0, :3].tolist()
-    run.messages[k] = "torque", stamp, LAYOUTS["torque"].encode(stamp, [*force, 1.0, 0, 0])
+    run.change(run.places("torque")[0], lambda wrench: np.array([*wrench[:3], 1.0, 0.0, 0.0]))
     assert module.main([str(run.write(tmp_path / "wrong")), "--check"]) == 1
     output = capsys.readouterr().out
     assert re.search(
@@ -128,13 +123,10 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
     [
         (["none.mcap"], "cannot open none.mcap: No such file or directory"),
         (["none.mcap", "--check"], "cannot open none.mcap: No such file or directory"),
-        (
-            ["{log}", "--save", "out.mp4"],
-            "--save must be a name that ends in .rrd or .html",
-        ),
+        (["{log}", "--save", "out.mp4"], "--save must be a name that ends in .rrd or .html"),
         (
             ["{log}", "--save", "none/out.rrd"],
-            ("cannot write none/out.rrd: No such file or directory"),
+            "cannot write none/out.rrd: No such file or directory",
         ),
         (["{log}", "--repair", "{log}"], "must not exist (nothing is overwritten)"),
         (["{log}", "--node", "/x", "--check"], "no run of a top /x in"),

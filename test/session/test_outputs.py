@@ -32,7 +32,7 @@ class Program:
 
     def __init__(self, publishes=True):
         self.is_open, self._publishes = True, publishes
-        self.publishers, self.samples, self.events = {}, [], []
+        self.publishers, self.samples = {}, []
         self.said, self.warnings, self.errors = [], [], []
 
     def resolve(self, topic):
@@ -45,9 +45,6 @@ class Program:
 
     def watch_sample(self, stamp, block):
         self.samples.append(stamp)
-
-    def watch_event(self, event):
-        self.events.append(event)
 
     def update_statuses(self):
         return []

@@ -6,8 +6,8 @@ import pytest
 from simulation.runs import Run
 
 from symtop_ros.session.recording import Answer
-from symtop_ros.simulation.changes.outcomes import Pause, Step, describe
-from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.changes.outcomes import Pause, Step
+from symtop_ros.wording import write
 
 REFUSALS = {
     "unknown start field": (
@@ -61,11 +61,11 @@ def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
 def test_a_pause_stops_the_motion_and_a_step_advances_it():
     run = Run()
     run.advance(0.5)
-    assert run.ask("pause", True) == (True, describe("pause", Pause(0.505)))
+    assert run.ask("pause", True) == (True, write("pause", Pause(0.505)))
     assert run.ask("pause", True) == (True, str(Answer("paused")))
     run.advance(1.0)
-    assert run.ask("step", {"duration": 0.25}) == (True, describe("step", Step("stepped", 0.755)))
-    assert run.ask("pause", False) == (True, describe("resume", Pause(0.755)))
+    assert run.ask("step", {"duration": 0.25}) == (True, write("step", Step("stepped", 0.755)))
+    assert run.ask("pause", False) == (True, write("resume", Pause(0.755)))
     assert run.ask("pause", False) == (True, str(Answer("running")))
     run.advance(0.1)
     resting = [tuple(numbers) for stamp, numbers in run.sink.samples if stamp >= 505_000_000]
@@ -110,7 +110,6 @@ def test_the_state_says_since_when_its_time_counts():
 def test_reset_starts_from_initial_parameters_that_were_set_after_the_last_start():
     run = Run("cusps")
     run.ask("set_initial_conditions", {"theta": 1.0})
-    values = {**run.simulation.settings.values, "initial.theta": 0.75}
-    run.simulation.apply_settings(Settings.from_values(values))
+    run.change({"initial.theta": 0.75})
     assert run.ask("reset")[0]
     assert run.simulation.state.euler_angles.theta == 0.75

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from symtop_ros.session.requests import Requests
@@ -89,7 +89,13 @@ class Run:
         while (wait := self.simulation.tick()) is not None and wait <= 0.0:
             pass
 
-    def ask(self, name: str, *values: Any) -> tuple[bool, str]:
+    def change(self, changes: dict[str, Any]) -> None:
+        """Set some parameters."""
+        settings = Settings.from_values({**self.simulation.settings.values, **changes})
+        with self.simulation.turn("parameters"):
+            self.simulation.apply_settings(settings)
+
+    def ask(self, name: str, argument: Any = None) -> tuple[bool, str]:
         """Carry out a request by its name; return success and the answer."""
-        act: Callable[..., str] = SERVICES[name].act
-        return self.simulation.answer(name, lambda: act(self.requests, *values))
+        act = SERVICES[name].act
+        return self.simulation.answer(name, lambda: act(self.requests, argument))

@@ -213,12 +213,7 @@ def test_samples_after_many_pauses_steps_and_changes(scene, count):
         elif action == 1:
             run.ask("pause", False)
         else:
-            values = {
-                **run.simulation.settings.values,
-                "real_time_factor": 10 ** chance.uniform(-3, 2),
-            }
-            with run.simulation.turn("parameters"):
-                run.simulation.apply_settings(type(run.simulation.settings).from_values(values))
+            run.change({"real_time_factor": 10 ** chance.uniform(-3, 2)})
         run.clock.now += chance.randrange(SECOND)
         run.tick()
     run.ask("pause", False)

@@ -37,7 +37,7 @@ REFUSED = {
     "a number for a name": (HEAD + "    1: 2", "got a name that is not text"),
     "a date": (
         HEAD + "    publish_rate: 2020-01-01",
-        ("'publish_rate' must be a number, a text, true, false, or a list of them, got datetime"),
+        "'publish_rate' must be a number, a text, true, false, or a list of them, got datetime",
     ),
     "a set": (HEAD + "    publish_rate: !!set {a}", "a list of them, got {'a'}"),
     "an integer of 70 bits": (HEAD + f"    publish_rate: {2**70}", "a list of them, got 1180591"),

@@ -143,7 +143,7 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
         {"angular_impulse": [0.0, 1e-4, -0.1]},
         {"precession_rate_change": 0.1},
     ]
-    assert [event.hold for event in events[1:]] == [None, "spin_rate"]
+    assert [event.to_json()["hold"] for event in events[1:]] == [None, "spin_rate"]
 
 
 def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():

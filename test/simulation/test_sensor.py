@@ -196,8 +196,7 @@ def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     assert [each.child for each in frames] == ["top_imu", "top_centre_of_mass"]
     assert frames[0].translation == PLACE
     assert run.simulation.segment.rig.imu.position == PLACE
-    changed = {**run.simulation.settings.values, "publish_rate": 50.0, "top.Mgl": 0.05}
-    run.simulation.apply_settings(Settings.from_values(changed))
+    run.change({"publish_rate": 50.0, "top.Mgl": 0.05})
     assert run.simulation.segment.rig.imu.rate == 50.0
     assert run.simulation.segment.motion.top.Mgl == 0.05
     assert list_fixed_frames("top", Run().simulation.settings.imu, None) == []

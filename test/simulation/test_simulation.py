@@ -6,8 +6,9 @@ from itertools import pairwise
 import pytest
 from simulation.runs import SECOND, Run
 
-from symtop_ros.simulation.changes.outcomes import Failure, describe
+from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wording import write
 
 MS = SECOND // 1000
 
@@ -145,11 +146,7 @@ def test_other_settings_continue_from_the_current_state():
     run = Run()
     run.advance(0.2)
     before = run.simulation.state
-    settings = type(run.simulation.settings).from_values(
-        {**run.simulation.settings.values, "top.Mgl": -0.05, "real_time_factor": 0.5}
-    )
-    with run.simulation.turn("parameters"):
-        run.simulation.apply_settings(settings)
+    run.change({"top.Mgl": -0.05, "real_time_factor": 0.5})
     event = run.sink.events[-1]
     assert event.request == {"top.Mgl": "-0.05", "real_time_factor": "0.5"}
     assert run.simulation.segment.motion.start == before
@@ -164,7 +161,7 @@ def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running()
     for _ in range(2):
         with run.simulation.turn("a test") as turn:
             raise ZeroDivisionError("by\na bug")
-        report = describe("failure", Failure("a test", "ZeroDivisionError", "by a bug"))
+        report = write("failure", Failure("a test", "ZeroDivisionError", "by a bug"))
         assert turn.failure == report
     assert run.sink.errors == [report]
     assert [event.name for event in run.sink.events] == ["start", "failure"]

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from simulation.runs import SECOND, Run
 
+from symtop_ros.arrays import compose, invert
 from symtop_ros.check.events import find_mismatches
 from symtop_ros.simulation.validation import RefusedError
 
@@ -30,18 +31,10 @@ def differentiate(run):
     for (early, p), (late, q) in pairwise(run.sink.samples):
         x, y, z, w = p
         a, b, c, d = q
-        # conjugate of the first quaternion times the second
-        turn = np.array(
-            [
-                w * a - x * d - y * c + z * b,
-                w * b + x * c - y * d - z * a,
-                w * c - x * b + y * a - z * d,
-            ]
-        )
-        real = w * d + x * a + y * b + z * c
+        real, *turn = compose(invert(np.array([w, x, y, z])), np.array([d, a, b, c])).tolist()
         size = np.linalg.norm(turn)
         angle = 2 * np.arctan2(size, real)
-        found = turn / size * angle / ((late - early) / SECOND)
+        found = np.array(turn) / size * angle / ((late - early) / SECOND)
         middle = (early + late) // 2
         event = [each for each in run.sink.events if each.stamp <= early + 1][-1]
         expected = event.segment().state_at(middle).angular_velocity
@@ -119,19 +112,11 @@ def test_a_torque_that_ends_in_a_step_acts_until_then():
 def test_no_request_sets_the_time_back(paused):
     run = start("hurry_slow", real_time_factor=0.5)
     run.advance(0.313)
+    in_between = [("hurry_precession",), ("step", {"duration": 0.001}), ("reset",)]
     requests = [
         ("hurry_precession",),
         ("pause", True),
-        *(
-            [
-                ("hurry_precession",),
-                ("step", {"duration": 0.001}),
-                ("reset",),
-                ("step", {"duration": 0.1}),
-            ]
-            if paused
-            else []
-        ),
+        *([*in_between, ("step", {"duration": 0.1})] if paused else []),
         ("set_initial_conditions", {"theta": 0.7, "psi_dot": 150.0}),
         ("pause", False),
         ("reset",),
@@ -150,11 +135,7 @@ def test_another_factor_and_rate_continue_on_the_same_time():
     run = start(real_time_factor=0.1)
     run.advance(1.0)
     for changes in ({"real_time_factor": 5.0}, {"publish_rate": 100.0}):
-        settings = type(run.simulation.settings).from_values(
-            {**run.simulation.settings.values, **changes}
-        )
-        with run.simulation.turn("parameters"):
-            run.simulation.apply_settings(settings)
+        run.change(changes)
         run.advance(1.0)
     assert run.simulation.factor == 5.0
     assert stamps_of(run)[-1] == pytest.approx(10.1 * SECOND, abs=10 * MS)

@@ -22,7 +22,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
 )
 from symtop_ros.physics.rule.perry import Place, Reason
-from symtop_ros.simulation.changes.outcomes import OUTCOMES, Parameters, Setting, describe
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Parameters, Setting
 from symtop_ros.wording import templates, write
 from symtop_ros.wording.templates import FILE, PLACEHOLDER, TEMPLATES
 
@@ -132,7 +132,7 @@ def test_angles_are_written_in_degrees_on_request():
 
 def test_parameters_are_listed():
     changes = Parameters((Setting("top.Mgl", "-0.05"), Setting("hurry_factor", "1.5")))
-    assert describe("parameters", changes) == "top.Mgl is now -0.05; hurry_factor is now 1.5"
+    assert write("parameters", changes) == "top.Mgl is now -0.05; hurry_factor is now 1.5"
 
 
 def test_a_text_is_written_as_it_is():

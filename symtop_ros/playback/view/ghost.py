@@ -11,7 +11,6 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.physics import Motion
 from symtop_ros.playback.view.entities import GHOST, GHOST_TRACE, WHITE
 from symtop_ros.playback.view.mesh import create_body
 from symtop_ros.playback.view.quantities import axis_of, find_step
@@ -19,7 +18,7 @@ from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.events import RESTARTS
-from symtop_ros.simulation.segment import START, Segment
+from symtop_ros.simulation.segment import Segment
 
 RATE = 125.0  # states per s of the clock; more would not be seen
 OPACITY = 90  # of 255
@@ -98,11 +97,9 @@ def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
     """Return the ghost's segment from the start of `after` on, which follows `before`."""
     stamp, old, new = after.stamp, before.motion, after.motion
     added = (new.top, new.friction, new.applied_torque)
-    timing = replace(ghost, factor=after.factor, running=after.running, stamp=stamp)
     if added != (old.top, old.friction, old.applied_torque):
-        motion = Motion(new.top, ghost.state_at(stamp), new.friction, new.applied_torque)
-        return replace(timing, motion=motion, elapsed=START)
+        return replace(ghost.change(stamp, *added), factor=after.factor, running=after.running)
     elapsed = ghost.elapsed_at(stamp)
     if new.start == old.start:  # the same motion: a step, or a time that the clock lost
         elapsed += after.elapsed - before.elapsed_at(stamp)
-    return replace(timing, elapsed=elapsed)
+    return replace(ghost, factor=after.factor, running=after.running, stamp=stamp, elapsed=elapsed)

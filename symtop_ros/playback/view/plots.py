@@ -76,8 +76,7 @@ class Plots:
             self._send_constants(columns, segment.motion)
 
     def _send_drift(self, columns: Mapping[str, Columns], top: Top) -> None:
-        found = quantities.constants(columns, top)
-        if found:
+        if found := quantities.constants(columns, top):
             stamps, values = found
             if self._reference is None:
                 self._reference = values[0]

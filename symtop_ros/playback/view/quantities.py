@@ -1,6 +1,7 @@
 """Quantities that are drawn but not logged, computed from the logged samples as arrays."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import reduce
 
 import numpy as np
 
@@ -9,23 +10,6 @@ from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Top
 
 ColumnsByTopic = Mapping[str, Columns]
-
-
-def attitudes(samples: ColumnsByTopic) -> tuple[Stamps, Real] | None:
-    """Return stamps and quaternions x, y, z, w (n, 4), None if the log has no attitude.
-
-    They are taken from ~/orientation, else from /tf, else from the Euler angles.
-    """
-    if "orientation" in samples:
-        columns = samples["orientation"]
-        return columns.stamps, columns.numbers
-    if "tf" in samples:
-        columns = samples["tf"]
-        return columns.stamps, columns.numbers[:, 3:]
-    if "euler_angles" in samples:
-        columns = samples["euler_angles"]
-        return columns.stamps, _from_euler_angles(columns.numbers)
-    return None
 
 
 def _from_euler_angles(angles: Real) -> Real:
@@ -38,6 +22,22 @@ def _from_euler_angles(angles: Real) -> Real:
         c * np.cos(phi + psi),
     )
     return np.stack(parts, axis=1)
+
+
+# By the topic, first of all that of the attitude itself.
+READ_ATTITUDE: dict[str, Callable[[Real], Real]] = {
+    "orientation": lambda quaternions: quaternions,
+    "tf": lambda transforms: transforms[:, 3:],
+    "euler_angles": _from_euler_angles,
+}
+
+
+def attitudes(samples: ColumnsByTopic) -> tuple[Stamps, Real] | None:
+    """Return stamps and quaternions x, y, z, w (n, 4), None if the log has no attitude."""
+    for topic, read in READ_ATTITUDE.items():
+        if topic in samples:
+            return samples[topic].stamps, read(samples[topic].numbers)
+    return None
 
 
 def axis_of(quaternions: Real) -> Real:
@@ -62,8 +62,7 @@ def join(samples: ColumnsByTopic, *topics: str) -> tuple[Stamps, list[Real]] | N
     stamps = chosen[0].stamps
     if all(np.array_equal(stamps, each.stamps) for each in chosen):
         return stamps, [each.numbers for each in chosen]
-    for each in chosen:
-        stamps = np.intersect1d(stamps, each.stamps)
+    stamps = reduce(np.intersect1d, (each.stamps for each in chosen))
     places = [np.intersect1d(each.stamps, stamps, return_indices=True)[1] for each in chosen]
     numbers = [each.numbers[place] for each, place in zip(chosen, places, strict=True)]
     return (stamps, numbers) if len(stamps) else None

@@ -125,7 +125,7 @@ class View:
         self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = "; ".join(f"{name}={text}" for name, text in event.request.items())
         sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
-        self._stream.log(entities.EVENTS, rr.TextLog(sentence, level="INFO"))
+        self.log_text(sentence, "INFO")
         scales = {
             arrow.label: f"{self._scales[name]:g} {arrow.unit}"
             for name, arrow in ARROWS.items()
@@ -154,8 +154,7 @@ class View:
             self._framing = Framing()
             self._send_layout(self._framing)
             self._log_body(None)
-        found = quantities.attitudes(columns)
-        if found:
+        if found := quantities.attitudes(columns):
             stamps, quaternions = found
             self._stream.send_turns(entities.BODY, stamps, quaternions)
             traced = self._trace.strips(stamps, quantities.axis_of(quaternions))
@@ -220,6 +219,4 @@ def _find_vectors(topic: str, columns: Columns) -> Real:
 def _first_stamp(event: Event | None, columns: Mapping[str, Columns]) -> int | None:
     """Return the stamp of the first sample, or of the event if there is no sample."""
     stamps = [int(each.stamps[0]) for each in columns.values()]
-    if stamps:
-        return min(stamps)
-    return event.stamp if event else None
+    return min(stamps, default=event.stamp if event else None)

@@ -36,6 +36,17 @@ FIELDS = (*KINDS, "hold")
 MAX_IMPULSE = 1e30  # N m s; keeps the angular velocity after it finite for every top
 
 
+def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
+    """Return the request for a kick from the texts in its event."""
+
+    def read(name: str, text: str) -> Any:
+        if name == "hold":
+            return text
+        return [*map(float, text.split())] if name == "angular_impulse" else float(text)
+
+    return {name: read(name, text) for name, text in texts.items()}
+
+
 class Kick(NamedTuple):
     """A kick that was validated."""
 

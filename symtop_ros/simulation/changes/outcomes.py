@@ -1,6 +1,6 @@
-"""Outcomes: what each event led to, as a record; `describe` gives its sentence.
+"""Outcomes: what each event led to, as a record.
 
-Text is made from a record by the template of the event's name (`wording/en.json`).
+`wording.write` makes a sentence of it, by the template of the event's name (`wording/en.json`).
 """
 
 from dataclasses import dataclass
@@ -8,7 +8,6 @@ from typing import Literal
 
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import KickVerdict, Kind, Motion, Verdict, perrys_rule
-from symtop_ros.wording import write
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,8 +114,3 @@ OUTCOMES: dict[str, type[Outcome]] = {
     "record": Record,
     "failure": Failure,
 }
-
-
-def describe(name: str, outcome: Outcome) -> str:
-    """Return the sentence on the outcome of an event of some name."""
-    return write(name, outcome)

@@ -6,6 +6,7 @@ has a clock, a lock or a side effect; `simulation` decides at which stamp a chan
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 from symtop_ros.arrays import Vector
@@ -62,7 +63,7 @@ class Timeline:
 
     def report(self, name: str, outcome: Outcome, request: Request, stamp: int) -> "Change":
         """Return a change of nothing: an event that only reports."""
-        return self._follow(name, self.segment, stamp, request, outcome)
+        return self._follow(name, stamp, request, outcome)
 
     def restart(self, stamp: int, values: Request | None = None) -> "Change":
         """Restart from named initial conditions, or without them from the last ones."""
@@ -70,72 +71,69 @@ class Timeline:
         if values is not None:
             start = initial_state(self.settings.top, self.settings.initial, values)
             name = "start"
-        following = replace(self, start=start, segment=self.segment.restart(start, stamp))
-        return self._lead_to(following, name, stamp, values or {}, lambda: following.verdict)
+        segment = self.segment.restart(start, stamp)
+        verdict = partial(Start.of, segment.motion)
+        return self._follow(name, stamp, values or {}, verdict, start=start, segment=segment)
 
     def kick(self, stamp: int, values: Request) -> "Change":
         """Kick by named values; see `plan_kick`."""
         before = self.segment.state_at(stamp)
         motion, hold = plan_kick(self.segment.motion, before, values)
         segment = self.segment.replace_motion(motion, stamp)
-        change = self._follow(
-            "kick", segment, stamp, values, lambda: kick_verdict(motion, before, hold)
-        )
-        return replace(change, before=before)
+        verdict = partial(kick_verdict, motion, before, hold)
+        return self._follow("kick", stamp, values, verdict, before, segment=segment)
 
     def pause(self, stamp: int, paused: bool) -> "Change":
         """Stop the motion, or continue it from where it stopped."""
         name = "pause" if paused else "resume"
         segment = (self.segment.pause if paused else self.segment.resume)(stamp)
-        return self._follow(name, segment, stamp, {}, Pause(_seconds(segment)))
+        return self._follow(name, stamp, {}, Pause(segment.begin_time), segment=segment)
 
     def stop(self, stamp: int, reached: float) -> "Change":
         """Pause a motion that cannot continue, at the time in s that it has reached."""
         segment = self.segment.slow_down(reached, self.segment.factor, stamp).pause(stamp)
-        outcome = Pause(_seconds(segment))
-        change = self._follow("pause", segment, stamp, {"reached": reached}, outcome)
-        return replace(change, before=segment.state_at(stamp))
+        outcome = Pause(segment.begin_time)
+        before, request = segment.state_at(stamp), {"reached": reached}
+        return self._follow("pause", stamp, request, outcome, before, segment=segment)
 
     def step(self, stamp: int, duration: float) -> "Change":
         """Advance a paused motion by a duration in s."""
         segment = self.segment.step(duration, stamp)
-        outcome = Step("stepped", _seconds(segment))
-        return self._follow("step", segment, stamp, {"duration": duration}, outcome)
+        outcome = Step("stepped", segment.begin_time)
+        return self._follow("step", stamp, {"duration": duration}, outcome, segment=segment)
 
     def step_clock(self, stamp: int, now: int) -> "Change":
         """Let a paused motion run together with its clock, to the stamp `now`."""
         segment = self.segment.resume(stamp)
         outcome = Step("stepped", segment.time_at(now))
-        return self._follow("step", segment, stamp, {"to": now}, outcome)
+        return self._follow("step", stamp, {"to": now}, outcome, segment=segment)
 
     def move(self, stamp: int, now: int) -> "Change":
         """Continue the state of a stamp at the time (ns) to which the clock jumped."""
-        change = self._follow(
+        return self._follow(
             "clock",
-            self.segment.move(stamp, now),
-            stamp,
+            now,
             {"from": stamp, "to": now},
             ClockJump(stamp, now),
+            self.segment.state_at(stamp),
+            segment=self.segment.move(stamp, now),
+            torque_end=self.torque_end + now - stamp,
         )
-        moved = replace(change.following, torque_end=self.torque_end + now - stamp)
-        return replace(change, following=moved, stamp=now, before=self.segment.state_at(stamp))
 
     def slow_down(self, stamp: int, shortfall: Shortfall) -> "Change":
         """Continue at a real-time factor that can be kept, from the time that was reached."""
         segment = self.segment.slow_down(shortfall.reached, shortfall.factor, stamp)
         outcome = Pace("slowed", self.segment.factor, shortfall.factor)
-        change = self._follow("pace", segment, stamp, {"reached": shortfall.reached}, outcome)
-        return replace(change, before=self.segment.motion.at(shortfall.reached))
+        before, request = segment.motion.at(shortfall.reached), {"reached": shortfall.reached}
+        return self._follow("pace", stamp, request, outcome, before, segment=segment)
 
     def set_pace(self, stamp: int, current: float, factor: float) -> "Change":
         """Continue at another real-time factor than the current one."""
         outcome = Pace("slowed" if factor < current else "changed", current, factor)
-        return self._follow("pace", self._set_factor(factor, stamp), stamp, {}, outcome)
-
-    def _set_factor(self, factor: float, stamp: int) -> Segment:
-        if self.settings.publish_clock:  # the clock has this factor
-            return self.segment
-        return self.segment.set_factor(factor, stamp)
+        segment = self.segment
+        if not self.settings.publish_clock:  # else the clock has this factor
+            segment = segment.set_factor(factor, stamp)
+        return self._follow("pace", stamp, {}, outcome, segment=segment)
 
     def hold_torque(self, stamp: int, torque: Sequence[float], frame: str = "") -> "Change":
         """Apply a torque (3,) in N m until its time-out."""
@@ -158,7 +156,8 @@ class Timeline:
         total, segment = (a + x, b + y, c + z), self.segment
         if total != segment.motion.applied_torque:
             segment = segment.change(stamp, torque=total)
-        return self._follow("torque", segment, stamp, {"torque": total}, Torque(kind, total))
+        request = {"torque": total}
+        return self._follow("torque", stamp, request, Torque(kind, total), segment=segment)
 
     def change_settings(self, settings: Settings, stamp: int) -> list["Change"]:
         """Continue from the current state with other settings."""
@@ -173,39 +172,32 @@ class Timeline:
             start = initial_state(settings.top, settings.initial, {})
         if (settings.top, settings.friction) != (old.top, old.friction):
             segment = segment.change(stamp, settings.top, settings.friction)
-        if settings.real_time_factor != old.real_time_factor:
-            segment = replace(self, segment=segment)._set_factor(settings.real_time_factor, stamp)
+        if settings.real_time_factor != old.real_time_factor and not settings.publish_clock:
+            segment = segment.set_factor(settings.real_time_factor, stamp)
         if settings.publish_rate != old.publish_rate:
-            segment = segment.equip(settings.rig(self.switched_on))
-        following = replace(self, settings=settings, start=start, segment=segment)
+            segment = replace(segment, rig=settings.rig(self.switched_on))
         outcome = Parameters(tuple(Setting(name, str(value)) for name, value in changes.items()))
-        first = self._lead_to(following, "parameters", stamp, changes, outcome)
+        first = self._follow(
+            "parameters", stamp, changes, outcome, settings=settings, start=start, segment=segment
+        )
         torque = first.following._apply_torque(stamp, "steady")
         return [first, torque] if torque.is_new else [first]
 
     def _follow(
         self,
         name: str,
-        segment: Segment,
         stamp: int,
         request: Request,
         outcome: Outcome | Callable[[], Outcome],
+        before: State | None = None,
+        **changes: Any,
     ) -> "Change":
-        """Return the change to another segment."""
-        return self._lead_to(replace(self, segment=segment), name, stamp, request, outcome)
-
-    def _lead_to(
-        self,
-        following: "Timeline",
-        name: str,
-        stamp: int,
-        request: Request,
-        outcome: Outcome | Callable[[], Outcome],
-    ) -> "Change":
+        """Return the change to a timeline in which some fields differ."""
+        following = replace(self, **changes)
         if following.segment.motion is not self.segment.motion:
             following = replace(following, since=_describe_origin(name, stamp))
         is_new = following.segment is not self.segment
-        return Change(following, name, stamp, request, self.segment, is_new, outcome)
+        return Change(following, name, stamp, request, self.segment, is_new, outcome, before)
 
 
 @dataclass(frozen=True)
@@ -239,7 +231,3 @@ class Change:
 
 def _describe_origin(name: str, stamp: int) -> str:
     return f"{name} at stamp {stamp / NANOSECONDS:.9f} s"
-
-
-def _seconds(segment: Segment) -> float:
-    return float(segment.time_at(segment.stamp))

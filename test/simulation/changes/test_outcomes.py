@@ -32,8 +32,7 @@ def _run():
     run.ask("reset")
     simulation.hold_torque((0.0, 0.0, 1e-4))
     run.advance(0.3)
-    values = {**simulation.settings.values, "hurry_factor": 1.5, "top.Mgl": 0.05}
-    simulation.apply_settings(type(simulation.settings).from_values(values))
+    run.change({"hurry_factor": 1.5, "top.Mgl": 0.05})
     simulation.report("record", Record("begun", "a  b/c; d=e.mcap"))
     simulation.report("failure", Failure("~/kick", "KeyError", "by a bug"))
     simulation.apply(simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25))
