@@ -107,8 +107,7 @@ class State:
             raise refuse("angular_velocity", condition, f"shape {omega.shape}")
         largest = float(np.abs(omega).max(initial=0.0))
         if largest > LARGEST_ANGULAR_VELOCITY:
-            condition = f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-            raise refuse("angular_velocity", condition, largest)
+            raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
         self._set(q, _normalize(q), omega)
 
     @classmethod

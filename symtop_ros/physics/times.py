@@ -137,8 +137,7 @@ def to_rough_seconds(times: Any) -> Any:
 
 def refuse_too_fast(t: float, end: float) -> ValueError:
     """Return the error for a time beyond the end of the range of doubles."""
-    condition = f"within {abs(end):g} s of the start (the motion then becomes too fast)"
-    return refuse("t", condition, t)
+    return refuse("t", f"within {abs(end):g} s of the start (the motion then becomes too fast)", t)
 
 
 def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
@@ -161,5 +160,4 @@ def _validate_elapsed(value: Any) -> Fraction:
         if abs(value.numerator) <= LARGEST_ELAPSED * value.denominator:
             return value if isinstance(value, Fraction) else Fraction(value)
         raise refuse("elapsed", "at most 1e300 ns in size", f"{value.numerator:.3e}")
-    condition = "a Fraction with a power of two as denominator (ns)"
-    raise refuse("elapsed", condition, repr(value))
+    raise refuse("elapsed", "a Fraction with a power of two as denominator (ns)", repr(value))

@@ -217,8 +217,9 @@ class Search:
         """Yield explanations with a change and a parameter, or none, next to those of a base."""
         known = base.offset if base else NONE
         table = self.grids.tabulate(change, name, known)
+        names = {*(base.parameters if base else ()), *((name,) if name else ())}
         for level in CHANGES[change][1]:
-            if level != "none" and "rotations" in self.hidden and level == "body":
+            if level == "body" and "rotations" in self.hidden:
                 continue
             costs = table.costs(level)
             for place in find_valleys(costs, VALLEYS):
@@ -226,9 +227,8 @@ class Search:
                     continue
                 start = table.start(place, level)
                 begin = int(self.some.stamps[0])
-                place_of = replace(known, world=start.world, body=start.body, begin=begin)
-                offset = set_parameter(place_of, name, float(table.values[place]))
-                names = {*(base.parameters if base else ()), *((name,) if name else ())}
+                offset = replace(known, world=start.world, body=start.body, begin=begin)
+                offset = set_parameter(offset, name, float(table.values[place]))
                 yield self.refine(change, level, tuple(sorted(names)), offset)
 
     def refine(self, change: str, level: str, names: tuple[str, ...], offset: Offset) -> Cause:

@@ -83,11 +83,12 @@ class DrivenMotion:
         reached = trail.reach(t, 0)
         if abs(t - reached) * decay > MOST_DECAYS:
             farthest = abs(reached) + MOST_DECAYS / decay
-            condition = (
+            raise refuse(
+                "t",
                 f"within {farthest:.3g} s of the start (friction stops the top in {1 / decay:.3g} "
-                "s, and every such time takes a step)"
+                "s, and every such time takes a step)",
+                t,
             )
-            raise refuse("t", condition, t)
         return trail
 
     def reach(self, t: float, steps: float) -> float:
