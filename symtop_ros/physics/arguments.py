@@ -84,12 +84,18 @@ def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple
 class Setting:
     """The arguments of one motion or of many, and the torques that belong to them."""
 
-    def __init__(self, top: Top, start: State, friction: Friction, torque: Any, pure: bool) -> None:
-        validate_types(top, start, friction)
+    def __init__(
+        self,
+        top: Top,
+        start: State,
+        friction: Friction,
+        torque: Any,
+        shape: tuple[int, ...],
+        pure: bool,
+    ) -> None:
         self.top, self.start, self.friction = top, start, friction
-        self.applied_torque: Any = validate_torque(torque)
-        self.shape = find_shape(top, start, friction, self.applied_torque)
-        self._pure = pure
+        self.applied_torque: Any = torque
+        self.shape, self._pure = shape, pure
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""

@@ -118,7 +118,7 @@ class Motion(Setting):
         *,
         pure: bool = PURE,
     ) -> None:
-        super().__init__(top, start, friction, torque, pure)
+        super().__init__(top, start, friction, validate_torque(torque), (), pure)
         self._orientation: Quaternion = tuple(start.given_orientation.tolist())
         self._omega: Vector = tuple(start.angular_velocity.tolist())
         self._is_free = is_free(top.moments, self._orientation, self._omega)

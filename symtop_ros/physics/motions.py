@@ -16,9 +16,12 @@ from symtop_ros.physics.arguments import (
     Setting,
     describe_starts,
     fill_states,
+    find_shape,
     list_starts,
     read_start,
     validate_times,
+    validate_torque,
+    validate_types,
     wrap_states,
 )
 from symtop_ros.physics.exact.kind import Rates
@@ -85,7 +88,10 @@ class Motions(Setting):
         *,
         pure: bool = PURE,
     ) -> None:
-        super().__init__(top, start, friction, torque, pure)
+        validate_types(top, start, friction)
+        torque = validate_torque(torque)
+        shape = find_shape(top, start, friction, torque)
+        super().__init__(top, start, friction, torque, shape, pure)
         self._made: dict[int, Motion] = {}
 
     @property

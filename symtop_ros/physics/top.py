@@ -90,8 +90,11 @@ class Top(_Numbers):
         values = validate_together(dict(zip(names, (Ix, Iz, Mgl), strict=True)), units)
         for name, value in zip(names, values, strict=True):
             object.__setattr__(self, name, value)
-        for moments in zip(*(np.ravel(value).tolist() for value in values), strict=True):
-            _validate_moments(*moments)
+        if self.shape:
+            for moments in zip(*(array.ravel().tolist() for array in values), strict=True):
+                _validate_moments(*moments)
+        else:
+            _validate_moments(*values)
 
     @property
     def moments(self) -> Vector:
