@@ -84,6 +84,11 @@ class Estimates:
             angular_velocities=None if rates is None else rates[chosen],
         )
 
+    def thin(self, most: int) -> Estimates:
+        """Return at least so many of the estimates, and less than twice, spread over the run."""
+        every = max(1, len(self) // most)
+        return self.select(np.arange(len(self)) % every == 0)
+
 
 TRANSFORM_STAMPED = Format(
     "geometry_msgs/msg/TransformStamped",

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symtop_ros.judge.causes.search import Table
+from symtop_ros.judge.causes.search import fit_level
 from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import SAMPLES, Fit
+from symtop_ros.judge.fit import ROTATIONS, SAMPLES, Fit
 from symtop_ros.judge.truth import Truth
 
 MODELS = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
@@ -43,9 +43,8 @@ def explain(
     by the method of Gauss and Newton. The simplest explanation that leaves no more is taken: the
     one with the smallest delay.
     """
-    estimates = estimates.select(truth.states_at(estimates.stamps, estimates.of_sensor)[2])
-    every = max(1, len(estimates) // SAMPLES)
-    fit = Fit(estimates.select(np.arange(len(estimates)) % every == 0), truth, rotations)
+    turns = tuple(ROTATIONS) if rotations else ()
+    fit = Fit(truth.select(estimates).thin(SAMPLES), truth, turns)
     if len(fit.some) < 2:
         return Explanation()
     fit.hidden.extend(fit.find_hidden())
@@ -59,9 +58,6 @@ def explain(
 
 def align(estimates: Estimates, truth: Truth, model: str) -> Offset:
     """Return the least squares of a stated model, one of MODELS, without any search."""
-    inside = truth.states_at(estimates.stamps, estimates.of_sensor)[2]
-    run = estimates.select(inside)
-    q, exact = run.orientations, truth.states_at(run.stamps, run.of_sensor)[0]
-    known = np.ones((1, len(run)))
-    table = Table(np.zeros(1), q[np.newaxis], exact[np.newaxis], known)
-    return table.start(0, MODELS[model])
+    run = truth.select(estimates)
+    exact, *_ = truth.states_at(run.stamps, run.of_sensor)
+    return fit_level(run.orientations, exact, MODELS[model])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from symtop_ros.arrays import Real, Stamps, compose, invert
-from symtop_ros.judge.causes.search import fit_rotations, from_vector
+from symtop_ros.judge.causes.search import find_valleys, fit_rotations, from_vector
 from symtop_ros.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
@@ -48,8 +48,7 @@ class Fit:
 
     some: Estimates
     truth: Truth
-    rotations: bool = True  # False: they stay the identity
-    turns: tuple[int, ...] = tuple(ROTATIONS)  # columns of the rotations that are free
+    turns: tuple[int, ...] = tuple(ROTATIONS)  # columns of the rotations that are looked for
     most: float = MAX_DELAY  # s
     hidden: list[str] = field(default_factory=list)
     # delay, clock and scale, and their motion
@@ -121,29 +120,29 @@ class Fit:
         """Return explanations without and, if they may be looked for, with a delay and a drift."""
         found = [self.start(0.0)]
         if delay:
-            found += [self.refine(each, (DELAY,)) for each in self.search_delays(0.0)]
+            found += [self._refine(each, DELAY) for each in self.search_delays(0.0)]
         if not drift:
             return found
-        found += [self.refine(each, (DELAY, DRIFT) if each.delay else (DRIFT,)) for each in found]
+        found += [self._refine(each, *((DELAY,) if each.delay else ()), DRIFT) for each in found]
         if min(map(self.cost, found)) > self.rounding:  # a drift may have turned the heading far
-            found.append(self.refine(self.find_drift(), (DRIFT,)))
+            found.append(self._refine(self.find_drift(), DRIFT))
             if delay:
                 late = self.search_delays(found[-1].drift)
-                found += [self.refine(each, (DELAY, DRIFT)) for each in late]
+                found += [self._refine(each, DELAY, DRIFT) for each in late]
         return found
 
     def start(self, delay: float, drift: float = 0.0) -> Offset:
         """Return the best rotations for a delay and a drift."""
         still = replace(NONE, delay=delay, drift=drift, begin=int(self.some.stamps[0]))
         exact, _, known = self.exact(delay)
-        if not self.rotations or known.sum() < 2:
+        if not self.turns or known.sum() < 2:
             return still
         turned = still.turn_world(self.some.stamps[known])
         q, exact = compose(invert(turned), self.some.orientations[known]), exact[known]
         if "rotations" in self.hidden:  # the world's alone: the body's are as well the identity
             left = compose(q, invert(exact))
             world = np.linalg.eigh(left.T @ left)[1][:, -1]
-            return self.refine(replace(still, world=world), ())
+            return self._refine(replace(still, world=world))
         found = fit_rotations(q, exact)
         return replace(still, world=found.world, body=found.body)
 
@@ -168,17 +167,18 @@ class Fit:
 
         tried = np.linspace(-most, most, 2 * count + 1)
         costs = np.array([cost(each) for each in tried])
-        padded = np.concatenate(([np.inf], costs, [np.inf]))
-        valleys = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:]))
-        for k in valleys[np.argsort(costs[valleys])][:CANDIDATES].tolist():
+        for k in find_valleys(costs, CANDIDATES):
             bounds = float(tried[max(k - 1, 0)]), float(tried[min(k + 1, 2 * count)])
             # The rotations follow from each number that is tried, which is robust.
             found = minimize_scalar(cost, bounds=bounds, method="bounded", options={"xatol": FINE})
             yield start(float(found.x))
 
-    def refine(self, offset: Offset, more: tuple[int, ...]) -> Offset:
-        """Return the least squares near an offset, in its rotations and `more` columns."""
-        free = [*(self.turns if self.rotations else ()), *more]
+    def _refine(self, offset: Offset, *more: int) -> Offset:
+        """Return the least squares near an offset, in the rotations and in other columns."""
+        return self.refine(offset, [*self.turns, *more])
+
+    def refine(self, offset: Offset, free: list[int]) -> Offset:
+        """Return the least squares near an offset, in the columns that are free."""
         best, cost = offset, self.cost(offset)
         for _ in range(ITERATIONS):
             step = np.zeros(COLUMNS)
@@ -229,7 +229,7 @@ class Fit:
         if len(self._null_space(columns[:, ROTATIONS])):
             hidden.append("rotations")
         for name, place in (("delay", DELAY), ("drift", DRIFT)):
-            chosen = [*(ROTATIONS if self.rotations else ()), place]
+            chosen = [*self.turns, place]
             if np.abs(self._null_space(columns[:, chosen])[:, -1]).max(initial=0.0) > VISIBLE:
                 hidden.append(name)
         return hidden
@@ -240,7 +240,7 @@ class Fit:
         The delay moves the estimates by its column of derivatives; what the other columns can do as
         well does not show it.
         """
-        others = [*(ROTATIONS if self.rotations else ()), *((DRIFT,) if best.drift else ())]
+        others = [*self.turns, *((DRIFT,) if best.drift else ())]
         columns = self.derive(best)
         own, known = columns[:, DELAY], columns[:, others]
         shown = own - known @ np.linalg.lstsq(known, own, rcond=RANK)[0] if others else own

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -60,14 +61,8 @@ def _read_lines(path: Path, lines: Iterable[str]) -> Estimates:
         head = _split(first, separator)
     columns = _find_columns(path, head, first, separator)
     rows = [] if columns.has_names else [(number, first)]
-    return _read_rows(path, columns, _chain(rows, numbered), separator)
-
-
-def _chain(
-    first: Iterable[tuple[int, str]], rest: Iterable[tuple[int, str]]
-) -> Iterator[tuple[int, str]]:
-    yield from first
-    yield from (each for each in rest if not each[1].startswith("#"))
+    rest = (each for each in numbered if not each[1].startswith("#"))
+    return _read_rows(path, columns, chain(rows, rest), separator)
 
 
 def _split(line: str, separator: str | None) -> list[str]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Stamps, compose
+from symtop_ros.judge.estimates import Estimates
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.events import Event, start_event
@@ -56,10 +57,7 @@ class Truth:
         if len(self._events) != 1:
             return None
         segment = self._segment(0)
-        try:
-            period = segment.motion.nutation_period / segment.factor
-        except ValueError:  # with friction or a torque there is no period
-            return None
+        period = segment.motion.nutation_period / segment.factor
         return float(period) if np.isfinite(period) and period > 0 else None
 
     def count_early(self, stamps: Stamps) -> int:
@@ -94,6 +92,10 @@ class Truth:
                 orientations[chosen], rates[chosen] = q, omega
                 known[chosen] = True
         return orientations, rates, known
+
+    def select(self, estimates: Estimates) -> Estimates:
+        """Return the estimates at stamps of which the exact motion is known."""
+        return estimates.select(self.states_at(estimates.stamps, estimates.of_sensor)[2])
 
     def _segment(self, number: int) -> Segment:
         if number not in self._segments:

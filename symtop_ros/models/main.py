@@ -8,7 +8,7 @@ from symtop_ros.models.formats import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import RefusedError, number, one_line
+from symtop_ros.simulation.validation import number, one_line
 
 LARGEST_GRAVITY = 1e3  # m/s^2
 
@@ -25,7 +25,7 @@ def main(args: list[str] | None = None) -> int:
             options.output.write_text(text, encoding="utf-8")
         else:
             print(text, end="")
-    except (RefusedError, ValueError) as error:
+    except ValueError as error:
         print(f"top_model: {one_line(error)}", file=sys.stderr)
         return 1
     except OSError as error:

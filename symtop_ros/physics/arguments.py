@@ -3,25 +3,27 @@
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.exact.kind import Kind, Rates
+from symtop_ros.physics.exact.kind import Rates
+from symtop_ros.physics.kernel.compiled import KINDS, STATES
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import refuse, validate_array, validate_vector
+from symtop_ros.physics.values import fit_shapes, refuse, validate_array, validate_vector
 
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 # Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
 # root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
 WEIGHTLESS = 1e-200
-# States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 # To set up a motion takes the time of some hundred states.
-STATES, STATES_OF_SETUP = 2**16, 200
+STATES_OF_SETUP = 200
+# Ends of the columns of starts: moments, orientation as given, omega, friction, torque.
+STARTS = (3, 7, 10, 12, 15)
 
 
 def validate_torque(torque: Any) -> Any:
@@ -47,12 +49,13 @@ def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:
 
 def validate_types(top: Any, start: Any, friction: Any) -> None:
     """Refuse arguments of other classes."""
-    if not isinstance(top, Top):
-        raise refuse("top", "a Top", repr(top))
-    if not isinstance(start, State):
-        raise refuse("start", "a State", repr(start))
-    if not isinstance(friction, Friction):
-        raise refuse("friction", "a Friction", repr(friction))
+    for name, given, kind in (
+        ("top", top, Top),
+        ("start", start, State),
+        ("friction", friction, Friction),
+    ):
+        if not isinstance(given, kind):
+            raise refuse(name, f"a {kind.__name__}", repr(given))
 
 
 def wrap_states(
@@ -75,23 +78,24 @@ def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple
     ):
         return ()  # the common case, and NumPy needs 10 us for the question
     shapes = top.shape, start.orientation.shape[:-1], friction.shape, np.shape(torque)[:-1]
-    try:
-        return np.broadcast_shapes(*shapes)
-    except ValueError:
-        names = "top, start, friction and torque"
-        text = ", ".join(map(str, shapes))
-        raise refuse(names, "of shapes that fit together", text) from None
+    return fit_shapes("top, start, friction and torque", *shapes)
 
 
 class Setting:
     """The arguments of one motion or of many, and the torques that belong to them."""
 
-    shape: tuple[int, ...]
-
-    def __init__(self, top: Top, start: State, friction: Friction, torque: Any, pure: bool) -> None:
+    def __init__(
+        self,
+        top: Top,
+        start: State,
+        friction: Friction,
+        torque: Any,
+        shape: tuple[int, ...],
+        pure: bool,
+    ) -> None:
         self.top, self.start, self.friction = top, start, friction
         self.applied_torque: Any = torque
-        self._pure = pure
+        self.shape, self._pure = shape, pure
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""
@@ -155,84 +159,59 @@ class Constants:
     rates: Real  # (n, 5): the numbers of `Rates`
 
 
-@dataclass(frozen=True, slots=True)
-class Arguments:
-    """Arguments of n motions."""
+def list_starts(
+    top: Top, start: State, friction: Friction, torque: Any, shape: tuple[int, ...]
+) -> Real:
+    """Return the arguments of the motions of a shape, (n, 15), as `symtop_start` has them."""
+    arrays = (
+        np.stack(top.moments, axis=-1),
+        start.given_orientation,
+        start.angular_velocity,
+        np.stack([friction.axial, friction.transverse], axis=-1),
+        np.asarray(torque),
+    )
+    spread = [np.broadcast_to(each, (*shape, each.shape[-1])) for each in arrays]
+    return np.concatenate(spread, axis=-1).reshape(math.prod(shape), STARTS[-1])
 
-    moments: Real  # (n, 3)
-    orientation: Real  # (n, 4), as given
-    omega: Real  # (n, 3)
-    friction: Real  # (n, 2), axial and transverse
-    torque: Real  # (n, 3)
 
-    @classmethod
-    def of(
-        cls, top: Top, start: State, friction: Friction, torque: Any, shape: tuple[int, ...]
-    ) -> "Arguments":
-        """Return the arguments of motions of this shape."""
-        arrays = (
-            np.stack(top.moments, axis=-1),
-            start.given_orientation,
-            start.angular_velocity,
-            np.stack([friction.axial, friction.transverse], axis=-1),
-            np.asarray(torque),
-        )
-        count = math.prod(shape)
-        spread = [
-            np.broadcast_to(each, (*shape, each.shape[-1])).reshape(count, each.shape[-1])
-            for each in arrays
-        ]
-        return cls(*spread)
+def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
+    """Return the arguments of one motion, from its 15 numbers."""
+    moments, q, omega, friction, (x, y, z), _ = (part.tolist() for part in np.split(row, STARTS))
+    return Top(*moments), State(q, omega), Friction(*friction), (x, y, z)
 
-    def __getitem__(self, n: int) -> tuple[Top, State, Friction, Vector]:
-        """Return the arguments of one motion."""
-        start = State(self.orientation[n], self.omega[n])
-        friction, (x, y, z) = Friction(*self.friction[n].tolist()), self.torque[n].tolist()
-        return Top(*self.moments[n].tolist()), start, friction, (x, y, z)
 
-    def __len__(self) -> int:
-        """Return the number of motions."""
-        return len(self.moments)
+def fill_states(
+    kernel: Any, starts: Real, times: Real, orientation: Real, omega: Real
+) -> NDArray[np.bool_]:
+    """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3), with the kernel.
 
-    def fill(self, kernel: Any, times: Real, orientation: Real, omega: Real) -> NDArray[np.bool_]:
-        """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3), with the kernel.
+    Returns (n, m), True for the states that are left: those of driven motions, and those from a
+    time on that is too far.
+    """
+    left = np.ones((len(starts), times.size), np.bool_)
+    kept = np.flatnonzero(~starts[:, STARTS[2] :].any(axis=1))  # neither friction nor a torque
+    rows = max(1, STATES // (times.size + STATES_OF_SETUP))
+    for first in range(0, len(kept), rows):
+        some = kept[first : first + rows]
+        whole = len(some) == some[-1] - some[0] + 1
+        place: Any = slice(some[0], some[-1] + 1) if whole else some
+        # In place if the motions are neighbours: an indexed array would be a copy.
+        parts = orientation[place], omega[place], left[place]
+        kernel.fill_many(starts[some], times, *parts)
+        if not whole:
+            orientation[place], omega[place], left[place] = parts
+    return left
 
-        Returns (n, m), True for the states that are left: those of driven motions, and those from a
-        time on that is too far.
-        """
-        left = np.ones((len(self.moments), times.size), np.bool_)
-        kept, starts = np.flatnonzero(~self._are_driven), self._list_starts()
-        rows = max(1, STATES // (times.size + STATES_OF_SETUP))
-        for first in range(0, len(kept), rows):
-            some = kept[first : first + rows]
-            whole = len(some) == some[-1] - some[0] + 1
-            place: Any = slice(some[0], some[-1] + 1) if whole else some
-            # In place if the motions are neighbours: an indexed array would be a copy.
-            parts = orientation[place], omega[place], left[place]
-            kernel.fill_many(starts[some], times, *parts)
-            if not whole:
-                orientation[place], omega[place], left[place] = parts
-        return left
 
-    def describe(self, kernel: Any) -> Constants:
-        """Return the constants of the motions, from the kernel."""
-        count, starts = len(self.moments), self._list_starts()
-        codes, angles = np.empty(count, np.uint8), np.empty((count, 2))
-        rates = np.empty((count, len(Rates._fields)))
-        rows = STATES // STATES_OF_SETUP
-        for first in range(0, count, rows):
-            part = slice(first, first + rows)
-            kernel.describe_many(starts[part], codes[part], angles[part], rates[part])
-        return Constants(np.array(get_args(Kind))[codes], angles, rates)
-
-    @property
-    def _are_driven(self) -> NDArray[np.bool_]:
-        return np.asarray(self.friction.any(axis=1) | self.torque.any(axis=1))
-
-    def _list_starts(self) -> Real:
-        """Return (n, 15) numbers: those of `symtop_start`."""
-        parts = self.moments, self.orientation, self.omega, self.friction, self.torque
-        return np.concatenate(parts, axis=1)
+def describe_starts(kernel: Any, starts: Real) -> Constants:
+    """Return the constants of motions, from the kernel."""
+    count, rows = len(starts), STATES // STATES_OF_SETUP
+    codes, angles = np.empty(count, np.uint8), np.empty((count, 2))
+    rates = np.empty((count, len(Rates._fields)))
+    for first in range(0, count, rows):
+        part = slice(first, first + rows)
+        kernel.describe_many(starts[part], codes[part], angles[part], rates[part])
+    return Constants(np.array(KINDS)[codes], angles, rates)
 
 
 def is_free(moments: Vector, orientation: Quaternion, omega: Vector) -> bool:

@@ -153,10 +153,11 @@ class Body:
         half = largest / 2 * (gravity / abs(top.Mgl))
         arm = math.copysign(min(half, LONGEST_ARM), top.Mgl)
         if arm == 0:
-            condition = (
-                f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist"
+            raise refuse(
+                "Iz",
+                f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist",
+                top.Iz,
             )
-            raise refuse("Iz", condition, top.Iz)
         mass = top.Mgl / arm / gravity
         if not (math.isfinite(arm) and 0 < mass < math.inf):
             raise refuse("Mgl", "of a size for which the mass of a body is a double", top.Mgl)

@@ -15,6 +15,7 @@ from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, match
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
+    fit_shapes,
     ignore_underflow,
     refuse,
     validate_array,
@@ -147,11 +148,8 @@ def _add(state: State, change: Real) -> State:
 
 
 def _validate_fit(state: State, shape: tuple[int, ...]) -> None:
-    try:
-        np.broadcast_shapes(state.orientation.shape[:-1], shape)
-    except ValueError:
-        shapes = f"{state.orientation.shape[:-1]} and {shape}"
-        raise refuse("state and kick", "of shapes that fit together", shapes) from None
+    states = state.orientation.shape[:-1]
+    fit_shapes("state and kick", states, shape, listed=f"{states} and {shape}")
 
 
 @ignore_underflow

@@ -1,9 +1,9 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
-from decimal import Decimal, localcontext
+from decimal import localcontext
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,9 +24,9 @@ from symtop_ros.physics.derivatives.driven import differentiate_driven
 from symtop_ros.physics.derivatives.gravity import GravityDerivatives, SleepingDerivatives
 from symtop_ros.physics.driven.trail import DrivenMotion
 from symtop_ros.physics.exact.closed_form import ClosedFormMotion
-from symtop_ros.physics.exact.elementary import Components, Number
+from symtop_ros.physics.exact.elementary import Number
 from symtop_ros.physics.exact.free import FreeMotion
-from symtop_ros.physics.exact.kind import Kind, Rated, Rates, find_rates
+from symtop_ros.physics.exact.kind import Kind, Rates
 from symtop_ros.physics.exact.precise import PRECISE
 from symtop_ros.physics.kernel import PURE, find_kernel
 from symtop_ros.physics.kernel.compiled import CompiledMotion
@@ -37,18 +37,6 @@ from symtop_ros.physics.values import ignore_underflow, refuse, validate_array, 
 
 # Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
 BLOCK = 12288
-
-
-class Engine(Rated, Protocol):
-    """A solved motion with Mgl >= 0, no friction and no applied torque."""
-
-    nutation_rate: Decimal  # 2 pi over the period of theta in rad/s; 0 if it does not return
-
-    def cayley_klein(self, t: Number | ExactTimes) -> Components:
-        """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
-
-    def turning_angles(self, from_below: bool) -> tuple[float, float]:
-        """Return the smallest and the largest angle in rad from the upper or the lower pole."""
 
 
 class Motion(Setting):
@@ -84,9 +72,6 @@ class Motion(Setting):
         In the world frame, in N m.
     shape : tuple of int
         ().
-    engine : {"closed form", "free", "taylor"}
-        Method of solution: elliptic functions; circular functions if Mgl is 0 or if the axis rests
-        on the vertical; with friction or an applied torque Taylor series in time.
 
     Raises
     ------
@@ -105,8 +90,6 @@ class Motion(Setting):
     >>> motion.at([0.0, 10.0, 1e6]).orientation.shape
     (3, 4)
     """
-
-    engine: Literal["closed form", "free", "taylor"]
 
     def __new__(
         cls,
@@ -135,21 +118,27 @@ class Motion(Setting):
         *,
         pure: bool = PURE,
     ) -> None:
-        super().__init__(top, start, friction, validate_torque(torque), pure)
-        self.shape: tuple[int, ...] = ()
-        self.engine = "closed form"
+        super().__init__(top, start, friction, validate_torque(torque), (), pure)
         self._orientation: Quaternion = tuple(start.given_orientation.tolist())
         self._omega: Vector = tuple(start.angular_velocity.tolist())
         self._is_free = is_free(top.moments, self._orientation, self._omega)
-        if self._is_free:
-            self.engine = "free"
         self._driven: DrivenMotion | None = None
         if self.is_driven:
             self._driven = DrivenMotion(top, start, friction, self.applied_torque, self._compiled)
-            self.engine = "taylor"
+
+    @property
+    def engine(self) -> Literal["closed form", "free", "taylor"]:
+        """Method of solution.
+
+        Elliptic functions; circular functions if Mgl is 0 or if the axis rests on the vertical;
+        with friction or an applied torque Taylor series in time.
+        """
+        if self._driven:
+            return "taylor"
+        return "free" if self._is_free else "closed form"
 
     @cached_property
-    def _engine(self) -> Engine:
+    def _engine(self) -> ClosedFormMotion | FreeMotion:
         # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
         (w, x, y, z), top = self._orientation, self.top
         moments = top.Ix, top.Iz, abs(top.Mgl)
@@ -235,18 +224,16 @@ class Motion(Setting):
         written = self._compiled.fill(flat, orientation, angular_velocity) if self._compiled else 0
         if written < len(orientation):  # without the kernel, or from a time on that is too far
             left = slice(written, None)
-            rest = flat.select(left) if isinstance(flat, ExactTimes) else flat[left]
-            self._fill_in_blocks(rest, orientation[left], angular_velocity[left])
+            self._fill_in_blocks(flat[left], orientation[left], angular_velocity[left])
 
     def _fill_in_blocks(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> None:
         """Write the states at times (n,) by NumPy, in blocks that fit into a processor's cache."""
         omega[:, 2] = self._omega[2]
         for first in range(0, len(orientation), BLOCK):
             block = slice(first, first + BLOCK)
-            part = times.select(block) if isinstance(times, ExactTimes) else times[block]
             # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
             with np.errstate(under="ignore"):
-                columns = self._evaluate(part)
+                columns = self._evaluate(times[block])
             for k, column in enumerate(columns[:4]):
                 orientation[block, k] = column
             omega[block, 0], omega[block, 1] = columns[4:]
@@ -372,8 +359,15 @@ class Motion(Setting):
     def _rates(self) -> Rates:
         if self._compiled:
             return self._compiled.rates
+        engine, sign = self._engine, -1 if self._is_turned_over else 1
         with localcontext(PRECISE):
-            return find_rates(self._engine, self._is_turned_over)
+            if engine.kind in ("sleeping", "through the pole"):
+                precession = spin = turns = math.nan
+            else:
+                # In the world that is turned over the precession is reversed.
+                precession, spin = engine.mean_rates
+                precession, turns = sign * precession, sign * engine.precession_per_nutation
+            return Rates(engine.nutation_period, precession, spin, turns, engine.spin_reverses)
 
     @property
     def nutation_period(self) -> float:

@@ -12,10 +12,13 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
-    Arguments,
     Constants,
     Setting,
+    describe_starts,
+    fill_states,
     find_shape,
+    list_starts,
+    read_start,
     validate_times,
     validate_torque,
     validate_types,
@@ -86,8 +89,9 @@ class Motions(Setting):
         pure: bool = PURE,
     ) -> None:
         validate_types(top, start, friction)
-        super().__init__(top, start, friction, validate_torque(torque), pure)
-        self.shape = find_shape(top, start, friction, self.applied_torque)
+        torque = validate_torque(torque)
+        shape = find_shape(top, start, friction, torque)
+        super().__init__(top, start, friction, torque, shape, pure)
         self._made: dict[int, Motion] = {}
 
     @property
@@ -98,12 +102,12 @@ class Motions(Setting):
     def _find_member(self, n: int) -> Motion:
         # Kept, because the pieces of an integration are.
         if n not in self._made:
-            self._made[n] = Motion(*self._arguments[n], pure=self._pure)
+            self._made[n] = Motion(*read_start(self._starts[n]), pure=self._pure)
         return self._made[n]
 
     @cached_property
-    def _arguments(self) -> Arguments:
-        return Arguments.of(self.top, self.start, self.friction, self.applied_torque, self.shape)
+    def _starts(self) -> Real:
+        return list_starts(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the states at one time, or at many.
@@ -131,7 +135,7 @@ class Motions(Setting):
         left = np.ones((count, many), np.bool_)
         kernel = find_kernel(self._pure)
         if kernel and not isinstance(flat, ExactTimes):
-            left = self._arguments.fill(kernel, flat, orientation, omega)
+            left = fill_states(kernel, self._starts, flat, orientation, omega)
         for n in np.flatnonzero(left.any(axis=1)).tolist():
             self._fill_member(n, flat, left[n], (orientation[n], omega[n]))
         return wrap_states(orientation, omega, (*self.shape, *shape), len(shape))
@@ -144,7 +148,7 @@ class Motions(Setting):
         if left.all():
             member.fill(times, orientation, omega)
             return
-        states = member.at(times.select(left) if isinstance(times, ExactTimes) else times[left])
+        states = member.at(times[left])
         orientation[left], omega[left] = states.orientation, states.angular_velocity
 
     def jacobian(self, t: ArrayLike) -> Real:
@@ -177,7 +181,7 @@ class Motions(Setting):
     def _constants(self) -> Constants:
         kernel = find_kernel(self._pure)
         if kernel:
-            return self._arguments.describe(kernel)
+            return describe_starts(kernel, self._starts)
         rates = [motion._rates for motion in self.members]
         return Constants(
             np.array([motion.kind for motion in self.members]),

@@ -18,6 +18,7 @@ At the same state both give the same theta''.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from typing import Any, NamedTuple
@@ -32,6 +33,7 @@ from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     EPS,
     START_ROUNDING,
+    fit_shapes,
     ignore_underflow,
     refuse,
     validate_array,
@@ -157,16 +159,19 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
         raise refuse("theta", f"at most {LARGEST_TILT:g} rad in size", largest)
     if not top.shape and isinstance(theta, float):
         return _solve_regular(*top.moments, theta, psi_dot)
-    try:
-        arrays = np.broadcast_arrays(*top.moments, theta, psi_dot)
-    except ValueError:
-        shapes = f"{top.shape} and {np.shape(theta)}"
-        raise refuse("top and theta", "of shapes that fit together", shapes) from None
-    rates = np.full((2, arrays[0].size), np.nan)
-    for n, values in enumerate(zip(*(array.ravel().tolist() for array in arrays), strict=True)):
-        found = _solve_regular(*values)
-        rates[: len(found), n] = found
-    slow, fast = rates.reshape(2, *arrays[0].shape)
+    listed = f"{top.shape} and {np.shape(theta)}"
+    shape = fit_shapes("top and theta", top.shape, np.shape(theta), listed=listed)
+    arrays = np.broadcast_arrays(*top.moments, theta, psi_dot)
+    numbers = zip(*(array.ravel().tolist() for array in arrays), strict=True)
+    return stack_rates([_solve_regular(*each) for each in numbers], shape)
+
+
+def stack_rates(found: Sequence[tuple[float, ...]], shape: tuple[int, ...]) -> tuple[Real, Real]:
+    """Return slow and fast rates as arrays (...), with nan for a rate that there is not."""
+    rates = np.full((2, len(found)), np.nan)
+    for n, each in enumerate(found):
+        rates[: len(each), n] = each
+    slow, fast = rates.reshape(2, *shape)
     return slow, fast
 
 

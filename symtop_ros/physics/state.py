@@ -107,12 +107,17 @@ class State:
             raise refuse("angular_velocity", condition, f"shape {omega.shape}")
         largest = float(np.abs(omega).max(initial=0.0))
         if largest > LARGEST_ANGULAR_VELOCITY:
-            condition = f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-            raise refuse("angular_velocity", condition, largest)
+            raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
         self._set(q, _normalize(q), omega)
 
     @classmethod
-    def wrap(cls, orientation: Real, angular_velocity: Real, time_axes: int = 0) -> "State":
+    def wrap(
+        cls,
+        orientation: Real,
+        angular_velocity: Real,
+        time_axes: int = 0,
+        given: Real | None = None,
+    ) -> "State":
         """Return the state of arrays that are known to be valid, without copying them.
 
         The arrays become read-only. This skips the validation of many computed states.
@@ -125,9 +130,13 @@ class State:
             Finite angular velocities of the same leading shape, in rad/s.
         time_axes : int
             Number of last axes that are times.
+        given : ndarray (..., 4), optional
+            The orientation before it was normalised.
         """
         state = object.__new__(cls)
-        state._set(orientation, orientation, angular_velocity, time_axes)
+        state._set(
+            orientation if given is None else given, orientation, angular_velocity, time_axes
+        )
         return state
 
     def _set(self, given: Real, orientation: Real, omega: Real, time_axes: int = 0) -> None:
@@ -143,8 +152,8 @@ class State:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a state by its arrays, which are read-only in the copy, too."""
-        arrays = self.given_orientation, self.orientation, self.angular_velocity
-        return _restore, (*(array.copy() for array in arrays), self.time_axes)
+        given, (q, omega) = self.given_orientation, self.parts
+        return State.wrap, (q.copy(), omega.copy(), self.time_axes, given.copy())
 
     def __repr__(self) -> str:
         """Return the call that makes one state; of many, their shape."""
@@ -459,13 +468,6 @@ def _count_axes(place: Any) -> int:
         return 0
     array = np.asarray(place) if not isinstance(place, slice) else None
     return array.ndim if array is not None and array.dtype == np.bool_ else 1
-
-
-def _restore(given: Real, orientation: Real, omega: Real, time_axes: int) -> State:
-    """Return a state from its arrays."""
-    state = object.__new__(State)
-    state._set(given, orientation, omega, time_axes)
-    return state
 
 
 def _turn_by_angles(phi: Any, theta: Any, psi: Any) -> Real:

@@ -74,10 +74,8 @@ class ExactTimes:
     @cached_property
     def seconds(self) -> Any:
         """The nearest doubles in s, a float or (n,)."""
-        ticks, parts = self.factor.as_integer_ratio()
-        elapsed, pieces = self.elapsed.as_integer_ratio()
+        start, step, divisor = self._line
         # Python's quotient of integers of any size is the nearest double.
-        step, start, divisor = ticks * pieces, elapsed * parts, parts * pieces * SECOND
         if isinstance(self.nanoseconds, int):
             return (start + step * self.nanoseconds) / divisor
         return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
@@ -86,15 +84,20 @@ class ExactTimes:
     def split_seconds(self) -> tuple[Real, Real]:
         """Seconds as sums of two doubles, () or (n,): the nearest doubles, and what they lack."""
         high = np.asarray(self.seconds, dtype=np.float64)
-        ticks, parts = self.factor.as_integer_ratio()
-        elapsed, pieces = self.elapsed.as_integer_ratio()
-        step, start, divisor = ticks * pieces, elapsed * parts, parts * pieces * SECOND
+        start, step, divisor = self._line
         low = np.empty_like(high)
         for place, seconds in np.ndenumerate(high):
             over, under = float(seconds).as_integer_ratio()
             n = int(np.asarray(self.nanoseconds)[place])
             low[place] = ((start + step * n) * under - over * divisor) / (divisor * under)
         return high, low
+
+    @property
+    def _line(self) -> tuple[int, int, int]:
+        """The times in s as (start + step * nanoseconds)/divisor, in integers of any size."""
+        ticks, parts = self.factor.as_integer_ratio()
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        return elapsed * parts, ticks * pieces, parts * pieces * SECOND
 
     def advance(self, nanoseconds: int) -> Fraction:
         """Return the time of the motion in ns at another reading of the clock, exactly.
@@ -122,15 +125,19 @@ class ExactTimes:
         """Return the times as an array (n,), of one time (1,)."""
         return ExactTimes(np.atleast_1d(self.nanoseconds), self.factor, self.elapsed)
 
-    def select(self, part: slice | NDArray[np.bool_ | np.intp]) -> "ExactTimes":
-        """Return a part of an array of times.
-
-        Parameters
-        ----------
-        part : slice or ndarray of bool (n,) or of places
-            The times to return.
-        """
+    def __getitem__(self, part: slice | NDArray[np.bool_ | np.intp]) -> "ExactTimes":
+        """Return a part of an array of times."""
         return ExactTimes(np.asarray(self.nanoseconds)[part], self.factor, self.elapsed)
+
+
+def to_rough_seconds(times: Any) -> Any:
+    """Return times in s up to a few roundings: those of exact times, others unchanged."""
+    return times.rough_seconds if isinstance(times, ExactTimes) else times
+
+
+def refuse_too_fast(t: float, end: float) -> ValueError:
+    """Return the error for a time beyond the end of the range of doubles."""
+    return refuse("t", f"within {abs(end):g} s of the start (the motion then becomes too fast)", t)
 
 
 def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
@@ -153,5 +160,4 @@ def _validate_elapsed(value: Any) -> Fraction:
         if abs(value.numerator) <= LARGEST_ELAPSED * value.denominator:
             return value if isinstance(value, Fraction) else Fraction(value)
         raise refuse("elapsed", "at most 1e300 ns in size", f"{value.numerator:.3e}")
-    condition = "a Fraction with a power of two as denominator (ns)"
-    raise refuse("elapsed", condition, repr(value))
+    raise refuse("elapsed", "a Fraction with a power of two as denominator (ns)", repr(value))

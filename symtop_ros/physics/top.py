@@ -13,6 +13,7 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_MOMENT,
     SMALLEST_MOMENT,
+    fit_shapes,
     ignore_underflow,
     refuse,
     to_float,
@@ -20,8 +21,38 @@ from symtop_ros.physics.values import (
 )
 
 
+class _Numbers:
+    """Numbers of one thing, or arrays of many: compared, hashed and copied by what was given."""
+
+    __slots__ = ()
+
+    @property
+    def _given(self) -> tuple[Any, ...]:
+        """The arguments, validated."""
+        raise NotImplementedError
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """() for one, (...) for many."""
+        return getattr(self._given[0], "shape", ())
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all numbers."""
+        if not isinstance(other, type(self)):
+            return NotImplemented
+        return all(map(np.array_equal, self._given, other._given))
+
+    def __hash__(self) -> int:
+        """Return a hash of one; many cannot be hashed."""
+        return hash(self._given)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle by the arguments."""
+        return type(self), self._given
+
+
 @dataclass(frozen=True, slots=True, init=False, eq=False)
-class Top:
+class Top(_Numbers):
     """A heavy symmetric top with a fixed pivot, or many of them.
 
     Parameters
@@ -66,28 +97,13 @@ class Top:
             _validate_moments(*values)
 
     @property
-    def shape(self) -> tuple[int, ...]:
-        """() for one top, (...) for many."""
-        return getattr(self.Ix, "shape", ())
-
-    def __eq__(self, other: object) -> bool:
-        """Compare all moments."""
-        if not isinstance(other, Top):
-            return NotImplemented
-        return all(map(np.array_equal, self.moments, other.moments))
-
-    def __hash__(self) -> int:
-        """Return a hash of one top; many cannot be hashed."""
-        return hash(self.moments)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle a top by its arguments."""
-        return Top, self.moments
-
-    @property
     def moments(self) -> Vector:
         """(Ix, Iz, Mgl)."""
         return self.Ix, self.Iz, self.Mgl
+
+    @property
+    def _given(self) -> Vector:
+        return self.moments
 
     @property
     def critical_spin(self) -> Any:
@@ -183,16 +199,13 @@ def match(value: Any, state: State) -> Any:
         return value
     array = np.reshape(value, np.shape(value) + (1,) * state.time_axes)
     states = state.angular_velocity.shape[:-1]
-    try:
-        np.broadcast_shapes(array.shape, states)
-    except ValueError:
-        shapes = f"{np.shape(value)} and {states}, of which the last {state.time_axes} are times"
-        raise refuse("top and state", "of shapes that fit together", shapes) from None
+    listed = f"{np.shape(value)} and {states}, of which the last {state.time_axes} are times"
+    fit_shapes("top and state", array.shape, states, listed=listed)
     return array
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)
-class Friction:
+class Friction(_Numbers):
     """Friction in proportion to the angular velocity, at the pivot and in the air.
 
     The torque in the body frame is -axial omega_z along the axis and
@@ -228,24 +241,8 @@ class Friction:
             object.__setattr__(self, name.removeprefix("friction."), value)
 
     @property
-    def shape(self) -> tuple[int, ...]:
-        """() for one friction, (...) for many."""
-        return getattr(self.axial, "shape", ())
-
-    def __eq__(self, other: object) -> bool:
-        """Compare both coefficients."""
-        if not isinstance(other, Friction):
-            return NotImplemented
-        mine, others = (self.axial, self.transverse), (other.axial, other.transverse)
-        return all(map(np.array_equal, mine, others))
-
-    def __hash__(self) -> int:
-        """Return a hash of one friction; many cannot be hashed."""
-        return hash((self.axial, self.transverse))
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle a friction by its arguments."""
-        return Friction, (self.axial, self.transverse)
+    def _given(self) -> tuple[float, float]:
+        return self.axial, self.transverse
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""

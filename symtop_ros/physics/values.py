@@ -103,12 +103,11 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     """
     _refuse_units(name, value, unit)
     try:
-        if np.ma.isMaskedArray(value):
-            raise TypeError
         array = np.asarray(value)
-        if array.dtype.kind == "O" and not all(map(_is_real, array.flat)):
-            raise TypeError
-        if array.dtype.kind not in "iufO" and array.size:
+        is_real = array.dtype.kind in "iuf" or not array.size
+        if array.dtype.kind == "O":
+            is_real = all(map(_is_real, array.flat))
+        if np.ma.isMaskedArray(value) or not is_real:
             raise TypeError
         array = array.astype(np.float64)  # OverflowError: an int too large for a double
     except (TypeError, ValueError, OverflowError):
@@ -208,21 +207,41 @@ def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]
     ValueError
         If a value is not a finite number, or if the shapes do not fit together.
     """
-    validated: list[Any] = []
-    for (name, value), unit in zip(values.items(), units, strict=True):
-        validated.append(validate_numbers(name, value, unit))
-    if not any(isinstance(value, np.ndarray) for value in validated):
+    named = zip(values.items(), units, strict=True)
+    validated = [validate_numbers(name, value, unit) for (name, value), unit in named]
+    arrays = [value for value in validated if isinstance(value, np.ndarray)]
+    if not arrays:
         return validated
-    try:
-        arrays = [array.copy() for array in np.broadcast_arrays(*validated)]
-    except ValueError:
-        many = [(name, np.shape(value)) for name, value in zip(values, validated, strict=True)]
-        names, shapes = zip(*(each for each in many if each[1]), strict=True)
-        listed = ", ".join(map(str, shapes))
-        raise refuse(" and ".join(names), "of shapes that fit together", listed) from None
-    for array in arrays:
+    names = [name for name, value in zip(values, validated, strict=True) if np.ndim(value)]
+    fit_shapes(" and ".join(names), *(array.shape for array in arrays))
+    spread = [array.copy() for array in np.broadcast_arrays(*validated)]
+    for array in spread:
         array.flags.writeable = False
-    return arrays
+    return spread
+
+
+def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[int, ...]:
+    """Return the shape to which arguments are broadcast together.
+
+    Parameters
+    ----------
+    names : str
+        Names of the arguments, for the message.
+    shapes : tuples of int
+        Their shapes.
+    listed : str
+        The shapes in words, for the message; by default as they are.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit together.
+    """
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        text = listed or ", ".join(map(str, shapes))
+        raise refuse(names, "of shapes that fit together", text) from None
 
 
 def to_float(value: Any) -> Any:

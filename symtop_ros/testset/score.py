@@ -105,8 +105,7 @@ class Problem:
         norms = np.linalg.norm(q, axis=1)
         worst = norms[np.abs(norms - 1).argmax()]
         if abs(worst - 1) > LARGEST_NORM_ERROR:
-            msg = f"orientations must be unit quaternions, got a norm of {worst:.6g}"
-            raise ValueError(msg)
+            raise ValueError(f"orientations must be unit quaternions, got a norm of {worst:.6g}")
         q = q / norms[:, np.newaxis]
         exact = split_decimals(self.facts["orientations"])
         angles = measure_angles(q, *exact)
@@ -215,8 +214,9 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
         If the file cannot be read.
     """
     if path.stat().st_size > LARGEST_FILE:
-        msg = f"{path} must have at most {LARGEST_FILE} bytes, got {path.stat().st_size}"
-        raise ValueError(msg)
+        raise ValueError(
+            f"{path} must have at most {LARGEST_FILE} bytes, got {path.stat().st_size}"
+        )
     # Every byte is a character of Latin-1; names and numbers are ASCII in any encoding that counts.
     with path.open(encoding="latin-1", newline="") as file:
         head = file.readline().removeprefix(BOM).strip()
@@ -225,8 +225,9 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
         names = [*QUATERNION]
         names += next((each for each in (RATES, WORLD_RATES) if set(each) <= set(header)), ())
         if not {"t", *QUATERNION} <= set(header):
-            msg = f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
-            raise ValueError(msg)
+            raise ValueError(
+                f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
+            )
         places = [header.index(name) for name in ("t", *names)]
         found = _pick(file, split, places, problem.times)
     q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
@@ -260,8 +261,7 @@ def _pick(
                 if abs(marks[place] - t) <= SAME_TIME * marks[place]:
                     found[place] = [_read(cells[each]) for each in places[1:]]
         except (IndexError, ValueError):
-            msg = f"line {number} must consist of numbers, got {_show(row)}"
-            raise ValueError(msg) from None
+            raise ValueError(f"line {number} must consist of numbers, got {_show(row)}") from None
     _find_absent(times, np.array(tried))
     return found
 
@@ -273,8 +273,9 @@ def _find_absent(times: Real, tried: Real) -> None:
         near = tried[np.abs(tried - t).argmin()] if tried.size else None
         if near is None or not abs(t - near) <= SAME_TIME * t:
             nearest = "there is no row" if near is None else f"the nearest is {near:.12g} s"
-            msg = f"trajectory must have a state at each time, got none at {t:.12g} s; {nearest}"
-            raise ValueError(msg)
+            raise ValueError(
+                f"trajectory must have a state at each time, got none at {t:.12g} s; {nearest}"
+            )
 
 
 def _read(text: str) -> float:
@@ -293,12 +294,12 @@ def _show(text: str) -> str:
 def _check(name: str, values: ArrayLike, width: int) -> Real:
     numbers = np.asarray(values, dtype=float)
     if numbers.ndim != 2 or numbers.shape != (20, width):
-        msg = f"{name} must be of shape (20, {width}), got {numbers.shape}"
-        raise ValueError(msg)
+        raise ValueError(f"{name} must be of shape (20, {width}), got {numbers.shape}")
     wrong = numbers[~(np.abs(numbers) <= LARGEST_NUMBER)]
     if wrong.size:
-        msg = f"{name} must be finite numbers up to {LARGEST_NUMBER:g}, got {wrong[0]:g}"
-        raise ValueError(msg)
+        raise ValueError(
+            f"{name} must be finite numbers up to {LARGEST_NUMBER:g}, got {wrong[0]:g}"
+        )
     return numbers
 
 
@@ -450,8 +451,7 @@ def score_file(problems: dict[str, Problem], name: str, path: Path | None) -> Sc
     """
     problem = find_problem(problems, name)
     if path is None:
-        msg = f"trajectory must be a CSV file for {name}, got none"
-        raise ValueError(msg)
+        raise ValueError(f"trajectory must be a CSV file for {name}, got none")
     return problem.score(*read_trajectory(path, problem))
 
 
@@ -464,8 +464,9 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
         If there is none.
     """
     if name not in problems:
-        msg = f"problem must be one of {', '.join(problems)}, got {' '.join(name.split())[:60]}"
-        raise ValueError(msg)
+        raise ValueError(
+            f"problem must be one of {', '.join(problems)}, got {' '.join(name.split())[:60]}"
+        )
     return problems[name]
 
 

@@ -7,8 +7,9 @@ spreadsheets and for languages without a reader of JSON.
 import csv
 import io
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Context, Decimal, localcontext
+from itertools import chain
 from typing import Any
 
 VERSION = "3.0"
@@ -38,6 +39,7 @@ ROUNDED, WORKING = Context(prec=30), Context(prec=60)
 FIXED = Decimal("1e-9")  # smaller numbers are shown with an exponent
 Facts = Mapping[str, Any]  # an entry of problems.json
 Row = tuple[Any, ...]
+Columns = tuple[Iterable[Any], ...]  # the times, and at each time groups of texts
 
 
 def format_problems(problems: Iterable[Facts], gravity: float) -> str:
@@ -54,8 +56,14 @@ def format_problems(problems: Iterable[Facts], gravity: float) -> str:
 
 def tabulate(problems: Sequence[Facts]) -> dict[str, str]:
     """Return the texts of the tables by the names of their files."""
-    makers = (_list_starts, _list_states, _list_forces, _list_world)
-    return {name: _write_csv(make(problems)) for name, make in zip(TABLES, makers, strict=True)}
+    limits = (name.replace("limits", "limit") for name in LIMITS)
+    tables = (
+        _list_starts(problems),
+        _list_rows(problems, (*QUATERNION, *RATES, *limits), _list_states),
+        _list_rows(problems, chain(*FORCES.values()), _list_forces),
+        _list_rows(problems, (*QUATERNION, *chain(*WORLD.values())), _list_world),
+    )
+    return {name: _write_csv(rows) for name, rows in zip(TABLES, tables, strict=True)}
 
 
 def _list_starts(problems: Sequence[Facts]) -> Iterable[Row]:
@@ -69,32 +77,29 @@ def _list_starts(problems: Sequence[Facts]) -> Iterable[Row]:
         yield (each["name"], each["level"], *map(repr, values), shown, each["what"])
 
 
-def _list_states(problems: Sequence[Facts]) -> Iterable[Row]:
-    limits = [name.replace("limits", "limit") for name in LIMITS]
-    yield ("name", "t", *QUATERNION, *RATES, *limits)
+def _list_rows(
+    problems: Sequence[Facts], names: Iterable[str], list_columns: Callable[[Facts], Columns]
+) -> Iterable[Row]:
+    """Yield the header, and for each time of each problem its name, the time and texts."""
+    yield ("name", "t", *names)
     for each in problems:
-        columns = (each[key] for key in ("times", "orientations", "angular_velocities", *LIMITS))
-        for t, q, omega, *four in zip(*columns, strict=True):
-            yield (each["name"], repr(t), *q, *omega, *map(repr, four))
+        for t, *groups in zip(*list_columns(each), strict=True):
+            yield (each["name"], repr(t), *chain(*groups))
 
 
-def _list_forces(problems: Sequence[Facts]) -> Iterable[Row]:
-    yield ("name", "t", *(column for columns in FORCES.values() for column in columns))
-    for each in problems:
-        columns = (each[key] for key in FORCES)
-        times = [0.0, *each["times"]]
-        for t, alpha, a, force, energy in zip(times, *columns, strict=True):
-            yield (each["name"], repr(t), *alpha, *a, *force, energy)
+def _list_states(facts: Facts) -> Columns:
+    limits = zip(*(map(repr, facts[name]) for name in LIMITS), strict=True)
+    return facts["times"], facts["orientations"], facts["angular_velocities"], limits
 
 
-def _list_world(problems: Sequence[Facts]) -> Iterable[Row]:
-    yield ("name", "t", *QUATERNION, *(column for columns in WORLD.values() for column in columns))
-    for each in problems:
-        attitudes = [_normalise(each["orientation"]), *each["orientations"]]
-        columns = (each[key] for key in WORLD)
-        times = [0.0, *each["times"]]
-        for t, q, p, v, omega in zip(times, attitudes, *columns, strict=True):
-            yield (each["name"], repr(t), *q, *p, *v, *omega)
+def _list_forces(facts: Facts) -> Columns:
+    *vectors, energies = (facts[key] for key in FORCES)
+    return (0.0, *facts["times"]), *vectors, ((energy,) for energy in energies)
+
+
+def _list_world(facts: Facts) -> Columns:
+    attitudes = _normalise(facts["orientation"]), *facts["orientations"]
+    return (0.0, *facts["times"]), attitudes, *(facts[key] for key in WORLD)
 
 
 def _normalise(numbers: Sequence[float]) -> list[str]:

@@ -105,21 +105,7 @@ def draw(seed):
     theta, spin = random.uniform(0.2, 2.5), random.choice([-1, 1]) * random.uniform(60, 300)
     start = State.from_euler(theta=theta, phi_dot=random.uniform(-5, 15), psi_dot=spin)
     truth = Truth([start_event(Motion(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068), start))])
-    rate, length = random.choice([100, 200, 400]), random.uniform(2, 8)
-    stamps = (np.arange(int(rate * length)) * (SECOND / rate)).astype(np.int64) + SECOND
-    sign = random.choice([-1, 1])
-    choices = {
-        "world": heading(sign * random.uniform(0.2, 3)),
-        "body": Rotation.from_rotvec(random.normal(size=3) * 0.3),
-        "delay": sign * random.uniform(0.005, 0.2),
-        "drift": sign * random.uniform(0.05, 0.3),
-        "spin": sign * random.uniform(0.05, 1),
-        "clock": sign * random.uniform(1e-4, 1e-3),
-        "change": str(random.choice(["order", "conjugate", "conjugate_order"])),
-    }
-    chosen = random.choice([*choices], int(random.integers(1, 3)), replace=False)
-    noise = float(random.choice([0, 1e-3, 1e-2]))
-    return truth, stamps, Made(**{name: choices[name] for name in chosen}, noise=noise)
+    return truth, *draw_errors(random, [100, 200, 400], (2, 8), (0.05, 0.3), [0, 1e-3, 1e-2])
 
 
 def draw_any(seed):
@@ -132,23 +118,29 @@ def draw_any(seed):
     rates = random.normal(size=2) * (0.05, 0.02) * abs(spin)
     theta = random.uniform(0.15, 2.9)
     start = State.from_euler(theta=theta, phi_dot=rates[0], theta_dot=rates[1], psi_dot=spin)
-    rate, length = random.choice([50, 100, 200, 500]), random.uniform(1.5, 12)
+    truth = Truth([start_event(Motion(top, start))])
+    rates, noises = [50, 100, 200, 500], [0, 1e-4, 3e-3, 1e-2, 2e-2]
+    return truth, *draw_errors(random, rates, (1.5, 12), (0.03, 0.4), noises, has_scale=True)
+
+
+def draw_errors(random, rates, lengths, drifts, noises, has_scale=False):
+    """Stamps, and one or two errors with noise."""
+    rate, length = random.choice(rates), random.uniform(*lengths)
     stamps = (np.arange(int(rate * length)) * (SECOND / rate)).astype(np.int64) + SECOND
     sign = random.choice([-1, 1])
     choices = {
         "world": heading(sign * random.uniform(0.2, 3)),
         "body": Rotation.from_rotvec(random.normal(size=3) * 0.3),
         "delay": sign * random.uniform(0.005, 0.2),
-        "drift": sign * random.uniform(0.03, 0.4),
+        "drift": sign * random.uniform(*drifts),
         "spin": sign * random.uniform(0.05, 1),
         "clock": sign * random.uniform(1e-4, 1e-3),
-        "scale": sign * 10 ** random.uniform(-4, -2),
+        **({"scale": sign * 10 ** random.uniform(-4, -2)} if has_scale else {}),
         "change": str(random.choice(["order", "conjugate", "conjugate_order"])),
     }
     chosen = random.choice([*choices], int(random.integers(1, 3)), replace=False)
-    noise = float(random.choice([0, 1e-4, 3e-3, 1e-2, 2e-2]))
-    truth = Truth([start_event(Motion(top, start))])
-    return truth, stamps, Made(**{name: choices[name] for name in chosen}, noise=noise)
+    noise = float(random.choice(noises))
+    return stamps, Made(**{name: choices[name] for name in chosen}, noise=noise)
 
 
 DRAWN = [

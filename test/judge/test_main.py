@@ -33,6 +33,16 @@ def log(tmp_path_factory):
     return write_log(tmp_path_factory.mktemp("judge") / "run.mcap", topics)
 
 
+def write_csv(path, truth=None, stamps=range(0, 10**9, 10**7)):
+    """Write the exact attitudes of a run; by default of the scene cusps."""
+    stamps = np.array(stamps)
+    q, _, _ = (truth or scene_truth("cusps")).states_at(stamps)
+    rows = zip(stamps.tolist(), q.tolist(), strict=True)
+    lines = ["stamp,w,x,y,z", *(f"{s},{','.join(map(repr, x))}" for s, x in rows), ""]
+    path.write_text("\n".join(lines))
+    return path
+
+
 @pytest.mark.wording
 def test_exact_estimates_are_told_so(log, capsys):
     assert main([str(log), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
@@ -57,13 +67,7 @@ def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, caps
 
 def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
     path = tmp_path / "mine.csv"
-    truth, stamps = truth_and_stamps(20)
-    exact, _, _ = truth.states_at(stamps)
-    rows = [
-        f"{s},{','.join(map(repr, q))}"
-        for s, q in zip(stamps.tolist(), exact.tolist(), strict=True)
-    ]
-    path.write_text("stamp,w,x,y,z\n" + "\n".join(rows) + "\n")
+    write_csv(path, *truth_and_stamps(20))
     assert main([str(log), "--estimates", str(path), "--max-error", "1e-15"]) == 0
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
 
@@ -134,10 +138,8 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
     path = tmp_path / "mine.csv"
-    rows = [
-        ",".join((repr(t), *q)) for t, q in zip(facts["times"], facts["orientations"], strict=True)
-    ]
-    path.write_text("t,w,x,y,z\n" + "\n".join(rows) + "\n")
+    rows = zip(facts["times"], facts["orientations"], strict=True)
+    path.write_text("\n".join(["t,w,x,y,z", *(",".join((repr(t), *q)) for t, q in rows), ""]))
     capsys.readouterr()
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")
@@ -156,17 +158,6 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
     assert main(["--testset", "none", str(path)]) == 1
     assert "top_judge: problem must be one of gentle_cusps, " in capsys.readouterr().err
-
-
-def write_csv(path, scene="cusps"):
-    truth = scene_truth(scene)
-    stamps = np.arange(0, 10**9, 10**7)
-    q, _, _ = truth.states_at(stamps)
-    rows = [
-        f"{s},{','.join(map(repr, x))}" for s, x in zip(stamps.tolist(), q.tolist(), strict=True)
-    ]
-    path.write_text("stamp,w,x,y,z\n" + "\n".join(rows) + "\n")
-    return path
 
 
 def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):

@@ -35,10 +35,7 @@ def test_a_csv_file_with_stamps_or_seconds_is_read(tmp_path, estimates):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        (
-            "",
-            "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing",
-        ),
+        ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),
         ("t,w,x,y\n", "got the header t,w,x,y"),
         ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
         ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),

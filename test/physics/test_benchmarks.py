@@ -22,10 +22,7 @@ def heavy_top():
 
 @pytest.mark.parametrize(
     ("t", "published"),
-    [
-        (0.2, (-0.70828, 0.43878, 0.54573, 0.0894)),
-        (2.0, (0.12295, -0.49108, 0.35043, -0.78799)),
-    ],
+    [(0.2, (-0.70828, 0.43878, 0.54573, 0.0894)), (2.0, (0.12295, -0.49108, 0.35043, -0.78799))],
 )
 def test_exudyns_tables_agree_in_every_digit(heavy_top, t, published):
     ours = Rotation.from_quat(heavy_top.at(t).orientation[[1, 2, 3, 0]]) * AXES.inv()

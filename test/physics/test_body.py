@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.refusals import refused
+from physics.tops import ARTICLE, CUSPS, EPS, Case
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
-from workshop.exact_motion import Inputs, exact_motion
+from workshop.exact_motion import exact_motion
 from workshop.taylor_motion import TaylorMotion
 
-EPS = 2.0**-52
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 # Weights of the second derivative by central differences, order 8 (Fornberg 1988, table 1).
 WEIGHTS = ((-205, 72), (8, 5), (-1, 5), (8, 315), (-1, 560))
 STEP = 1e-4  # rad of the fastest rate: the error of the differences is below 1e-30 of the rates
@@ -72,11 +71,9 @@ ACCELERATION = 3
 def test_the_acceleration_of_a_point_is_the_second_derivative_of_its_place():
     errors = []
     for top, state, position, _ in random_cases():
-        q, omega = state.given_orientation.tolist(), state.angular_velocity.tolist()
-        inputs = Inputs.of(*top.moments, q, omega)
-        errors.append(
-            compare(Motion(top, state), lambda t, i=inputs: exact_motion(i, t)[0], position)
-        )
+        inputs = Case(top, state, 0.0).inputs
+        motion = Motion(top, state)
+        errors.append(compare(motion, lambda t, i=inputs: exact_motion(i, t)[0], position))
     assert max(errors) < ACCELERATION
 
 
@@ -97,11 +94,8 @@ def test_friction_and_an_applied_torque_count_in_the_acceleration():
 
 def test_the_force_of_the_pivot_is_newtons_second_law():
     # Along the way of the article's top, with the momentum of the centre of mass from its place.
-    body, start = Body.of(ARTICLE), State.from_euler(theta=0.5, psi_dot=200.0)
-    motion = Motion(ARTICLE, start)
-    inputs = Inputs.of(
-        *ARTICLE.moments, start.given_orientation.tolist(), start.angular_velocity.tolist()
-    )
+    body, motion = Body.of(ARTICLE), Motion(ARTICLE, CUSPS)
+    inputs = Case(ARTICLE, CUSPS, 0.0).inputs
     for t in (0.0, 0.03, 0.08, 7.0):
         exact = differentiate(
             lambda h, t=t: exact_motion(inputs, mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21

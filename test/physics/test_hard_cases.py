@@ -143,28 +143,12 @@ def test_a_long_or_short_time(top, spin, t):
     assert_met(top, State.from_euler(theta=0.5, psi=0.3, phi_dot=0.7, psi_dot=spin), t)
 
 
-@pytest.mark.parametrize(
-    "t",
-    [
-        0.1,
-        0.01,
-        1e-3,
-        1e-5,
-        1e-8,
-    ],
-)
+@pytest.mark.parametrize("t", [0.1, 0.01, 1e-3, 1e-5, 1e-8])
 def test_an_axis_let_go_from_rest_soon_after(t):
     assert_met(ARTICLE, State.from_euler(theta=0.5, psi=0.3), t)
 
 
-@pytest.mark.parametrize(
-    "phi_dot",
-    [
-        10.0,
-        0.1,
-        1e-4,
-    ],
-)
+@pytest.mark.parametrize("phi_dot", [10.0, 0.1, 1e-4])
 def test_an_axis_that_hardly_moves_at_first(phi_dot):
     assert_met(ARTICLE, State.from_euler(theta=0.5, psi=0.3, phi_dot=phi_dot), 1e-6)
 
@@ -205,14 +189,7 @@ def test_a_pendulum_thrown_up_to_where_it_balances(small, excess):
 
 @pytest.mark.parametrize(
     ("small", "excess"),
-    [
-        (1e-12, 0.0),
-        (1e-13, 0.0),
-        (1e-14, 0.0),
-        (1e-16, -1e-15),
-        (1e-16, 1e-13),
-        (1e-16, 0.0),
-    ],
+    [(1e-12, 0.0), (1e-13, 0.0), (1e-14, 0.0), (1e-16, -1e-15), (1e-16, 1e-13), (1e-16, 0.0)],
 )
 def test_a_pendulum_thrown_up_almost_from_the_vertical(small, excess):
     assert_met(Top(1.0, 0.5, 1.0), thrown_up(small, excess), 0.5)
@@ -253,17 +230,7 @@ def test_a_body_that_is_nearly_a_sphere(small, sign, spin):
     assert_met(top, start, 40.0)
 
 
-@pytest.mark.parametrize(
-    "ratio",
-    [
-        1.0,
-        1e-2,
-        1e-4,
-        1e-6,
-        1e-8,
-        1e-12,
-    ],
-)
+@pytest.mark.parametrize("ratio", [1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12])
 def test_a_thin_rod_that_spins_meets_its_start(ratio):
     rates = {"theta_dot": 3.0, "psi_dot": 10.0 / ratio}
     start = State.from_euler(theta=0.05, phi=0.3, psi=0.2, **rates)

@@ -158,13 +158,19 @@ def score(capsys, *args):
     return status, *capsys.readouterr()
 
 
+def assert_same(capsys, cpp, javascript, *args):
+    """Compare what the three scorers print; return the status."""
+    wanted = score(capsys, *args)
+    assert cpp(*args) == wanted
+    assert javascript(*args) == wanted
+    return wanted[0]
+
+
 @pytest.mark.parametrize("kind", FILES)
 def test_the_three_scorers_print_the_same(kind, tmp_path, capsys, cpp, javascript):
     path = tmp_path / "trajectory.csv"
     path.write_text(FILES[kind], encoding="utf-8")
-    wanted = score(capsys, "cusps", path)
-    assert cpp("cusps", path) == wanted
-    assert javascript("cusps", path) == wanted
+    assert_same(capsys, cpp, javascript, "cusps", path)
 
 
 @pytest.mark.parametrize("error", [1e-15, 1e-3])
@@ -174,22 +180,15 @@ def test_the_three_scorers_print_the_same_of_other_problems(
 ):
     path = tmp_path / "trajectory.csv"
     path.write_text(write(make_table(name, error)))
-    wanted = score(capsys, name, path)
-    assert wanted[0] == 0
-    assert cpp(name, path) == wanted
-    assert javascript(name, path) == wanted
+    assert assert_same(capsys, cpp, javascript, name, path) == 0
 
 
 def test_the_three_scorers_list_and_refuse_the_same(tmp_path, capsys, cpp, javascript):
     for args in ((), ("no  such",), ("cusps",)):
-        wanted = score(capsys, *args)
-        assert cpp(*args) == wanted
-        assert javascript(*args) == wanted
+        assert_same(capsys, cpp, javascript, *args)
     if shutil.which("node"):
         for path in (tmp_path / "none.csv", tmp_path):
-            wanted = score(capsys, "cusps", path)
-            assert cpp("cusps", path) == wanted
-            assert javascript("cusps", path) == wanted
+            assert_same(capsys, cpp, javascript, "cusps", path)
 
 
 def test_all_tables_that_say_the_same_are_scored_alike(tmp_path, capsys):

@@ -19,14 +19,7 @@ from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion
 from workshop.taylor_motion import TaylorMotion
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import COUNT, SETTINGS
-from workshop.testset.write import (
-    EPS_32,
-    describe,
-    describe_forces,
-    describe_world,
-    digits,
-    limits,
-)
+from workshop.testset.write import EPS_32, describe, describe_forces, describe_world, digits, limits
 
 PROBLEMS = {name: each.facts for name, each in read_problems().items()}
 # Of SHA256SUMS: the files have these bytes until the data change, and then the set a new version.

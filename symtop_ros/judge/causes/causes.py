@@ -21,7 +21,7 @@ from symtop_ros.judge.causes.cause import (
     set_parameter,
 )
 from symtop_ros.judge.causes.grids import MOST, Grids
-from symtop_ros.judge.causes.search import LEVELS, Table
+from symtop_ros.judge.causes.search import LEVELS, find_valleys, fit_level
 from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import SAMPLES, Fit
@@ -49,13 +49,9 @@ ALIGNED = 2.0  # an explanation with this many times smaller rotations is prefer
 
 def find_causes(estimates: Estimates, truth: Truth) -> Finding:
     """Return the simplest explanation that leaves little."""
-    inside = truth.states_at(estimates.stamps, estimates.of_sensor)[2]
-    run = estimates.select(inside)
-    every = max(1, len(run) // SAMPLES)
-    some = run.select(np.arange(len(run)) % every == 0)
-    nothing = Cause("", "none", (), NONE, 0.0)
+    some = truth.select(estimates).thin(SAMPLES)
     if len(some) < 2:
-        return Finding(nothing)
+        return Finding(Cause("", "none", (), NONE, 0.0))
     return Search(some, truth).find()
 
 
@@ -113,8 +109,7 @@ class Search:
 
     def is_white(self, cause: Cause, limit: float = WHITE) -> bool:
         """Return True if what an explanation leaves looks like noise, by its correlation."""
-        fit = self._fit(cause.change, cause.level)
-        q, model, known = fit.residuals(cause.offset)
+        q, model, known = self._fit(cause.change).residuals(cause.offset)
         left = to_rotation(compose(q[known], invert(model[known]))).as_rotvec()
         square = float((left**2).sum())
         if square > LOUD**2 * len(left):
@@ -222,26 +217,24 @@ class Search:
         """Yield explanations with a change and a parameter, or none, next to those of a base."""
         known = base.offset if base else NONE
         table = self.grids.tabulate(change, name, known)
+        names = {*(base.parameters if base else ()), *((name,) if name else ())}
         for level in CHANGES[change][1]:
-            if level != "none" and "rotations" in self.hidden and level == "body":
+            if level == "body" and "rotations" in self.hidden:
                 continue
             costs = table.costs(level)
-            padded = np.concatenate(([np.inf], costs, [np.inf]))
-            valleys = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:]))
-            for place in valleys[np.argsort(costs[valleys])][:VALLEYS].tolist():
+            for place in find_valleys(costs, VALLEYS):
                 if name and costs[place] > HOPELESS:
                     continue
                 start = table.start(place, level)
                 begin = int(self.some.stamps[0])
-                place_of = replace(known, world=start.world, body=start.body, begin=begin)
-                offset = set_parameter(place_of, name, float(table.values[place]))
-                names = {*(base.parameters if base else ()), *((name,) if name else ())}
+                offset = replace(known, world=start.world, body=start.body, begin=begin)
+                offset = set_parameter(offset, name, float(table.values[place]))
                 yield self.refine(change, level, tuple(sorted(names)), offset)
 
     def refine(self, change: str, level: str, names: tuple[str, ...], offset: Offset) -> Cause:
         """Return the least squares near an offset."""
-        fit = self._fit(change, level)
-        best = fit.refine(offset, tuple(PARAMETERS[name] for name in names))
+        fit = self._fit(change)
+        best = fit.refine(offset, [*LEVELS[level][0], *(PARAMETERS[name] for name in names)])
         return Cause(change, level, names, best, fit.cost(best))
 
     def find_period(self, best: Cause) -> tuple[float | None, Offset]:
@@ -254,24 +247,17 @@ class Search:
         if abs(later) > MOST or known.sum() < len(known) / 2:
             return None, NONE
         changed = CHANGES[best.change][2](self.some)
-        start = Table(
-            np.zeros(1),
-            changed.orientations[np.newaxis],
-            exact[np.newaxis],
-            known[np.newaxis].astype(np.float64),
-        ).start(0, "both")
+        start = fit_level(changed.orientations[known], exact[known], "both")
         offset = replace(best.offset, world=start.world, body=start.body, delay=float(later))
         found = self.refine(best.change, "both", best.parameters, offset)
         if found.cost <= SIMPLER * best.cost + self.fit.rounding:
             return period, found.offset
         return None, NONE
 
-    def _fit(self, change: str, level: str) -> Fit:
+    def _fit(self, change: str) -> Fit:
         if change not in self.fits:
             self.fits[change] = Fit(CHANGES[change][2](self.some), self.truth, most=MOST)
-        fit = self.fits[change]
-        fit.turns = LEVELS[level][0]
-        return fit
+        return self.fits[change]
 
     def _differs(self) -> bool:
         """Return True if the sensor's attitude is not that of the body."""

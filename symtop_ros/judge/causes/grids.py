@@ -36,8 +36,8 @@ class Grids:
         self, change: str, name: str, base: Offset = NONE, values: Real | None = None
     ) -> Table:
         """Return the table of a parameter, next to those of a base; without a name, of nothing."""
-        every = max(1, len(self.some) // COARSE) if name else 1
-        some = CHANGES[change][2](self.some).select(np.arange(len(self.some)) % every == 0)
+        changed = CHANGES[change][2](self.some)
+        some = changed.thin(COARSE) if name else changed
         if values is None:
             values = self._grid(name) if name else np.zeros(1)
         base = replace(base, begin=int(self.some.stamps[0]), world=IDENTITY, body=IDENTITY)
@@ -81,16 +81,16 @@ class Grids:
 
     def _grid(self, name: str) -> Real:
         """Return the values of a parameter that are tried."""
-        if name == "delay":
-            most, turn = MOST, MOST * self.fastest
-        elif name == "clock":
-            most, turn = MOST_CLOCK, MOST_CLOCK * self.fastest * self.span
-        elif name == "scale":
-            angle = max(self.fastest * self.span, 1.0)
-            most = min(MOST_SCALE, 2 * np.pi * TURNS / angle)
-            turn = most * angle
-        else:
-            turn = 2 * np.pi * TURNS
-            most = turn / self.span
+        angle, turns = self.fastest * self.span, 2 * np.pi * TURNS
+        whole = max(angle, 1.0)
+        scale = min(MOST_SCALE, turns / whole)
+        drift = turns / self.span
+        most, turn = {  # the largest value, and by how many rad it turns the attitude
+            "delay": (MOST, MOST * self.fastest),
+            "clock": (MOST_CLOCK, MOST_CLOCK * angle),
+            "scale": (scale, scale * whole),
+            "drift": (drift, turns),
+            "spin": (drift, turns),
+        }[name]
         count = int(min(max(turn / GRID_STEP, 10), MOST_DELAYS))
         return np.linspace(-most, most, 2 * count + 1)

@@ -56,17 +56,7 @@ class Table:
     def start(self, place: int, level: str) -> Offset:
         """Return the best rotations of a level for one value."""
         known = self.known[place] > 0
-        q, exact = self.estimates[place][known], self.exact[place][known]
-        if level == "both":
-            return fit_rotations(q, exact)
-        if level == "none":
-            return NONE
-        if level == "body":
-            return Offset(IDENTITY, _mean(compose(invert(exact), q)))
-        left = compose(q, invert(exact))
-        if level == "heading":
-            left = left * np.array([1.0, 0.0, 0.0, 1.0])
-        return Offset(_mean(left), IDENTITY)
+        return fit_level(self.estimates[place][known], self.exact[place][known], level)
 
     def _guess_bodies(self) -> Real:
         ours, theirs = _turns(self.estimates), _turns(self.exact)
@@ -74,7 +64,7 @@ class Table:
         u, _, vt = np.linalg.svd(np.swapaxes(theirs * both, 1, 2) @ (ours * both))
         u[..., -1] *= np.linalg.det(u @ vt)[:, np.newaxis]
         # a rotation matrix R with theirs = R ours
-        q = type(to_rotation(IDENTITY)).from_matrix(u @ vt).as_quat()
+        q = Rotation.from_matrix(u @ vt).as_quat()
         return np.asarray(q[:, np.newaxis, [3, 0, 1, 2]])
 
 
@@ -85,6 +75,28 @@ def _turns(q: Real) -> Real:
     sine = np.linalg.norm(step[..., 1:], axis=-1, keepdims=True)
     angle = 2 * np.arctan2(sine, step[..., :1])
     return np.asarray(step[..., 1:] * angle / np.where(sine > 0, sine, 1.0))
+
+
+def fit_level(q: Real, exact: Real, level: str) -> Offset:
+    """Return the best rotations of a level, for estimates (n, 4) and exact attitudes."""
+    if level == "both":
+        return fit_rotations(q, exact)
+    if level == "none":
+        return NONE
+    if level == "body":
+        return Offset(IDENTITY, _mean(compose(invert(exact), q)))
+    left = compose(q, invert(exact))
+    if level == "heading":
+        left = left * np.array([1.0, 0.0, 0.0, 1.0])
+    return Offset(_mean(left), IDENTITY)
+
+
+def find_valleys(costs: Real, most: int) -> list[int]:
+    """Return the places of some valleys of a table of costs, the deepest first."""
+    padded = np.concatenate(([np.inf], costs, [np.inf]))
+    valleys = np.flatnonzero((costs <= padded[:-2]) & (costs <= padded[2:]))
+    found: list[int] = valleys[np.argsort(costs[valleys])][:most].tolist()
+    return found
 
 
 def _mean(q: Real) -> Real:

@@ -6,6 +6,7 @@ these changes, with coefficients that the motion gives at any time.
 """
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,11 +27,7 @@ def differentiate_driven(motion: Any, times: Real) -> Real:
     farthest = float(times[np.abs(times).argmax()]) if times.size else 0.0
     _limit(motion, farthest, 0.0)  # before the motion is followed to its fastest rate
     rate = _limit(motion, farthest, farthest)
-
-    def list_coefficients(inside: Real) -> tuple[Real, Real]:
-        return _list_coefficients(motion, inside)
-
-    flow = LinearFlow(list_coefficients, 6, 3, WIDTH / rate).at(times)
+    flow = LinearFlow(partial(_list_coefficients, motion), 6, 3, WIDTH / rate).at(times)
     # first the moments, then the start
     return np.concatenate((flow[..., 6:], flow[..., :6]), axis=-1)
 
@@ -60,8 +57,7 @@ def _list_coefficients(motion: Any, times: Real) -> tuple[Real, Real]:
     omega = state.angular_velocity
     w1, w2, w3 = np.moveaxis(omega, -1, 0)
     inertia = np.array([Ix, Ix, Iz])
-    applied = _to_body(state, np.array(motion.applied_torque))
-    vertical = _to_body(state, Z)
+    applied, vertical = state.to_body(motion.applied_torque), state.vertical
     friction = motion.friction
     resisted = np.array([friction.transverse, friction.transverse, friction.axial])
     slopes, forces = np.zeros((n, 6, 6)), np.zeros((n, 6, 3))
@@ -82,11 +78,6 @@ def _list_coefficients(motion: Any, times: Real) -> tuple[Real, Real]:
     forces[:, 5, 1] = -torque[:, 2] / Iz / Iz
     forces[:, 3:5, 2] = -np.cross(Z, vertical)[:, :2] / Ix
     return slopes, forces
-
-
-def _to_body(state: Any, vector: Real) -> Real:
-    """Return a vector (3,) of the world in the body frames, (n, 3)."""
-    return np.asarray(state.to_body(vector))
 
 
 def _cross(v: Real) -> Real:

@@ -21,14 +21,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.derivatives.collocation import LinearFlow
-from symtop_ros.physics.exact.precise import PRECISE, TWO_PI
-from symtop_ros.physics.values import refuse
-
-Complex = NDArray[np.complex128]
+from symtop_ros.physics.exact.elementary import find_rest
+from symtop_ros.physics.exact.precise import PRECISE, TWO_PI, split_short
+from symtop_ros.physics.values import Complex, refuse
 
 # A step in units of the fastest rate. Half or twice of it changes no derivative by more than 4e-14
 # of the largest one of its kind, which is rounding.
@@ -37,7 +35,6 @@ SIZE, COUNT = 5, 2  # delta and u; r and m
 SLOWEST = 1e-290  # rad/s
 SMALL_PHASE, LARGEST_EXPONENT = 1e-9, 700.0
 MOST_STEPS = 2**18  # to a time, or in a nutation; some ten seconds
-TANGLED = 2**27 + 1.0  # splits a double into two halves whose products are exact
 
 
 class GravityDerivatives:
@@ -45,12 +42,11 @@ class GravityDerivatives:
 
     def __init__(self, motion: Any, nutation_rate: Decimal) -> None:
         self._motion, self._rate = motion, nutation_rate
-        self._Ix, self._Iz, self._Mgl = motion.top.moments
-        *_, self._spin = motion.start.angular_velocity.tolist()
-        self._r, self._m = self._Iz / self._Ix * self._spin, self._Mgl / self._Ix
-        speed = math.hypot(*motion.start.angular_velocity[:2])
+        self._Ix, self._Iz, Mgl = motion.top.moments
+        wx, wy, self._spin = motion.start.angular_velocity.tolist()
+        self._r, self._m = self._Iz / self._Ix * self._spin, Mgl / self._Ix
         # |u|^2/2 changes by m times the change of height, at most 2.
-        fastest = math.hypot(speed, 2 * math.sqrt(abs(self._m))) + abs(self._r)
+        fastest = math.hypot(math.hypot(wx, wy), 2 * math.sqrt(abs(self._m))) + abs(self._r)
         self._fastest = max(fastest, SLOWEST)
         self._period = float(TWO_PI / nutation_rate) if nutation_rate else math.inf
 
@@ -73,11 +69,9 @@ class GravityDerivatives:
         with localcontext(PRECISE):
             phases = [Decimal(t) * self._rate / TWO_PI for t in times.tolist()]
             whole = [phase.to_integral_value() for phase in phases]
-            rests = [
-                float((phase - n) * TWO_PI / self._rate)
-                for phase, n in zip(phases, whole, strict=True)
-            ]
-        return np.array([float(n) for n in whole]), np.array(rests)
+            pairs = zip(phases, whole, strict=True)
+            rests = [float((phase - n) * TWO_PI / self._rate) for phase, n in pairs]
+        return np.array(whole, np.float64), np.array(rests)
 
     def _limit(self, times: Real, repeats: bool) -> None:
         """Refuse times with too many steps: close to a motion that never returns."""
@@ -228,13 +222,5 @@ def _rotate(turn: Complex, pairs: Real) -> Real:
 def _turn_by_product(rate: float, times: Real) -> Complex:
     """Return e^(i rate t), with all digits of the product."""
     product = rate * times
-    a, b = _halve(np.float64(rate)), _halve(times)
-    rest = ((a[0] * b[0] - product) + a[0] * b[1] + a[1] * b[0]) + a[1] * b[1]
+    rest = find_rest((times, 0.0), split_short(Decimal(rate)), product)
     return np.asarray(np.exp(1j * product) * np.exp(1j * rest))
-
-
-def _halve(x: Any) -> tuple[Any, Any]:
-    """Return the upper 26 bits of doubles, and the rest (T. J. Dekker, 1971)."""
-    tangled = TANGLED * x
-    high = tangled - (tangled - x)
-    return high, x - high

@@ -15,7 +15,6 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.driven.equations import (
@@ -34,10 +33,6 @@ from symtop_ros.physics.driven.equations import (
     Z,
 )
 from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY
-
-# Views of the arrays in which series are made: the coefficients so far, the same from the last one
-# to the first, the matrix of the terms, and the places for the next coefficient in both.
-Order = tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]
 
 TERMS = 30  # more of them make the steps longer, and the terms of a sum larger than the sum
 EXTENDED_TERMS = 6  # the largest ones, in extended precision
@@ -98,6 +93,38 @@ class Piece(NamedTuple):
         return np.asarray(gain + self.start.values)
 
 
+class Coefficients:
+    """The coefficients of a series in one precision, and the places in which they are made."""
+
+    def __init__(self, first: int, terms: int, precision: type[np.floating[Any]]) -> None:
+        self.forward = np.zeros((terms + 1, FACTORS), precision)  # from the first coefficient on
+        self.backward = np.zeros((terms + 1, FACTORS), precision)
+        self.matrices = np.zeros((terms, FACTORS, FACTORS * FACTORS), precision)
+        self._products = np.zeros((FACTORS, FACTORS), precision)
+        # Coefficient k + 1 needs the products of coefficient n with k - n for all n. With one array
+        # in ascending and one in descending order they are a single product of two matrices, and
+        # its two factors are views: making these views takes longer than the product.
+        self._orders = [
+            (
+                self.forward[: k + 1].T,
+                self.backward[terms - k :],
+                self.matrices[k],
+                self.forward[k + 1],
+                self.backward[terms - k - 1],
+            )
+            for k in range(first, terms)
+        ]
+
+    def compute(self) -> None:
+        """Compute one coefficient of all variables after the other."""
+        # Three calls for each order take most of the time of a motion, hence the prepared views.
+        dot, products, flat = np.dot, self._products, self._products.reshape(-1)
+        for forward, backward, matrix, row, reverse in self._orders:
+            dot(forward, backward, products)
+            dot(matrix, flat, row)
+            reverse[:] = row
+
+
 class Stepper:
     """The Taylor series of a driven top about any knot.
 
@@ -107,48 +134,16 @@ class Stepper:
     def __init__(self, equations: DrivenEquations) -> None:
         self._equations = equations
         self._unit = 0.0
-        self._prepare_arrays()
-
-    def _prepare_arrays(self) -> None:
-        """Prepare the arrays in which series are made, and the views of them by order."""
-        self._products = np.zeros((FACTORS, FACTORS))
-        self._series = np.zeros((TERMS + 1, FACTORS))
-        self._backward = np.zeros((TERMS + 1, FACTORS))
-        self._low_products = np.zeros((FACTORS, FACTORS), np.longdouble)
-        self._low = np.zeros((EXTENDED_TERMS + 1, FACTORS), np.longdouble)
-        self._low_backward = np.zeros((EXTENDED_TERMS + 1, FACTORS), np.longdouble)
-        self._matrices = np.zeros((TERMS, FACTORS, FACTORS * FACTORS))
-        self._low_matrices = np.zeros((EXTENDED_TERMS, *self._matrices.shape[1:]), np.longdouble)
+        # The first terms of a series are its largest. Their rounding would be that of the state.
+        self._low = Coefficients(0, EXTENDED_TERMS, np.longdouble)
+        self._high = Coefficients(EXTENDED_TERMS, TERMS, np.float64)
         # Of 512 possible terms of the derivatives some 60 are not zero. Only they are written when
         # the unit of time changes.
-        row, i, j = np.nonzero(self._equations.parts.any(axis=0))
-        self._constants = self._equations.parts[:, row, i, j]
+        row, i, j = np.nonzero(equations.parts.any(axis=0))
+        self._constants = equations.parts[:, row, i, j]
         all_orders = slice(None)
         self._places = all_orders, row, i * FACTORS + j
         self._mirrored = all_orders, row, j * FACTORS + i
-        # Coefficient k + 1 needs the products of coefficient n with k - n for all n. With one array
-        # in ascending and one in descending order they are a single product of two matrices, and
-        # its two factors are views: making these views takes longer than the product.
-        self._low_orders = [
-            (
-                self._low[: k + 1].T,
-                self._low_backward[EXTENDED_TERMS - k :],
-                self._low_matrices[k],
-                self._low[k + 1],
-                self._low_backward[EXTENDED_TERMS - k - 1],
-            )
-            for k in range(EXTENDED_TERMS)
-        ]
-        self._high_orders = [
-            (
-                self._series[: k + 1].T,
-                self._backward[TERMS - k :],
-                self._matrices[k],
-                self._series[k + 1],
-                self._backward[TERMS - k - 1],
-            )
-            for k in range(EXTENDED_TERMS, TERMS)
-        ]
 
     def step(self, knot: Knot, direction: int) -> Piece:
         """Return the series about a knot, for times after it (1) or before it (-1).
@@ -162,10 +157,14 @@ class Stepper:
         self._set_unit(math.ldexp(1.0, math.frexp(1 / rate)[1]) if rate else 1.0)
         scaled = knot.values[:FACTORS].copy()
         scaled[RATES] *= self._unit
-        self._compute_low_orders(scaled)
-        if not self._low[1].any():
+        low, high = self._low, self._high
+        low.forward[0] = low.backward[-1] = scaled
+        low.compute()
+        if not low.forward[1].any():
             return _stop(knot, direction * math.inf)  # it is at rest, for ever
-        self._compute_high_orders()
+        high.forward[: EXTENDED_TERMS + 1] = low.forward
+        high.backward[TERMS - EXTENDED_TERMS :] = low.backward
+        high.compute()
         length = direction * self._find_length() * self._unit
         piece = self._join(knot, length, *self._copy_series())
         while abs(piece.following.values[SPIN] * self._equations.half_rest) > LARGEST_SPIN:
@@ -192,36 +191,26 @@ class Stepper:
         self._unit = unit
         constants = self._constants[0] + unit * (self._constants[1] + unit * self._constants[2])
         by_order = constants / ORDERS
-        self._low_matrices[self._places] = by_order[:EXTENDED_TERMS]
+        self._low.matrices[self._places] = by_order[:EXTENDED_TERMS]
         nearest = by_order.astype(np.float64)
         # The products (i, j) and (j, i) are the same. One takes the nearest double of a constant,
         # the other one what is left: an error of the constants would be the same in each step.
-        self._matrices[self._mirrored] = by_order - nearest
-        self._matrices[self._places] = nearest
-
-    def _compute_low_orders(self, scaled: Extended) -> None:
-        # The first terms of a series are its largest. Their rounding would be that of the state.
-        self._low[0] = self._low_backward[EXTENDED_TERMS] = scaled
-        _compute(self._low_orders, self._low_products)
-
-    def _compute_high_orders(self) -> None:
-        self._series[: EXTENDED_TERMS + 1] = self._low
-        self._backward[TERMS - EXTENDED_TERMS :] = self._low_backward
-        _compute(self._high_orders, self._products)
+        self._high.matrices[self._mirrored] = by_order - nearest
+        self._high.matrices[self._places] = nearest
 
     def _copy_series(self) -> tuple[Extended, Real]:
         """Return the coefficients of the powers of the time, `Piece.low` and `Piece.high`."""
         low = np.empty((EXTENDED_TERMS, SPIN + 1), np.longdouble)
-        low[:, :FACTORS] = self._low[:0:-1]
-        low[:, SPIN] = self._low[-2::-1, OMEGA_Z] / LOW_POWERS
+        low[:, :FACTORS] = self._low.forward[:0:-1]
+        low[:, SPIN] = self._low.forward[-2::-1, OMEGA_Z] / LOW_POWERS
         high = np.empty((len(HIGH_POWERS), SPIN + 1))
-        high[:, :FACTORS] = self._series[:EXTENDED_TERMS:-1]
-        high[:, SPIN] = self._series[-2 : EXTENDED_TERMS - 1 : -1, OMEGA_Z] / HIGH_POWERS
+        high[:, :FACTORS] = self._high.forward[:EXTENDED_TERMS:-1]
+        high[:, SPIN] = self._high.forward[-2 : EXTENDED_TERMS - 1 : -1, OMEGA_Z] / HIGH_POWERS
         return low, high
 
     def _find_length(self) -> float:
         """Return the length of the step in the unit of time, by the root test."""
-        w, x, y, z, omega_x, omega_y, omega_z, _ = self._series[0].tolist()
+        w, x, y, z, omega_x, omega_y, omega_z, _ = self._high.forward[0].tolist()
         turn = math.hypot(omega_x, omega_y, self._equations.ratio * omega_z)
         length = LARGEST_TURN / max(turn, LARGEST_TURN / LONGEST)
         axial = max(1.0, abs(omega_z))  # the spin of a rod exceeds the rate
@@ -232,7 +221,7 @@ class Stepper:
             size = self._measure_swing(swing)
         # Of the last two terms one may be small by chance.
         for order in (TERMS - 1, TERMS):
-            row = self._series[order].tolist()
+            row = self._high.forward[order].tolist()
             *others, along, _ = row
             largest = max(*map(abs, others), abs(along) / axial)
             if swing:
@@ -248,18 +237,8 @@ class Stepper:
         An axis near the vertical swings in proportion to its tilt. Its motion is right to rounding
         of itself only if the terms left out are compared with it, not with 1.
         """
-        size = CLOSER * max([abs(row[k]) for row in self._series[:4].tolist() for k in swing])
+        size = CLOSER * max([abs(row[k]) for row in self._high.forward[:4].tolist() for k in swing])
         return min(1.0, size) or 1.0
-
-
-def _compute(orders: list[Order], products: NDArray[Any]) -> None:
-    """Compute one coefficient of all variables after the other."""
-    # Three calls for each order take most of the time of a motion, hence the prepared views.
-    dot, flat = np.dot, products.reshape(-1)
-    for forward, backward, matrix, row, reverse in orders:
-        dot(forward, backward, products)
-        dot(matrix, flat, row)
-        reverse[:] = row
 
 
 def _stop(knot: Knot, end: float) -> Piece:

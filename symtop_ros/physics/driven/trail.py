@@ -3,8 +3,7 @@
 import math
 from bisect import bisect_left
 from collections import deque
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
 from threading import Lock
 from typing import TypeAlias
 
@@ -13,17 +12,15 @@ import numpy as np
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.driven.equations import DrivenEquations, Extended
 from symtop_ros.physics.driven.series import Knot, Piece, Stepper
-from symtop_ros.physics.kernel.compiled import TOO_FAST, CompiledMotion
+from symtop_ros.physics.kernel.compiled import CompiledMotion
 from symtop_ros.physics.state import State
-from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.times import ExactTimes, refuse_too_fast, to_rough_seconds
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse
 
 KEPT = 1024  # knots kept over the whole integration; beyond this every other one is dropped
 BLOCK = 1024  # times whose variables are held at once
 MOST_DECAYS = 1e5  # decay times in one call: some seconds
-# Steps in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
-STEPS = 256.0
 RECENT = 64  # pieces kept up to the present one: to go back a little costs nothing
 
 
@@ -44,34 +41,28 @@ class DrivenMotion:
         self._start = start
         self._decay = max(friction.transverse / top.Ix, friction.axial / top.Iz)  # 1/s
         self._lock = Lock()
-        self._trails: dict[int, AnyTrail] = {}  # by direction, made when they are asked for
-        self._make: Callable[[int], AnyTrail]
+        self._trails: dict[int, AnyTrail]  # by direction
         if compiled:
-            self._trails = dict.fromkeys((1, -1), CompiledTrail(compiled))
+            self._trails = dict.fromkeys((1, -1), compiled)
         else:
             equations = DrivenEquations(top, friction, torque)
-            knot = Knot(0.0, equations.start(start))
-            self._make = partial(Trail, equations, Stepper(equations), knot)
+            stepper, knot = Stepper(equations), Knot(0.0, equations.start(start))
+            self._trails = {each: Trail(equations, stepper, knot, each) for each in (1, -1)}
 
     def _find_trail(self, t: float) -> "AnyTrail":
-        direction = 1 if t >= 0 else -1
-        if direction not in self._trails:
-            self._trails[direction] = self._make(direction)
-        return self._trails[direction]
+        return self._trails[1 if t >= 0 else -1]
 
     def at(self, t: float) -> tuple[Real, Real]:
         """Return orientation (4,) and angular velocity (3,) at one time in s."""
         if t == 0:
             return self._start.parts
         with self._lock:
-            trail = self._find_trail(t)
-            self._refuse_stiff(trail, t)
-            orientation, omega = trail.compute_states(np.array([t]))
+            orientation, omega = self._find_reachable_trail(t).compute_states(np.array([t]))
         return np.asarray(orientation[0], np.float64), np.asarray(omega[0], np.float64)
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at times (n,) in s or exact times into arrays (n, 4) and (n, 3)."""
-        seconds = times.rough_seconds if isinstance(times, ExactTimes) else times
+        seconds = to_rough_seconds(times)
         order = np.argsort(np.abs(seconds), kind="stable")
         for side in (seconds >= 0, seconds < 0):
             sorted_places = order[side[order]]
@@ -79,67 +70,31 @@ class DrivenMotion:
                 places = sorted_places[first : first + BLOCK]
                 last = float(seconds[places[-1]])
                 with self._lock:
-                    trail = self._find_trail(last)
-                    self._refuse_stiff(trail, last)
-                    some = times.select(places) if isinstance(times, ExactTimes) else times[places]
-                    states = trail.compute_states(some)
+                    states = self._find_reachable_trail(last).compute_states(times[places])
                 orientation[places], angular_velocity[places] = states
         orientation[seconds == 0] = self._start.orientation  # bit for bit
 
-    def _refuse_stiff(self, trail: "AnyTrail", t: float) -> None:
+    def _find_reachable_trail(self, t: float) -> "AnyTrail":
         """Refuse a time that a strong friction makes too far: each decay time takes a step.
 
         After some decay times the top creeps, but explicit series cannot take longer steps.
         """
-        reached, decay = trail.reach(t, 0), self._decay
+        trail, decay = self._find_trail(t), self._decay
+        reached = trail.reach(t, 0)
         if abs(t - reached) * decay > MOST_DECAYS:
             farthest = abs(reached) + MOST_DECAYS / decay
-            condition = (
+            raise refuse(
+                "t",
                 f"within {farthest:.3g} s of the start (friction stops the top in {1 / decay:.3g} "
-                "s, and every such time takes a step)"
+                "s, and every such time takes a step)",
+                t,
             )
-            raise refuse("t", condition, t)
+        return trail
 
     def reach(self, t: float, steps: float) -> float:
         """Integrate towards t in a limited number of steps; return the time reached."""
         with self._lock:
             return self._find_trail(t).reach(t, steps)
-
-
-def refuse_too_fast(t: float, end: float) -> ValueError:
-    """Return the error for a time beyond the end of the range of doubles."""
-    condition = f"within {abs(end):g} s of the start (the motion then becomes too fast)"
-    return refuse("t", condition, t)
-
-
-class CompiledTrail:
-    """The trails of the kernel: in sums of two doubles, with the same bits everywhere."""
-
-    def __init__(self, motion: CompiledMotion) -> None:
-        self._motion = motion
-
-    def compute_states(self, times: Real | ExactTimes) -> tuple[Real, Real]:
-        """Return orientations (n, 4) and angular velocities (n, 3) at times (n,), sorted."""
-        count, first = times.shape[0], 0
-        orientation, omega = np.empty((count, 4)), np.empty((count, 3))
-        while first < count:
-            left = slice(first, None)
-            some = times.select(left) if isinstance(times, ExactTimes) else times[left]
-            written, status = self._motion.fill_some(some, orientation[left], omega[left], STEPS)
-            first += written
-            if status == TOO_FAST:
-                seconds = times.rough_seconds if isinstance(times, ExactTimes) else times
-                t = float(seconds[first])
-                raise refuse_too_fast(t, self._motion.reach(t, 0)[0])
-        return orientation, omega
-
-    def reach(self, t: float, steps: float) -> float:
-        """Integrate towards a time in a limited number of steps, or to where it is too fast."""
-        while True:
-            reached, is_too_fast = self._motion.reach(t, min(steps, STEPS))
-            steps -= STEPS
-            if is_too_fast or reached == t or steps <= 0:
-                return reached
 
 
 class Trail:
@@ -215,4 +170,4 @@ class Trail:
         self._recent.append(self._stepper.step(knot, self._direction))
 
 
-AnyTrail: TypeAlias = Trail | CompiledTrail
+AnyTrail: TypeAlias = Trail | CompiledMotion

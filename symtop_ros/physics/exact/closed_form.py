@@ -20,7 +20,6 @@ from symtop_ros.physics.exact.elementary import (
     Number,
     arc_tangent,
     find_modulus,
-    find_size,
     multiply,
     multiply_by_conjugate,
     normalize,
@@ -28,15 +27,15 @@ from symtop_ros.physics.exact.elementary import (
 )
 from symtop_ros.physics.exact.first_instants import FirstInstants, find_end
 from symtop_ros.physics.exact.kind import Kind, classify
-from symtop_ros.physics.exact.mean_rates import add_means
-from symtop_ros.physics.exact.nutation import Nutation, find_roots, is_lost
+from symtop_ros.physics.exact.mean_rates import add_means, solve
+from symtop_ros.physics.exact.nutation import is_lost
 from symtop_ros.physics.exact.nutation_phase import NutationPhase
 from symtop_ros.physics.exact.phases import Phases
 from symtop_ros.physics.exact.precise import HALF, TWO, ZERO
-from symtop_ros.physics.exact.quotients import Quotient, compute_mean_rates, find_zeros
+from symtop_ros.physics.exact.quotients import Quotient
 from symtop_ros.physics.exact.spin import spin_reverses
 from symtop_ros.physics.exact.theta import Series, choose_series
-from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 
 
 class ClosedFormMotion:
@@ -50,13 +49,8 @@ class ClosedFormMotion:
     """
 
     def __init__(self, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> None:
-        self.nutation = Nutation.of(moments, orientation, angular_velocity)
-        self.roots = find_roots(self.nutation)
-        self.zeros = find_zeros(self.nutation, self.roots)
-        # The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that
-        # would have no digits.
-        k = (self.roots.s32 / self.roots.s31).sqrt()
-        self._mean, self._means = compute_mean_rates(self.nutation, self.zeros, k)
+        self._given = moments, orientation, angular_velocity
+        self.nutation, self.roots, self.zeros, (self._mean, self._means) = solve(*self._given)
         self._frequency = (self.nutation.beta * self.roots.s31).sqrt()  # 2 Omega
         # 2 pi over the period of theta in rad/s; 0 for a motion that never returns.
         self.nutation_rate = self._frequency * self._mean
@@ -67,7 +61,6 @@ class ClosedFormMotion:
         self._half_c = HALF * wz * (Ix - Iz) / Ix
         # A state at a time of at most this size comes from a Taylor series.
         self._first_end = find_end(moments, angular_velocity)
-        self._given = moments, orientation, angular_velocity
         self._arguments = moments, normalize(orientation), angular_velocity
 
     @cached_property
@@ -118,12 +111,14 @@ class ClosedFormMotion:
 
     def cayley_klein(self, t: Number | ExactTimes) -> Components:
         """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
-        seconds = t.rough_seconds if isinstance(t, ExactTimes) else t
-        is_first = find_size(seconds) <= self._first_end
+        seconds = to_rough_seconds(t)
+        is_first = abs(seconds) <= self._first_end
         if isinstance(is_first, np.ndarray):
             if is_first.any() and not is_first.all():
-                first = self._begin(_select(t, is_first))
-                return _merge(is_first, first, self._evaluate(_select(t, ~is_first)))
+                some: Any = t
+                return _merge(
+                    is_first, self._begin(some[is_first]), self._evaluate(some[~is_first])
+                )
             is_first = bool(is_first.any())
         elif seconds == 0:
             return self._return_start()  # as the first instants do, without their coefficients
@@ -132,7 +127,7 @@ class ClosedFormMotion:
     def _begin(self, t: Number | ExactTimes) -> Components:
         """Return the values near t = 0, and at t = 0 those of the start, with their signs of 0."""
         values = self._first_instants.cayley_klein(t)
-        is_start = (t.rough_seconds if isinstance(t, ExactTimes) else t) == 0
+        is_start = to_rough_seconds(t) == 0
         if isinstance(is_start, np.ndarray) and is_start.any():
             for parts, start in zip(values, self._return_start(), strict=True):
                 for part, number in zip(parts, start, strict=True):
@@ -252,7 +247,7 @@ class ClosedFormMotion:
         if 4 * self.nutation.height_left >= zero.from_u1:
             estimates.append(from_start)
         total = 0.0
-        for estimate in estimates:
+        for estimate in estimates:  # not `sum`, which rounds in another way from Python 3.12 on
             total += estimate
         return total / len(estimates)
 
@@ -265,10 +260,6 @@ def _add(mean: Decimal, half_c: Decimal) -> Decimal:
     """
     rate = mean + half_c
     return ZERO if is_lost(rate, half_c) else rate
-
-
-def _select(t: Any, mask: NDArray[np.bool_]) -> Any:
-    return t.select(mask) if isinstance(t, ExactTimes) else t[mask]
 
 
 def _merge(is_first: NDArray[np.bool_], first: Components, rest: Components) -> Components:

@@ -6,6 +6,7 @@ differences of large numbers there. The series has them to rounding of themselve
 """
 
 import math
+from collections.abc import Sequence
 from decimal import Decimal
 
 from symtop_ros.arrays import Quaternion, Vector
@@ -13,7 +14,6 @@ from symtop_ros.physics.exact.elementary import (
     Components,
     FloatPair,
     Number,
-    Pair,
     find_modulus,
     multiply,
 )
@@ -27,22 +27,6 @@ REACH = 0.1
 SLOWEST = 1e-290  # rad/s; the quotient Mgl/Ix may be zero in doubles
 
 
-class Series:
-    """The Taylor series of a complex function."""
-
-    def __init__(self, real: float, imaginary: float) -> None:
-        self.real, self.imaginary = [real], [imaginary]
-
-    def append(self, real: float, imaginary: float) -> None:
-        """Add the next coefficient."""
-        self.real.append(real)
-        self.imaginary.append(imaginary)
-
-    def sum_powers(self, time: Number) -> Pair:
-        """Return real and imaginary part at a time."""
-        return _sum_powers(self.real, time), _sum_powers(self.imaginary, time)
-
-
 class FirstInstants:
     """A, B and omega_xy near t = 0."""
 
@@ -53,29 +37,37 @@ class FirstInstants:
         self._unit = 2.0 ** math.frexp(_find_fastest_rate(moments, angular_velocity))[1]
         half_spin = 0.5 * (wz / self._unit) * (Iz / Ix)
         beta = 2 * (Mgl / Ix / self._unit) / self._unit
-        A, B, omega = Series(w, z), Series(x, y), Series(wx / self._unit, wy / self._unit)
+        A, B, omega = [(w, z)], [(x, y)], [(wx / self._unit, wy / self._unit)]  # Taylor series
         for n in range(TERMS):
             # Euler's equations and q' = q (0, omega)/2 in the frame that does not turn by c: there
             # gravity alone changes omega_xy. All products are convolutions.
             over, along = _convolve(B, omega, -1.0), _convolve(omega, A)
             weight, order = _convolve(B, A, -1.0), n + 1
-            A_n, B_n = (A.real[n], A.imaginary[n]), (B.real[n], B.imaginary[n])
-            omega.append(beta * weight[0] / order, beta * weight[1] / order)
+            real, imaginary = A[n]
             A.append(
-                (-half_spin * A_n[1] - over[0] / 2) / order,
-                (half_spin * A_n[0] - over[1] / 2) / order,
+                (
+                    (-half_spin * imaginary - over[0] / 2) / order,
+                    (half_spin * real - over[1] / 2) / order,
+                )
             )
+            real, imaginary = B[n]
             B.append(
-                (along[0] / 2 + half_spin * B_n[1]) / order,
-                (along[1] / 2 - half_spin * B_n[0]) / order,
+                (
+                    (along[0] / 2 + half_spin * imaginary) / order,
+                    (along[1] / 2 - half_spin * real) / order,
+                )
             )
-        self._series = A, B, omega
+            omega.append((beta * weight[0] / order, beta * weight[1] / order))
+        self._series = [list(zip(*each, strict=True)) for each in (A, B, omega)]
         self._phases = Phases(HALF * Decimal(wz) * (Decimal(Ix) - Decimal(Iz)) / Decimal(Ix))
 
     def cayley_klein(self, t: Number | ExactTimes) -> Components:
         """Return A, B and omega_xy at times in s or exact times, as real and imaginary parts."""
         time = self._unit * (t.seconds if isinstance(t, ExactTimes) else t)
-        A, B, omega = (series.sum_powers(time) for series in self._series)
+        A, B, omega = (
+            (_sum_powers(real, time), _sum_powers(imaginary, time))
+            for real, imaginary in self._series
+        )
         [half_turn] = self._phases.at(t)
         turn = half_turn.unit
         back = turn[0], -turn[1]
@@ -84,7 +76,7 @@ class FirstInstants:
         return multiply(A, turn), multiply(B, back), omega_xy
 
 
-def _sum_powers(coefficients: list[float], time: Number) -> Number:
+def _sum_powers(coefficients: Sequence[float], time: Number) -> Number:
     *lower, last = coefficients
     total = last * time
     for coefficient in lower[:0:-1]:
@@ -103,17 +95,13 @@ def _find_fastest_rate(moments: Vector, angular_velocity: Vector) -> float:
     return max(*rates, SLOWEST)
 
 
-def _convolve(left: Series, right: Series, sign: float = 1.0) -> FloatPair:
+def _convolve(left: list[FloatPair], right: list[FloatPair], sign: float = 1.0) -> FloatPair:
     """Return the coefficient of the product of two series that both have as many as it needs.
 
     With sign -1 it is that of the product with the conjugate of the second series.
     """
     real = imaginary = 0.0
-    a, b = (
-        zip(left.real, left.imaginary, strict=True),
-        zip(right.real, right.imaginary, strict=True),
-    )
-    for (x, y), (u, v) in zip(a, reversed(list(b)), strict=True):
+    for (x, y), (u, v) in zip(left, reversed(right), strict=True):
         real += x * u - sign * (y * v)
         imaginary += y * u + sign * (x * v)
     return real, imaginary

@@ -8,13 +8,26 @@ weight. Then the constants of the motion are computed again, with more digits.
 from decimal import Decimal, localcontext
 
 from symtop_ros.arrays import Quaternion, Vector
-from symtop_ros.physics.exact.nutation import Nutation, find_roots
+from symtop_ros.physics.exact.nutation import Nutation, Roots, find_roots
 from symtop_ros.physics.exact.precise import PRECISE, ZERO
-from symtop_ros.physics.exact.quotients import compute_mean_rates, find_zeros
+from symtop_ros.physics.exact.quotients import Zeros, compute_mean_rates, find_zeros
 
 KEPT = 20  # digits that a sum of the rates must have (design/lost_sums.py)
 # Digits that are tried. No double is so small that more could be lost: what is left is zero.
 MORE_DIGITS = (110, 250, 700)
+
+
+def solve(
+    moments: Vector, orientation: Quaternion, angular_velocity: Vector
+) -> tuple[Nutation, Roots, Zeros, tuple[Decimal, tuple[Decimal, ...]]]:
+    """Return the constants of a motion, with the digits in use: the last two are its mean rates."""
+    nutation = Nutation.of(moments, orientation, angular_velocity)
+    roots = find_roots(nutation)
+    zeros = find_zeros(nutation, roots)
+    # The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that would have no
+    # digits.
+    k = (roots.s32 / roots.s31).sqrt()
+    return nutation, roots, zeros, compute_mean_rates(nutation, zeros, k)
 
 
 def add_means(
@@ -53,9 +66,6 @@ def _add(a: Decimal, b: Decimal, c: Decimal, digits: int) -> tuple[Decimal | Non
 def _compute_terms(
     moments: Vector, orientation: Quaternion, angular_velocity: Vector
 ) -> tuple[Decimal, Decimal, Decimal]:
-    nutation = Nutation.of(moments, orientation, angular_velocity)
-    roots = find_roots(nutation)
-    k = (roots.s32 / roots.s31).sqrt()
-    _, (a, b, _) = compute_mean_rates(nutation, find_zeros(nutation, roots), k)
+    *_, (_, (a, b, _)) = solve(moments, orientation, angular_velocity)
     Ix, Iz, wz = map(Decimal, (moments[0], moments[1], angular_velocity[2]))
     return a, b, wz * (Ix - Iz) / Ix

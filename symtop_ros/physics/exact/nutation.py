@@ -33,9 +33,11 @@ computed again in fractions of integers, exactly.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from decimal import Decimal, getcontext
 from fractions import Fraction
+from typing import Any
 
 from symtop_ros.arrays import Quaternion, Vector
 from symtop_ros.physics.exact.precise import HALF, ONE, TWO, ZERO
@@ -68,49 +70,33 @@ class Nutation:
     @classmethod
     def of(cls, moments: Vector, orientation: Quaternion, angular_velocity: Vector) -> "Nutation":
         """Return the nutation of a top (Ix, Iz, Mgl) that starts at a state."""
-        Ix, Iz, Mgl = (Decimal(x) for x in moments)
-        w, x, y, z = (Decimal(c) for c in orientation)
-        wx, wy, wz = (Decimal(c) for c in angular_velocity)
-        upper, lower = w * w + z * z, x * x + y * y
-        # The doubles of a quaternion have norm 1 to rounding only. With this factor 1 - u0 and
-        # 1 + u0 have the sum 2 exactly, as the cubic assumes.
-        twice = TWO / (upper + lower)
-        gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)  # z' seen from the body
-        a, beta = wz * Iz / Ix, TWO * Mgl / Ix
-        one_minus_u, one_plus_u = twice * lower, twice * upper
-        u_dot, b_minus_au = wy * gx - wx * gy, wx * gx + wy * gy
-        omega_xy_squared = wx * wx + wy * wy
-        of_spin, of_rise = a * b_minus_au, (one_plus_u - one_minus_u) * HALF * omega_xy_squared
-        of_weight, of_height = HALF * beta * one_plus_u * one_minus_u, a * omega_xy_squared / beta
-        b_minus_a, b_plus_a = b_minus_au - a * one_minus_u, b_minus_au + a * one_plus_u
-        alpha_minus_beta = omega_xy_squared - beta * one_minus_u
-        u_dot_dot, b_minus_au_highest = of_spin - of_rise - of_weight, b_minus_au - of_height
-        if (
-            abs(b_minus_a) <= CANCELLED * (abs(wx * gx) + abs(wy * gy))
-            or abs(alpha_minus_beta) <= CANCELLED * omega_xy_squared
-            or is_lost(u_dot * u_dot, omega_xy_squared, 2)
-            or is_lost(b_minus_au * b_minus_au, omega_xy_squared, 2)
-            or is_lost(b_plus_a, b_minus_au)
-            or is_lost(b_minus_au_highest, b_minus_au)
-            or is_lost(u_dot_dot, of_spin)
-            or is_lost(u_dot_dot, of_rise)
-        ):
-            sums = _sum_exactly(moments, orientation, angular_velocity)
-            b_minus_au, u_dot, u_dot_dot, b_minus_a, b_plus_a, *rest = sums
-            b_minus_au_highest, alpha_minus_beta = rest
-        return cls(
-            a=a,
-            beta=beta,
-            one_minus_u=one_minus_u,
-            one_plus_u=one_plus_u,
-            b_minus_au=b_minus_au,
-            u_dot=u_dot,
-            omega_xy_squared=omega_xy_squared,
-            u_dot_dot=u_dot_dot,
-            b_minus_a=b_minus_a,
-            b_plus_a=b_plus_a,
-            b_minus_au_highest=b_minus_au_highest,
-            alpha_minus_beta=alpha_minus_beta,
+        given = moments, orientation, angular_velocity
+        numbers, (along, of_spin, of_rise) = _form(*(map(Decimal, each) for each in given))
+        rounded = cls(*numbers)
+        if not rounded._has_lost_digits(along, of_spin, of_rise):
+            return rounded
+        fractions, _ = _form(*(map(Fraction, each) for each in given))
+        return replace(  # only sums lose digits
+            cls(*map(_round, fractions)),
+            a=rounded.a,
+            beta=rounded.beta,
+            one_minus_u=rounded.one_minus_u,
+            one_plus_u=rounded.one_plus_u,
+            omega_xy_squared=rounded.omega_xy_squared,
+        )
+
+    def _has_lost_digits(self, along: Decimal, of_spin: Decimal, of_rise: Decimal) -> bool:
+        """Return True if a sum has lost too many digits, by its terms."""
+        squared = self.omega_xy_squared
+        return (
+            abs(self.b_minus_a) <= CANCELLED * along
+            or abs(self.alpha_minus_beta) <= CANCELLED * squared
+            or is_lost(self.u_dot * self.u_dot, squared, 2)
+            or is_lost(self.b_minus_au * self.b_minus_au, squared, 2)
+            or is_lost(self.b_plus_a, self.b_minus_au)
+            or is_lost(self.b_minus_au_highest, self.b_minus_au)
+            or is_lost(self.u_dot_dot, of_spin)
+            or is_lost(self.u_dot_dot, of_rise)
         )
 
     @property
@@ -136,28 +122,28 @@ def is_lost(value: Decimal, term: Decimal, power: int = 1) -> bool:
     return bool(value and term) and value.adjusted() < term.adjusted() - power * LOST_DIGITS
 
 
-def _sum_exactly(
-    moments: Vector, orientation: Quaternion, angular_velocity: Vector
-) -> list[Decimal]:
-    """Return the sums of `Nutation`, formed exactly and then rounded to the digits in use."""
-    Ix, Iz, Mgl = map(Fraction, moments)
-    w, x, y, z = map(Fraction, orientation)
-    wx, wy, wz = map(Fraction, angular_velocity)
+def _form(
+    moments: Iterable[Any], orientation: Iterable[Any], angular_velocity: Iterable[Any]
+) -> tuple[tuple[Any, ...], tuple[Any, Any, Any]]:
+    """Return the fields of `Nutation` and terms of their sums, of Decimals or of Fractions."""
+    (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, angular_velocity
     upper, lower = w * w + z * z, x * x + y * y
+    # The doubles of a quaternion have norm 1 to rounding only. With this factor 1 - u0 and 1 + u0
+    # have the sum 2 exactly, as the cubic assumes.
     twice = 2 / (upper + lower)
-    gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)
-    one_minus_u, one_plus_u, a, beta = twice * lower, twice * upper, wz * Iz / Ix, 2 * Mgl / Ix
-    along, squared = wx * gx + wy * gy, wx * wx + wy * wy
-    sums = (
-        along,
-        wy * gx - wx * gy,
-        a * along - ((one_plus_u - one_minus_u) * squared + beta * one_plus_u * one_minus_u) / 2,
-        along - a * one_minus_u,
-        along + a * one_plus_u,
-        along - a * squared / beta,
-        squared - beta * one_minus_u,
+    gx, gy = twice * (x * z - w * y), twice * (y * z + w * x)  # z' seen from the body
+    a, beta, squared = wz * Iz / Ix, 2 * Mgl / Ix, wx * wx + wy * wy
+    one_minus_u, one_plus_u = twice * lower, twice * upper
+    b_minus_au = wx * gx + wy * gy
+    of_spin, of_rise = a * b_minus_au, (one_plus_u - one_minus_u) / 2 * squared
+    of_weight, of_height = beta / 2 * one_plus_u * one_minus_u, a * squared / beta
+    numbers = (
+        *(a, beta, one_minus_u, one_plus_u, b_minus_au, wy * gx - wx * gy, squared),
+        of_spin - of_rise - of_weight,
+        *(b_minus_au - a * one_minus_u, b_minus_au + a * one_plus_u),
+        *(b_minus_au - of_height, squared - beta * one_minus_u),
     )
-    return [_round(each) for each in sums]
+    return numbers, (abs(wx * gx) + abs(wy * gy), of_spin, of_rise)
 
 
 def _round(x: Fraction) -> Decimal:

@@ -96,8 +96,7 @@ class Phases:
         """Refuse times at which no digit of a phase can be promised."""
         latest = float(np.max(np.abs(seconds), initial=0.0))
         if latest > self._latest:
-            condition = f"within {self._latest:.2g} s of the start (1e30 turns)"
-            raise refuse("t", condition, latest)
+            raise refuse("t", f"within {self._latest:.2g} s of the start (1e30 turns)", latest)
 
     def _at_exact(self, times: ExactTimes) -> list["Phase"]:
         self._refuse_late(times.rough_seconds)

@@ -13,21 +13,13 @@ issue 8480).
 """
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import TypeAlias
 
 from symtop_ros.physics.exact.complementary_series import ComplementarySeries
 from symtop_ros.physics.exact.direct_series import DirectSeries
-from symtop_ros.physics.exact.elementary import FloatPair, Location, Pair, Shift
+from symtop_ros.physics.exact.elementary import Shift
 
-
-class Series(Protocol):
-    """The three quotients, 2 pi-periodic in the phase x; each is right to rounding of itself."""
-
-    def values(self, at: Location) -> list[Pair]:
-        """Return real and imaginary parts of the three quotients."""
-
-    def slope(self, k: int, at: Location) -> FloatPair:
-        """Return the derivative of quotient k with respect to v, with the winding held."""
+Series: TypeAlias = DirectSeries | ComplementarySeries
 
 
 def choose_series(K: float, Kc: float, root_of_nome: float, shifts: Sequence[Shift]) -> Series:

@@ -3,15 +3,18 @@
 from fractions import Fraction
 from typing import Any, get_args
 
+import numpy as np
+
 from symtop_ros.arrays import Quaternion, Real, Vector
 from symtop_ros.physics.exact.kind import Kind, Rates
-from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.times import ExactTimes, refuse_too_fast, to_rough_seconds
 from symtop_ros.physics.top import Friction
 
-# States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
-STATES = 2**16
+# States and steps in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between
+# two calls.
+STATES, STEPS = 2**16, 256.0
 KINDS: tuple[Kind, ...] = get_args(Kind)  # in the order of `symtop_kind`
-TOO_FAST = 9  # of `symtop_status`
+TOO_FAR, TOO_FAST = 8, 9  # of `symtop_status`
 # Of a factor and of the parts of an elapsed time, in `symtop_clock`.
 SMALLEST, LARGEST, PARTS = 1e-100, 1e100, 4
 
@@ -19,9 +22,10 @@ Clock = tuple[float, tuple[float, ...]]
 
 
 class CompiledMotion:
-    """A motion as the kernel computes it, bit for bit as Python does.
+    """A motion as the kernel computes it: under gravity bit for bit as Python does.
 
     Times of more than 1e15 turns are not served: their phases need the digits of Python's numbers.
+    Driven motions are computed in sums of two doubles, with the same bits everywhere.
     """
 
     def __init__(
@@ -42,35 +46,49 @@ class CompiledMotion:
         return state
 
     def fill(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> int:
-        """Write the states under gravity at times (n,), up to the first that is too far.
+        """Write the states at times (n,), up to the first that is too far; return their number.
 
-        Returns the number of states written.
+        The times of a driven motion are sorted from the start on, in one direction.
         """
-        for first in range(0, len(orientation), STATES):
+        first = 0
+        while first < len(orientation):
             part = slice(first, first + STATES)
-            some = times.select(part) if isinstance(times, ExactTimes) else times[part]
-            written, _ = self.fill_some(some, orientation[part], omega[part], 0.0)
-            if written < len(orientation[part]):
-                return first + written
-        return len(orientation)
+            written, status = self._fill_part(times[part], orientation[part], omega[part])
+            first += written
+            if status == TOO_FAR:
+                break
+            if status == TOO_FAST:
+                t = float(to_rough_seconds(times)[first])
+                raise refuse_too_fast(t, self.reach(t, 0))
+        return first
 
-    def fill_some(
-        self, times: Real | ExactTimes, orientation: Real, omega: Real, most_steps: float
+    def _fill_part(
+        self, times: Real | ExactTimes, orientation: Real, omega: Real
     ) -> tuple[int, int]:
         """Write the states at times (n,) in one call; return how many, and the kernel's status."""
-        result: tuple[int, int] = (0, 0)
+        result: tuple[int, int] = (0, TOO_FAR)
         if not isinstance(times, ExactTimes):
-            result = self._motion.fill(times, orientation, omega, most_steps)
+            result = self._motion.fill(times, orientation, omega, STEPS)
         elif clock := _find_clock(times):
-            result = self._motion.fill_stamps(
-                times.nanoseconds, clock, orientation, omega, most_steps
-            )
+            stamps = times.nanoseconds
+            result = self._motion.fill_stamps(stamps, clock, orientation, omega, STEPS)
         return result
 
-    def reach(self, t: float, most_steps: float) -> tuple[float, bool]:
-        """Integrate towards a time in s; return the time reached, and if it is too fast there."""
-        reached, status = self._motion.reach(t, most_steps)
-        return reached, status == TOO_FAST
+    def compute_states(self, times: Real | ExactTimes) -> tuple[Real, Real]:
+        """Return orientations (n, 4) and angular velocities (n, 3) of a driven motion."""
+        count = times.shape[0]
+        orientation, omega = np.empty((count, 4)), np.empty((count, 3))
+        if self.fill(times, orientation, omega) < count and isinstance(times, ExactTimes):
+            self.fill(times.seconds, orientation, omega)  # the elapsed time has too many digits
+        return orientation, omega
+
+    def reach(self, t: float, steps: float) -> float:
+        """Integrate towards a time in a limited number of steps, or to where it is too fast."""
+        while True:
+            reached, status = self._motion.reach(t, min(steps, STEPS))
+            steps -= STEPS
+            if status == TOO_FAST or reached == t or steps <= 0:
+                return float(reached)
 
     @property
     def kind(self) -> Kind:

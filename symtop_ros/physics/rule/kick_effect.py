@@ -8,15 +8,15 @@ from symtop_ros.physics.kicks import Hold, validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.rule.perry import (
     Direction,
-    PrecessionChange,
     Reason,
     Rule,
     Subject,
-    name_subject,
+    explain_change,
+    find_change,
 )
 from symtop_ros.physics.rule.verdict import (
     Average,
-    classify_vertical,
+    explain_vertical,
     find_average,
     find_direction,
 )
@@ -135,28 +135,28 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     top, after = motion.top, motion.start
     if hold is not None:
         hold = validate_hold(hold)
-    subject, direction = name_subject(top.Mgl), find_direction(top, after)
-    kick = None if before.is_vertical else PrecessionChange.between(top, before, after, hold)
-    if kick is None:
-        reason = Reason(classify_vertical(top, after), None, subject)
+    direction = find_direction(top, after)
+    if before.is_vertical:
+        factor, reason = None, explain_vertical(top, after)
     else:
-        reason = kick.explain(is_done=True)
+        tilt, was, now, factor = find_change(top, before, after, hold)
+        reason = explain_change(tilt, was, now, factor, is_done=True)
     highest, lowest = _compare(Motion(top, before).turning_angles, motion.turning_angles)
     return KickVerdict(
-        axis="vertical" if kick is None else "tilted",
+        axis="vertical" if before.is_vertical else "tilted",
         hold=hold,
-        factor=None if kick is None else kick.factor,
+        factor=factor,
         before=reason.before,
         after=reason.after,
         motion=motion.kind,
-        subject=subject,
+        subject=reason.subject,
         direction=direction,
         turning_angles=motion.turning_angles,
         driven=motion.is_driven,
         reason=reason,
         highest=highest,
         lowest=lowest,
-        contradiction=_find_contradiction(reason, kick, direction, highest, lowest),
+        contradiction=_find_contradiction(reason, direction, highest, lowest),
         average=None if motion.is_driven else find_average(motion),
     )
 
@@ -172,21 +172,17 @@ def _compare(before: tuple[float, float], after: tuple[float, float]) -> list[Li
 
 
 def _find_contradiction(
-    reason: Reason,
-    kick: PrecessionChange | None,
-    direction: Direction,
-    highest: Lift,
-    lowest: Lift,
+    reason: Reason, direction: Direction, highest: Lift, lowest: Lift
 ) -> Contradiction | None:
     """Return the facts that are contrary to the direction in which theta'' changed."""
-    expected = kick.expected_direction if kick else None
-    if expected is None or reason.rule is None:
+    if reason.rule is None:
         return None
+    is_raised = (reason.rule == "holds") == (reason.kind == "hurried")
     facts: list[Fact] = []
-    if direction not in (expected, "stays"):
-        facts.append("falls" if expected == "rises" else "rises")
-    if highest.kind == ("lower" if expected == "rises" else "higher"):
-        facts.append("highest_lower" if expected == "rises" else "highest_higher")
-    if lowest.kind == ("lower" if expected == "rises" else "higher"):
-        facts.append("lowest_lower" if expected == "rises" else "lowest_higher")
+    if direction == ("falls" if is_raised else "rises"):
+        facts.append(direction)
+    if highest.kind == ("lower" if is_raised else "higher"):
+        facts.append("highest_lower" if is_raised else "highest_higher")
+    if lowest.kind == ("lower" if is_raised else "higher"):
+        facts.append("lowest_lower" if is_raised else "lowest_higher")
     return Contradiction(reason.rule, reason.subject, tuple(facts)) if facts else None

@@ -163,93 +163,59 @@ class TiltAcceleration:
         return "between" if min(rates) < phi_dot < max(rates) else "outside"
 
 
-@dataclass(frozen=True, slots=True)
-class PrecessionChange:
-    """A change of phi' at one tilt, and Perry's rule for it.
+def find_change(
+    top: Top, before: State, after: State, hold: Hold | None
+) -> tuple[TiltAcceleration, float, float, float | None]:
+    """Return the kick that leads from one state to another of the same attitude.
 
-    Parameters
-    ----------
-    tilt : TiltAcceleration
-    before, after : float
-        phi' without the kick and with it, in rad/s.
-    factor : float or None
-        after/before; None marks an angular impulse.
+    It is theta'' at the tilt, phi' before and after the kick, and their quotient, or None for an
+    angular impulse. The kick has rounded the angular velocity. A rate or a change of this size is
+    no rate and no change: its sign would decide the verdict by chance.
     """
+    was, now = find_precession(before), find_precession(after)
+    sine = float(np.hypot(*before.vertical[:2]))
+    rounding = 8 * EPS * float(np.hypot(*before.angular_velocity[:2])) / sine
+    now = was if abs(now - was) <= rounding else 0.0 if abs(now) <= rounding else now
+    if hold is None:
+        return TiltAcceleration.of(top, after, "spin_rate"), was, now, None
+    return TiltAcceleration.of(top, before, hold), was, now, now / was if was else 1.0
 
-    tilt: TiltAcceleration
-    before: float
-    after: float
-    factor: float | None
 
-    @classmethod
-    def between(
-        cls, top: Top, before: State, after: State, hold: Hold | None
-    ) -> "PrecessionChange":
-        """Return the kick that leads from one state to another of the same attitude.
+def explain_change(
+    tilt: TiltAcceleration, before: float, after: float, factor: float | None, is_done: bool
+) -> Reason:
+    """Return Perry's rule for a change of phi'; `is_done` is False if it is only considered."""
+    # of Ix theta''/sin(theta), which decides the rule, in N m
+    change = float(tilt.quadratic.change(before, after))
+    silence = _find_silence(before, factor, change)
+    is_hurried = factor is not None and factor > 1
+    kind: ReasonKind = "hurried" if is_hurried else "delayed"
+    if not is_done:
+        kind = "if_hurried" if is_hurried else "if_delayed"
+    rule: Rule = "holds" if (change < 0) == is_hurried else "fails"
+    return Reason(
+        silence or kind,
+        None if silence else rule,
+        name_subject(tilt.quadratic.Mgl),
+        before,
+        after,
+        tilt.at(before),
+        tilt.at(after),
+        tilt.place(after if is_done else before),
+    )
 
-        The kick has rounded the angular velocity. A rate or a change of this size is no rate and
-        no change: its sign would decide the verdict by chance.
-        """
-        was, now = find_precession(before), find_precession(after)
-        sine = float(np.hypot(*before.vertical[:2]))
-        rounding = 8 * EPS * float(np.hypot(*before.angular_velocity[:2])) / sine
-        now = was if abs(now - was) <= rounding else 0.0 if abs(now) <= rounding else now
-        if hold is None:
-            return cls(TiltAcceleration.of(top, after, "spin_rate"), was, now, None)
-        return cls(TiltAcceleration.of(top, before, hold), was, now, now / was if was else 1.0)
 
-    @property
-    def rule_holds(self) -> bool | None:
-        """True if Perry's rule holds; None if it says nothing."""
-        if self.silence:
-            return None
-        return self._change < 0 if self._is_hurried else self._change > 0
-
-    @property
-    def expected_direction(self) -> Direction | None:
-        """Direction in which theta'' changes; None if the rule says nothing."""
-        if self.silence:
-            return None
-        return "rises" if self._change < 0 else "falls"
-
-    @property
-    def silence(self) -> Silence | None:
-        """Reason why the rule says nothing; None if it says something."""
-        if self.factor is None:
-            return "angular_impulse"
-        if self.before == 0:
-            return "no_precession"
-        if self.factor == 1:
-            return "unchanged"
-        if self.factor < 0:
-            return "reversed"
-        return None if self._change else "no_effect"
-
-    def explain(self, is_done: bool) -> Reason:
-        """Return the reason; `is_done` is False for a kick that is only considered."""
-        kind: ReasonKind = "hurried" if self._is_hurried else "delayed"
-        if not is_done:
-            kind = "if_hurried" if self._is_hurried else "if_delayed"
-        holds = self.rule_holds
-        return Reason(
-            self.silence or kind,
-            None if holds is None else "holds" if holds else "fails",
-            name_subject(self.tilt.quadratic.Mgl),
-            self.before,
-            self.after,
-            self.tilt.at(self.before),
-            self.tilt.at(self.after),
-            self.tilt.place(self.after if is_done else self.before),
-        )
-
-    @property
-    def _is_hurried(self) -> bool:
-        return self.factor is not None and self.factor > 1
-
-    @property
-    def _change(self) -> float:
-        """Change of Ix theta''/sin(theta), which decides the rule, in N m."""
-        return float(self.tilt.quadratic.change(self.before, self.after))
+def _find_silence(before: float, factor: float | None, change: float) -> Silence | None:
+    """Return the reason why the rule says nothing; None if it says something."""
+    if factor is None:
+        return "angular_impulse"
+    if before == 0:
+        return "no_precession"
+    if factor == 1:
+        return "unchanged"
+    if factor < 0:
+        return "reversed"
+    return None if change else "no_effect"
 
 
 def find_precession(state: State) -> float:

@@ -3,32 +3,33 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Literal, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.kicks import Hold, validate_hold
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.precession import stack_rates
 from symtop_ros.physics.rule.perry import (
     Direction,
-    PrecessionChange,
     Reason,
     Subject,
     TiltAcceleration,
     VerticalCase,
+    explain_change,
     find_precession,
     name_subject,
 )
-from symtop_ros.physics.rule.verdicts import Verdicts, are_many, judge_each
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     START_ROUNDING,
+    fit_shapes,
     refuse,
+    validate_array,
     validate_number,
 )
 from symtop_ros.wording import write
@@ -109,6 +110,39 @@ class Verdict:
         return write("verdict", self)
 
 
+@dataclass(frozen=True, eq=False)
+class Verdicts:
+    """The motions that follow from many states, and Perry's rule for a kick at each.
+
+    Attributes
+    ----------
+    direction : ndarray (...) of str
+        "rises", "falls" or "stays", as in `Verdict`.
+    turning_angles : two ndarray (...)
+        Smallest and largest theta in rad.
+    regular_rates : two ndarray (...)
+        Slow and fast rate of regular precession in rad/s; nan for a rate that there is not.
+    rule_applies : ndarray (...) of bool
+        False where Perry's rule says nothing.
+    rule_holds : ndarray (...) of bool
+        True where it holds.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State, Top, perrys_rule
+    >>> tops = Top(Ix=0.000228, Iz=0.0000572, Mgl=[0.068, 0.2])
+    >>> verdicts = perrys_rule(tops, State.from_euler(theta=0.5, phi_dot=9.0, psi_dot=200.0))
+    >>> verdicts.direction.tolist(), verdicts.rule_holds.tolist()
+    (['rises', 'falls'], [True, True])
+    """
+
+    direction: NDArray[np.str_]
+    turning_angles: tuple[Real, Real]
+    regular_rates: tuple[Real, Real]
+    rule_applies: NDArray[np.bool_]
+    rule_holds: NDArray[np.bool_]
+
+
 @overload
 def perrys_rule(
     top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_rate"
@@ -160,21 +194,53 @@ def perrys_rule(
     False
     """
     hold = validate_hold(hold)
-    if are_many(top, state, factor):
-        return judge_each(top, state, factor, partial(_judge, hold))
-    return _judge(hold, top, state, validate_number("factor", factor))
+    if top.shape or state.orientation.ndim > 1 or np.ndim(factor):
+        return _judge_each(top, state, validate_array("factor", factor), hold)
+    return _judge(top, state, validate_number("factor", factor), hold)
 
 
-def _judge(hold: Hold, top: Top, state: State, factor: float) -> Verdict:
+def _judge_each(top: Top, state: State, factors: Real, hold: Hold) -> Verdicts:
+    """Return the verdicts on tops, states and factors that are broadcast together."""
+    shapes = top.shape, state.orientation.shape[:-1], factors.shape
+    shape = fit_shapes("top, state and factor", *shapes)
+    moments = [np.broadcast_to(each, shape) for each in top.moments]
+    q, omega = (np.broadcast_to(part, (*shape, part.shape[-1])) for part in state.parts)
+    factors = np.broadcast_to(factors, shape)
+    verdicts = [
+        _judge(
+            Top(*(float(each[n]) for each in moments)),
+            State(q[n], omega[n]),
+            float(factors[n]),
+            hold,
+        )
+        for n in np.ndindex(shape)
+    ]
+    angles = np.array([verdict.turning_angles for verdict in verdicts]).reshape(-1, 2).T
+    low, high = angles.reshape(2, *shape)
+    holds = [verdict.rule_holds for verdict in verdicts]
+    return Verdicts(
+        direction=np.array([verdict.direction for verdict in verdicts], np.str_).reshape(shape),
+        turning_angles=(low, high),
+        regular_rates=stack_rates([verdict.regular_rates for verdict in verdicts], shape),
+        rule_applies=np.array([each is not None for each in holds], np.bool_).reshape(shape),
+        rule_holds=np.array([each is True for each in holds], np.bool_).reshape(shape),
+    )
+
+
+def _judge(top: Top, state: State, factor: float, hold: Hold) -> Verdict:
     motion = Motion(top, state)
+    rates: tuple[float, ...] = ()
     if state.is_vertical:
-        reason = Reason(classify_vertical(top, state), None, name_subject(top.Mgl))
-        rates: tuple[float, ...] = ()
+        reason = explain_vertical(top, state)
     else:
-        kick = _plan_change(TiltAcceleration.of(top, state, hold), find_precession(state), factor)
-        reason, rates = kick.explain(is_done=False), kick.tilt.quadratic.roots
+        rate, tilt = find_precession(state), TiltAcceleration.of(top, state, hold)
+        if abs(factor * rate) > LARGEST_ANGULAR_VELOCITY:
+            condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
+            raise refuse("factor", condition, factor)
+        reason = explain_change(tilt, rate, factor * rate, factor, is_done=False)
+        rates = tilt.quadratic.roots
     return Verdict(
-        subject=name_subject(top.Mgl),
+        subject=reason.subject,
         direction=find_direction(top, state),
         turning_angles=motion.turning_angles,
         regular_rates=rates,
@@ -182,13 +248,6 @@ def _judge(hold: Hold, top: Top, state: State, factor: float) -> Verdict:
         reason=reason,
         average=find_average(motion),
     )
-
-
-def _plan_change(tilt: TiltAcceleration, rate: float, factor: float) -> PrecessionChange:
-    if abs(factor * rate) > LARGEST_ANGULAR_VELOCITY:
-        condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-        raise refuse("factor", condition, factor)
-    return PrecessionChange(tilt, rate, factor * rate, factor)
 
 
 def find_average(motion: Motion) -> Average | None:
@@ -222,8 +281,9 @@ def find_direction(top: Top, state: State) -> Direction:
     return "rises" if change < 0 else "falls"
 
 
-def classify_vertical(top: Top, state: State) -> VerticalCase:
+def explain_vertical(top: Top, state: State) -> Reason:
     """Return why the rule says nothing about an axis on the vertical."""
+    kind: VerticalCase = "stable" if top.sleeping_is_stable(state) else "unstable"
     if any(state.angular_velocity[:2]):
-        return "undefined"
-    return "stable" if top.sleeping_is_stable(state) else "unstable"
+        kind = "undefined"
+    return Reason(kind, None, name_subject(top.Mgl))

@@ -327,6 +327,14 @@ def test_exact_times_are_not_rounded_to_doubles(nanoseconds):
     assert motion.at(one).orientation.tolist() == motion.at(times).orientation[1].tolist()
 
 
+@pytest.mark.parametrize("elapsed", [Fraction(1, 2**400), 3 + Fraction(1, 2**300)])
+def test_an_elapsed_time_may_have_any_number_of_digits(elapsed):
+    times = ExactTimes(np.array([10**8, 2 * 10**8]), elapsed=elapsed)
+    motion = Motion(ARTICLE, CUSPS, *DRIVES["both"])
+    # half an ulp of 0.2 s, in which the body turns by 3e-15 rad
+    assert distance(motion.at(times), motion.at(times.seconds)) <= 16 * EPS
+
+
 @pytest.mark.parametrize("seed", range(2))
 def test_a_random_top_swings_near_the_vertical_as_it_should(seed):
     assert_swing(seed)

@@ -9,7 +9,7 @@ from physics.driven_families import FAMILIES as DRIVEN_FAMILIES
 from physics.driven_families import DrivenCase
 from physics.tops import random_case
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
 from symtop_ros.physics.exact.kind import Kind
 
 FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
@@ -104,3 +104,8 @@ def expect(samples):
 def normalize(numbers):
     """Return the bytes of doubles, with one NaN for all: its sign is not defined."""
     return np.where(np.isnan(numbers), np.nan, numbers).tobytes()
+
+
+def list_samples(gravity, driven):
+    """Python alone has other bits for driven motions: they are compared with the kernel's."""
+    return [*list_gravity(gravity), *(list_driven(driven) if accelerated else ())]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physics.kernel.motions import encode, expect, list_driven, list_gravity, normalize
+from physics.kernel.motions import encode, expect, list_samples, normalize
 
 from symtop_ros.physics import accelerated
 
@@ -42,11 +42,6 @@ def build(source, folder, kernel, *options):
     subprocess.run([*pedantic, "-c", FOLDER / source, "-o", target], check=True)
     subprocess.run(["g++", *options, target, kernel, "-o", program], check=True)
     return program
-
-
-def list_samples(gravity, driven):
-    """Python alone has other bits for driven motions: they are compared with the kernel's."""
-    return [*list_gravity(gravity), *(list_driven(driven) if accelerated else ())]
 
 
 def compare(command, samples):

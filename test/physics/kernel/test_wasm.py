@@ -8,7 +8,7 @@ from typing import get_args
 import numpy as np
 import pytest
 from browser import running_browser
-from physics.kernel.motions import encode, expect, list_driven, list_gravity, normalize
+from physics.kernel.motions import encode, expect, list_samples, normalize
 
 from symtop_ros.physics import accelerated
 from symtop_ros.physics.exact.kind import Kind
@@ -48,11 +48,6 @@ def compare(page, samples):
         "([kinds, module, samples]) => print_motions(Kernel, kinds, module, samples)", arguments
     )
     assert normalize(np.frombuffer(base64.b64decode(result))) == expect(samples)
-
-
-def list_samples(gravity, driven):
-    """Python alone has other bits for driven motions: they are compared with the kernel's."""
-    return [*list_gravity(gravity), *(list_driven(driven) if accelerated else ())]
 
 
 def test_the_module_was_built_from_these_sources():
