@@ -52,8 +52,13 @@ class Truth:
         return self._events[0].stamp if self._events else None
 
     @property
+    def is_driven(self) -> bool:
+        """True if friction or a torque acts at the start: no motion repeats."""
+        return bool(self._events) and self._segment(0).motion.is_driven
+
+    @property
     def period(self) -> float | None:
-        """Nutation period of a run of one motion in s of its clock, or None."""
+        """Nutation period under gravity of a run of one motion in s of its clock, or None."""
         if len(self._events) != 1:
             return None
         segment = self._segment(0)

@@ -177,6 +177,13 @@ def test_a_delay_is_known_up_to_periods_of_the_nutation():
     assert "or plus n x 0.1595 s, with a rotation of the world by " in text
 
 
+def test_a_delay_of_a_motion_with_friction_has_no_period():
+    truth = scene_truth("friction")
+    found = find_causes(Made(delay=0.08).make(truth, STAMPS), truth)
+    assert found.best.parameters == ("delay",)
+    assert found.period is None
+
+
 @pytest.mark.wording
 @pytest.mark.parametrize("other", ["still", "wave"])
 def test_what_is_not_explained_is_said(other):

@@ -240,7 +240,7 @@ class Search:
     def find_period(self, best: Cause) -> tuple[float | None, Offset]:
         """Return a period by which the delay can change, and the rotations with it."""
         period = self.truth.period
-        if period is None or "delay" not in best.parameters:
+        if period is None or self.truth.is_driven or "delay" not in best.parameters:
             return None, NONE
         later = best.offset.delay - np.copysign(period, best.offset.delay)
         exact, _, known = self.fit.exact(later)
