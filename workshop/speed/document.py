@@ -186,7 +186,6 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
     table = format_tables(["", *names], rows)
     return (
         "## Other motions\n\n![speed against error, by motion](motions.png)\n\n"
-        "Marks and lines are those of [the plot of cusps](work_precision.png).\n\n"
         f"Largest error in {SPAN:g} s at the best setting, and its time in ms.\n\n{table}"
     )
 
