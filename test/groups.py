@@ -2,8 +2,9 @@
 
 python test/groups.py [--coverage] [--keys] [GROUP...]
 
-A failure does not keep other groups from running. Three groups run at a time. Those of real time
-measure time, and run alone afterwards.
+A failure does not keep other groups from running. Three groups run at a time, in an order in which
+one that waits for nodes or pages runs beside two that compute. Those of real time measure time, and
+run alone afterwards.
 """
 
 from __future__ import annotations
@@ -120,9 +121,9 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
     return {
         "nodes": [run(*WITH_NUMPY1, python=NUMPY1), run(*NODES, *ignore(WITH_NUMPY1))],
         "rest": [run("test", *ignore(ELSEWHERE))],
-        "plain": [run(*PLAIN, *WITH_ROS)],
         "physics": [run("test/physics")],
         "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
+        "plain": [run(*PLAIN, *WITH_ROS)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
         "lint": [
             *(check("ruff", "check"), check("ruff", "format", "--check")),

@@ -11,6 +11,7 @@ D' = D (k omega_world)/2. So D is integrated along angular velocities in the wor
 change by precession and nutation only and not with the spin (`Scaling`).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -162,9 +163,9 @@ class Scaling:
         q, omega, known = truth.states_at(np.rint(times).astype(np.int64))
         return np.asarray(to_rotation(q).apply(omega) * known[:, np.newaxis])
 
-    def turn(self, scale: float) -> Real:
-        """Return the rotations D for a scale that is wrong by this part, (n, 4)."""
-        return self._path(scale)[self._ends]
+    def turn(self, scales: float | Real) -> Real:
+        """Return the rotations D, (..., n, 4), for scales (...) that are wrong by these parts."""
+        return self._path(scales)[..., self._ends, :]
 
     def derive(self, scale: float) -> Real:
         """Return the derivatives of D by the scale, as rotation vectors in the world, (n, 3)."""
@@ -172,17 +173,34 @@ class Scaling:
         steps = to_rotation(path[:-1]).apply(self._turns) if scale else self._turns
         return np.asarray(np.vstack((np.zeros(3), np.cumsum(steps, axis=0)))[self._ends])
 
-    def _path(self, scale: float) -> Real:
-        """Return the products of all steps up to each, (m + 1, 4), by doubling their number."""
-        half = self._turns * (scale / 2)
-        angles = np.linalg.norm(half, axis=1, keepdims=True)
-        steps = np.hstack((np.cos(angles), half * np.sinc(angles / np.pi)))
-        path = np.vstack((IDENTITY, steps))
-        shift = 1
-        while shift < len(path):
-            path[shift:] = compose(path[:-shift], path[shift:])
-            shift *= 2
-        return path
+    def _path(self, scales: float | Real) -> Real:
+        """Return the products of all steps up to each, (..., m + 1, 4)."""
+        half = np.multiply.outer(scales, self._turns) / 2
+        angles = np.linalg.norm(half, axis=-1, keepdims=True)
+        steps = np.concatenate((np.cos(angles), half * np.sinc(angles / np.pi)), axis=-1)
+        first = np.broadcast_to(IDENTITY, (*np.shape(scales), 1, 4))
+        return _accumulate(np.concatenate((first, steps), axis=-2))
+
+
+def _accumulate(steps: Real) -> Real:
+    """Return the products of the quaternions (..., m, 4) up to each of them.
+
+    They are laid out in rows as long as there are rows: the products within all rows are formed
+    together, then those of whole rows by doubling their number, and at last both are multiplied.
+    """
+    count = steps.shape[-2]
+    length = math.isqrt(count - 1) + 1
+    square = np.broadcast_to(IDENTITY, (*steps.shape[:-2], length * length, 4)).copy()
+    square[..., :count, :] = steps
+    rows = square.reshape(*steps.shape[:-2], length, length, 4)
+    for k in range(1, length):
+        rows[..., k, :] = compose(rows[..., k - 1, :], rows[..., k, :])
+    whole, shift = rows[..., -1, :].copy(), 1
+    while shift < length:
+        whole[..., shift:, :] = compose(whole[..., :-shift, :], whole[..., shift:, :])
+        shift *= 2
+    rows[..., 1:, :, :] = compose(whole[..., :-1, np.newaxis, :], rows[..., 1:, :, :])
+    return np.asarray(square[..., :count, :])
 
 
 def count_steps(stamps: Stamps) -> int:

@@ -17,6 +17,7 @@ MOST = 0.5  # s, of a delay
 MOST_CLOCK = 5e-3  # s per s
 MOST_SCALE = 0.05  # of the scale of a gyroscope
 TURNS = 8  # of world or body within the run, by a drift
+BATCH = 32  # scales of which paths are computed together, as far as a cache reaches
 COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
 Key = tuple[str, int, bool, tuple[float, float]]
 
@@ -76,8 +77,9 @@ class Grids:
         if len(some) not in self.scalings:
             self.scalings[len(some)] = Scaling(self.truth, some.stamps)
         scaling = self.scalings[len(some)]
-        turns = {each: scaling.turn(each) for each in {offset.scale for offset in offsets}}
-        return compose(np.stack([turns[each.scale] for each in offsets]), exact)
+        scales, places = np.unique([each.scale for each in offsets], return_inverse=True)
+        turns = [scaling.turn(some) for some in np.split(scales, range(BATCH, len(scales), BATCH))]
+        return compose(np.concatenate(turns)[places], exact)
 
     def _grid(self, name: str) -> Real:
         """Return the values of a parameter that are tried."""
