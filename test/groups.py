@@ -3,7 +3,7 @@
 python test/groups.py [--coverage] [--keys] [GROUP...]
 
 A failure does not keep other groups from running. Three groups run at a time, in an order in which
-one that waits for nodes or pages runs beside two that compute. Those of real time measure time, and
+one that waits for nodes or pages runs with two that compute. Those of real time measure time, and
 run alone afterwards.
 """
 
