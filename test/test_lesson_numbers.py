@@ -152,7 +152,7 @@ NUMBERS = {
     ids=lambda each: str(getattr(each, "title", each)),
 )
 def test_the_numbers_of_a_step_are_those_of_its_motions(number, step):
-    """The two accelerations of step 11 have a test of their own."""
+    """Numbers without decimals are those of the buttons, and tested elsewhere."""
     texts = (step.predict, step.compute, step.look, step.seen, step.question, step.answer)
     shown = {each for text in texts for each in NUMBER.findall(text)}
     computed = set(NUMBERS[number]()) if number in NUMBERS else set()

@@ -143,7 +143,7 @@ def parse_values(words: Iterable[str]) -> dict[str, Any]:
 
 
 def _value(text: str) -> Any:
-    """Return a number, a list of numbers, or else the text as it is."""
+    """Return a number, a list of numbers, or else the text itself."""
     try:
         if text.startswith("[") or "," in text:
             return [float(part) for part in text.strip("[]").split(",")]

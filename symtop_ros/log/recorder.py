@@ -166,7 +166,7 @@ class Recorder:
                 file.flush()
 
     def _is_full(self, file: "LogFile") -> bool:
-        """Return True if a file has reached a limit; 0 is none."""
+        """Return True if a file has reached a limit; 0 means no limit."""
         size, duration = self.settings.max_size, self.settings.max_duration
         return 0 < size <= file.size or 0 < duration <= file.duration
 

@@ -30,7 +30,7 @@ class MessageSource(ABC):
 
     @abstractmethod
     def _read(self) -> Iterator[list[Message]]:
-        """Yield lists of messages as they are stored."""
+        """Yield lists of messages in the form in which the log has them."""
 
     def chunks(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the log, those of a chunk together."""

@@ -158,7 +158,7 @@ class Simulator:
         if target == self._state:
             raise ResultError(
                 SetSimulationState.Response.ALREADY_IN_TARGET_STATE,
-                reject("state", "another one than now", target),
+                reject("state", "different from the present one", target),
             )
         if self._simulation.segment.running != (target == PLAYING):
             self._demand("pause", target != PLAYING)

@@ -230,7 +230,7 @@ def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[
     shapes : tuples of int
         Their shapes.
     listed : str
-        The shapes in words, for the message; by default as they are.
+        The shapes in words, for the message; by default those of the tuples.
 
     Raises
     ------

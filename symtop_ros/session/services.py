@@ -19,7 +19,7 @@ class Service(NamedTuple):
     kind: ServiceKind
     command: str  # of top_ctl
     help: str
-    act: "Callable[[Requests, Any], str]"  # gets the argument, which is None if it has none
+    act: "Callable[[Requests, Any], str]"  # gets the argument, or None
 
 
 SERVICES: dict[str, Service] = {
