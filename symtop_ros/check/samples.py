@@ -1,5 +1,6 @@
 """Check of a log: the whole run is computed again from its events and compared."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -85,10 +86,12 @@ class LogCheck:
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
         left, owners = columns.select(follows), owners[follows]
-        for in_order in (True, False):
+        # Where stamps are repeated two events may agree up to rounding: the exact one holds.
+        bounds = (BOUND,) if self._course.is_ordered else (0.0, BOUND)
+        for bound, in_order in itertools.product(bounds, (True, False)):
             if in_order or not self._course.is_ordered:
                 before = len(left.stamps)
-                left, owners = self._take_agreeing(deviation, name, left, owners, in_order)
+                left, owners = self._take_agreeing(deviation, name, left, owners, in_order, bound)
                 deviation.unordered += 0 if in_order else before - len(left.stamps)
         for number in np.unique(owners).tolist():
             self._take_all(deviation, name, left.select(owners == number), number)
@@ -100,8 +103,9 @@ class LogCheck:
         left: Columns,
         owners: NDArray[np.intp],
         in_order: bool,
+        bound: float,
     ) -> tuple[Columns, NDArray[np.intp]]:
-        """Take the samples that agree with an event; return the others, with their owners."""
+        """Take the samples that agree with an event within a bound; return the others."""
         if not len(owners):
             return left, owners
         for number in self._course.candidates(left.stamps, owners, in_order):
@@ -110,7 +114,7 @@ class LogCheck:
             if not chosen.any() or not self._budget.reach_stamps(segment, part.stamps):
                 continue
             difference, scale = _compare(name, part, segment)
-            agree = (difference <= BOUND * scale).all(axis=1)
+            agree = (difference <= bound * scale).all(axis=1)
             deviation.add(difference[agree], scale[agree], _is_exact(name, segment))
             chosen[chosen] = agree
             left, owners = left.select(~chosen), owners[~chosen]

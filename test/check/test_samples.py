@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 from log_files import ARTICLE, LAYOUTS, Run
 
-from symtop_ros.check.samples import BOUND, check_log
+from symtop_ros.check.samples import BOUND, LogCheck, check_log
+from symtop_ros.log.batch import Columns
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import Friction, State, Top
+from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.playback.main import main
+from symtop_ros.simulation.events import Event, start_event
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
 EPS = np.finfo(float).eps
 
@@ -143,3 +147,21 @@ def test_a_log_without_fields_is_read_and_its_check_is_left_to_the_version_that_
         check_log(TopLog(McapFile(path)))
     assert main([str(path), "--check"]) == 1
     assert f"symtop_ros test has recorded {path} and checks it" in capsys.readouterr().err
+
+
+def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
+    """After a jump of the clock back the states of repeated stamps may be the same but rounding."""
+    first = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
+    before, begin, end = first.segment(), 100_000_000, 900_000_000
+    start = before.state_at(begin)
+    after = Segment.begin(Motion(ARTICLE, start), begin, 1.0)
+    request = {"from": str(end), "to": str(begin)}
+    back = Event.of(begin, "clock", None, request, start, after, number=2)
+    stamps = np.arange(begin, end, 5_000_000)
+    topic = SAMPLE_TOPICS["orientation"]
+    numbers = topic.compute(Samples.at(before, stamps))
+    assert (numbers != topic.compute(Samples.at(after, stamps))).any()
+    check = LogCheck([first, back])
+    check.add("orientation", Columns(stamps, numbers, np.arange(len(stamps))), np.full(160, 2))
+    found = check.deviations["orientation"]
+    assert (found.samples, found.differing) == (len(stamps), 0)
