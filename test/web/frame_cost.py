@@ -20,16 +20,19 @@ from symtop_ros.web.join import write_file
 
 SCENES = "hurry_slow", "cusps", "looping", "friction"
 FRAMES, KICKS = 120, 15
-# Times the callback of each frame; a kick ends with the first that begins after it.
+WARM = 3000  # ms after which the browser has compiled what runs often
+# Times the callbacks of each frame; a kick ends with the first that begins after it.
 MEASURE = """
 window.frames_ms = [];
-let kicked = null;
+let kicked = null, last = 0;
 const requestOwn = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => requestOwn((now) => {
   const begin = performance.now();
   draw(now);
   const end = performance.now();
-  window.frames_ms.push(end - begin);
+  if (now !== last) window.frames_ms.push(0);
+  last = now;
+  window.frames_ms[window.frames_ms.length - 1] += end - begin;
   if (kicked) kicked(end);
   kicked = null;
 });
@@ -53,8 +56,8 @@ WAYS = {"drawn by software": "", "not drawn": LEAVE_OUT}
 def measure(browser, path, scene, script):
     """Return the times of frames and of kicks in ms."""
     page = Opened(browser, path, f"#scene={scene}", script=script)
-    page.tab.wait_for_timeout(500)
-    page.tab.evaluate("window.frames_ms.length = 0")
+    page.tab.wait_for_timeout(WARM)
+    page.tab.evaluate("window.frames_ms = [0]")
     page.until(lambda: page.tab.evaluate("window.frames_ms.length") >= FRAMES)
     frames = page.tab.evaluate("window.frames_ms")
     kicks = []

@@ -48,7 +48,7 @@ export class Charts {
   }
 
   /**
-   * Draw what a frame shows, in this frame and the next ones.
+   * Draw what a frame shows, in the next frames.
    * @param {Facts} facts
    * @param {Frame} frame
    * @param {number} factor by which Hurry multiplies phi'
@@ -63,9 +63,11 @@ export class Charts {
   }
 
   drawNext() {
-    const name = this.waiting.shift();
-    if (name) this.drawOne?.(name);
-    if (this.waiting.length) requestAnimationFrame(() => this.drawNext());
+    if (!this.waiting.length) return;
+    requestAnimationFrame(() => {
+      this.drawOne?.(/** @type {string} */ (this.waiting.shift()));
+      this.drawNext();
+    });
   }
 }
 
