@@ -56,7 +56,13 @@ DRIVEN = {
 }
 
 
-@pytest.mark.parametrize("name", RETURNING)
+def leave_some(names):
+    """Leave every second one to the long trials."""
+    marks = [pytest.mark.long]
+    return [pytest.param(name, marks=marks * (k % 2)) for k, name in enumerate(names)]
+
+
+@pytest.mark.parametrize("name", leave_some(RETURNING))
 def test_derivatives_of_a_motion_that_returns_are_exact(name):
     motion = Motion(*RETURNING[name])
     times = [0.13 * motion.nutation_period, 2.71 * motion.nutation_period]
@@ -64,7 +70,7 @@ def test_derivatives_of_a_motion_that_returns_are_exact(name):
     assert errors.max() < CLOSE
 
 
-@pytest.mark.parametrize("name", NOT_RETURNING)
+@pytest.mark.parametrize("name", leave_some(NOT_RETURNING))
 def test_derivatives_of_a_motion_that_does_not_return_are_exact(name):
     top, start, end = NOT_RETURNING[name]
     motion, times = Motion(top, start), [0.2 * end, end]

@@ -77,6 +77,7 @@ def allowed(case_motion, t, swing=0.0):
     return EPS * (2 + distance(case_motion.at(t), other.at(t)) / SHIFT / 10)
 
 
+@pytest.mark.long
 def test_ten_seconds_of_the_friction_scene_agree_with_thirty_digits():
     friction, torque = DRIVES["friction"]
     expected = exact(ARTICLE, CUSPS, friction, torque, 10.0)
