@@ -72,8 +72,8 @@ def describe(log):
 
 
 def choose_marks(number, log):
-    """Leave logs with noise, which take longest, and two of three others to the long trials."""
-    return [pytest.mark.long] if log[1].noise or number % 3 else []
+    """Leave logs with noise, which take longest, and every second one to the long trials."""
+    return [pytest.mark.long] if log[1].noise or number % 2 else []
 
 
 @pytest.mark.parametrize(
