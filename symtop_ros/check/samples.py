@@ -87,12 +87,11 @@ class LogCheck:
         deviation.unchecked += int((~follows).sum())
         left, owners = columns.select(follows), owners[follows]
         # Where stamps are repeated two events may agree up to rounding: the exact one holds.
-        bounds = (BOUND,) if self._course.is_ordered else (0.0, BOUND)
-        for bound, in_order in itertools.product(bounds, (True, False)):
-            if in_order or not self._course.is_ordered:
-                before = len(left.stamps)
-                left, owners = self._take_agreeing(deviation, name, left, owners, in_order, bound)
-                deviation.unordered += 0 if in_order else before - len(left.stamps)
+        repeated = itertools.product((0.0, BOUND), (True, False))
+        for bound, in_order in [(BOUND, True)] if self._course.is_ordered else repeated:
+            before = len(left.stamps)
+            left, owners = self._take_agreeing(deviation, name, left, owners, in_order, bound)
+            deviation.unordered += 0 if in_order else before - len(left.stamps)
         for number in np.unique(owners).tolist():
             self._take_all(deviation, name, left.select(owners == number), number)
 

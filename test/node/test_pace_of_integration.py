@@ -42,13 +42,16 @@ def test_a_motion_too_fast_for_the_budget_is_slowed_down_and_reported(start_top,
     assert float(pace["real_time_factor"]) == 100.0
     assert 0 < float(pace["real_time_factor.achieved"]) < 1.0
     assert status_of(diagnostics[-1], "top: pace").level == DiagnosticStatus.WARN
-    # samples are on their grid, and what is missing, of which a busy machine has a part, is counted
     told = len(diagnostics)
     run.spin_until(lambda: len(diagnostics) > told)
-    steps = np.diff([stamp_of(each) for each in orientations])
+    stamps = np.array([stamp_of(each) for each in orientations])
     missed = int(facts(diagnostics[-1], "top: pace")["missed"])
-    assert not (steps % (5 * MS)).any()
-    assert 0 <= steps.sum() // (5 * MS) - len(steps) <= missed
+    assert not (np.diff(stamps) % (5 * MS)).any()
+    assert np.ptp(stamps) // (5 * MS) + 1 - len(stamps) <= missed  # what is missing is counted
+    # Until the first slow-down samples were missed; since then all of them are there, but for some
+    # that a busy machine misses.
+    kept = stamps[stamps >= stamp_of(events_named(events, "pace")[0])]
+    assert len(kept) > 0.9 * (np.ptp(kept) // (5 * MS) + 1)
     assert_recomputed(events, orientations)
 
 

@@ -2,10 +2,9 @@
 
 PYTHONPATH=.:test python test/web/frame_cost.py prints them for some scenes. Computing is what the
 page's own script does in a frame: states, sentences, charts and the commands for the scene; the
-drawing itself is the graphics card's. Without one, software draws on the same processors,
-so that the times are printed once more without the commands that draw.
-A kick counts from the event of its key to the end of the
-frame that draws it, when the browser has all of its picture.
+drawing itself is the graphics card's. Without one, software draws on the same processors, so that
+the times are printed once more without the commands that draw. A kick counts from the event of its
+key to the end of the frame that draws it, when the browser has all of its picture.
 """
 
 import itertools
