@@ -32,7 +32,7 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 	@$(BIN)/top_panel
 
-test: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (8 minutes; 3 GB, once)
+test: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (9 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
