@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import lzma
 import sys
 from array import array
 from bisect import bisect
@@ -188,9 +187,12 @@ def read_problems(path: Path = FILE) -> dict[str, Problem]:
     70
     """
     packed = path.with_suffix(PACKED)
-    if path.exists() or packed.exists():
-        data = path.read_bytes() if path.exists() else lzma.decompress(packed.read_bytes())
-        found = json.loads(data)["problems"]
+    if path.exists():
+        found = json.loads(path.read_bytes())["problems"]
+    elif packed.exists():
+        from symtop_ros.testset.packed import unpack  # a copy of this file has no package
+
+        found = unpack(packed.read_bytes())
     else:
         copies = sorted(path.parent.glob("*.json"))
         found = [json.loads(each.read_text(encoding="utf-8")) for each in copies]

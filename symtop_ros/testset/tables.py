@@ -8,11 +8,12 @@ import csv
 import io
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from decimal import Context, Decimal, localcontext
 from itertools import chain
 from typing import Any
 
-VERSION = "3.0"
+from symtop_ros.testset.packed import FORCES, WORLD, normalise, show
+
+VERSION = "4.0"
 CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
 LIMITS = tuple(
@@ -20,23 +21,7 @@ LIMITS = tuple(
     for form in ("", "_float32")
     for name in ("orientation", "angular_velocity")
 )
-# Columns of forces.csv by their lists in problems.json; energies are one column.
-FORCES = {
-    "angular_accelerations": ("alpha_x", "alpha_y", "alpha_z"),
-    "accelerations": ("ax", "ay", "az"),
-    "pivot_forces": ("fx", "fy", "fz"),
-    "energies": ("energy",),
-}
-# Columns of world.csv by their lists in problems.json; the attitude comes first.
-WORLD = {
-    "centre_positions": ("px", "py", "pz"),
-    "centre_velocities": ("vx", "vy", "vz"),
-    "world_angular_velocities": ("omega_x", "omega_y", "omega_z"),
-}
 TABLES = ("problems.csv", "states.csv", "forces.csv", "world.csv")
-# Digits that are shown, and those with which they are computed.
-ROUNDED, WORKING = Context(prec=30), Context(prec=60)
-FIXED = Decimal("1e-9")  # smaller numbers are shown with an exponent
 Facts = Mapping[str, Any]  # an entry of problems.json
 Row = tuple[Any, ...]
 Columns = tuple[Iterable[Any], ...]  # the times, and at each time groups of texts
@@ -98,23 +83,9 @@ def _list_forces(facts: Facts) -> Columns:
 
 
 def _list_world(facts: Facts) -> Columns:
-    attitudes = _normalise(facts["orientation"]), *facts["orientations"]
+    start = [show(x) for x in normalise(facts["orientation"])]
+    attitudes = start, *facts["orientations"]
     return (0.0, *facts["times"]), attitudes, *(facts[key] for key in WORLD)
-
-
-def _normalise(numbers: Sequence[float]) -> list[str]:
-    """Return the digits of a unit quaternion."""
-    with localcontext(WORKING):
-        q = [Decimal(x) for x in numbers]
-        norm = sum((x * x for x in q), Decimal()).sqrt()
-        return [_show(x / norm) for x in q]
-
-
-def _show(number: Decimal) -> str:
-    """Return a number with the digits of the set, as mpmath shows it."""
-    rounded = ROUNDED.plus(number).normalize()
-    text = f"{rounded:{'f' if not rounded or abs(rounded) > FIXED else 'e'}}"
-    return text if "." in text else f"{text}.0"
 
 
 def _write_csv(rows: Iterable[Row]) -> str:

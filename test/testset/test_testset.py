@@ -2,6 +2,8 @@
 
 import csv
 import hashlib
+import json
+import lzma
 import re
 import shutil
 import subprocess
@@ -13,17 +15,18 @@ from mpmath import mp, mpf
 
 from symtop_ros.models.formats import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
+from symtop_ros.testset.packed import FORCES, STATES, WORLD
 from symtop_ros.testset.score import main, read_problems
-from symtop_ros.testset.tables import FORCES, TABLES, WORLD
+from symtop_ros.testset.tables import TABLES
 from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion
 from workshop.taylor_motion import TaylorMotion
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import COUNT, SETTINGS
-from workshop.testset.write import EPS_32, describe, describe_forces, describe_world, digits, limits
+from workshop.testset.write import EPS_32, PACKED, describe, limits, list_all
 
 PROBLEMS = {name: each.facts for name, each in read_problems().items()}
 # Of SHA256SUMS: the files have these bytes until the data change, and then the set a new version.
-SUMS = "56ca8923eca3bc5c9121861ae50020363ac0144d14f34c8756fe5471e5b51639"
+SUMS = "42942dd2997370e905ea0eb8d0f7a11a0273aaab8285fda5096231f9047f84cc"
 BY_SERIES = ("free_disc", "sphere", "pole_unit", "separatrix_spinning")  # slow tops: a second each
 
 
@@ -41,12 +44,9 @@ def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
     k = sum(setting.name.encode()) % COUNT
     inputs = Inputs.of(*setting.top.moments, facts["orientation"], facts["angular_velocity"])
     q, omega = exact_motion(inputs, facts["times"][k])
-    assert digits(q) == facts["orientations"][k]
-    assert digits(omega) == facts["angular_velocities"][k]
-    # the first of the lists is the start
-    lists = {**describe_forces(setting, [(q, omega)]), **describe_world(setting, [(q, omega)])}
-    for name, (first, then) in lists.items():
-        assert (first, then) == (facts[name][0], facts[name][k + 1])
+    for name, rows in list_all(setting, [(q, omega)]).items():
+        # the lists of what follows from states begin with the start
+        assert rows == [facts[name][place] for place in ((k,) if name in STATES else (0, k + 1))]
 
 
 @pytest.mark.parametrize("setting", SETTINGS[1::12], ids=lambda each: each.name)
@@ -152,7 +152,9 @@ def test_a_taylor_series_has_the_same_digits(name):
 @pytest.mark.long
 @pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
 def test_every_problem_is_made_again_to_the_digit(setting):
-    found, stored = describe(setting), dict(PROBLEMS[setting.name])
+    packed = json.loads(lzma.decompress(PACKED.read_bytes()))["problems"]
+    (stored,) = (each for each in packed if each["name"] == setting.name)
+    found = describe(setting)
     effects = [each.pop("mujoco_urdf_effect") for each in (found, stored)]
     assert found == stored
     # Two digits are stored; an effect near rounding depends on the processor.

@@ -1,8 +1,9 @@
 """Write problems.json.xz of symtop_ros/testset: seventy motions to 30 digits.
 
 Each state is computed by the closed form in 150 digits, and again by a Taylor series in 80 digits
-that shares no formula with it; a difference in the 33rd digit ends the program. It takes twelve
-minutes with two processors:
+that shares no formula with it; a difference in the 33rd digit ends the program. What follows from
+the states is not packed: they get as many digits as the package takes for thirty of it. It takes
+twelve minutes with two processors:
 
     python -m workshop.testset.write
 """
@@ -18,8 +19,9 @@ from typing import Any
 from mpmath import mp, mpf
 
 from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.testset.packed import FORCES, STATES, WORLD, complete
 from symtop_ros.testset.score import FILE, read_problems
-from symtop_ros.testset.tables import FORCES, LIMITS, WORLD, format_problems
+from symtop_ros.testset.tables import LIMITS, format_problems
 from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion, perturb
 from workshop.taylor_motion import TaylorMotion
 from workshop.testset.forces import find_forces, find_world_state
@@ -29,6 +31,7 @@ from workshop.testset.problems import SETTINGS, Setting
 PACKED = FILE.with_suffix(".json.xz")
 SHOWN = 30  # digits
 AGREEMENT = mpf(10) ** -33  # of both methods, relative to the largest component
+NOTHING = mpf(10) ** -60  # of the largest component: what 150 digits leave of a zero
 EPS, EPS_32 = 2.0**-52, 2.0**-23  # of float64 and float32
 State = tuple[Any, Any]  # orientation and body angular velocity in numbers of mpmath
 
@@ -73,13 +76,23 @@ def limits(setting: Setting, t: float, exact: State, eps: float = EPS) -> tuple[
 
 
 def describe(setting: Setting) -> dict[str, Any]:
-    """The entry of a problem."""
+    """The entry of a problem, without what follows from its states."""
     states = solve(setting)
     pairs = [
         (*limits(setting, t, each), *limits(setting, t, each, EPS_32))
         for t, each in zip(setting.times, states, strict=True)
     ]
     shown = ([float(f"{x:.3g}") for x in column] for column in zip(*pairs, strict=True))
+    return {
+        **describe_inputs(setting),
+        **pack(setting, states),
+        **dict(zip(LIMITS, shown, strict=True)),
+        "mujoco_urdf_effect": find_link_effect(setting),
+    }
+
+
+def describe_inputs(setting: Setting) -> dict[str, Any]:
+    """Return what an entry says of the problem itself."""
     body = setting.body
     return {
         "name": setting.name,
@@ -92,32 +105,34 @@ def describe(setting: Setting) -> dict[str, Any]:
         "orientation": setting.start.given_orientation.tolist(),
         "angular_velocity": setting.start.angular_velocity.tolist(),
         "times": setting.times,
-        "orientations": [digits(each[0]) for each in states],
-        "angular_velocities": [digits(each[1]) for each in states],
-        **describe_forces(setting, states),
-        **describe_world(setting, states),
-        **dict(zip(LIMITS, shown, strict=True)),
-        "mujoco_urdf_effect": find_link_effect(setting),
     }
 
 
-def describe_forces(setting: Setting, states: list[State]) -> dict[str, Any]:
-    """Accelerations, pivot forces and energies, at the start and at the times."""
+def pack(setting: Setting, states: list[State]) -> dict[str, Any]:
+    """Return the states with the fewest digits that give thirty of all that follows from them."""
+    inputs, wanted = describe_inputs(setting), list_all(setting, states)
+    for count in range(SHOWN, DIGITS // 2):
+        columns = zip(*states, strict=True)
+        packed = dict(zip(STATES, (digits(each, count) for each in columns), strict=True))
+        found = complete(inputs | packed, STANDARD_GRAVITY)
+        if all(found[name] == rows for name, rows in wanted.items()):
+            return packed
+    sys.exit(f"{setting.name}: no number of digits gives thirty of all that follows")
+
+
+def list_all(setting: Setting, states: list[State]) -> dict[str, Any]:
+    """Return states, forces, and the world's view, the latter two from the start on."""
+    moments = [find_start(setting), *states]
     with mp.workdps(DIGITS):
-        found = [find_forces(setting, *each) for each in (find_start(setting), *states)]
-        sizes = [each.energy for each in found]
+        forces = [find_forces(setting, *each) for each in moments]
+        sizes = [each.energy for each in forces]
         if max(sizes) - min(sizes) > AGREEMENT * max(map(abs, sizes)):
             sys.exit(f"{setting.name}: the energy changes")
-    *vectors, energies = zip(*found, strict=True)
-    lists = [*([digits(each) for each in column] for column in vectors), digits(energies)]
-    return dict(zip(FORCES, lists, strict=True))
-
-
-def describe_world(setting: Setting, states: list[State]) -> dict[str, Any]:
-    """Positions, velocities and rates in the world frame, at the start and at the times."""
-    found = [find_world_state(setting, *each) for each in (find_start(setting), *states)]
-    columns = zip(*found, strict=True)
-    return dict(zip(WORLD, ([digits(each) for each in column] for column in columns), strict=True))
+    *vectors, energies = zip(*forces, strict=True)
+    world = zip(*(find_world_state(setting, *each) for each in moments), strict=True)
+    columns = (*zip(*states, strict=True), *vectors, [[each] for each in energies], *world)
+    lists = {k: digits(rows) for k, rows in zip((*STATES, *FORCES, *WORLD), columns, strict=True)}
+    return lists | {"energies": [energy for (energy,) in lists["energies"]]}
 
 
 def find_start(setting: Setting) -> State:
@@ -127,10 +142,12 @@ def find_start(setting: Setting) -> State:
         return [x / mp.norm(q) for x in q], [mpf(x) for x in setting.start.angular_velocity]
 
 
-def digits(numbers: Any) -> list[str]:
-    """Return numbers with the digits of the set."""
+def digits(rows: Any, count: int = SHOWN) -> list[list[str]]:
+    """Return a list of vectors as texts."""
     # The axial rate is a double; mpf() would round the others to the precision of the moment.
-    return [mp.nstr(n if isinstance(n, mpf) else mpf(n), SHOWN) for n in numbers]
+    exact = [[n if isinstance(n, mpf) else mpf(n) for n in row] for row in rows]
+    least = NOTHING * max(abs(n) for row in exact for n in row)
+    return [[mp.nstr(n if abs(n) > least else mpf(0), count) for n in row] for row in exact]
 
 
 def read_effects() -> dict[str, float | None]:
