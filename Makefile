@@ -7,7 +7,7 @@ NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
 TOOLS := pytest hypothesis mpmath rosbags coverage
-GROUPS := nodes rest plain physics without-ros examples lint realtime
+GROUPS := nodes rest judge plain physics without-ros examples lint realtime
 # A line every ten seconds, for as long as the shell of a recipe runs: pip may be silent for minutes.
 TICK = ( n=0; while sleep 10 > /dev/null && kill -0 $$$$ 2> /dev/null; do n=$$((n + 10)); echo "  ... at work for $$n s"; done ) & \
   tick=$$!; trap 'kill $$tick' EXIT;
@@ -48,7 +48,8 @@ coverage-js: $(VENV)/test $(VENV)/chromium  ## coverage of the lines of the page
 	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
 
 test-nodes: $(VENV)/test $(VENV)/messages/done $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
-test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, judge, article
+test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, article
+test-judge: $(VENV)/test  ## check of logs, sensor, judge of estimates
 test-plain: $(VENV)/test  ## report, messages, models, test set
 test-physics: $(VENV)/test  ## the library
 test-without-ros: $(VENV)/test $(VENV)/chromium  ## simulation, session, log, page: as without ROS and Rerun

@@ -34,14 +34,15 @@ NUMPY1 = Path(sys.prefix, "numpy1", "bin", "python")
 WITH_NUMPY1 = ("test/client", "test/node/test_services.py", "test/node/test_recording.py")
 NODES = ("test/node", "test/system", "test/load")
 PLAIN = ("test/speed", "test/wire", "test/models", "test/testset")
+JUDGE = ("test/judge", "test/imu", "test/check")
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
-ELSEWHERE = (*NODES, "test/physics", *PLAIN, *WITHOUT_ROS, *WITH_NUMPY1)
+ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *WITHOUT_ROS, *WITH_NUMPY1)
 REALTIME = ("test/node", "test/panel", "test/system", "test/load")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
-READ_NO_WORDING = ("nodes", "rest", "plain", "physics", "without-ros")
+READ_NO_WORDING = ("nodes", "rest", "plain", "judge", "physics", "without-ros")
 MARKS = "not realtime and not long"
 # All but files that import what is installed only where it is measured, or built by a test.
 EXAMPLES = ("--doctest-modules", "--ignore-glob=*/*_peer.py", "--ignore-glob=*/node/simulator.py")
@@ -123,6 +124,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "rest": [run("test", *ignore(ELSEWHERE))],
         "physics": [run("test/physics")],
         "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
+        "judge": [run(*JUDGE)],
         "plain": [run(*PLAIN, *WITH_ROS)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
         "lint": [
