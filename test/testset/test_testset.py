@@ -155,10 +155,10 @@ def test_every_problem_is_made_again_to_the_digit(setting):
     packed = json.loads(lzma.decompress(PACKED.read_bytes()))["problems"]
     (stored,) = (each for each in packed if each["name"] == setting.name)
     found = describe(setting)
-    effects = [each.pop("mujoco_urdf_effect") for each in (found, stored)]
+    effect, expected = (each.pop("mujoco_urdf_effect") for each in (found, stored))
     assert found == stored
     # Two digits are stored; an effect near rounding depends on the processor.
-    assert effects[0] == pytest.approx(effects[1], rel=0.03, abs=1e-14)
+    assert effect == (expected and pytest.approx(expected, rel=0.03, abs=1e-14))
 
 
 @pytest.mark.parametrize("name", PROBLEMS)
