@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.test_body import differentiate, turn
+from physics.test_body import differentiate
+from physics.tops import turn
 
 from symtop_ros.imu import CONSUMER, Imu, record_imu
 from symtop_ros.physics import Motion, State, Top

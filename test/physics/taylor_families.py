@@ -6,8 +6,6 @@ import math
 import random
 from dataclasses import dataclass
 
-from mpmath import mp, mpf
-
 from symtop_ros.physics import Motion, State, Top
 from workshop.taylor_motion import TaylorMotion
 
@@ -152,10 +150,3 @@ def _near_separatrix(rng: random.Random, spans: tuple[float, ...], spin: float) 
         q = _orientation(theta, angle, psi)
         omega = (p * s + theta_dot * c, p * c - theta_dot * s, omega_z)
     return Case((1.0, ratio, 1.0), q, omega, spans, digits)
-
-
-def error(exact, doubles, size: float = 1.0) -> float:
-    """Distance of a vector of doubles from an exact one, relative to a size, up to sign."""
-    with mp.workdps(40):
-        pairs = [(mpf(a), mpf(b)) for a, b in zip(exact, doubles.tolist(), strict=True)]
-        return float(min(mp.norm([a - s * b for a, b in pairs]) for s in (1, -1)) / size)

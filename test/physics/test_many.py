@@ -98,21 +98,6 @@ def test_tops_starts_frictions_and_torques_are_broadcast():
         assert state.tolist() == single.at(0.3).orientation.tolist()
 
 
-def test_quantities_of_the_states_belong_to_their_tops():
-    tops = Top([1.0, 2.0], 1.0, [3.0, -4.0])
-    states = Motion(tops, CUSPS).at([0.0, 1.0, 2.0])
-    total = Motion(tops, CUSPS, Friction([1e-3, 0.0]), torque=[[0, 0, 1], [0, 0, 2]])
-    for n, Mgl in enumerate((3.0, -4.0)):
-        top = Top(n + 1.0, 1.0, Mgl)
-        alone = Motion(top, CUSPS).at([0.0, 1.0, 2.0])
-        for name in ("energy", "angular_momentum", "gravity_torque", "vertical_momentum"):
-            found = np.asarray(getattr(tops, name)(states))
-            expected = np.asarray(getattr(top, name)(alone))
-            assert np.array_equal(found[..., n, :] if name == "energy" else found[n], expected)
-        single = Motion(top, CUSPS, Friction([1e-3, 0.0][n]), torque=(0, 0, n + 1.0))
-        assert np.array_equal(total.total_torque(states)[n], single.total_torque(alone))
-
-
 def test_energies_of_broadcast_motions_belong_to_their_tops():
     # three tops and three by one starts: the tops are those of the last axis
     tops = Top(1.0, 1.0, [1.0, 2.0, 3.0])
@@ -121,7 +106,8 @@ def test_energies_of_broadcast_motions_belong_to_their_tops():
         tops, starts, Friction([0.0, 0.1, 0.2]), torque=[[0, 0, 1], [0, 1, 0], [1, 0, 0]]
     )
     states = motions.at([0.0, 0.5])
-    for name in ("energy", "axial_momentum", "angular_momentum", "gravity_torque"):
+    names = "energy", "axial_momentum", "vertical_momentum", "angular_momentum", "gravity_torque"
+    for name in names:
         found = getattr(tops, name)(states)
         for row, n in np.ndindex(3, 3):
             top = Top(1.0, 1.0, n + 1.0)
@@ -166,11 +152,6 @@ def test_each_motion_of_many_has_its_own_engine_and_one_motion_alone_can_be_reac
     assert isinstance(motions, Motions)
     assert motions.engine.tolist() == ["closed form", "free", "taylor"]
     assert not hasattr(motions, "reach")
-
-
-def test_turning_angles_of_no_motions_are_two_empty_arrays():
-    motions = Motion(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
-    assert [angles.shape for angles in motions.turning_angles] == [(0,), (0,)]
 
 
 @pytest.mark.skipif(find_kernel(False) is None, reason="the kernel is not built")
@@ -234,6 +215,7 @@ def test_shapes_that_do_not_fit_are_refused():
 def test_an_empty_array_of_motions_has_empty_states():
     motion = Motion(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
     assert motion.at([1.0, 2.0]).orientation.shape == (0, 2, 4)
+    assert [angles.shape for angles in motion.turning_angles] == [(0,), (0,)]
 
 
 ONE_TOP = {

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
-from symtop_ros.physics import State, Top
-from workshop.exact_motion import Inputs
+from symtop_ros.physics import Motion, State, Top
+from workshop.exact_motion import Inputs, exact_motion
+from workshop.taylor_motion import TaylorMotion
 
 EPS = 2.0**-52
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
@@ -30,6 +32,19 @@ class Case:
     @property
     def inputs(self) -> Inputs:
         return Inputs.of(*self.top.moments, *(part.tolist() for part in self.start.parts))
+
+    @property
+    def exact(self):
+        """Orientation and angular velocity to 30 digits or more."""
+        return exact_motion(self.inputs, self.t)
+
+    @property
+    def motion(self) -> Motion:
+        return Motion(self.top, self.start)
+
+    @property
+    def found(self) -> State:
+        return self.motion.at(self.t)
 
 
 def random_case(seed: int, family: str) -> Case:
@@ -78,6 +93,37 @@ def distance(a: State, b: State) -> float:
     p, q = a.orientation, b.orientation
     minus, plus = (np.linalg.norm(each, axis=-1) for each in (p - q, p + q))
     return float(np.max(np.minimum(minus, plus)))
+
+
+def error(exact, doubles, size: float = 1.0) -> float:
+    """Distance of a vector of doubles from an exact one, relative to a size, up to sign."""
+    with mp.workdps(40):
+        pairs = [(mpf(a), mpf(b)) for a, b in zip(exact, np.asarray(doubles).tolist(), strict=True)]
+        return float(min(mp.norm([a - s * b for a, b in pairs]) for s in (1, -1)) / size)
+
+
+def series_of(motion: Motion, *digits: int) -> TaylorMotion:
+    """The Taylor series of a motion, with its friction and torque."""
+    given = motion.start.given_orientation.tolist(), motion.start.angular_velocity.tolist()
+    friction = motion.friction.axial, motion.friction.transverse
+    drive = {"friction": friction, "torque": motion.applied_torque}
+    return TaylorMotion(motion.top.moments, *given, *digits, **drive)
+
+
+def to_state(exact) -> State:
+    """The state of doubles next to an exact one."""
+    return State(*([float(c) for c in part] for part in exact))
+
+
+def turn(q, v):
+    """q v q* as v + 2 u x (w v + u x v), of numbers with many digits."""
+    w, *u = q
+    inner = [w * a + b for a, b in zip(v, cross(u, v), strict=True)]
+    return [a + 2 * b for a, b in zip(v, cross(u, inner), strict=True)]
+
+
+def cross(a, b):
+    return [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
 
 
 def seeds(often, count):

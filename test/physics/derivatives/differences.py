@@ -15,30 +15,15 @@ BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 
 
 def differentiate(motion, times, returns=True, digits=DIGITS):
-    """The Jacobians (n, 6, 9) at times in s; `returns` says that the nutation has a period."""
+    """The Jacobians (n, 6, 9) at times in s > 0; `returns` says that the nutation has a period."""
+    friction = motion.friction.axial, motion.friction.transverse
 
-    def follow(moments, orientation, omega):
-        exact = TaylorMotion(moments, orientation, omega, digits)
+    def follow(*arguments):
+        exact = TaylorMotion(*arguments, digits, friction, motion.applied_torque)
         if not returns:
             exact.reach(max(times))
         return [exact.state_at(t) for t in times]
 
-    return _differentiate(motion, follow, digits)
-
-
-def differentiate_driven(motion, times):
-    """The Jacobians (n, 6, 9) of a motion with friction or a torque, at times in s > 0."""
-    friction = motion.friction.axial, motion.friction.transverse
-
-    def follow(moments, orientation, omega):
-        drive = {"friction": friction, "torque": motion.applied_torque}
-        exact = TaylorMotion(moments, orientation, omega, FEW_DIGITS, **drive)
-        return [exact.state_at(t) for t in times]
-
-    return _differentiate(motion, follow, FEW_DIGITS)
-
-
-def _differentiate(motion, follow, digits):
     # Of a parameter of size 1: its square is the relative error, as much as rounding leaves.
     step = Fraction(1, 10 ** (digits // 3))
     moments = [Fraction(each) for each in motion.top.moments]
