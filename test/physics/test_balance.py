@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, EPS, random_case
 
 from symtop_ros.physics import Friction, Motion, Top, balance
@@ -40,12 +39,6 @@ def test_random_tops_balance(seed):
     rate = np.sqrt(abs(Mgl) / Ix)
     drive = Friction(0.1 * Iz * rate, 0.1 * Ix * rate), [0.2 * Mgl, 0.1 * Mgl, -0.1 * Mgl]
     assert_balanced(Motion(case.top, case.start, *drive), 1 / rate, 1 / rate, Ix * rate)
-
-
-@pytest.mark.parametrize("longest", [0.0, -1.0])
-def test_a_stretch_without_length_is_refused(longest):
-    with refused("longest", "> 0 s"):
-        balance(MOTIONS["closed form"], 2.0, longest)
 
 
 def test_a_motion_that_is_wrong_does_not_balance():

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, EPS, Case, series_of, turn
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
@@ -91,14 +90,6 @@ def test_the_force_of_the_pivot_is_newtons_second_law():
         assert np.abs(force - expected).max() < 2 * EPS * np.linalg.norm(expected)
 
 
-def test_the_force_on_another_body_is_refused():
-    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0))
-    with pytest.raises(
-        ValueError, match=r"^motion.top must be Top\(.*\), that of the body, got Top"
-    ):
-        Body(0.5, 0.02, 2e-4, 5.72e-5, 9.81).pivot_force(motion, motion.start)
-
-
 @pytest.mark.parametrize("Mgl", [1e-100, -1e100, 0.0])
 def test_the_body_of_a_top_is_its_body_at_all_sizes(Mgl):
     top = Top(1.0, 0.25, Mgl)
@@ -137,40 +128,6 @@ def test_a_top_without_weight_has_its_centre_in_the_pivot():
     assert (body.mass, body.arm, body.Ix, body.Iz) == (1.0, 0.0, 1.0, 2.0)
 
 
-@pytest.mark.parametrize(
-    ("top", "gravity", "reason"),
-    [
-        (
-            Top(1.0, 2.0, -0.5),
-            9.81,
-            "Iz must be < 2 Ix = 2 kg m\\^2 for a body with Mgl = -0.5 J to",
-        ),
-        (ARTICLE, 0.0, "gravity must be > 0 m/s\\^2, got 0"),
-        (ARTICLE, math.nan, "gravity must be a finite number"),
-        (Top(1.0, 1.0, 5e-324), 9.81, "Mgl must be of a size for which the mass"),
-    ],
-)
-def test_a_body_that_cannot_exist_is_refused(top, gravity, reason):
-    with pytest.raises(ValueError, match=reason):
-        Body.of(top, gravity)
-
-
-@pytest.mark.parametrize(
-    ("change", "name", "condition"),
-    [
-        ({"mass": -1.0}, "mass", "> 0 kg"),
-        ({"arm": math.nan}, "arm", "a finite number (m)"),
-        ({"Iz": 2.5}, "Iz", "<= 2 Ix = 2 kg m^2"),
-        ({"gravity": 0.0}, "gravity", "> 0 m/s^2"),
-    ],
-)
-def test_what_is_no_body_is_refused(change, name, condition):
-    with refused(name, condition):
-        Body(**{"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81, **change})
-
-
 def test_a_body_and_its_top_lead_to_each_other():
     body = Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81)
     assert Body.about_pivot(15.0, 1.0, body.top.Ix, body.top.Iz) == body
-    with refused("Ix", "> mass arm^2 = 15 kg m^2"):
-        Body.about_pivot(15.0, 1.0, 15.0, 0.5)

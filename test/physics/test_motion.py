@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from mpmath import mp, mpc, mpf
-from physics.refusals import FINITE_ARRAY, meet, refused
+from physics.refusals import meet
 from physics.tops import ARTICLE, CUSPS, EPS, Case, error, random_case
 
 from symtop_ros.physics import Friction, Motion, State, Top
@@ -57,31 +57,6 @@ def test_states_of_a_list_of_times_are_iterated_one_by_one():
     assert (orientation.shape, angular_velocity.shape) == ((2, 4), (2, 3))
     with pytest.raises(TypeError, match="one state has no length"):
         list(CUSPS)
-
-
-@pytest.mark.parametrize("t", [math.nan, math.inf, -math.inf, [0.0, math.nan]])
-def test_a_time_that_is_not_finite_is_refused(t):
-    with refused("t", FINITE_ARRAY):
-        Motion(ARTICLE, CUSPS).at(t)
-
-
-@pytest.mark.parametrize("t", ["1", None, True, 1j, np.timedelta64(100, "ms"), 10**400])
-def test_a_time_that_is_not_a_number_is_refused(t):
-    with refused("t", f"{FINITE_ARRAY} (s)", repr(t)[:40]):
-        Motion(ARTICLE, CUSPS).at(t)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "name", "condition"),
-    [
-        ((ARTICLE.moments, CUSPS), "top", "a Top"),
-        ((ARTICLE, CUSPS.parts), "start", "a State"),
-        ((ARTICLE, CUSPS, 2e-6), "friction", "a Friction"),
-    ],
-)
-def test_an_argument_of_another_type_is_refused(arguments, name, condition):
-    with refused(name, condition):
-        Motion(*arguments)
 
 
 @pytest.mark.parametrize("Mgl", [0.0, 5e-324, 1e-300, -1e-15, 1e100])

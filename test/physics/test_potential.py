@@ -77,11 +77,3 @@ def test_a_top_without_weight_has_no_third_root():
     start = STARTS["looping"]
     top = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
     assert EffectivePotential.of(top, start).find_third_root(0.5, 1.0) == math.inf
-
-
-@pytest.mark.parametrize("method", ["at", "cubic"])
-@pytest.mark.parametrize("value", ["a", None, [1.0, math.nan], True])
-def test_what_is_no_number_is_refused(method, value):
-    potential = EffectivePotential.of(ARTICLE, STARTS["cusps"])
-    with pytest.raises(ValueError, match=r"^(theta|u) must be an array of finite numbers"):
-        getattr(potential, method)(value)

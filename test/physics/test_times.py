@@ -5,7 +5,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.refusals import FINITE_NUMBER, refused
 from physics.tops import ARTICLE, CUSPS, EPS, Case, error
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
@@ -90,26 +89,3 @@ def test_shapes_follow_those_of_the_nanoseconds():
     assert motion.at(ExactTimes(1)).orientation.shape == (4,)
     assert motion.at(ExactTimes(np.array([], dtype=np.int64))).orientation.shape == (0, 4)
     assert motion.at(ExactTimes(np.array([1, 2], dtype=np.uint32))).orientation.shape == (2, 4)
-
-
-@pytest.mark.parametrize(
-    "bad", [1.0, "1", True, None, 2**63, -(2**63), [0.5], [[1]], np.timedelta64(1, "ns"), [2**63]]
-)
-def test_nanoseconds_that_are_not_integers_of_63_bits_are_refused(bad):
-    with refused("nanoseconds", "an int or an array (n,) of ints, of at most 63 bits (ns)"):
-        ExactTimes(bad)
-
-
-@pytest.mark.parametrize("bad", [0.5, "1", True, Fraction(1, 3), None])
-def test_an_elapsed_time_that_no_sum_of_doubles_gives_is_refused(bad):
-    with refused("elapsed", "a Fraction with a power of two as denominator (ns)"):
-        ExactTimes(0, 1.0, bad)
-
-
-@pytest.mark.parametrize(
-    ("bad", "condition"),
-    [(0.0, "> 0"), (-1.0, "> 0"), (float("nan"), FINITE_NUMBER), ("1", "a number")],
-)
-def test_a_factor_that_is_not_positive_is_refused(bad, condition):
-    with refused("factor", condition):
-        ExactTimes(0, bad)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.driven_families import FAMILIES, DrivenCase
-from physics.refusals import NOT_TOO_FAST, VECTOR, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, series_of, to_state
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
@@ -225,19 +224,6 @@ def test_a_top_at_rest_stays_there_at_any_time_in_one_step():
     motion = Motion(ARTICLE, State.from_euler(theta=0.0), Friction(1e-6, 1e-5))
     assert motion.reach(1e300, 0) == 1e300
     assert motion.at([1e300, -1e9]).orientation.tolist() == [[1, 0, 0, 0]] * 2
-
-
-def test_torques_are_checked_and_told():
-    for wrong in ([1, 2], "abc", [0, 0, math.inf]):
-        with refused("torque", VECTOR):
-            Motion(ARTICLE, CUSPS, torque=wrong)
-
-
-@pytest.mark.parametrize("torque", [1e300, 1e308])
-def test_a_motion_that_becomes_too_fast_is_refused_in_a_sentence(torque):
-    motion = Motion(ARTICLE, CUSPS, torque=(0.0, 0.0, torque))
-    with refused("t", NOT_TOO_FAST, "1"):
-        motion.at(1.0)
 
 
 @pytest.mark.parametrize("upright", [True, False])
