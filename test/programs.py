@@ -40,6 +40,21 @@ def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[
     )
 
 
+def run_python(
+    code: str, *arguments: object, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run some lines of Python to their end, in a process of their own."""
+    return subprocess.run(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        cwd=cwd,
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
 @contextlib.contextmanager
 def running_node(
     domain: int, *parameters: str, name: str = "top"
