@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpc, mpf
 from physics.refusals import meet
-from physics.tops import ARTICLE, CUSPS, EPS, Case, error, random_case
+from physics.tops import ARTICLE, CUSPS, EPS, Case, attitude_error, random_case
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from workshop.exact_motion import Inputs, exact_motion
@@ -123,7 +123,7 @@ def test_an_orientation_is_normalised_with_all_digits(norm):
     t = 3e7  # a year: the rounding of a quaternion would grow to 1e-9
     state = Motion(ARTICLE, start).at(t)
     exact, _ = exact_motion(Inputs.of(*ARTICLE.moments, start.given_orientation, (0, 0, 200)), t)
-    assert error(exact, state.orientation) <= 5 * EPS
+    assert attitude_error(exact, state.orientation) <= 5 * EPS
 
 
 def test_states_cannot_be_written_to_through_their_base():

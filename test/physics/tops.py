@@ -96,10 +96,15 @@ def distance(a: State, b: State) -> float:
 
 
 def error(exact, doubles, size: float = 1.0) -> float:
-    """Distance of a vector of doubles from an exact one, relative to a size, up to sign."""
+    """Distance of a vector of doubles from an exact one, relative to a size."""
     with mp.workdps(40):
-        pairs = [(mpf(a), mpf(b)) for a, b in zip(exact, np.asarray(doubles).tolist(), strict=True)]
-        return float(min(mp.norm([a - s * b for a, b in pairs]) for s in (1, -1)) / size)
+        pairs = zip(exact, np.asarray(doubles).tolist(), strict=True)
+        return float(mp.norm([mpf(a) - b for a, b in pairs]) / size)
+
+
+def attitude_error(exact, doubles, size: float = 1.0) -> float:
+    """The same of a quaternion, or parts of it, up to sign."""
+    return min(error(exact, doubles, size), error(exact, -doubles, size))
 
 
 def series_of(motion: Motion, *digits: int) -> TaylorMotion:
