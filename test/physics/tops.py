@@ -120,6 +120,17 @@ def to_state(exact) -> State:
     return State(*([float(c) for c in part] for part in exact))
 
 
+def exact_euler(q, omega):
+    """phi, theta, psi and their rates, of a quaternion and body rates with many digits."""
+    (w, x, y, z), (wx, wy, wz) = q, omega
+    theta = 2 * mp.atan2(mp.hypot(x, y), mp.hypot(w, z))
+    upper, lower, sine = mp.atan2(z, w), mp.atan2(y, x), mp.sin(theta)
+    gx, gy = 2 * (x * z - w * y), 2 * (y * z + w * x)
+    phi_dot = (wx * gx + wy * gy) / sine**2
+    rates = phi_dot, (wx * gy - wy * gx) / sine, wz - phi_dot * mp.cos(theta)
+    return (upper + lower, theta, upper - lower), rates
+
+
 def turn(q, v):
     """q v q* as v + 2 u x (w v + u x v), of numbers with many digits."""
     w, *u = q

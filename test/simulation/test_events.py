@@ -7,7 +7,6 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.topics import STATE_TOPICS, Samples
 
 CLOSED = Motion(ARTICLE, CUSPS)
 INTEGRATED = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))
@@ -31,17 +30,6 @@ def test_a_segment_comes_back_from_its_event_bit_for_bit(motion, latest, running
     )
     for later in (0, 1, 10**9, latest):
         assert again.state_at(BEGIN + later) == segment.state_at(BEGIN + later)
-
-
-@pytest.mark.parametrize("motion", [CLOSED, INTEGRATED])
-@pytest.mark.parametrize("name", STATE_TOPICS)
-def test_samples_of_many_stamps_are_those_of_each_bit_for_bit(name, motion):
-    segment = Segment.begin(motion, BEGIN, 1.0)
-    stamps = BEGIN + np.arange(5000) * 1_000_003
-    many = STATE_TOPICS[name].compute(Samples.at(segment, stamps))
-    for k in range(0, 5000, 7):
-        one = STATE_TOPICS[name].compute(Samples.at(segment, int(stamps[k])))
-        assert many[k].tolist() == one.tolist()
 
 
 def test_an_event_without_a_value_says_which():
