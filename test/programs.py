@@ -55,6 +55,15 @@ def run_python(
     )
 
 
+def run_without(
+    modules: tuple[str, ...], program: str, *arguments: str, cwd: Path
+) -> subprocess.CompletedProcess[str]:
+    """Run a program as where some modules are not installed."""
+    code = f"import sys; sys.modules.update(dict.fromkeys({modules})); "
+    code += f"from symtop_ros import programs; sys.exit(programs.{program}())"
+    return run_python(code, *arguments, cwd=cwd, PYTHONPATH=str(RESOURCE.parent))
+
+
 @contextlib.contextmanager
 def running_node(
     domain: int, *parameters: str, name: str = "top"

@@ -4,7 +4,6 @@ import random
 import struct
 
 import pytest
-from check.run_log import write_log
 from log_files import Run
 from mcap.opcode import Opcode
 from mcap.writer import CompressionType, Writer
@@ -18,8 +17,8 @@ from symtop_ros.physics import accelerated
 
 
 @pytest.fixture(scope="module")
-def log(tmp_path_factory):
-    return write_log(tmp_path_factory.mktemp("run")).read_bytes()
+def log(path):
+    return path.read_bytes()
 
 
 def flip(data, place, bit):

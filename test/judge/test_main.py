@@ -1,23 +1,19 @@
 """`top_judge` as its users call it."""
 
 import json
-import os
 import sqlite3
-import subprocess
-import sys
 from hashlib import sha256
-from pathlib import Path
 
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from programs import run_without
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.truth import scene_truth
 from symtop_ros.testset import score
 
-ROOT = Path(__file__).parents[2]
 IMU = "sensor_msgs/msg/Imu"
 
 
@@ -144,15 +140,6 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
-    # The folder stands alone: score.py knows no package.
-    alone = subprocess.run(
-        [sys.executable, "-I", str(tmp_path / "score.py"), "cusps", str(path)],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
-    assert alone.stdout.startswith("cusps: attitude ")
     capsys.readouterr()
     assert main(["--testset", "cusps", str(path), "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
@@ -188,22 +175,8 @@ def test_a_wrong_frame_is_refused(log, capsys):
 )
 def test_the_judge_works_without_mcap_and_matplotlib(arguments, tmp_path):
     write_csv(tmp_path / "mine.csv")
-    code = (
-        "import sys\n"
-        "missing = 'mcap', 'lz4', 'zstandard', 'matplotlib', 'rclpy'\n"
-        "sys.modules.update(dict.fromkeys(missing))\n"
-        "from symtop_ros.programs import top_judge\n"
-        "sys.exit(top_judge())\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, *arguments],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+    missing = "mcap", "lz4", "zstandard", "matplotlib", "rclpy"
+    done = run_without(missing, "top_judge", *arguments, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout
 

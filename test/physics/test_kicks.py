@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 from physics.tops import ARTICLE, EPS
 
-from symtop_ros.physics import (
-    State,
-    apply_impulse,
-    hurry,
-    set_precession_rate,
-)
+from symtop_ros.physics import State, apply_impulse, hurry, set_precession_rate
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 ROUNDING = 8 * EPS * 210.0  # of the largest rate, rad/s

@@ -7,15 +7,7 @@ import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS, random_case
 
-from symtop_ros.physics import (
-    ExactTimes,
-    Friction,
-    Motion,
-    Motions,
-    State,
-    Top,
-    compare_hurried,
-)
+from symtop_ros.physics import ExactTimes, Friction, Motion, Motions, State, Top, compare_hurried
 from symtop_ros.physics.kernel import find_kernel
 
 PROPERTIES = (

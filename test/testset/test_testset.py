@@ -4,12 +4,12 @@ import csv
 import hashlib
 import re
 import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from programs import run_python
+from testset.test_scorers import make_table, write
 
 from symtop_ros.models.formats import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
@@ -229,8 +229,8 @@ def test_every_problem_has_its_models(folder):
     for setting in SETTINGS:
         formats = FORMATS if setting.top.Mgl else {**FORMATS, **FREE_FORMATS}
         paths = {form: folder / f"models/{setting.name}.{form}" for form in formats}
-        for form, write in formats.items():
-            assert paths[form].read_text() == write(setting.top, setting.start, setting.body)
+        for form, make in formats.items():
+            assert paths[form].read_text() == make(setting.top, setting.start, setting.body)
         free = folder / "models" / f"{setting.name}.free.mjcf"
         assert free.exists() == (setting.top.Mgl == 0)
 
@@ -238,26 +238,12 @@ def test_every_problem_has_its_models(folder):
 def test_the_scorer_needs_numpy_only(folder, tmp_path):
     for name in ("score.py", "problems.json"):
         (tmp_path / name).write_bytes((folder / name).read_bytes())
-    facts = PROBLEMS["plane_pendulum"]
-    rows = [
-        ",".join((repr(t), *q, *omega))
-        for t, q, omega in zip(
-            facts["times"], facts["orientations"], facts["angular_velocities"], strict=True
-        )
-    ]
-    (tmp_path / "mine.csv").write_text("t,w,x,y,z,wx,wy,wz\n" + "\n".join(rows) + "\n")
-    code = "import sys; sys.argv[0] = 'score'; import score; code = score.main(sys.argv[1:]); "
-    code += (
+    (tmp_path / "mine.csv").write_text(write(make_table("plane_pendulum")))
+    code = (
+        "import sys; sys.argv[0] = 'score'; import score; code = score.main(sys.argv[1:]); "
         "assert not [m for m in sys.modules if m.startswith(('symtop', 'scipy'))]; sys.exit(code)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code, "plane_pendulum", "mine.csv"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        env={"PATH": ""},
-    )
+    done = run_python(code, "plane_pendulum", "mine.csv", cwd=tmp_path, PATH="", PYTHONPATH="")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("plane_pendulum: attitude ")
     assert "angular velocity" in done.stdout
