@@ -82,15 +82,6 @@ def test_reversed_rates_lead_into_the_past(case):
 
 
 @often
-@given(case=CASES, phase=PHASES)
-def test_a_motion_turned_back_returns_to_its_start(case, phase):
-    t = moderate(case, phase)
-    there = Motion(case.top, case.start).at(t)
-    back = backwards(Motion(case.top, backwards(there)).at(t))
-    assert difference(case, back, case.start) <= 16 * stretched(case, t)  # worst seen: 4.2
-
-
-@often
 @given(case=CASES, phase=PHASES, share=st.floats(0.0, 1.0))
 def test_a_motion_goes_on_from_where_it_is(case, phase, share):
     first = share * moderate(case, phase)

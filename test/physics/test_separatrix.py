@@ -2,6 +2,7 @@
 
 import functools
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -22,32 +23,25 @@ THROWN_UP = {
         ),
     ),
 }
-PUSHED = {
-    f"pushed, {gap:g}": (PENDULUM, State((1, 0, 0, 0), (0.6 * gap**0.5, -0.8 * gap**0.5, 0)))
-    for gap in (1e-2, 1e-6, 1e-14, 1e-22, 1e-30)
-}
-LET_GO = {
-    f"let go, {gap:g}": (
-        PENDULUM,
-        State((math.sqrt(1 - gap), 0.6 * gap**0.5, 0.8 * gap**0.5, 0), (0, 0, 0)),
-    )
-    for gap in (1e-2, 1e-6, 1e-14, 1e-22, 1e-30)
-}
-SPINNING = {
-    f"spinning, {gap:g}": (PENDULUM, State((1, 0, 0, 0), (0.6 * gap**0.5, -0.8 * gap**0.5, 1.5)))
-    for gap in (1e-2, 1e-14, 1e-30)
-}
-STARTS = THROWN_UP | PUSHED | LET_GO | SPINNING
 
 
-# The gaps between the largest and the smallest are tried by `make test-long`.
-BETWEEN = ("1e-06", "1e-14", "1e-22")
+def near(start, gap):
+    """A pendulum pushed from the top, let go next to it, or pushed while it spins."""
+    a, b = 0.6 * gap**0.5, 0.8 * gap**0.5
+    if start == "let go":
+        return PENDULUM, State((math.sqrt(1 - gap), a, b, 0), (0, 0, 0))
+    return PENDULUM, State((1, 0, 0, 0), (a, -b, 1.5 if start == "spinning" else 0))
+
+
+BETWEEN = (1e-6, 1e-14, 1e-22)  # these gaps are tried by `make test-long`
+GAPS = [
+    *product(("pushed", "let go"), (1e-2, *BETWEEN, 1e-30)),
+    *product(("spinning",), (1e-2, 1e-14, 1e-30)),
+]
+STARTS = THROWN_UP | {f"{start}, {gap:g}": near(start, gap) for start, gap in GAPS}
+MARKS = {f"{start}, {gap:g}": [pytest.mark.long] for start, gap in GAPS if gap in BETWEEN}
 OFTEN = pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.long) if any(map(name.__contains__, BETWEEN)) else name
-        for name in STARTS
-    ],
+    "name", [pytest.param(name, marks=MARKS.get(name, [])) for name in STARTS]
 )
 
 

@@ -120,6 +120,12 @@ def to_state(exact) -> State:
     return State(*([float(c) for c in part] for part in exact))
 
 
+def exact_parts(state: State):
+    """w, x, y, z of norm 1 and omega of a state of doubles, with many digits."""
+    q, omega = ([mpf(c) for c in part.tolist()] for part in state.parts)
+    return [c / mp.norm(q) for c in q], omega
+
+
 def exact_euler(q, omega):
     """phi, theta, psi and their rates, of a quaternion and body rates with many digits."""
     (w, x, y, z), (wx, wy, wz) = q, omega

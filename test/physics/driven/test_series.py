@@ -12,9 +12,6 @@ from physics.tops import ARTICLE, CUSPS, EPS, distance, random_case, series_of, 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
 from symtop_ros.physics.driven.equations import DrivenEquations
 from symtop_ros.physics.driven.series import Knot, Stepper
-from symtop_ros.physics.driven.trail import DrivenMotion
-from symtop_ros.physics.kernel import find_kernel
-from symtop_ros.physics.kernel.compiled import CompiledMotion
 
 pytestmark = pytest.mark.untraced
 LONG = pytest.mark.long
@@ -37,23 +34,10 @@ def exact(motion, t):
 HARDLY_ANY = Friction(1e-300, 1e-300)
 
 
-def integrate(top, start, friction=HARDLY_ANY, torque=NONE):
-    kernel = find_kernel(pure=False)
-    state = top.moments, start.given_orientation.tolist(), start.angular_velocity.tolist()
-    compiled = kernel and CompiledMotion(kernel, *map(tuple, state), friction, torque)
-    return DrivenMotion(top, start, friction, torque, compiled)
-
-
-def states(engine, times):
-    orientation, angular_velocity = np.empty((len(times), 4)), np.empty((len(times), 3))
-    engine.fill(np.asarray(times, float), orientation, angular_velocity)
-    return State.wrap(orientation, angular_velocity)
-
-
-def steps_to(engine, t):
+def steps_to(motion, t):
     """Return the number of steps on the way to t."""
     steps = 0
-    while engine.reach(t, 1) != t:
+    while motion.reach(t, 1) != t:
         steps += 1
     return steps + 1
 
@@ -141,7 +125,7 @@ def test_the_kernel_and_python_agree(family):
 def test_without_friction_it_gives_what_the_closed_form_gives(phi_dot):
     start = State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=phi_dot)
     times = np.linspace(0.0, 1.0, 40)
-    found = states(integrate(ARTICLE, start), times)
+    found = Motion(ARTICLE, start, HARDLY_ANY).at(times)
     assert distance(found, Motion(ARTICLE, start).at(times)) < 2 * EPS  # each has up to one
 
 
@@ -188,13 +172,13 @@ def test_the_spin_of_a_rod_needs_no_steps():
     rod = Top(Ix=1.0, Iz=1e-8, Mgl=50.0)
     slow, fast = (State.from_euler(theta=1.0, phi_dot=1.0, psi_dot=spin) for spin in (1.0, 1e5))
     friction = Friction(1e-9, 0.1)
-    steps = [steps_to(integrate(rod, start, friction), 2.0) for start in (slow, fast)]
+    steps = [steps_to(Motion(rod, start, friction), 2.0) for start in (slow, fast)]
     assert steps[1] <= steps[0] + 1
 
 
 def test_axial_momentum_is_kept_to_the_bit_and_vertical_momentum_to_rounding():
     times = np.linspace(0.0, 20.0, 200)
-    found = states(integrate(ARTICLE, CUSPS), times)
+    found = Motion(ARTICLE, CUSPS, HARDLY_ANY).at(times)
     assert set(found.angular_velocity[:, 2]) == {200.0}
     vertical = ARTICLE.vertical_momentum(found)
     # products of rounded states

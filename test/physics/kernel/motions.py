@@ -2,6 +2,7 @@
 
 import struct
 from fractions import Fraction
+from functools import cache
 from typing import get_args
 
 import numpy as np
@@ -104,6 +105,14 @@ def expect(samples):
 def normalize(numbers):
     """Return the bytes of doubles, with one NaN for all: its sign is not defined."""
     return np.where(np.isnan(numbers), np.nan, numbers).tobytes()
+
+
+@cache
+def list_many():
+    """About two thousand samples, as bytes for a program and as what it writes."""
+    samples = list_samples(range(210), range(34))
+    assert len(samples) >= (2000 if accelerated else 1500)
+    return encode(samples), expect(samples)
 
 
 def list_samples(gravity, driven):

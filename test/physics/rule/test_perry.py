@@ -6,7 +6,7 @@ import random
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, DISC, random_case, seeds
+from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, random_case, seeds
 
 from symtop_ros.physics import (
     HOLDS,
@@ -49,15 +49,9 @@ def exact_change(top, state, factor, hold):
     From the doubles of the state and the article's equation; the spin rate of the kicked top
     follows from what is held.
     """
-    w, x, y, z, wx, wy, wz = (mpf(float(c)) for part in state.parts for c in part)
-    Ix, Iz = mpf(top.Ix), mpf(top.Iz)
-    norm = w * w + x * x + y * y + z * z
-    gx, gy = 2 * (x * z - w * y) / norm, 2 * (y * z + w * x) / norm
-    u = (w * w + z * z - x * x - y * y) / norm
-    rate = (wx * gx + wy * gy) / (gx * gx + gy * gy)
-    kicked = mpf(factor) * rate
-    spin = wz - rate * u
-    kicked_spin = spin if hold == "spin_rate" else wz - kicked * u
+    (_, theta, _), (rate, _, spin) = exact_euler(*exact_parts(state))
+    Ix, Iz, u, kicked = mpf(top.Ix), mpf(top.Iz), mp.cos(theta), factor * rate
+    kicked_spin = spin if hold == "spin_rate" else spin + (rate - kicked) * u
 
     def theta_torque(p, s):
         return (Ix - Iz) * u * p * p - Iz * p * s
