@@ -63,13 +63,6 @@ def test_rotations_of_any_size_and_a_delay_are_found(seed):
     assert alone.angles == (0.0, 0.0)
 
 
-def test_without_an_offset_none_is_found():
-    truth, stamps = truth_and_stamps()
-    found = explain(make_estimates(truth, stamps), truth).offset
-    assert found.delay == 0.0
-    assert max(found.angles) < 8 * EPS
-
-
 def test_noise_is_measured_as_it_is():
     truth, stamps = truth_and_stamps(4000)
     noisy = Made(noise=1e-3).make(truth, stamps)

@@ -4,13 +4,11 @@ import itertools
 import math
 import random
 import re
-import signal
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
 from physics.refusals import TILTED, meet
-from physics.tops import ARTICLE, EPS, seeds
+from physics.tops import ARTICLE, EPS, seeds, within
 
 from symtop_ros.physics import (
     ExactTimes,
@@ -93,21 +91,6 @@ def random_input(rng):
     q = q / np.linalg.norm(q) if q.any() else np.array([1.0, 0, 0, 0])
     omega = [rng.choice([-1, 0, 1]) * size(-320, 100) for _ in range(3)]
     return (Ix, Iz, Mgl), q, omega, rng.choice([-1, 1]) * size(-320, 308)
-
-
-@contextmanager
-def within(seconds):
-    """End the test if the block takes longer."""
-
-    def end(*_):
-        raise AssertionError(f"longer than {seconds} s")
-
-    signal.signal(signal.SIGALRM, end)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
 
 
 def ask(moments, q, omega, t):

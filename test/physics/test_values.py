@@ -23,20 +23,14 @@ from symtop_ros.physics import (
 )
 from symtop_ros.physics.values import refuse, validate_array, validate_number, validate_vector
 
+TWO = 2, 2.0, np.float32(2), np.int8(2), np.array(2.0), np.array(2), Fraction(4, 2)
+MASKED = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])
+NO_NUMBERS = [1, 2, "3"], [1j, 2, 3], [True, False, True], [1, None, 3], [[1], [2, 3]]
+NOT_FINITE = [1, 2, math.nan], [1, 2, 10**400]
+WITH_UNITS = np.array([1, 2, 3], dtype="timedelta64[ms]")
 
-@pytest.mark.parametrize(
-    "value",
-    [
-        2,
-        2.0,
-        np.float32(2),
-        np.int8(2),
-        np.array(2.0),
-        np.array(2),
-        Fraction(4, 2),
-        np.longdouble(2),
-    ],
-)
+
+@pytest.mark.parametrize("value", [*TWO, np.longdouble(2)])
 def test_a_number_of_any_real_type_becomes_a_float(value):
     found = validate_number("x", value)
     assert type(found) is float
@@ -65,20 +59,7 @@ def test_an_array_of_any_real_type_becomes_new_doubles(value):
     assert not np.shares_memory(found, np.asarray(value))
 
 
-@pytest.mark.parametrize(
-    "value",
-    [
-        [1, 2, "3"],
-        [1j, 2, 3],
-        [True, False, True],
-        [1, None, 3],
-        [1, 2, math.nan],
-        [1, 2, 10**400],
-        [[1], [2, 3]],
-        np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0]),
-        np.array([1, 2, 3], dtype="timedelta64[ms]"),
-    ],
-)
+@pytest.mark.parametrize("value", [*NO_NUMBERS, *NOT_FINITE, MASKED, WITH_UNITS])
 def test_an_array_that_does_not_hold_finite_numbers_is_refused(value):
     with refused("x", FINITE_ARRAY):
         validate_array("x", value, 3)

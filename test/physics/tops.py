@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 import random
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +18,7 @@ from workshop.exact_motion import Inputs, exact_motion
 from workshop.taylor_motion import TaylorMotion
 
 EPS = 2.0**-52
+FAMILIES = ("any", "weak gravity", "fast", "critical", "pendulum", "from below")
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
 # A disc that hangs from its pivot: Iz > Ix and Mgl < 0, where Perry's rule can fail at slow roots.
@@ -146,6 +150,22 @@ def turn(q, v):
 
 def cross(a, b):
     return [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
+
+
+@contextmanager
+def within(seconds: float, error: type[BaseException] = AssertionError) -> Iterator[None]:
+    """Raise an error if the block takes longer."""
+
+    def end(*_):
+        raise error(f"longer than {seconds} s")
+
+    usual = signal.signal(signal.SIGALRM, end)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, usual)
 
 
 def seeds(often, count):

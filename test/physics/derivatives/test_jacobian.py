@@ -92,17 +92,20 @@ def test_derivatives_after_a_million_nutations_are_exact(name):
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_derivatives_by_the_start_are_chained(name, sign):
     arguments = {**RETURNING, **{k: v[:2] for k, v in NOT_RETURNING.items()}, **DRIVEN}[name]
-    motion = Motion(*arguments)
-    first, then = 0.11 * sign, 0.27 * sign
-    second = Motion(motion.top, motion.at(first), *arguments[2:])
-    chained = second.jacobian(then)[:, 3:] @ motion.jacobian(first)[:, 3:]
-    together = motion.jacobian(first + then)[:, 3:]
+    chained, together, _ = chain(arguments, 0.11 * sign, 0.27 * sign)
     for columns in (slice(0, 3), slice(3, 6)):
         for rows in (slice(0, 3), slice(3, 6)):
             largest = np.abs(together[rows, columns]).max()
             # the state in the middle is rounded: 4e-12 measured, of the unstable sleeper
             error = np.abs(chained - together)[rows, columns].max()
             assert error <= 1e-11 * max(largest, np.abs(chained[rows, columns]).max()), columns
+
+
+def chain(arguments, first, then):
+    """Derivatives by the start after two times, of both parts and of the whole, and the second."""
+    motion = Motion(*arguments)
+    second = Motion(motion.top, motion.at(first), *arguments[2:]).jacobian(then)[:, 3:]
+    return second @ motion.jacobian(first)[:, 3:], motion.jacobian(first + then)[:, 3:], second
 
 
 def test_at_the_start_they_are_the_identity():
@@ -167,10 +170,6 @@ def test_random_motions_are_chained_at_late_times(seed):
     start = State.from_euler(
         theta=rng.uniform(0.2, 2.9), theta_dot=theta_dot, phi_dot=phi_dot, psi_dot=psi_dot
     )
-    motion = Motion(top, start)
-    first, then = rng.uniform(10.0, 1e4, 2)
-    second = Motion(top, motion.at(first)).jacobian(then)[:, 3:]
-    chained = second @ motion.jacobian(first)[:, 3:]
-    together = motion.jacobian(first + then)[:, 3:]
+    chained, together, second = chain((top, start), *rng.uniform(10.0, 1e4, 2))
     # the rounding of the state in the middle grows with the second half, of up to 1e4 s
     assert np.abs(chained - together).max() < 1e-10 * np.abs(second).max()

@@ -8,12 +8,11 @@ from typing import get_args
 import numpy as np
 from physics.driven_families import FAMILIES as DRIVEN_FAMILIES
 from physics.driven_families import DrivenCase
-from physics.tops import random_case
+from physics.tops import FAMILIES, random_case
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
 from symtop_ros.physics.exact.kind import Kind
 
-FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
 TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
 STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64)

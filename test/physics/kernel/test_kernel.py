@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physics.taylor_families import STORED, read_stored
-from physics.tops import ARTICLE, CUSPS, random_case, seeds
+from physics.tops import ARTICLE, CUSPS, FAMILIES, random_case, seeds
 from programs import run_python
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated
@@ -22,7 +22,6 @@ FOLDER = Path(__file__).parents[1]
 ROOT = FOLDER.parents[1]
 # Of all states at the stored times; the same for x86 and ARM, and every version of NumPy.
 BITS = "902cf70d3c4c"
-FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
 
 compiled = pytest.mark.skipif(not accelerated, reason="the kernel is not built")
 
