@@ -40,30 +40,6 @@ def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[
     )
 
 
-def run_python(
-    code: str, *arguments: object, cwd: Path | None = None, **environment: str
-) -> subprocess.CompletedProcess[str]:
-    """Run some lines of Python to their end, in a process of their own."""
-    return subprocess.run(
-        [sys.executable, "-c", code, *map(str, arguments)],
-        cwd=cwd,
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-
-
-def run_without(
-    modules: tuple[str, ...], program: str, *arguments: str, cwd: Path
-) -> subprocess.CompletedProcess[str]:
-    """Run a program as where some modules are not installed."""
-    code = f"import sys; sys.modules.update(dict.fromkeys({modules})); "
-    code += f"from symtop_ros import programs; sys.exit(programs.{program}())"
-    return run_python(code, *arguments, cwd=cwd, PYTHONPATH=str(RESOURCE.parent))
-
-
 @contextlib.contextmanager
 def running_node(
     domain: int, *parameters: str, name: str = "top"

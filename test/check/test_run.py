@@ -2,7 +2,7 @@
 
 import pytest
 from check.run_log import Memory
-from programs import run_python
+from python_runs import run_python
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from programs import run_without
+from python_runs import run_without
 
 from symtop_ros.imu.main import main
 from symtop_ros.judge.main import main as judge

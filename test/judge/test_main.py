@@ -7,7 +7,7 @@ from hashlib import sha256
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
-from programs import run_without
+from python_runs import run_without
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.main import main

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS, EPS
-from programs import run_python
+from python_runs import run_python
 from scipy.spatial.transform import Rotation
 from simulation.runs import SECOND, Run
 

@@ -8,7 +8,7 @@ import shutil
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from programs import run_python
+from python_runs import run_python
 from testset.test_scorers import make_table, write
 
 from symtop_ros.models.formats import FORMATS, FREE_FORMATS

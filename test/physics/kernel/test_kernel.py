@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from physics.taylor_families import STORED, read_stored
 from physics.tops import ARTICLE, CUSPS, FAMILIES, random_case, seeds
-from programs import run_python
+from python_runs import run_python
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated
 from symtop_ros.physics.kernel import find_kernel
