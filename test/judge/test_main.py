@@ -9,6 +9,7 @@ import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from python_runs import run_without
 from scipy.spatial.transform import Rotation
+from testset.test_scorers import make_table, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.truth import scene_truth
@@ -134,8 +135,7 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
     path = tmp_path / "mine.csv"
-    rows = zip(facts["times"], facts["orientations"], strict=True)
-    path.write_text("\n".join(["t,w,x,y,z", *(",".join((repr(t), *q)) for t, q in rows), ""]))
+    path.write_text(write(make_table("cusps")))
     capsys.readouterr()
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")

@@ -38,8 +38,8 @@ def test_the_mount_of_the_sensor_is_applied_to_its_messages():
 
 
 def test_stamps_after_the_last_sample_are_counted_apart():
-    truth = Truth(scene_truth("cusps")._events, end=SECOND // 2)
-    judgement = judge(make_estimates(scene_truth("cusps"), STAMPS), truth, "x")
+    whole = scene_truth("cusps")
+    judgement = judge(make_estimates(whole, STAMPS), Truth(whole._events, end=SECOND // 2), "x")
     assert judgement.errors.late == 99  # the stamp of the end itself is judged
     assert judgement.errors.unknown == 0
     assert " 99 estimates " in judgement.format()

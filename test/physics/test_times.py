@@ -62,13 +62,6 @@ def test_an_elapsed_time_and_a_stamp_are_one_time(step):
     assert np.abs(whole.orientation - parts.orientation).max() <= 2 * EPS
 
 
-def test_a_time_that_is_a_double_gives_nearly_the_same_state_as_its_double():
-    motion = Motion(ARTICLE, CUSPS)
-    exact = motion.at(ExactTimes(np.array([0, 10**9, 10**18])))
-    doubles = motion.at([0.0, 1.0, 1e9])
-    assert np.abs(exact.orientation - doubles.orientation).max() <= 2 * EPS
-
-
 def test_a_driven_motion_at_exact_times_that_are_doubles_is_that_at_these_doubles():
     motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
     ticks = 1_953_125 * np.array([0, 1, 77, 512])  # of 1/512 s
