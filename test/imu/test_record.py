@@ -6,24 +6,19 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.test_body import differentiate
-from physics.tops import cross, turn
+from physics.tops import ARTICLE, CUSPS, Case, cross, turn
 
 from symtop_ros.imu import CONSUMER, Imu, record_imu
-from symtop_ros.physics import Motion, State, Top
-from workshop.exact_motion import Inputs, exact_motion
+from symtop_ros.physics import Motion
 
-TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-START = State.from_euler(theta=0.5, psi_dot=200.0)
-MOTION = Motion(TOP, START)
+MOTION = Motion(ARTICLE, CUSPS)
 GRAVITY = 9.81
 PLACE = (0.01, -0.005, 0.02)
 SENSOR = Imu(PLACE, rate=1000.0)
-INPUTS = Inputs.of(*TOP.moments, START.given_orientation.tolist(), START.angular_velocity.tolist())
 
 
 def state_at(t):
-    with mp.workdps(50):
-        return exact_motion(INPUTS, t)
+    return Case(ARTICLE, CUSPS, t).exact
 
 
 def force_at(t):

@@ -2,24 +2,23 @@
 
 import numpy as np
 from mcap.well_known import MessageEncoding
+from physics.tops import ARTICLE, CUSPS
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.estimates import FORMATS, Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.physics import Motion, State, Top, hurry
+from symtop_ros.physics import Motion, hurry
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
 SECOND = 1_000_000_000
-TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-START = State.from_euler(theta=0.5, psi_dot=200.0)
 KICK = 3_123_456_789  # ns
 
 
 def make_events():
     """A start, a kick, a pause, and a run in slow motion."""
-    segment = Segment.begin(Motion(TOP, START), 0, 1.0)
-    events = [Event.of(0, "start", None, {}, START, segment)]
+    segment = Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
+    events = [Event.of(0, "start", None, {}, CUSPS, segment)]
     for name, stamp, change in (
         ("kick", KICK, lambda s: s.restart(hurry(s.state_at(KICK), 1.4), KICK)),
         ("pause", 5 * SECOND, lambda s: s.pause(5 * SECOND)),

@@ -40,14 +40,8 @@ def test_errors_orders_and_a_ranking_of_each_level_are_printed(folder, capsys):
     assert "order of rk4 in cusps: 4.00" in text
     assert "order of euler" not in text  # one step shows none
     level = text.index("level 2")
-    places = [
-        text.index(each, level)
-        for each in (
-            "rk4-1e-3: solved 1 of 10, tried 1, ",
-            "rk4-0.1: solved 1 of 10, ",
-            "euler-0.01: solved 0 of 10, tried 1, ",
-        )
-    ]
+    rows = "rk4-1e-3: solved 1 of 10, tried 1, ", "rk4-0.1: solved 1 of 10, "
+    places = [text.index(each, level) for each in (*rows, "euler-0.01: solved 0 of 10, tried 1, ")]
     assert places == sorted(places)
 
 

@@ -141,6 +141,15 @@ def exact_euler(q, omega):
     return (upper + lower, theta, upper - lower), rates
 
 
+def multiply(p, q):
+    """The product of two quaternions of any numbers."""
+    (w, x, y, z), (a, b, c, d) = p, q
+    return (
+        *(w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c),
+        *(w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a),
+    )
+
+
 def turn(q, v):
     """q v q* as v + 2 u x (w v + u x v), of numbers with many digits."""
     w, *u = q

@@ -22,12 +22,8 @@ def test_a_segment_comes_back_from_its_event_bit_for_bit(motion, latest, running
     segment = Segment.begin(motion, BEGIN, 0.7).step(0.1, BEGIN + 12_345)
     segment = segment if running else segment.pause(BEGIN + 20_000)
     again = event_of(segment, BEGIN + 99_999).segment()
-    assert (again.stamp, again.elapsed, again.factor, again.running) == (
-        segment.stamp,
-        segment.elapsed,
-        0.7,
-        running,
-    )
+    assert (again.stamp, again.elapsed) == (segment.stamp, segment.elapsed)
+    assert (again.factor, again.running) == (0.7, running)
     for later in (0, 1, 10**9, latest):
         assert again.state_at(BEGIN + later) == segment.state_at(BEGIN + later)
 
@@ -35,9 +31,8 @@ def test_a_segment_comes_back_from_its_event_bit_for_bit(motion, latest, running
 def test_an_event_without_a_value_says_which():
     event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0))
     values = {name: value for name, value in event.values.items() if name != "motion.elapsed_ns"}
-    with pytest.raises(
-        ValueError, match=(r"event 'kick' must have all values, 'motion.elapsed_ns' " r"is missing")
-    ):
+    wanted = "event 'kick' must have all values, 'motion.elapsed_ns' is missing"
+    with pytest.raises(ValueError, match=wanted):
         replace(event, values=values).segment()
 
 

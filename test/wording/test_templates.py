@@ -8,6 +8,7 @@ from dataclasses import fields, is_dataclass
 from itertools import chain
 
 import pytest
+from physics.tops import ARTICLE
 
 from symtop_ros.physics import (
     Friction,
@@ -28,7 +29,6 @@ from symtop_ros.wording.templates import FILE, PLACEHOLDER, TEMPLATES
 
 pytestmark = pytest.mark.wording
 
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 DISC = Top(Ix=0.000228, Iz=0.000456, Mgl=-0.068)
 
 

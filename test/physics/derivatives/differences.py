@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 from mpmath import mp, mpf
+from physics.tops import multiply
 
 from workshop.taylor_motion import TaylorMotion
 
@@ -51,27 +52,16 @@ def differentiate(motion, times, returns=True, digits=DIGITS):
 
 def _turn(q, axis, angle):
     """A quaternion turned about an axis of the body by a small angle, not normalised."""
-    w, x, y, z = q
-    a, b, c = (angle / 2 if k == axis else Fraction(0) for k in range(3))
-    return [
-        w - x * a - y * b - z * c,
-        x + w * a + y * c - z * b,
-        y + w * b + z * a - x * c,
-        z + w * c + x * b - y * a,
-    ]
+    return multiply(q, (1, *(angle / 2 if k == axis else Fraction(0) for k in range(3))))
 
 
 def _compare(base, plus, minus, twice):
     """The derivative of attitude, as a rotation vector of the body, and of omega."""
     (w, x, y, z), _ = base
-    a, b, c, d = (
+    change = [
         (p - m) / twice for p, m in zip(_near(plus[0], base), _near(minus[0], base), strict=True)
-    )
-    turned = (
-        w * b - x * a - y * d + z * c,
-        w * c + x * d - y * a - z * b,
-        w * d - x * c + y * b - z * a,
-    )
+    ]
+    _, *turned = multiply((w, -x, -y, -z), change)
     rates = ((p - m) / twice for p, m in zip(plus[1], minus[1], strict=True))
     return [float(each) for each in (*(2 * each for each in turned), *rates)]
 
