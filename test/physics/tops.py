@@ -85,6 +85,11 @@ def random_case(seed: int, family: str) -> Case:
     return Case(Top(Ix, Ix * ratio, Ix * pull), State(q, omega), t)
 
 
+def precess(phi_dot: float, psi_dot: float = 200.0, theta: float = 0.5) -> State:
+    """A start with theta' = 0."""
+    return State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
+
+
 def random_states(count: int, seed: int = 1) -> State:
     """Attitudes all over the sphere, rates of all sizes about 10 rad/s."""
     rng = np.random.default_rng(seed)
@@ -108,7 +113,7 @@ def error(exact, doubles, size: float = 1.0) -> float:
 
 def attitude_error(exact, doubles, size: float = 1.0) -> float:
     """The same of a quaternion, or parts of it, up to sign."""
-    return min(error(exact, doubles, size), error(exact, -doubles, size))
+    return min(error(exact, sign * np.asarray(doubles), size) for sign in (1, -1))
 
 
 def series_of(motion: Motion, *digits: int) -> TaylorMotion:

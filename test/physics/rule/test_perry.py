@@ -6,7 +6,7 @@ import random
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, random_case, seeds
+from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, precess, random_case, seeds
 
 from symtop_ros.physics import (
     HOLDS,
@@ -28,10 +28,6 @@ pytestmark = pytest.mark.untraced
 
 SIX = {0.0: "falls", 3.0: "falls", 9.0: "rises", 67.0: "rises", 73.0: "falls", 6.49: "falls"}
 SLOW, FAST = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
-
-
-def start(phi_dot, psi_dot=200.0, theta=0.5):
-    return State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
 
 
 def answer(before, factor=1.4, hold="spin_rate", top=ARTICLE):
@@ -61,7 +57,7 @@ def exact_change(top, state, factor, hold):
 
 @pytest.mark.parametrize(("phi_dot", "direction"), SIX.items())
 def test_the_articles_rates_do_what_the_article_says(phi_dot, direction):
-    verdict = perrys_rule(ARTICLE, start(phi_dot))
+    verdict = perrys_rule(ARTICLE, precess(phi_dot))
     assert verdict.direction == direction
     low, high = verdict.turning_angles
     assert (high if direction == "rises" else low) == pytest.approx(0.5, abs=1e-15)
@@ -74,9 +70,9 @@ REVERSED = regular_precession_rates(DISC, theta=0.5, psi_dot=-120.0)
 @pytest.mark.parametrize(
     ("top", "before", "direction"),
     [
-        (ARTICLE, start(SLOW), "rises"),
-        (ARTICLE, start(FAST), "falls"),
-        (DISC, start(REVERSED[0], psi_dot=-120.0), "falls"),
+        (ARTICLE, precess(SLOW), "rises"),
+        (ARTICLE, precess(FAST), "falls"),
+        (DISC, precess(REVERSED[0], psi_dot=-120.0), "falls"),
     ],
 )
 def test_hurrying_the_slow_root_raises_unless_all_is_reversed(top, before, direction, hold):
@@ -91,7 +87,7 @@ def test_the_direction_is_where_the_top_then_moves(seed):
     rng = random.Random(seed)
     Ix = 10 ** rng.uniform(-4, 0)
     top = Top(Ix, Ix * rng.uniform(0.05, 2.0), Ix * rng.uniform(-300, 300))
-    state = start(rng.uniform(-40, 40), rng.uniform(-200, 200), rng.uniform(0.05, 3.0))
+    state = precess(rng.uniform(-40, 40), rng.uniform(-200, 200), rng.uniform(0.05, 3.0))
     theta = Motion(top, state).at(1e-5).euler_angles.theta - state.euler_angles.theta
     # theta''/2 t^2 with t = 10 us is above rounding of theta for theta'' > 1e-4; these starts all
     # have much more
@@ -115,10 +111,10 @@ def test_the_rule_compares_theta_acceleration_with_the_kick_and_without(seed, fa
 @pytest.mark.parametrize(
     ("state", "factor", "why"),
     [
-        (start(0.0), 1.4, "no_precession"),
+        (precess(0.0), 1.4, "no_precession"),
         (State.from_euler(theta=0.5, psi=1.1, theta_dot=3.0), 1.4, "no_precession"),
-        (start(6.5), 1.0, "unchanged"),
-        (start(6.5), -0.5, "reversed"),
+        (precess(6.5), 1.0, "unchanged"),
+        (precess(6.5), -0.5, "reversed"),
         (State((1, 0, 0, 0), (1.0, 0.0, 200.0)), 1.4, "undefined"),
         (State((1, 0, 0, 0), (0.0, 0.0, 200.0)), 1.4, "stable"),
     ],
@@ -145,7 +141,7 @@ def test_the_rule_says_nothing_of_a_change_that_theta_acceleration_does_not_feel
 
 
 def test_an_impulse_has_no_rule_but_facts():
-    before = start(SLOW)
+    before = precess(SLOW)
     after = apply_impulse(ARTICLE, before, (0.0, 0.0, 1e-4))
     found = kick_verdict(Motion(ARTICLE, after), before, None)
     assert (found.hold, found.factor, found.reason.kind) == (None, None, "angular_impulse")
@@ -169,7 +165,7 @@ def test_a_rate_that_is_set_to_itself_is_unchanged():
 
 def test_facts_that_disagree_with_the_rule_are_named():
     # From 30 to 42 rad/s theta'' sinks, and yet the highest point sinks too.
-    before = start(30.0)
+    before = precess(30.0)
     found = answer(before)
     assert perrys_rule(ARTICLE, before).rule_holds is said(found) is True
     # from an independent evaluation of both turning angles, to the digits given
@@ -184,7 +180,7 @@ def test_facts_that_disagree_with_the_rule_are_named():
 @pytest.mark.parametrize("seed", range(60))
 def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
     rng = random.Random(seed)
-    before = start(rng.uniform(-90, 90), rng.uniform(-300, 300), rng.uniform(0.1, 3.0))
+    before = precess(rng.uniform(-90, 90), rng.uniform(-300, 300), rng.uniform(0.1, 3.0))
     factor = rng.choice([0.5, 1.4])
     found = answer(before, factor)
     motion, without = Motion(ARTICLE, hurry(before, factor)), Motion(ARTICLE, before)
@@ -204,7 +200,7 @@ def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
 
 
 def test_the_reason_names_theta_acceleration_and_the_place_among_the_rates():
-    reason = perrys_rule(ARTICLE, start(SLOW)).reason
+    reason = perrys_rule(ARTICLE, precess(SLOW)).reason
     assert (reason.kind, reason.theta_ddot_without) == ("if_hurried", 0.0)
     assert round(reason.theta_ddot, 1) == -49.7
     assert reason.place.rate == reason.before
@@ -214,11 +210,11 @@ def test_the_reason_names_theta_acceleration_and_the_place_among_the_rates():
     def place(top, state):
         return perrys_rule(top, state).reason.place.kind
 
-    assert [place(ARTICLE, start(rate)) for rate in (SLOW, FAST)] == ["slow", "fast"]
-    assert [place(ARTICLE, start(rate)) for rate in (9.0, 3.0)] == ["between", "outside"]
-    assert place(ARTICLE, start(5.0, psi_dot=20.0)) == "none"
+    assert [place(ARTICLE, precess(rate)) for rate in (SLOW, FAST)] == ["slow", "fast"]
+    assert [place(ARTICLE, precess(rate)) for rate in (9.0, 3.0)] == ["between", "outside"]
+    assert place(ARTICLE, precess(5.0, psi_dot=20.0)) == "none"
     sphere = Top(1e-3, 1e-3, 0.2)
-    assert [place(sphere, start(rate)) for rate in (5.0, 1.0, 0.5)] == ["above", "only", "below"]
+    assert [place(sphere, precess(rate)) for rate in (5.0, 1.0, 0.5)] == ["above", "only", "below"]
 
 
 def test_on_the_vertical_the_direction_is_away_from_the_pole():
@@ -237,10 +233,10 @@ def test_a_kick_on_the_vertical_has_an_answer():
 
 
 def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
-    before = start(5.0, psi_dot=-120.0)
+    before = precess(5.0, psi_dot=-120.0)
     for found in (perrys_rule(DISC, before), answer(before, top=DISC)):
         assert (found.subject, found.direction, found.reason.subject) == ("axis", "falls", "axis")
-    assert answer(start(5.0)).subject == "top"
+    assert answer(precess(5.0)).subject == "top"
 
 
 @pytest.mark.parametrize("hold", HOLDS)
@@ -261,20 +257,20 @@ def test_a_hurry_from_a_root_has_the_acceleration_of_the_derivation(factor, hold
 
 
 def test_with_friction_the_turning_angles_are_said_to_be_without_it():
-    before = start(SLOW)
+    before = precess(SLOW)
     motion = Motion(ARTICLE, hurry(before), Friction(axial=2e-6))
     found = kick_verdict(motion, before, "spin_rate")
     assert (found.driven, found.average) == (True, None)
 
 
 def test_a_spin_that_reverses_is_said():
-    assert perrys_rule(ARTICLE, start(-60.0, psi_dot=60.0)).average.spin_reverses is True
-    assert answer(start(SLOW)).average.spin_reverses is False
+    assert perrys_rule(ARTICLE, precess(-60.0, psi_dot=60.0)).average.spin_reverses is True
+    assert answer(precess(SLOW)).average.spin_reverses is False
 
 
 def test_a_slow_top_is_not_compared_with_a_fast_one():
-    assert perrys_rule(ARTICLE, start(1.0, psi_dot=20.0)).average.speed == "slow"
-    assert perrys_rule(ARTICLE, start(1.0, psi_dot=-200.0)).average.speed == "fast"
+    assert perrys_rule(ARTICLE, precess(1.0, psi_dot=20.0)).average.speed == "slow"
+    assert perrys_rule(ARTICLE, precess(1.0, psi_dot=-200.0)).average.speed == "fast"
     assert perrys_rule(ARTICLE, State.from_euler(theta=0.0, psi_dot=200.0)).average is None
 
 

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from physics.tops import ARTICLE, DISC, EPS
+from physics.tops import ARTICLE, DISC, EPS, precess
 
 from symtop_ros.physics import (
     HOLDS,
     Motion,
-    State,
     Top,
     compare_hurried,
     hurry,
@@ -39,7 +38,7 @@ def test_turning_angles_are_those_of_the_closed_form(top):
     theta, phi_dot, psi_dot = points(1)
     other = find_other_turning_angle(top, theta, phi_dot, psi_dot)
     for k in range(len(theta)):
-        start = State.from_euler(theta=theta[k], phi_dot=phi_dot[k], psi_dot=psi_dot[k])
+        start = precess(phi_dot[k], psi_dot[k], theta[k])
         expected = np.array(Motion(top, start).turning_angles)
         found = np.sort([theta[k], other[k]])
         assert (np.abs(found - expected) <= tolerance(*expected, np.cos(theta[k]))).all()
@@ -53,7 +52,7 @@ def test_the_map_says_what_kicks_and_verdicts_say(top, hold, factor):
     found = compare_hurried(top, theta, phi_dot, psi_dot, factor, hold)
     assert found.rule_applies.all()
     for k in range(len(theta)):
-        start = State.from_euler(theta=theta[k], phi_dot=phi_dot[k], psi_dot=psi_dot[k])
+        start = precess(phi_dot[k], psi_dot[k], theta[k])
         motions = Motion(top, start), Motion(top, hurry(start, factor, hold))
         before, after = (motion.turning_angles for motion in motions)
         allowed = tolerance(*before, np.cos(theta[k])) + tolerance(*after, np.cos(theta[k]))
