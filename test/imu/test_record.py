@@ -88,14 +88,12 @@ def test_noise_depends_on_seed_and_stamp_alone():
         ({"orientation": (0, 0, 0, 0)}, "orientation must be a quaternion of norm 1"),
         ({"seed": -1}, "seed must be"),
         ({"gyroscope_random_walk": -1.0}, "gyroscope_random_walk must be"),
+        ({"seconds": 0.0}, "seconds must"),
+        ({"seconds": 1e9}, "seconds times"),
     ],
 )
-def test_a_sensor_that_cannot_be_is_refused(changes, reason):
+def test_a_sensor_or_a_length_that_cannot_be_is_refused(changes, reason):
+    arguments = {"seconds": 1.0, **changes}
+    seconds = arguments.pop("seconds")
     with pytest.raises(ValueError, match=reason):
-        replace(SENSOR, **changes)
-
-
-@pytest.mark.parametrize(("seconds", "reason"), [(0.0, "seconds must"), (1e9, "seconds times")])
-def test_a_length_that_cannot_be_is_refused(seconds, reason):
-    with pytest.raises(ValueError, match=reason):
-        record_imu(MOTION, SENSOR, seconds)
+        record_imu(MOTION, replace(SENSOR, **arguments), seconds)

@@ -32,9 +32,12 @@ from symtop_ros.physics import (
     hurry,
     kick_verdict,
     perrys_rule,
+    precessing_frame_torques,
     precession_rate,
     regular_precession_rates,
     set_precession_rate,
+    theta_acceleration,
+    theta_torque,
 )
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
@@ -51,6 +54,8 @@ ROTATION = "a rotation (orthogonal within 0.001, determinant 1)"
 UNIT, REST, NAN, INF = (1, 0, 0, 0), (0, 0, 0), math.nan, math.inf
 UPRIGHT, HANGING = State(UNIT, (0, 0, 200.0)), State((0, 1, 0, 0), (0, 0, 200.0))
 BOTH, TILTED_BY = State([UNIT, (0, 1, 0, 0)], [REST] * 2), partial(State.from_euler, theta=0.5)
+THROWN_UP, UNSTABLE = State([0.5] * 4, (-2, 0, 0)), State(UNIT, (0, 0, 30))
+OF_RATES = theta_torque, theta_acceleration, precessing_frame_torques
 PUSHED = partial(Motion, ARTICLE, CUSPS)
 RATE_KICKS = hurry, precession_rate, partial(set_precession_rate, phi_dot=1.0)
 NO_NUMBERS = "a", None, [1.0, NAN], True
@@ -126,6 +131,10 @@ MOTIONS = [
     (partial(MOTION.reach, 1.0, NAN), "steps", ">= 0", "nan"),
     (partial(PUSHED(torque=(0.0, 0.0, 1e300)).at, 1.0), "t", NOT_TOO_FAST, "1"),
     (partial(PUSHED(torque=(0.0, 0.0, 1e308)).at, 1.0), "t", NOT_TOO_FAST, "1"),
+    (partial(MOTION.jacobian, NAN), "t", FINITE_ARRAY),
+    (partial(PUSHED(Friction(2e-6, 1e-5)).jacobian, 1e5), "t", "at most "),
+    (partial(Motion(Top(1.0, 0.5, 2.0), THROWN_UP).jacobian, 1e9), "t", "at most "),
+    (partial(Motion(ARTICLE, UNSTABLE).jacobian, 1e5), "t", "before the derivatives "),
     *((partial(balance, MOTION, 2.0, wrong), "longest", "> 0 s") for wrong in (0.0, -1.0)),
     (partial(balance, MANY, 1.0, 1.0), "motion", *ONE_MOTION),
     *((partial(POTENTIAL.at, each), "theta", FINITE_ARRAY) for each in NO_NUMBERS),
@@ -150,6 +159,10 @@ KICKS = [
     (partial(perrys_rule, ARTICLE, START, INF), "factor", FINITE_NUMBER, "inf"),
     (partial(perrys_rule, ARTICLE, START, -INF), "factor", FINITE_NUMBER, "-inf"),
     (partial(perrys_rule, ARTICLE, START, 1e200), "factor", "phi' stays within 1e+100", "1e+200"),
+    *((partial(each, ARTICLE, 0.5, 1e200, 200.0), "phi_dot", "") for each in OF_RATES),
+    *((partial(each, ARTICLE, 0.5, NAN, 200.0), "phi_dot", "") for each in OF_RATES),
+    *((partial(each, ARTICLE, 0.5, [1.0, INF], 200.0), "phi_dot", "") for each in OF_RATES),
+    (partial(compare_hurried, ARTICLE, 0.5, 1e200, 1.0), "phi_dot", "at most 1e+100", "1e+200"),
     (partial(perrys_rule, MANY.top, CUSPS, (1, 2, 3)), "top, state and factor", FIT),
     (partial(regular_precession_rates, ARTICLE, NAN, 200.0), "theta", FINITE_NUMBER, "nan"),
     (partial(regular_precession_rates, ARTICLE, INF, 200.0), "theta", FINITE_NUMBER, "inf"),

@@ -17,9 +17,7 @@ from symtop_ros.physics import (
     apply_impulse,
     compare_hurried,
     hurry,
-    precessing_frame_torques,
     theta_acceleration,
-    theta_torque,
 )
 from symtop_ros.physics.values import refuse, validate_array, validate_number, validate_vector
 
@@ -114,15 +112,6 @@ def test_the_first_odd_number_of_an_array_is_located():
     times[30, 2] = np.nan
     with refused("t", "an array of finite numbers (s)", "nan at [30, 2]"):
         Motion(ARTICLE, CUSPS).at(times)
-
-
-@pytest.mark.parametrize("function", [theta_torque, theta_acceleration, precessing_frame_torques])
-def test_rates_beyond_all_squares_are_refused(function):
-    for rate in (1e200, math.nan, [1.0, math.inf]):
-        with refused("phi_dot", ""):
-            function(ARTICLE, 0.5, rate, 200.0)
-    with refused("phi_dot", "at most 1e+100 rad/s in size", "1e+200"):
-        compare_hurried(ARTICLE, 0.5, 1e200, 1.0)
 
 
 def test_nothing_underflows_into_an_error():
