@@ -79,6 +79,9 @@ def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
     path.write_bytes(flip(unsigned, first + 6, 3))
     (problem,) = find_damage(path)
     assert problem.startswith("the index of messages before byte ")
+    path.write_bytes(flip(log, first + 5, 6))  # the number of its entries
+    problem, *_ = find_damage(path)
+    assert problem.startswith("the record before byte ")
 
 
 @pytest.mark.parametrize("compression", list(CompressionType))

@@ -87,7 +87,8 @@ def test_tops_starts_frictions_and_torques_are_broadcast():
 
 def test_energies_of_broadcast_motions_belong_to_their_tops():
     # three tops and three by one starts: the tops are those of the last axis
-    tops = Top(1.0, 1.0, [1.0, 2.0, 3.0])
+    Ix, Mgl = [1.0, 1.5, 2.0], [1.0, -2.0, 3.0]
+    tops = Top(Ix, 1.0, Mgl)
     starts = State(np.tile([0.8, 0.6, 0, 0], (3, 1, 1)), np.zeros((3, 1, 3)))
     motions = Motion(
         tops, starts, Friction([0.0, 0.1, 0.2]), torque=[[0, 0, 1], [0, 1, 0], [1, 0, 0]]
@@ -97,7 +98,7 @@ def test_energies_of_broadcast_motions_belong_to_their_tops():
     for name in names:
         found = getattr(tops, name)(states)
         for row, n in np.ndindex(3, 3):
-            top = Top(1.0, 1.0, n + 1.0)
+            top = Top(Ix[n], 1.0, Mgl[n])
             assert np.array_equal(found[row, n], getattr(top, name)(states[row, n]))
     for n, member in enumerate(motions.members):
         row, column = divmod(n, 3)

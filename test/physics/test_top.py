@@ -8,8 +8,6 @@ from symtop_ros.physics import Friction, State, Top
 def test_what_follows_from_a_state_is_what_the_formulae_say():
     top = Top(Ix=2.0, Iz=1.0, Mgl=3.0)
     state = State.from_euler(theta=math.pi / 2, phi=0.0, phi_dot=4.0, psi_dot=5.0)
-    assert top.angular_momentum(state).tolist() == pytest.approx([0.0, -5.0, 8.0], abs=1e-14)
-    assert top.gravity_torque(state).tolist() == pytest.approx([3.0, 0.0, 0.0], abs=1e-14)
     # a few roundings of numbers of this size, cos(pi/2) = 6e-17 included
     assert top.energy(state) == pytest.approx(2.0 * 16 / 2 + 25 / 2, rel=1e-15)
     assert top.axial_momentum(state) == pytest.approx(5.0, rel=1e-15)

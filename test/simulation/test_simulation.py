@@ -1,6 +1,7 @@
 """The simulation without ROS: samples, events, jumps of the clock, torques and failures."""
 
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
 import pytest
@@ -171,15 +172,11 @@ def test_requests_of_many_threads_are_carried_out_one_at_a_time():
     run = Run()
     run.advance(0.1)
 
-    def kick():
-        for _ in range(50):
-            assert run.ask("kick", {"precession_rate_change": 0.01})[0]
+    def kick(_):
+        return run.ask("kick", {"precession_rate_change": 0.01})[0]
 
-    threads = [threading.Thread(target=kick) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(kick, range(200)))
     kicks = [event for event in run.sink.events if event.name == "kick"]
     assert len(kicks) == 200
     for before, after in pairwise(kicks):
