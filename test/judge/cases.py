@@ -50,22 +50,17 @@ def write_log(path, topics):
     """Write a log with the events and, for each topic, its type and its messages (stamp, bytes)."""
     from mcap.writer import Writer
 
-    messages = [
-        ("/top/events", "diagnostic_msgs/msg/DiagnosticArray", event.stamp, event.encode("world"))
-        for event in make_events()
-    ]
-    for name, (kind, content) in topics.items():
-        messages += [(name, kind, stamp, data) for stamp, data in content]
+    events = [(event.stamp, event.encode("world")) for event in make_events()]
+    content = {"/top/events": ("diagnostic_msgs/msg/DiagnosticArray", events), **topics}
     with path.open("wb") as file:
-        writer = Writer(file)
+        writer, messages = Writer(file), []
         writer.start(profile="ros2")
-        channels = {}
-        for name, kind, *_ in messages:
-            if name not in channels:
-                schema = writer.register_schema(kind, "ros2msg", b"")
-                channels[name] = writer.register_channel(name, MessageEncoding.CDR, schema)
-        for name, _, stamp, data in sorted(messages, key=lambda each: each[2]):
-            writer.add_message(channels[name], stamp, data, stamp)
+        for name, (kind, sent) in content.items():
+            schema = writer.register_schema(kind, "ros2msg", b"")
+            channel = writer.register_channel(name, MessageEncoding.CDR, schema)
+            messages += [(stamp, channel, data) for stamp, data in sent]
+        for stamp, channel, data in sorted(messages, key=lambda each: each[0]):
+            writer.add_message(channel, stamp, data, stamp)
         writer.finish()
     return path
 

@@ -73,18 +73,15 @@ def test_a_bag_of_sqlite3_is_judged_too(log, tmp_path, capsys):
     from symtop_ros.log.reader import McapFile
 
     file, path = McapFile(log), tmp_path / "bag.db3"
-    messages = [each for chunk in file.chunks() for each in chunk]
+    rows = [(m.channel_id, m.log_time, m.data) for chunk in file.chunks() for m in chunk]
     with sqlite3.connect(path) as database:
         database.execute("CREATE TABLE topics(id INTEGER, name, type, serialization_format)")
         database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data)")
         for number, channel in file.channels.items():
             row = (number, channel.topic, file.schemas[channel.schema_id].name, "cdr")
             database.execute("INSERT INTO topics VALUES (?, ?, ?, ?)", row)
-        for each in messages:
-            row = (each.channel_id, each.log_time, each.data)
-            database.execute(
-                "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)", row
-            )
+        insert = "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)"
+        database.executemany(insert, rows)
     assert main([str(path), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
 
 
