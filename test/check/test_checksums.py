@@ -4,7 +4,6 @@ import random
 import struct
 
 import pytest
-from check.run_log import write_log
 from log_files import Run
 from mcap.opcode import Opcode
 from mcap.writer import CompressionType, Writer
@@ -18,8 +17,8 @@ from symtop_ros.physics import accelerated
 
 
 @pytest.fixture(scope="module")
-def log(tmp_path_factory):
-    return write_log(tmp_path_factory.mktemp("run")).read_bytes()
+def log(path):
+    return path.read_bytes()
 
 
 def flip(data, place, bit):
@@ -80,6 +79,9 @@ def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
     path.write_bytes(flip(unsigned, first + 6, 3))
     (problem,) = find_damage(path)
     assert problem.startswith("the index of messages before byte ")
+    path.write_bytes(flip(log, first + 5, 6))  # the number of its entries
+    problem, *_ = find_damage(path)
+    assert problem.startswith("the record before byte ")
 
 
 @pytest.mark.parametrize("compression", list(CompressionType))

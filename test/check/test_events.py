@@ -4,7 +4,6 @@ import random
 from dataclasses import replace
 
 import pytest
-from check.run_log import write_log
 from physics.tops import seeds
 
 from symtop_ros.check.events import NOTHING, Mismatch, find_mismatches, is_own
@@ -20,8 +19,8 @@ FREE = ("request.scene", "outcome.path", "top_frame", "version", "computed_by", 
 
 
 @pytest.fixture(scope="module")
-def events(tmp_path_factory):
-    return list(TopLog(McapFile(write_log(tmp_path_factory.mktemp("run")))).events())
+def events(path):
+    return list(TopLog(McapFile(path)).events())
 
 
 def is_judged(event):

@@ -1,19 +1,16 @@
 """A whole check: what is missing is named, and nothing is judged by it."""
 
-import os
-import subprocess
-import sys
-
 import pytest
-from check.run_log import Memory, write_log
+from check.run_log import Memory
+from python_runs import run_python
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
 
 
 @pytest.fixture
-def memory(tmp_path):
-    return Memory.read(write_log(tmp_path))
+def memory(path):
+    return Memory.read(path)
 
 
 def without_events(memory, *numbers):
@@ -31,22 +28,14 @@ def test_a_whole_run_has_nothing_missing(memory):
     assert (findings.missing, findings.mismatches, findings.damage) == ([], [], [])
 
 
-def test_python_alone_checks_the_log_of_a_kernel_but_for_events_of_driven_motions(tmp_path):
+def test_python_alone_checks_the_log_of_a_kernel_but_for_events_of_driven_motions(path):
     program = (
         "import sys; from pathlib import Path; from symtop_ros.log.reader import McapFile; "
         "from symtop_ros.log.top_log import TopLog; from symtop_ros.check.run import check_run; "
         "found = check_run(TopLog(McapFile(Path(sys.argv[1])))); "
         "assert found.foreign > 0; sys.exit(str(found.mismatches + found.damage))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", program, write_log(tmp_path)],
-        env={**os.environ, "SYMTOP_PURE": "1"},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
-    assert done.stderr == "[]\n"
+    assert run_python(program, path, SYMTOP_PURE="1").stderr == "[]\n"
 
 
 @pytest.mark.parametrize("lost", [(3,), (4, 5, 6), (9,), (12, 13)])

@@ -5,7 +5,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from check.run_log import Memory, write_log
+from check.run_log import Memory
 from physics.tops import seeds
 
 from symtop_ros import __version__
@@ -20,8 +20,8 @@ STATUS = "top: motion"
 
 
 @pytest.fixture(scope="module")
-def memory(tmp_path_factory):
-    return Memory.read(write_log(tmp_path_factory.mktemp("run")))
+def memory(path):
+    return Memory.read(path)
 
 
 @pytest.fixture

@@ -2,19 +2,15 @@
 
 import csv
 import json
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from python_runs import run_without
 
 from symtop_ros.imu.main import main
 from symtop_ros.judge.main import main as judge
 from symtop_ros.playback.main import main as replay
 
-ROOT = Path(__file__).parents[2]
 SHORT = "--scene", "cusps", "--seconds", "0.5", "--rate", "500"
 MOUNTED = "--position", "0", "0", "0.02", "--orientation", "0.5", "0.5", "0.5", "0.5"
 NOISY = "--noise", "consumer", "--seed", "7"
@@ -84,19 +80,6 @@ def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
 
 
 def test_a_table_needs_neither_ros_nor_mcap(tmp_path):
-    code = (
-        "import sys\n"
-        "sys.modules.update(dict.fromkeys(('mcap', 'rclpy', 'matplotlib', 'rerun')))\n"
-        "from symtop_ros.programs import top_imu\n"
-        "sys.exit(top_imu())\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, *SHORT, "-o", "run.csv"],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+    missing = "mcap", "rclpy", "matplotlib", "rerun"
+    done = run_without(missing, "top_imu", *SHORT, "-o", "run.csv", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")

@@ -2,24 +2,23 @@
 
 import numpy as np
 from mcap.well_known import MessageEncoding
+from physics.tops import ARTICLE, CUSPS
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.estimates import FORMATS, Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.physics import Motion, State, Top, hurry
+from symtop_ros.physics import Motion, hurry
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
 SECOND = 1_000_000_000
-TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-START = State.from_euler(theta=0.5, psi_dot=200.0)
 KICK = 3_123_456_789  # ns
 
 
 def make_events():
     """A start, a kick, a pause, and a run in slow motion."""
-    segment = Segment.begin(Motion(TOP, START), 0, 1.0)
-    events = [Event.of(0, "start", None, {}, START, segment)]
+    segment = Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
+    events = [Event.of(0, "start", None, {}, CUSPS, segment)]
     for name, stamp, change in (
         ("kick", KICK, lambda s: s.restart(hurry(s.state_at(KICK), 1.4), KICK)),
         ("pause", 5 * SECOND, lambda s: s.pause(5 * SECOND)),
@@ -51,22 +50,17 @@ def write_log(path, topics):
     """Write a log with the events and, for each topic, its type and its messages (stamp, bytes)."""
     from mcap.writer import Writer
 
-    messages = [
-        ("/top/events", "diagnostic_msgs/msg/DiagnosticArray", event.stamp, event.encode("world"))
-        for event in make_events()
-    ]
-    for name, (kind, content) in topics.items():
-        messages += [(name, kind, stamp, data) for stamp, data in content]
+    events = [(event.stamp, event.encode("world")) for event in make_events()]
+    content = {"/top/events": ("diagnostic_msgs/msg/DiagnosticArray", events), **topics}
     with path.open("wb") as file:
-        writer = Writer(file)
+        writer, messages = Writer(file), []
         writer.start(profile="ros2")
-        channels = {}
-        for name, kind, *_ in messages:
-            if name not in channels:
-                schema = writer.register_schema(kind, "ros2msg", b"")
-                channels[name] = writer.register_channel(name, MessageEncoding.CDR, schema)
-        for name, _, stamp, data in sorted(messages, key=lambda each: each[2]):
-            writer.add_message(channels[name], stamp, data, stamp)
+        for name, (kind, sent) in content.items():
+            schema = writer.register_schema(kind, "ros2msg", b"")
+            channel = writer.register_channel(name, MessageEncoding.CDR, schema)
+            messages += [(stamp, channel, data) for stamp, data in sent]
+        for stamp, channel, data in sorted(messages, key=lambda each: each[0]):
+            writer.add_message(channel, stamp, data, stamp)
         writer.finish()
     return path
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from judge.cases import SECOND, make_estimates
+from physics.tops import multiply
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import compose, invert
@@ -62,28 +63,14 @@ def integrate_rates(truth, stamps, factor):
     marks = np.unique(np.concatenate((stamps, np.arange(begin, end, 20_000))))
     middles = (marks[:-1] + marks[1:]) // 2
     turns = truth.states_at(middles)[1] * np.diff(marks)[:, np.newaxis] / SECOND * factor
-    q, path = Rotation.from_quat(truth.states_at(stamps[:1])[0][0, [1, 2, 3, 0]]), []
-    wanted = set(stamps.tolist())
-    steps = Rotation.from_rotvec(turns)
-    attitude = q.as_quat()
-    for mark, step in zip(marks.tolist(), [*steps.as_quat(), None], strict=True):
+    attitude, path, wanted = truth.states_at(stamps[:1])[0][0], [], set(stamps.tolist())
+    steps = wxyz(Rotation.from_rotvec(turns))
+    for mark, step in zip(marks.tolist(), [*steps, None], strict=True):
         if mark in wanted:
             path.append(attitude)
         if step is not None:
             attitude = multiply(attitude, step)
-    return np.array(path)[:, [3, 0, 1, 2]]
-
-
-def multiply(p, q):
-    """Product of quaternions x, y, z, w, quick for single ones."""
-    x, y, z, w = p
-    a, b, c, d = q
-    return (
-        w * a + x * d + y * c - z * b,
-        w * b - x * c + y * d + z * a,
-        w * c + x * b - y * a + z * d,
-        w * d - x * a - y * b - z * c,
-    )
+    return np.array(path)
 
 
 def wxyz(rotation):

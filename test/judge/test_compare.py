@@ -4,15 +4,15 @@ import math
 
 import numpy as np
 import pytest
-from judge.cases import SECOND, make_estimates, truth_and_stamps
-from physics.tops import seeds
+from judge.cases import SECOND, make_estimates, make_events, truth_and_stamps
+from judge.made import Made
+from physics.tops import EPS, seeds
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.compare import compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import explain
-
-EPS = 2.0**-52
+from symtop_ros.judge.truth import Truth
 
 
 def test_exact_estimates_have_no_error_across_kicks_pauses_and_slow_motion():
@@ -25,14 +25,10 @@ def test_exact_estimates_have_no_error_across_kicks_pauses_and_slow_motion():
 
 
 def test_stamps_before_the_run_are_unknown():
-    truth, _ = truth_and_stamps()
-    estimates = Estimates.of([0, 1], [[1.0, 0, 0, 0]] * 2)
-    later = make_estimates(truth, np.array([SECOND]))
-    moved = Estimates.of(estimates.stamps, estimates.orientations)
-    assert compare(moved, truth).unknown == 0
-    truth._events[0:1] = []  # the run begins with the kick
-    errors = compare(Estimates.of([5, later.stamps[0]], [[1.0, 0, 0, 0]] * 2), truth)
-    assert (errors.early, errors.unknown) == (2, 0)
+    estimates = Estimates.of([5, SECOND], [[1.0, 0, 0, 0]] * 2)
+    for events, early in ((make_events(), 0), (make_events()[1:], 2)):  # from the start, the kick
+        errors = compare(estimates, Truth(events))
+        assert (errors.early, errors.unknown) == (early, 0)
 
 
 @pytest.mark.parametrize("angle", [1e-12, 1e-3, 1.0, 3.1])
@@ -67,20 +63,10 @@ def test_rotations_of_any_size_and_a_delay_are_found(seed):
     assert alone.angles == (0.0, 0.0)
 
 
-def test_without_an_offset_none_is_found():
-    truth, stamps = truth_and_stamps()
-    found = explain(make_estimates(truth, stamps), truth).offset
-    assert found.delay == 0.0
-    assert max(found.angles) < 8 * EPS
-
-
 def test_noise_is_measured_as_it_is():
     truth, stamps = truth_and_stamps(4000)
-    random = np.random.default_rng(5)
-    exact, _, _ = truth.states_at(stamps)
-    noise = Rotation.from_rotvec(random.normal(scale=1e-3, size=(4000, 3)))
-    q = (Rotation.from_quat(exact[:, [1, 2, 3, 0]]) * noise).as_quat()[:, [3, 0, 1, 2]]
-    errors = compare(Estimates.of(stamps, q), truth)
+    noisy = Made(noise=1e-3).make(truth, stamps)
+    errors = compare(Estimates.of(stamps, noisy.orientations), truth)
     rms = math.sqrt((errors.total**2).mean())
     assert rms == pytest.approx(1e-3 * math.sqrt(3), rel=0.03)  # 12 000 numbers: 1 %, three sigma
     assert errors.growth() == pytest.approx(np.full(10, rms), rel=0.2)
@@ -88,10 +74,6 @@ def test_noise_is_measured_as_it_is():
 
 
 def test_a_clock_that_jumps_back_replaces_what_it_repeats():
-    from judge.cases import make_events
-
-    from symtop_ros.judge.truth import Truth
-
     events = make_events()
     again = Truth([*events, events[0]])  # the whole run starts again at its first stamp
     stamps = np.array([4 * SECOND])

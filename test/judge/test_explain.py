@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from judge.cases import SECOND, make_estimates, truth_and_stamps
+from judge.cases import SECOND, truth_and_stamps
+from judge.made import Made
 from physics.tops import ARTICLE
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.compare import compare
-from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.explain import explain
 from symtop_ros.judge.fit import MAX_DELAY
 from symtop_ros.judge.truth import Truth, scene_truth
@@ -17,19 +17,11 @@ from symtop_ros.simulation.events import start_event
 STAMPS = np.arange(SECOND // 2, 9 * SECOND, SECOND // 200)
 
 
-def drift(estimates, rate):
-    """Turn the heading of estimates by a rate in rad/s, zero at the first."""
-    seconds = (estimates.stamps - estimates.stamps[0]) / SECOND
-    turn = Rotation.from_rotvec(np.outer(seconds * rate, [0.0, 0.0, 1.0]))
-    q = (turn * Rotation.from_quat(estimates.orientations[:, [1, 2, 3, 0]])).as_quat()
-    return Estimates.of(estimates.stamps, q[:, [3, 0, 1, 2]], estimates.angular_velocities)
-
-
 @pytest.mark.parametrize("scene", ["regular_precession", "conical_pendulum", "sleeping"])
 @pytest.mark.parametrize(("delay", "rate"), [(0.007, 0.0), (0.007, 1e-4), (0.0, 0.01)])
 def test_a_steady_motion_hides_the_delay_but_not_the_drift(scene, delay, rate):
     truth = scene_truth(scene)
-    found = explain(drift(make_estimates(truth, STAMPS, delay=delay), rate), truth)
+    found = explain(Made(delay=delay, drift=rate).make(truth, STAMPS), truth)
     assert "delay" in found.hidden
     assert found.offset.delay == 0.0
     # angles are right to 1e-15; over 8 s that is this rate
@@ -38,7 +30,8 @@ def test_a_steady_motion_hides_the_delay_but_not_the_drift(scene, delay, rate):
 
 
 def test_the_sleeping_top_hides_which_of_the_frames_is_turned():
-    assert explain(make_estimates(scene_truth("sleeping"), STAMPS), scene_truth("sleeping")).hidden
+    truth = scene_truth("sleeping")
+    assert explain(Made().make(truth, STAMPS), truth).hidden
 
 
 @pytest.mark.parametrize("scene", ["cusps", "looping"])
@@ -46,7 +39,7 @@ def test_the_sleeping_top_hides_which_of_the_frames_is_turned():
 def test_offset_delay_and_drift_of_a_nutating_top_are_found_together(scene, rate):
     truth = scene_truth(scene)
     world, body = Rotation.from_rotvec([0.1, -0.4, 2.0]), Rotation.from_rotvec([0.3, 0.2, -1.0])
-    estimates = drift(make_estimates(truth, STAMPS, world, body, 0.0123), rate)
+    estimates = Made(world, body, delay=0.0123, drift=rate).make(truth, STAMPS)
     found = explain(estimates, truth)
     assert found.hidden == ()
     # Stamps are whole nanoseconds, in which the top turns by 2e-7 rad, and rotations replace most
@@ -63,7 +56,7 @@ def test_offset_delay_and_drift_of_a_nutating_top_are_found_together(scene, rate
 def test_a_drift_that_turns_a_slow_top_far_within_the_run_is_found(scene, rate, delay):
     # The hanging top looks the same after a turn of 0.105 s: the smaller delay counts.
     truth = scene_truth(scene)
-    found = explain(drift(make_estimates(truth, STAMPS, delay=delay), rate), truth)
+    found = explain(Made(delay=delay, drift=rate).make(truth, STAMPS), truth)
     # Measured 4e-10 s and 1e-13 rad/s; stamps are whole nanoseconds.
     assert found.offset.delay == pytest.approx(delay, abs=1e-9)
     assert found.offset.drift == pytest.approx(rate, abs=1e-11)
@@ -71,16 +64,8 @@ def test_a_drift_that_turns_a_slow_top_far_within_the_run_is_found(scene, rate, 
 
 def test_delays_stay_within_their_bound():
     truth, stamps = truth_and_stamps(1000)
-    late = make_estimates(truth, stamps, delay=0.15)
+    late = Made(delay=0.15).make(truth, stamps)
     assert abs(explain(late, truth).offset.delay) <= MAX_DELAY
-
-
-def make_noisy(truth, delay, scale):
-    random = np.random.default_rng(5)
-    exact = make_estimates(truth, STAMPS, delay=delay)
-    noise = Rotation.from_rotvec(random.normal(scale=scale, size=(len(STAMPS), 3)))
-    q = (Rotation.from_quat(exact.orientations[:, [1, 2, 3, 0]]) * noise).as_quat()
-    return Estimates.of(STAMPS, q[:, [3, 0, 1, 2]])
 
 
 @pytest.mark.parametrize(("noise", "hidden"), [(1e-9, ()), (1e-2, ("delay",))])
@@ -89,13 +74,13 @@ def test_noise_hides_the_delay_of_a_motion_that_is_almost_steady(noise, hidden):
     rate = regular_precession_rates(ARTICLE, 0.5, 200.0)[0] + 1e-3
     start = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
     truth = Truth([start_event(Motion(ARTICLE, start))])
-    found = explain(make_noisy(truth, 0.004, noise), truth)
+    found = explain(Made(delay=0.004, noise=noise).make(truth, STAMPS), truth)
     assert found.hidden == hidden
 
 
 def test_noise_leaves_a_residual():
     truth = scene_truth("cusps")
-    found = explain(make_noisy(truth, 0.004, 1e-3), truth)
+    found = explain(Made(delay=0.004, noise=1e-3).make(truth, STAMPS), truth)
     # 500 samples of three numbers of 1e-3 rad: 2 %, three sigma 6 %
     assert found.residual == pytest.approx(1e-3 * np.sqrt(3), rel=0.06)
     assert found.offset.delay == pytest.approx(0.004, abs=1e-4)

@@ -1,23 +1,20 @@
 """`top_judge` as its users call it."""
 
 import json
-import os
 import sqlite3
-import subprocess
-import sys
 from hashlib import sha256
-from pathlib import Path
 
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from python_runs import run_without
 from scipy.spatial.transform import Rotation
+from testset.test_scorers import make_table, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.truth import scene_truth
 from symtop_ros.testset import score
 
-ROOT = Path(__file__).parents[2]
 IMU = "sensor_msgs/msg/Imu"
 
 
@@ -76,18 +73,15 @@ def test_a_bag_of_sqlite3_is_judged_too(log, tmp_path, capsys):
     from symtop_ros.log.reader import McapFile
 
     file, path = McapFile(log), tmp_path / "bag.db3"
-    messages = [each for chunk in file.chunks() for each in chunk]
+    rows = [(m.channel_id, m.log_time, m.data) for chunk in file.chunks() for m in chunk]
     with sqlite3.connect(path) as database:
         database.execute("CREATE TABLE topics(id INTEGER, name, type, serialization_format)")
         database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data)")
         for number, channel in file.channels.items():
             row = (number, channel.topic, file.schemas[channel.schema_id].name, "cdr")
             database.execute("INSERT INTO topics VALUES (?, ?, ?, ?)", row)
-        for each in messages:
-            row = (each.channel_id, each.log_time, each.data)
-            database.execute(
-                "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)", row
-            )
+        insert = "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)"
+        database.executemany(insert, rows)
     assert main([str(path), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
 
 
@@ -138,21 +132,11 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     facts = json.loads((tmp_path / "cusps.json").read_text())
     assert facts == score.read_problems()["cusps"].facts
     path = tmp_path / "mine.csv"
-    rows = zip(facts["times"], facts["orientations"], strict=True)
-    path.write_text("\n".join(["t,w,x,y,z", *(",".join((repr(t), *q)) for t, q in rows), ""]))
+    path.write_text(write(make_table("cusps")))
     capsys.readouterr()
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
-    # The folder stands alone: score.py knows no package.
-    alone = subprocess.run(
-        [sys.executable, "-I", str(tmp_path / "score.py"), "cusps", str(path)],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
-    assert alone.stdout.startswith("cusps: attitude ")
     capsys.readouterr()
     assert main(["--testset", "cusps", str(path), "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
@@ -188,22 +172,8 @@ def test_a_wrong_frame_is_refused(log, capsys):
 )
 def test_the_judge_works_without_mcap_and_matplotlib(arguments, tmp_path):
     write_csv(tmp_path / "mine.csv")
-    code = (
-        "import sys\n"
-        "missing = 'mcap', 'lz4', 'zstandard', 'matplotlib', 'rclpy'\n"
-        "sys.modules.update(dict.fromkeys(missing))\n"
-        "from symtop_ros.programs import top_judge\n"
-        "sys.exit(top_judge())\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, *arguments],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+    missing = "mcap", "lz4", "zstandard", "matplotlib", "rclpy"
+    done = run_without(missing, "top_judge", *arguments, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout
 

@@ -5,28 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from judge.cases import SECOND, make_estimates
+from judge.made import Made
 from scipy.spatial.transform import Rotation
 
+from symtop_ros.arrays import rotate
 from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.truth import scene_truth
 
 STAMPS = np.arange(0, 5 * SECOND, SECOND // 100)
-WXYZ = [1, 2, 3, 0]
-
-
-def invert(q):
-    return q * [1.0, -1.0, -1.0, -1.0]
 
 
 def to_world(estimates):
-    q = Rotation.from_quat(estimates.orientations[:, WXYZ])
-    return q.apply(estimates.angular_velocities)
+    return rotate(*estimates.orientations.T, estimates.angular_velocities)
 
 
 ATTITUDES = {
-    "order x, y, z, w": lambda q: q[:, WXYZ],
-    "conjugate: world to body": invert,
-    "conjugate, in the order x, y, z, w": lambda q: invert(q)[:, WXYZ],
+    "order x, y, z, w": "order",
+    "conjugate: world to body": "conjugate",
+    "conjugate, in the order x, y, z, w": "conjugate_order",
 }
 RATES = {
     "in deg/s": lambda e: np.degrees(e.angular_velocities),
@@ -40,9 +36,7 @@ RATES = {
 @pytest.mark.parametrize("mistake", ATTITUDES)
 def test_a_mistake_of_the_attitude_is_named(scene, mistake):
     truth = scene_truth(scene)
-    good = make_estimates(truth, STAMPS)
-    bad = replace(good, orientations=ATTITUDES[mistake](good.orientations))
-    (note,) = judge(bad, truth, "x").notes
+    (note,) = judge(Made(change=ATTITUDES[mistake]).make(truth, STAMPS), truth, "x").notes
     assert note.startswith("likely mistake: the quaternions ")
     assert note.endswith(mistake)
 

@@ -5,13 +5,13 @@ import json
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from testset.test_scorers import NAMES, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.scoreboard import Entry
 from symtop_ros.testset.score import read_problems
 
 PROBLEMS = ("cusps", "plane_pendulum")
-HEADER = "t,w,x,y,z"
 
 
 def write_entry(folder, problem, name, error):
@@ -19,12 +19,9 @@ def write_entry(folder, problem, name, error):
     facts = read_problems()[problem].facts
     q = np.array(facts["orientations"], dtype=float)[:, [1, 2, 3, 0]]
     turned = (Rotation.from_quat(q) * Rotation.from_rotvec([error, 0, 0])).as_quat()
-    rows = [
-        ",".join(map(repr, (t, w, x, y, z)))
-        for t, (x, y, z, w) in zip(facts["times"], turned.tolist(), strict=True)
-    ]
+    table = np.column_stack((facts["times"], turned[:, [3, 0, 1, 2]]))
     (folder / problem).mkdir(exist_ok=True)
-    (folder / problem / f"{name}.csv").write_text("\n".join([HEADER, *rows]) + "\n")
+    (folder / problem / f"{name}.csv").write_text(write(table, NAMES[:5]))
 
 
 @pytest.fixture
@@ -43,14 +40,8 @@ def test_errors_orders_and_a_ranking_of_each_level_are_printed(folder, capsys):
     assert "order of rk4 in cusps: 4.00" in text
     assert "order of euler" not in text  # one step shows none
     level = text.index("level 2")
-    places = [
-        text.index(each, level)
-        for each in (
-            "rk4-1e-3: solved 1 of 10, tried 1, ",
-            "rk4-0.1: solved 1 of 10, ",
-            "euler-0.01: solved 0 of 10, tried 1, ",
-        )
-    ]
+    rows = "rk4-1e-3: solved 1 of 10, tried 1, ", "rk4-0.1: solved 1 of 10, "
+    places = [text.index(each, level) for each in (*rows, "euler-0.01: solved 0 of 10, tried 1, ")]
     assert places == sorted(places)
 
 
@@ -90,11 +81,8 @@ def test_the_same_is_given_as_json(folder, capsys):
     assert main(["--testset", "all", str(folder), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert len(facts["scores"]) == 7
-    (score,) = (
-        each
-        for each in facts["scores"]
-        if (each["problem"], each["entry"]) == ("plane_pendulum", "rk4-0.01")
-    )
+    scores = {(each["problem"], each["entry"]): each for each in facts["scores"]}
+    score = scores["plane_pendulum", "rk4-0.01"]
     # 2e-15: the quaternions of the file are doubles
     assert np.array(score["errors"]) == pytest.approx(5e-9, abs=2e-15)
     assert [each["order"] for each in facts["orders"]] == pytest.approx([4.0, 4.0], abs=1e-3)

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from judge.cases import SECOND, START, TOP, make_estimates
+from judge.cases import SECOND, make_estimates
+from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
@@ -23,8 +24,8 @@ STAMPS = np.arange(0, SECOND, SECOND // 200)
 @pytest.mark.wording
 def test_the_mount_of_the_sensor_is_applied_to_its_messages():
     mounted = Imu(position=(0.0, 0.0, 0.02), orientation=(0.5, -0.5, 0.5, 0.5))
-    segment = Segment.begin(Motion(TOP, START), 0, 1.0, Rig(imu=mounted))
-    truth = Truth([Event.of(0, "start", None, {}, START, segment)])
+    segment = Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0, Rig(imu=mounted))
+    truth = Truth([Event.of(0, "start", None, {}, CUSPS, segment)])
     numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, STAMPS))
     rates = numbers[:, IMU.quantities["angular_velocity"]]
     estimates = Estimates.of(STAMPS, numbers[:, [3, 0, 1, 2]], rates)
@@ -38,8 +39,8 @@ def test_the_mount_of_the_sensor_is_applied_to_its_messages():
 
 
 def test_stamps_after_the_last_sample_are_counted_apart():
-    truth = Truth(scene_truth("cusps")._events, end=SECOND // 2)
-    judgement = judge(make_estimates(scene_truth("cusps"), STAMPS), truth, "x")
+    whole = scene_truth("cusps")
+    judgement = judge(make_estimates(whole, STAMPS), Truth(whole._events, end=SECOND // 2), "x")
     assert judgement.errors.late == 99  # the stamp of the end itself is judged
     assert judgement.errors.unknown == 0
     assert " 99 estimates " in judgement.format()

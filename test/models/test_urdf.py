@@ -3,13 +3,12 @@
 from xml.etree import ElementTree
 
 import pytest
+from physics.tops import ARTICLE
 from simulation.runs import Run
 
 from symtop_ros.models.urdf import robot_description
-from symtop_ros.physics import Top
 from symtop_ros.simulation.settings import Settings
 
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 FRAMES = [("world", "top"), ("map", "a/top"), ('w"&<', "gyro's")]
 
 

@@ -6,11 +6,10 @@ import math
 import random
 from collections.abc import Sequence
 
-from physics.tops import ARTICLE
+from physics.tops import ARTICLE, series_of
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.physics.values import Vector
-from workshop.taylor_motion import TaylorMotion
 
 FAMILIES = (
     "plain",
@@ -54,10 +53,7 @@ class DrivenCase:
 
     def solve(self):
         """Return the exact states at the two times."""
-        given = self.start.given_orientation.tolist(), self.start.angular_velocity.tolist()
-        friction = self.friction.axial, self.friction.transverse
-        driven = TaylorMotion(self.top.moments, *given, friction=friction, torque=self.torque)
-        return [driven.state_at(t) for t in self.times]
+        return list(map(series_of(self.motion).state_at, self.times))
 
     def use_random_top(self) -> None:
         draw = self.random

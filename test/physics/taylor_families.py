@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
+import lzma
 import math
 import random
 from dataclasses import dataclass
-
-from mpmath import mp, mpf
+from pathlib import Path
 
 from symtop_ros.physics import Motion, State, Top
 from workshop.taylor_motion import TaylorMotion
@@ -29,6 +30,8 @@ FAMILIES = (
     "separatrix of a pendulum",
     "separatrix of a spinning top",
 )
+PATH = Path(__file__).with_name("taylor_motions.json.xz")
+STORED = json.loads(lzma.decompress(PATH.read_bytes()))
 DIGITS, DIGITS_OF_GAP = 60, 45  # the second for gaps down to 1e-30
 
 
@@ -55,6 +58,11 @@ class Case:
         """The times in s."""
         unit = series.period_in_seconds if self.has_period else 1.0
         return [span * unit for span in self.spans]
+
+
+def read_stored(data: dict) -> tuple[Top, State]:
+    """The top and the start of a stored motion."""
+    return Top(*data["moments"]), State(data["q0"], data["omega0"])
 
 
 def make_case(family: str, seed: int) -> Case:
@@ -152,10 +160,3 @@ def _near_separatrix(rng: random.Random, spans: tuple[float, ...], spin: float) 
         q = _orientation(theta, angle, psi)
         omega = (p * s + theta_dot * c, p * c - theta_dot * s, omega_z)
     return Case((1.0, ratio, 1.0), q, omega, spans, digits)
-
-
-def error(exact, doubles, size: float = 1.0) -> float:
-    """Distance of a vector of doubles from an exact one, relative to a size, up to sign."""
-    with mp.workdps(40):
-        pairs = [(mpf(a), mpf(b)) for a, b in zip(exact, doubles.tolist(), strict=True)]
-        return float(min(mp.norm([a - s * b for a, b in pairs]) for s in (1, -1)) / size)

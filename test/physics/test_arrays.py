@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import (
@@ -48,8 +47,6 @@ def test_angles_and_rates_are_broadcast():
     states = State.from_euler(theta=[[0.4], [0.5]], psi_dot=[1.0, 2.0, 3.0])
     assert states.orientation.shape == (2, 3, 4)
     assert states[1, 2] == State.from_euler(theta=0.5, psi_dot=3.0)
-    with refused("phi and theta", "of shapes that fit together"):
-        State.from_euler(theta=[0.4, 0.5], phi=[1.0, 2.0, 3.0])
 
 
 @pytest.mark.parametrize("hold", HOLDS)
@@ -65,15 +62,6 @@ def test_one_state_takes_many_kicks_and_many_states_one():
     kicked = hurry(CUSPS, [[0.5], [1.5]])
     assert kicked.orientation.shape == (2, 1, 4)
     assert hurry(STATES, 2.0)[3] == hurry(STATES[3], 2.0)
-    with refused("state and kick", "of shapes that fit together", "(200,) and (3,)"):
-        hurry(STATES, [1.0, 2.0, 3.0])
-
-
-def test_the_place_on_the_vertical_among_many_is_refused():
-    states = State.from_euler(theta=[0.5, np.pi, 0.0], psi_dot=1.0)
-    with refused("axis", "tilted", "theta = 3.14159 rad"):
-        hurry(State([[1, 0, 0, 0], [0, 1, 0, 0]], [[0, 0, 1]] * 2)[::-1])
-    assert hurry(states[:1]).orientation.shape == (1, 4)
 
 
 def test_impulses_on_many_tops_are_those_on_each():
@@ -84,12 +72,6 @@ def test_impulses_on_many_tops_are_those_on_each():
         top = Top(float(tops.Ix[n]), 0.4, float(tops.Mgl[n]))
         assert kicked[n] == apply_impulse(top, state, impulses[n])
     assert apply_impulse(ARTICLE, CUSPS, impulses * 1e-6).orientation.shape == (COUNT, 4)
-
-
-@pytest.mark.filterwarnings("error")
-def test_an_impulse_beyond_all_rates_is_refused():
-    with refused("impulse", "so small that no rate changes by more than 1e+100 rad/s", "1e+305"):
-        apply_impulse(ARTICLE, CUSPS, (1e305, 0.0, 0.0))
 
 
 @pytest.mark.parametrize("hold", HOLDS)
@@ -116,8 +98,6 @@ def test_one_state_has_verdicts_for_many_factors():
     verdicts = perrys_rule(ARTICLE, CUSPS, [[0.5], [1.4]])
     assert verdicts.direction.shape == verdicts.turning_angles[0].shape == (2, 1)
     assert not verdicts.rule_applies.any()  # there is no precession to hurry
-    with refused("top, state and factor", "of shapes that fit together"):
-        perrys_rule(Top(1.0, 1.0, [1.0, 2.0]), CUSPS, [1.0, 2.0, 3.0])
 
 
 def test_regular_rates_of_arrays_are_those_of_each():

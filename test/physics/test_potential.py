@@ -18,14 +18,10 @@ STARTS = {
 TOPS = {"above": ARTICLE, "below": Top(ARTICLE.Ix, ARTICLE.Iz, -ARTICLE.Mgl)}
 
 
-@pytest.fixture(params=TOPS, name="top")
-def _top(request):
-    return TOPS[request.param]
-
-
-@pytest.fixture(params=STARTS, name="start")
-def _start(request):
-    return STARTS[request.param]
+def everywhere(test):
+    """Run a test with each top and each start."""
+    tops = pytest.mark.parametrize("top", TOPS.values(), ids=TOPS)
+    return tops(pytest.mark.parametrize("start", STARTS.values(), ids=STARTS)(test))
 
 
 def terms(top, potential):
@@ -34,6 +30,7 @@ def terms(top, potential):
     return abs(top.Mgl) + abs(kinetic) + potential.axial_momentum**2 / top.Ix
 
 
+@everywhere
 def test_the_energy_line_meets_the_potential_at_the_turning_angles(top, start):
     potential = EffectivePotential.of(top, start)
     for angle in Motion(top, start).turning_angles:
@@ -43,6 +40,7 @@ def test_the_energy_line_meets_the_potential_at_the_turning_angles(top, start):
             assert potential.at(angle) == pytest.approx(potential.energy, abs=margin)
 
 
+@everywhere
 def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
     motion, potential = Motion(top, start), EffectivePotential.of(top, start)
     states = motion.at(np.linspace(0.0, 1.0, 50))
@@ -52,6 +50,7 @@ def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
     np.testing.assert_allclose(potential.cubic(u), rate**2, rtol=0, atol=32 * EPS * scale)
 
 
+@everywhere
 def test_the_cubic_vanishes_at_its_three_roots(top, start):
     motion, potential = Motion(top, start), EffectivePotential.of(top, start)
     low, high = motion.turning_angles
@@ -77,11 +76,3 @@ def test_a_top_without_weight_has_no_third_root():
     start = STARTS["looping"]
     top = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
     assert EffectivePotential.of(top, start).find_third_root(0.5, 1.0) == math.inf
-
-
-@pytest.mark.parametrize("method", ["at", "cubic"])
-@pytest.mark.parametrize("value", ["a", None, [1.0, math.nan], True])
-def test_what_is_no_number_is_refused(method, value):
-    potential = EffectivePotential.of(ARTICLE, STARTS["cusps"])
-    with pytest.raises(ValueError, match=r"^(theta|u) must be an array of finite numbers"):
-        getattr(potential, method)(value)

@@ -2,7 +2,6 @@ import math
 
 import pytest
 from mpmath import mp, mpf
-from physics.refusals import FINITE_NUMBER, refused
 from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
@@ -65,14 +64,6 @@ def test_merging_roots_are_those_of_the_exact_quadratic(steps, theta):
             assert rate == float((half + sign * mp.sqrt(discriminant)) / a)
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf])
-def test_what_is_not_finite_is_refused(bad):
-    with refused("theta", FINITE_NUMBER, str(bad)):
-        regular_precession_rates(ARTICLE, theta=bad, psi_dot=200.0)
-    with refused("psi_dot", FINITE_NUMBER, str(bad)):
-        regular_precession_rates(ARTICLE, theta=0.5, psi_dot=bad)
-
-
 @pytest.mark.parametrize("which", [0, 1])
 def test_a_start_on_a_root_keeps_its_tilt(which):
     rate = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[which]
@@ -83,7 +74,5 @@ def test_a_start_on_a_root_keeps_its_tilt(which):
     assert motion.mean_precession_rate == pytest.approx(rate, rel=16 * 261 / rate * EPS)  # of omega
 
 
-def test_a_tilt_of_too_many_turns_is_refused():
-    with refused("theta", "at most 1e+15 rad in size", "1e+16"):
-        regular_precession_rates(ARTICLE, theta=1e16, psi_dot=200.0)
+def test_a_tilt_may_be_of_many_turns():
     assert len(regular_precession_rates(ARTICLE, theta=1e15, psi_dot=200.0)) == 2

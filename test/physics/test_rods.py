@@ -45,16 +45,14 @@ def random_rod(rng):
 
 def test_a_rod_that_was_above_the_promise_is_within():
     number = float.fromhex
-    top = Top(
-        number("0x1.2aab4811c5bd2p-11"),
-        number("0x1.0aaaf9c2079b0p-56"),
-        number("-0x1.383bde331df91p-7"),
-    )
+    moments = "0x1.2aab4811c5bd2p-11", "0x1.0aaaf9c2079b0p-56", "-0x1.383bde331df91p-7"
     q = ("0x1.f2422f0c95f4ep-3", "-0x1.fe7ced308a0adp-2")
     q += ("0x1.a99396cf05b85p-1", "-0x1.30bf9f9a51e89p-5")
     omega = ("-0x1.395128002017bp+1", "0x1.ac42be08e4a38p+2", "-0x1.ce373f0055e7bp+44")
-    start = State([number(c) for c in q], [number(c) for c in omega])
-    assert find_error(top, start, number("-0x1.488597fb7a722p+7")) < 3 * EPS  # it was 5.2
+    start = State(list(map(number, q)), list(map(number, omega)))
+    assert (
+        find_error(Top(*map(number, moments)), start, number("-0x1.488597fb7a722p+7")) < 3 * EPS
+    )  # it was 5.2
 
 
 @pytest.mark.parametrize("seed", seeds(4, 100))

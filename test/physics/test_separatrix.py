@@ -2,16 +2,14 @@
 
 import functools
 import math
+from itertools import product
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
-from physics.tops import ARTICLE, EPS
+from physics.tops import ARTICLE, EPS, Case, attitude_error, error, series_of
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top
 from workshop import exact_motion
-from workshop.exact_motion import Inputs
-from workshop.taylor_motion import TaylorMotion
 
 pytestmark = pytest.mark.untraced
 PENDULUM = Top(1.0, 0.5, 1.0)
@@ -25,70 +23,52 @@ THROWN_UP = {
         ),
     ),
 }
-PUSHED = {
-    f"pushed, {gap:g}": (PENDULUM, State((1, 0, 0, 0), (0.6 * gap**0.5, -0.8 * gap**0.5, 0)))
-    for gap in (1e-2, 1e-6, 1e-14, 1e-22, 1e-30)
-}
-LET_GO = {
-    f"let go, {gap:g}": (
-        PENDULUM,
-        State((math.sqrt(1 - gap), 0.6 * gap**0.5, 0.8 * gap**0.5, 0), (0, 0, 0)),
-    )
-    for gap in (1e-2, 1e-6, 1e-14, 1e-22, 1e-30)
-}
-SPINNING = {
-    f"spinning, {gap:g}": (PENDULUM, State((1, 0, 0, 0), (0.6 * gap**0.5, -0.8 * gap**0.5, 1.5)))
-    for gap in (1e-2, 1e-14, 1e-30)
-}
-STARTS = THROWN_UP | PUSHED | LET_GO | SPINNING
 
 
-# The gaps between the largest and the smallest are tried by `make test-long`.
-BETWEEN = ("1e-06", "1e-14", "1e-22")
+def near(start, gap):
+    """A pendulum pushed from the top, let go next to it, or pushed while it spins."""
+    a, b = 0.6 * gap**0.5, 0.8 * gap**0.5
+    if start == "let go":
+        return PENDULUM, State((math.sqrt(1 - gap), a, b, 0), (0, 0, 0))
+    return PENDULUM, State((1, 0, 0, 0), (a, -b, 1.5 if start == "spinning" else 0))
+
+
+BETWEEN = (1e-6, 1e-14, 1e-22)  # these gaps are tried by `make test-long`
+GAPS = [
+    *product(("pushed", "let go"), (1e-2, *BETWEEN, 1e-30)),
+    *product(("spinning",), (1e-2, 1e-14, 1e-30)),
+]
+STARTS = THROWN_UP | {f"{start}, {gap:g}": near(start, gap) for start, gap in GAPS}
+MARKS = {f"{start}, {gap:g}": [pytest.mark.long] for start, gap in GAPS if gap in BETWEEN}
 OFTEN = pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.long) if any(map(name.__contains__, BETWEEN)) else name
-        for name in STARTS
-    ],
+    "name", [pytest.param(name, marks=MARKS.get(name, [])) for name in STARTS]
 )
 
 
-def series(top, start, digits):
-    return TaylorMotion(top.moments, *(part.tolist() for part in start.parts), digits)
-
-
 @functools.cache
-def series_of(name):
+def solve(name):
     """The series of a start, with 62 digits, of which gaps of 1e-30 and 1e12 periods leave 29."""
-    return series(*STARTS[name], 62)
+    return series_of(Motion(*STARTS[name]), 62)
 
 
 @OFTEN
 def test_a_period_is_finite_and_right_if_the_exact_one_is_finite(name):
     top, start = STARTS[name]
     motion = Motion(top, start)
-    assert motion.nutation_period == pytest.approx(series_of(name).period_in_seconds, rel=2 * EPS)
+    assert motion.nutation_period == pytest.approx(solve(name).period_in_seconds, rel=2 * EPS)
     assert motion.kind != "asymptotic"
 
 
 @OFTEN
 def test_states_are_right_at_a_hundredth_and_at_a_million_million_periods(name):
     top, start = STARTS[name]
-    motion, exact = Motion(top, start), series_of(name)
+    motion, exact = Motion(top, start), solve(name)
     for periods in (0.01, 0.3, 0.5, 0.77, 1.2, -1000.3, 1e6 + 0.499, 1e12 + 0.8):
         t = periods * motion.nutation_period
         (q, omega), state = exact.state_at(t), motion.at(t)
         # measured: 2 eps and 3 eps; the rest is for other libraries of sines
-        assert distance(q, state.orientation) <= 5 * EPS
-        assert distance(omega, state.angular_velocity) <= 5 * EPS * exact.largest_rate
-
-
-def distance(exact, doubles):
-    """Distance of two vectors, up to sign."""
-    with mp.workdps(40):
-        pairs = [(a, mpf(b)) for a, b in zip(exact, doubles.tolist(), strict=True)]
-        return float(min(mp.norm([a - sign * b for a, b in pairs]) for sign in (1, -1)))
+        assert attitude_error(q, state.orientation) <= 5 * EPS
+        assert error(omega, state.angular_velocity, exact.largest_rate) <= 5 * EPS
 
 
 @pytest.mark.parametrize("push", [1e-8, 1e-30, 1e-95])
@@ -97,26 +77,23 @@ def test_a_pendulum_hardly_pushed_from_the_top_is_right_at_the_bottom(push, monk
     # two roots agree to 190 digits at 1e-95
     monkeypatch.setattr(exact_motion, "DIGITS", 120 - 4 * round(math.log10(push)))
     start = State((1, 0, 0, 0), (0.6 * push, -0.8 * push, 0))
-    motion = Motion(PENDULUM, start)
-    t = 0.4999 * motion.nutation_period
-    inputs = Inputs.of(1.0, 0.5, 1.0, *(part.tolist() for part in start.parts))
-    (q, omega), state = exact_motion.exact_motion(inputs, t), motion.at(t)
-    assert distance(q, state.orientation) <= 5 * EPS
-    assert distance(omega, state.angular_velocity) <= 5 * EPS * 2.0
+    case = Case(PENDULUM, start, 0.4999 * Motion(PENDULUM, start).nutation_period)
+    (q, omega), state = case.exact, case.found
+    assert attitude_error(q, state.orientation) <= 5 * EPS
+    assert error(omega, state.angular_velocity, 2.0) <= 5 * EPS
 
 
 def test_a_motion_without_a_period_is_asymptotic_at_exact_times_too():
-    top, start = Top(1.0, 0.5, 2.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 2.0, 4.0))
-    motion = Motion(top, start)
+    motion = Motion(Top(1.0, 0.5, 2.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 2.0, 4.0)))
     assert motion.kind == "asymptotic"
     assert motion.nutation_period == math.inf
     stamps = np.array([0, 500_000_000, 30_000_000_000])
     states = motion.at(ExactTimes(stamps))
     # away from the vertical the error of a double grows as exp(2 t): digits for 30 s
-    exact = series(top, start, digits=80)
+    exact = series_of(motion, 80)
     exact.reach(30.0)
     for k, t in enumerate((0.0, 0.5, 30.0)):
-        assert State(states.orientation[k], states.angular_velocity[k]) == motion.at(t)
         (q, omega), state = exact.state_at(t), motion.at(t)
-        assert distance(q, state.orientation) <= 5 * EPS
-        assert distance(omega, state.angular_velocity) <= 5 * EPS * 3.0
+        assert states[k] == state
+        assert attitude_error(q, state.orientation) <= 5 * EPS
+        assert error(omega, state.angular_velocity, 3.0) <= 5 * EPS

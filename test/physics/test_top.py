@@ -1,38 +1,13 @@
 import math
 
 import pytest
-from physics.refusals import FINITE_NUMBER, NUMBER, refused
 
 from symtop_ros.physics import Friction, State, Top
-
-
-@pytest.mark.parametrize(
-    ("moments", "name", "condition", "value"),
-    [
-        ((0.0, 1.0, 1.0), "Ix", "> 0 kg m^2", "0"),
-        ((-1.0, 1.0, 1.0), "Ix", "> 0 kg m^2", "-1"),
-        ((1.0, 0.0, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2", "0"),
-        ((1.0, 2.1, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2", "2.1"),
-        ((1.0, 1.0, math.nan), "Mgl", f"{FINITE_NUMBER} (J)", "nan"),
-        ((10**400, 1.0, 1.0), "Ix", f"{FINITE_NUMBER} (kg m^2)", "inf"),
-        ((1.0, "1", 1.0), "Iz", f"{NUMBER} (kg m^2)", "'1'"),
-        ((True, 1.0, 1.0), "Ix", f"{NUMBER} (kg m^2)", "True"),
-        ((1.0, 1.0, 1j), "Mgl", f"{NUMBER} (J)", "1j"),
-        ((1e101, 1e101, 1.0), "Ix", "1e-100 to 1e+100 kg m^2", "1e+101"),
-        ((1.0, 1e-101, 1.0), "Iz", "1e-100 to 1e+100 kg m^2", "1e-101"),
-        ((1.0, 1.0, -1e101), "Mgl", "at most 1e+100 J in size", "-1e+101"),
-    ],
-)
-def test_a_body_that_cannot_be_is_refused_in_words(moments, name, condition, value):
-    with refused(name, condition, value):
-        Top(*moments)
 
 
 def test_what_follows_from_a_state_is_what_the_formulae_say():
     top = Top(Ix=2.0, Iz=1.0, Mgl=3.0)
     state = State.from_euler(theta=math.pi / 2, phi=0.0, phi_dot=4.0, psi_dot=5.0)
-    assert top.angular_momentum(state).tolist() == pytest.approx([0.0, -5.0, 8.0], abs=1e-14)
-    assert top.gravity_torque(state).tolist() == pytest.approx([3.0, 0.0, 0.0], abs=1e-14)
     # a few roundings of numbers of this size, cos(pi/2) = 6e-17 included
     assert top.energy(state) == pytest.approx(2.0 * 16 / 2 + 25 / 2, rel=1e-15)
     assert top.axial_momentum(state) == pytest.approx(5.0, rel=1e-15)
@@ -42,20 +17,6 @@ def test_what_follows_from_a_state_is_what_the_formulae_say():
 def test_only_an_upright_weight_needs_spin_to_sleep():
     assert Top(1.0, 0.5, 4.0).critical_spin == 8.0
     assert Top(1.0, 0.5, -4.0).critical_spin == 0.0
-
-
-@pytest.mark.parametrize(
-    ("values", "name", "condition", "value"),
-    [
-        ({"axial": -1}, "friction.axial", ">= 0 N m s", "-1"),
-        ({"transverse": math.nan}, "friction.transverse", f"{FINITE_NUMBER} (N m s)", "nan"),
-        ({"axial": "1"}, "friction.axial", f"{NUMBER} (N m s)", "'1'"),
-        ({"transverse": True}, "friction.transverse", f"{NUMBER} (N m s)", "True"),
-    ],
-)
-def test_a_friction_that_cannot_be_is_refused_in_words(values, name, condition, value):
-    with refused(name, condition, value):
-        Friction(**values)
 
 
 def test_the_torque_of_friction_is_against_each_rate():

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import math
 import random
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
-from symtop_ros.physics import State, Top
-from workshop.exact_motion import Inputs
+from symtop_ros.physics import Motion, State, Top
+from workshop.exact_motion import Inputs, exact_motion
+from workshop.taylor_motion import TaylorMotion
 
 EPS = 2.0**-52
+FAMILIES = ("any", "weak gravity", "fast", "critical", "pendulum", "from below")
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
 # A disc that hangs from its pivot: Iz > Ix and Mgl < 0, where Perry's rule can fail at slow roots.
@@ -30,6 +36,19 @@ class Case:
     @property
     def inputs(self) -> Inputs:
         return Inputs.of(*self.top.moments, *(part.tolist() for part in self.start.parts))
+
+    @property
+    def exact(self):
+        """Orientation and angular velocity to 30 digits or more."""
+        return exact_motion(self.inputs, self.t)
+
+    @property
+    def motion(self) -> Motion:
+        return Motion(self.top, self.start)
+
+    @property
+    def found(self) -> State:
+        return self.motion.at(self.t)
 
 
 def random_case(seed: int, family: str) -> Case:
@@ -66,6 +85,11 @@ def random_case(seed: int, family: str) -> Case:
     return Case(Top(Ix, Ix * ratio, Ix * pull), State(q, omega), t)
 
 
+def precess(phi_dot: float, psi_dot: float = 200.0, theta: float = 0.5) -> State:
+    """A start with theta' = 0."""
+    return State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
+
+
 def random_states(count: int, seed: int = 1) -> State:
     """Attitudes all over the sphere, rates of all sizes about 10 rad/s."""
     rng = np.random.default_rng(seed)
@@ -78,6 +102,84 @@ def distance(a: State, b: State) -> float:
     p, q = a.orientation, b.orientation
     minus, plus = (np.linalg.norm(each, axis=-1) for each in (p - q, p + q))
     return float(np.max(np.minimum(minus, plus)))
+
+
+def error(exact, doubles, size: float = 1.0) -> float:
+    """Distance of a vector of doubles from an exact one, relative to a size."""
+    with mp.workdps(40):
+        pairs = zip(exact, np.asarray(doubles).tolist(), strict=True)
+        return float(mp.norm([mpf(a) - b for a, b in pairs]) / size)
+
+
+def attitude_error(exact, doubles, size: float = 1.0) -> float:
+    """The same of a quaternion, or parts of it, up to sign."""
+    return min(error(exact, sign * np.asarray(doubles), size) for sign in (1, -1))
+
+
+def series_of(motion: Motion, *digits: int) -> TaylorMotion:
+    """The Taylor series of a motion, with its friction and torque."""
+    given = motion.start.given_orientation.tolist(), motion.start.angular_velocity.tolist()
+    friction = motion.friction.axial, motion.friction.transverse
+    drive = {"friction": friction, "torque": motion.applied_torque}
+    return TaylorMotion(motion.top.moments, *given, *digits, **drive)
+
+
+def to_state(exact) -> State:
+    """The state of doubles next to an exact one."""
+    return State(*([float(c) for c in part] for part in exact))
+
+
+def exact_parts(state: State):
+    """w, x, y, z of norm 1 and omega of a state of doubles, with many digits."""
+    q, omega = ([mpf(c) for c in part.tolist()] for part in state.parts)
+    return [c / mp.norm(q) for c in q], omega
+
+
+def exact_euler(q, omega):
+    """phi, theta, psi and their rates, of a quaternion and body rates with many digits."""
+    (w, x, y, z), (wx, wy, wz) = q, omega
+    theta = 2 * mp.atan2(mp.hypot(x, y), mp.hypot(w, z))
+    upper, lower, sine = mp.atan2(z, w), mp.atan2(y, x), mp.sin(theta)
+    gx, gy = 2 * (x * z - w * y), 2 * (y * z + w * x)
+    phi_dot = (wx * gx + wy * gy) / sine**2
+    rates = phi_dot, (wx * gy - wy * gx) / sine, wz - phi_dot * mp.cos(theta)
+    return (upper + lower, theta, upper - lower), rates
+
+
+def multiply(p, q):
+    """The product of two quaternions of any numbers."""
+    (w, x, y, z), (a, b, c, d) = p, q
+    return (
+        *(w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c),
+        *(w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a),
+    )
+
+
+def turn(q, v):
+    """q v q* as v + 2 u x (w v + u x v), of numbers with many digits."""
+    w, *u = q
+    inner = [w * a + b for a, b in zip(v, cross(u, v), strict=True)]
+    return [a + 2 * b for a, b in zip(v, cross(u, inner), strict=True)]
+
+
+def cross(a, b):
+    return [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
+
+
+@contextmanager
+def within(seconds: float, error: type[BaseException] = AssertionError) -> Iterator[None]:
+    """Raise an error if the block takes longer."""
+
+    def end(*_):
+        raise error(f"longer than {seconds} s")
+
+    usual = signal.signal(signal.SIGALRM, end)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, usual)
 
 
 def seeds(often, count):

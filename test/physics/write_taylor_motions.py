@@ -8,12 +8,10 @@ Inputs and times are doubles, taken as exact. `q` is the orientation (w, x, y, z
 import json
 import lzma
 import math
-from pathlib import Path
 
 from mpmath import mp
-from physics.taylor_families import FAMILIES, make_case
+from physics.taylor_families import FAMILIES, PATH, make_case
 
-PATH = Path(__file__).with_name("taylor_motions.json.xz")
 COUNT = 200
 DIGITS = 25
 

@@ -50,14 +50,9 @@ KICKS = (
     | st.fixed_dictionaries({"angular_impulse": st.lists(SIZES, min_size=3, max_size=3)})
     | st.dictionaries(st.sampled_from(kick.FIELDS), VALUES)
 )
-TORQUES = st.fixed_dictionaries(
-    {},
-    optional={
-        "friction.axial": SIZES.map(abs),
-        "friction.transverse": SIZES.map(abs),
-        "steady_torque": st.lists(SIZES, min_size=3, max_size=3),
-    },
-)
+FRICTION = dict.fromkeys(("friction.axial", "friction.transverse"), SIZES.map(abs))
+VECTORS = st.lists(SIZES, min_size=3, max_size=3)
+TORQUES = st.fixed_dictionaries({}, optional={**FRICTION, "steady_torque": VECTORS})
 
 
 @pytest.fixture(autouse=True)

@@ -95,6 +95,25 @@ class Run:
         with self.simulation.turn("parameters"):
             self.simulation.apply_settings(settings)
 
+    def push(self, torque: tuple[float, float, float]) -> None:
+        """Hold a torque (N m), as the node does it."""
+        with self.simulation.turn("torque"):
+            self.simulation.hold_torque(torque)
+
+    @property
+    def stamps(self) -> list[int]:
+        """The stamps of the samples."""
+        return [stamp for stamp, _ in self.sink.samples]
+
+    def assert_recomputed(self) -> None:
+        """Each sample is the one of the last event before it, bit for bit."""
+        assert self.sink.samples
+        for stamp, numbers in self.sink.samples:
+            segments = [event.segment() for event in self.sink.events]
+            segment = [each for each in segments if each.stamp <= stamp][-1]
+            w, x, y, z = segment.state_at(stamp).orientation.tolist()
+            assert numbers == [x, y, z, w]
+
     def ask(self, name: str, argument: Any = None) -> tuple[bool, str]:
         """Carry out a request by its name; return success and the answer."""
         act = SERVICES[name].act

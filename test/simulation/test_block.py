@@ -1,6 +1,7 @@
 """Samples computed in blocks."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -9,22 +10,29 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
+from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.topics import SAMPLE_TOPICS, SENSOR_TOPICS, STATE_TOPICS, Samples
 
 STAMPS = [BEGIN + 1_000_003 * k for k in range(16)]
+MOTION = Motion(ARTICLE, CUSPS)
+NOISES = 2e-3, 3e-4, 0.02, 0.005
+RIG = Rig(9.81, Imu((0.01, -0.02, 0.05), (0.5, 0.5, 0.5, 0.5), *NOISES, seed=11, rate=400.0))
 SEGMENTS = {
-    "closed form": Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 0.7),
-    "taylor": Segment.begin(Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-5)), BEGIN, 0.7),
-    "paused": Segment.begin(Motion(ARTICLE, CUSPS), BEGIN - 10**9, 0.7).pause(BEGIN),
+    "closed form": Segment.begin(MOTION, BEGIN, 0.7, RIG),
+    "taylor": Segment.begin(Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-5)), BEGIN, 0.7, RIG),
+    "paused": Segment.begin(MOTION, BEGIN - 10**9, 0.7, RIG).pause(BEGIN),
 }
 
 
 @pytest.mark.parametrize("segment", SEGMENTS.values(), ids=SEGMENTS)
-@pytest.mark.parametrize("name", STATE_TOPICS)
-def test_samples_are_those_of_each_stamp_alone_bit_for_bit(segment, name):
-    block = Block(segment, STAMPS)
-    for stamp in STAMPS:
-        expected = STATE_TOPICS[name].compute(Samples.at(segment, stamp)).tolist()
+@pytest.mark.parametrize(
+    ("name", "count"), [*product(STATE_TOPICS, (16, 5000)), *product(SENSOR_TOPICS, (40,))]
+)
+def test_samples_are_those_of_each_stamp_alone_bit_for_bit(segment, name, count):
+    stamps = [BEGIN + 1_000_003 * k for k in range(count)]
+    block = Block(segment, stamps)
+    for stamp in stamps[:: 1 + count // 1000]:
+        expected = SAMPLE_TOPICS[name].compute(Samples.at(segment, stamp)).tolist()
         assert block.numbers(name, stamp) == expected
 
 
@@ -37,12 +45,18 @@ def test_it_covers_its_segment_and_stamps_only():
     assert not Block(segment, []).covers(segment, STAMPS[0])
 
 
-def test_a_topic_that_is_not_requested_is_not_computed(monkeypatch):
-    computed = []
+@pytest.fixture
+def computed(monkeypatch):
+    """Names of the topics that are computed, in their order."""
+    names = []
     for name, topic in STATE_TOPICS.items():
         compute = topic.compute
-        spy = replace(topic, compute=lambda *a, n=name, f=compute: computed.append(n) or f(*a))
+        spy = replace(topic, compute=lambda *a, n=name, f=compute: names.append(n) or f(*a))
         monkeypatch.setitem(SAMPLE_TOPICS, name, spy)
+    return names
+
+
+def test_a_topic_that_is_not_requested_is_not_computed(computed):
     block = Block(SEGMENTS["closed form"], STAMPS)
     for stamp in STAMPS:
         assert np.isfinite(block.numbers("torque", stamp)).all()
@@ -55,12 +69,7 @@ def test_a_topic_that_is_not_requested_is_not_computed(monkeypatch):
     assert len(computed) == 3
 
 
-def test_the_next_block_is_computed_a_topic_at_a_time(monkeypatch):
-    computed = []
-    for name, topic in STATE_TOPICS.items():
-        compute = topic.compute
-        spy = replace(topic, compute=lambda *a, n=name, f=compute: computed.append(n) or f(*a))
-        monkeypatch.setitem(SAMPLE_TOPICS, name, spy)
+def test_the_next_block_is_computed_a_topic_at_a_time(computed):
     segment, later = SEGMENTS["closed form"], [stamp + 10**8 for stamp in STAMPS]
     block = Block(segment, STAMPS)
     for name in STATE_TOPICS:

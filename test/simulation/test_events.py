@@ -7,7 +7,6 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.topics import STATE_TOPICS, Samples
 
 CLOSED = Motion(ARTICLE, CUSPS)
 INTEGRATED = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))
@@ -23,33 +22,17 @@ def test_a_segment_comes_back_from_its_event_bit_for_bit(motion, latest, running
     segment = Segment.begin(motion, BEGIN, 0.7).step(0.1, BEGIN + 12_345)
     segment = segment if running else segment.pause(BEGIN + 20_000)
     again = event_of(segment, BEGIN + 99_999).segment()
-    assert (again.stamp, again.elapsed, again.factor, again.running) == (
-        segment.stamp,
-        segment.elapsed,
-        0.7,
-        running,
-    )
+    assert (again.stamp, again.elapsed) == (segment.stamp, segment.elapsed)
+    assert (again.factor, again.running) == (0.7, running)
     for later in (0, 1, 10**9, latest):
         assert again.state_at(BEGIN + later) == segment.state_at(BEGIN + later)
-
-
-@pytest.mark.parametrize("motion", [CLOSED, INTEGRATED])
-@pytest.mark.parametrize("name", STATE_TOPICS)
-def test_samples_of_many_stamps_are_those_of_each_bit_for_bit(name, motion):
-    segment = Segment.begin(motion, BEGIN, 1.0)
-    stamps = BEGIN + np.arange(5000) * 1_000_003
-    many = STATE_TOPICS[name].compute(Samples.at(segment, stamps))
-    for k in range(0, 5000, 7):
-        one = STATE_TOPICS[name].compute(Samples.at(segment, int(stamps[k])))
-        assert many[k].tolist() == one.tolist()
 
 
 def test_an_event_without_a_value_says_which():
     event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0))
     values = {name: value for name, value in event.values.items() if name != "motion.elapsed_ns"}
-    with pytest.raises(
-        ValueError, match=(r"event 'kick' must have all values, 'motion.elapsed_ns' " r"is missing")
-    ):
+    wanted = "event 'kick' must have all values, 'motion.elapsed_ns' is missing"
+    with pytest.raises(ValueError, match=wanted):
         replace(event, values=values).segment()
 
 

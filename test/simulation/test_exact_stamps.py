@@ -6,13 +6,13 @@ exact sum of products of nanoseconds and real-time factors. It is computed with 
 
 from __future__ import annotations
 
-import math
 import random
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from mpmath import mp, mpc, mpf
+from mpmath import mp, mpf
+from physics.tops import EPS, attitude_error, error, exact_euler, turn
 from simulation.runs import SECOND, ListSink, Run
 
 from symtop_ros.simulation.topics import STATE_TOPICS
@@ -20,7 +20,6 @@ from workshop.exact_motion import Inputs, exact_motion
 
 pytestmark = pytest.mark.untraced
 
-EPS = 2.0**-52
 # In eps; 5 is what is promised. The worst of these samples has 2.8, the rest is for other libraries
 # of sines and exponentials.
 BOUND = 4.0
@@ -54,53 +53,17 @@ def decode(name, data):
     return int(stamps[0]), numbers[0]
 
 
-class Expected:
-    """The exact quantities of all topics at one stamp."""
-
-    def __init__(self, event, stamp):
-        values = {
-            key: [float(part) for part in event.values[key].split()]
-            for key in ("top", "motion.orientation", "motion.angular_velocity")
-        }
-        self.Ix, self.Iz, self.Mgl = values["top"]
-        inputs = Inputs.of(*values["top"], *list(values.values())[1:])
-        with mp.workdps(120):
-            self.q, self.omega = exact_motion(inputs, _exact_seconds(event, stamp))
-            w, x, y, z = self.q
-            self.A, self.B = mpc(w, z), mpc(x, y)
-            self.spin = inputs.angular_velocity[2]
-
-    def _to_world(self, vector):
-        w, x, y, z = self.q
-        a, b, c = vector
-        rows = (
-            (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-            (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-        )
-        return [r[0] * a + r[1] * b + r[2] * c for r in rows]
-
-    def angular_velocity(self):
-        return self._to_world((self.omega[0], self.omega[1], self.spin))
-
-    def angular_momentum(self):
-        return self._to_world(
-            (self.Ix * self.omega[0], self.Ix * self.omega[1], self.Iz * self.spin)
-        )
-
-    def torque(self):
-        axis = self._to_world((mpf(0), mpf(0), mpf(self.Mgl)))
-        return [-axis[1], axis[0], mpf(0)]
-
-    def euler(self):
-        """theta, sin(theta), phi, psi and the rates phi', theta', psi'."""
-        theta = 2 * mp.atan2(abs(self.B), abs(self.A))
-        phi, psi = mp.arg(self.A) + mp.arg(self.B), mp.arg(self.A) - mp.arg(self.B)
-        node = mp.expj(mp.arg(self.B) - mp.arg(self.A))  # exp(-i psi)
-        sine = mp.sin(theta)
-        across = mpc(self.omega[0], self.omega[1]) * mp.conj(node)  # theta' + i sin(theta) phi'
-        phi_dot = across.imag / sine
-        return theta, sine, phi, psi, phi_dot, across.real, self.spin - phi_dot * mp.cos(theta)
+def expect(event, stamp):
+    """The exact attitude, body rates, and vectors in the world by their topics, at a stamp."""
+    keys = "top", "motion.orientation", "motion.angular_velocity"
+    moments, *start = ([float(part) for part in event.values[key].split()] for key in keys)
+    with mp.workdps(120):
+        q, omega = exact_motion(Inputs.of(*moments, *start), _exact_seconds(event, stamp))
+        Ix, Iz, Mgl = map(mpf, moments)
+        momentum = [Ix * omega[0], Ix * omega[1], Iz * omega[2]]
+        x, y, _ = turn(q, (0, 0, Mgl))
+        vectors = {"angular_velocity": turn(q, omega), "angular_momentum": turn(q, momentum)}
+        return q, omega, {**vectors, "torque": (-y, x, 0)}
 
 
 def _exact_seconds(event, stamp):
@@ -113,16 +76,6 @@ def _exact_seconds(event, stamp):
     return mpf(elapsed.numerator) / elapsed.denominator / SECOND
 
 
-def _distance(numbers, exact):
-    return float(
-        mp.sqrt(sum((mpf(float(a)) - b) ** 2 for a, b in zip(numbers, exact, strict=True)))
-    )
-
-
-def _turns(difference):
-    return float(abs(difference - 2 * mp.pi * mp.nint(difference / (2 * mp.pi))))
-
-
 def errors(run, stamp):
     """Largest error of each quantity at a stamp, in units of its bound of 1 eps."""
     begins = [each for each in run.sink.events if int(each.values["motion.stamp"]) <= stamp]
@@ -131,37 +84,27 @@ def errors(run, stamp):
     for name, data in run.sink.messages[stamp].items():
         found, numbers[name] = decode(name, data)
         assert found == stamp
-    with mp.workdps(60):
-        expected = Expected(event, stamp)
-        w, x, y, z = expected.q
-        q = [x, y, z, w]
-        found = {}
-        for name, part in (("orientation", numbers["orientation"]), ("tf", numbers["tf"][3:])):
-            found[name] = min(_distance(part, q), _distance(-part, q))
-        for name, exact, part in (
-            ("angular_velocity", expected.angular_velocity(), numbers["angular_velocity"][3:]),
-            ("angular_momentum", expected.angular_momentum(), numbers["angular_momentum"]),
-            ("torque", expected.torque(), numbers["torque"][3:]),
-        ):
-            size = _distance([0.0] * 3, exact)
-            found[name] = _distance(part, exact) / size if size else _distance(part, exact)
-        found.update(_euler_errors(expected, numbers["euler_angles"]))
-    return {name: error / EPS for name, error in found.items()}
-
-
-def _euler_errors(expected, numbers):
-    if 0 in (expected.A, expected.B):  # on the vertical phi and psi are undefined
-        return {}
-    theta, sine, phi, psi, *rates = expected.euler()
-    omega = float(mp.sqrt(sum(each**2 for each in (*expected.omega[:2], expected.spin))))
+    q, omega, vectors = expect(event, stamp)
     found = {
-        "theta": float(abs(mpf(float(numbers[1])) - theta) / theta),
-        "phi": _turns(numbers[0] - phi) * float(sine) / math.pi,
-        "psi": _turns(numbers[2] - psi) * float(sine) / math.pi,
+        name: attitude_error([*q[1:], q[0]], numbers[name][-4:]) for name in ("orientation", "tf")
     }
-    for name, number, rate in zip(("phi'", "theta'", "psi'"), numbers[3:], rates, strict=True):
-        found[name] = float(abs(mpf(float(number)) - rate) * sine) / omega
-    return found
+    for name, exact in vectors.items():
+        found[name] = error(exact, numbers[name][-3:], mp.norm(exact) or 1.0)
+    found |= _euler_errors(q, omega, numbers["euler_angles"])
+    return {name: each / EPS for name, each in found.items()}
+
+
+def _euler_errors(q, omega, numbers):
+    if not (any(q[1:3]) and any(q[::3])):  # on the vertical phi and psi are undefined
+        return {}
+    with mp.workdps(60):
+        (phi, theta, psi), rates = exact_euler(q, omega)
+        sine, off = mp.sin(theta), [a - b for a, b in zip(numbers[3:].tolist(), rates, strict=True)]
+        turns = [(a - b) / (2 * mp.pi) for a, b in ((numbers[0], phi), (numbers[2], psi))]
+        found = [abs(numbers[1] - theta) / theta]
+        found += [2 * abs(each - mp.nint(each)) * sine for each in turns]
+        found += [abs(each) * sine / mp.norm(omega) for each in off]
+    return dict(zip(("theta", "phi", "psi", "phi'", "theta'", "psi'"), found, strict=True))
 
 
 def start(scene, **changes):
@@ -174,7 +117,7 @@ def start(scene, **changes):
 def assert_exact(run, stamps):
     for stamp in stamps:
         found = errors(run, stamp)
-        wrong = {name: round(error, 1) for name, error in found.items() if error > BOUND}
+        wrong = {name: float(each) for name, each in found.items() if each > BOUND}
         assert not wrong, (stamp, wrong)
 
 

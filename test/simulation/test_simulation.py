@@ -1,6 +1,7 @@
 """The simulation without ROS: samples, events, jumps of the clock, torques and failures."""
 
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
 import pytest
@@ -13,20 +14,11 @@ from symtop_ros.wording import write
 MS = SECOND // 1000
 
 
-def assert_recomputed(run):
-    """Each sample is the one of the last event before it, bit for bit."""
-    assert run.sink.samples
-    for stamp, numbers in run.sink.samples:
-        event = [event for event in run.sink.events if event.segment().stamp <= stamp][-1]
-        w, x, y, z = event.segment().state_at(stamp).orientation.tolist()
-        assert numbers == [x, y, z, w]
-
-
 def test_samples_lie_on_the_grid_and_follow_the_closed_form():
     run = Run()
     run.advance(1.0)
-    assert [stamp for stamp, _ in run.sink.samples] == [5 * MS * k for k in range(201)]
-    assert_recomputed(run)
+    assert run.stamps == [5 * MS * k for k in range(201)]
+    run.assert_recomputed()
 
 
 def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
@@ -49,10 +41,8 @@ def test_a_kick_separates_the_samples_at_its_stamp_and_precedes_them_in_the_log(
     assert (found.hold, found.direction, found.factor) == ("spin_rate", "rises", pytest.approx(1.4))
     assert [event.number for event in run.sink.events] == [1, 2]
     assert (kick.name, kick.stamp) == ("kick", 105 * MS)
-    assert run.sink.order.index("kick") == 1 + sum(
-        each < kick.stamp for each, _ in run.sink.samples
-    )
-    assert_recomputed(run)
+    assert run.sink.order.index("kick") == 1 + sum(each < kick.stamp for each in run.stamps)
+    run.assert_recomputed()
 
 
 def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
@@ -86,7 +76,7 @@ def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
     ticks.join()
     assert run.sink.events[-1].name == "clock"
     assert run.simulation.ticker.missed == 0
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
@@ -124,16 +114,13 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
 def test_a_torque_acts_until_its_time_out_to_the_nanosecond():
     run = Run()
     run.advance(0.1)
-    with run.simulation.turn("torque"):
-        run.simulation.hold_torque((0.0, 0.0, 2e-4))
+    run.push((0.0, 0.0, 2e-4))
     run.advance(0.3)
     begin, end = [event for event in run.sink.events if event.name == "torque"]
-    assert (begin.values["applied_torque"], end.values["applied_torque"]) == (
-        "0.0 0.0 0.0002",
-        "0.0 0.0 0.0",
-    )
+    torques = [event.values["applied_torque"] for event in (begin, end)]
+    assert torques == ["0.0 0.0 0.0002", "0.0 0.0 0.0"]
     assert end.stamp - begin.stamp == 100 * MS
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_a_torque_in_another_frame_is_refused():
@@ -153,7 +140,7 @@ def test_other_settings_continue_from_the_current_state():
     assert run.simulation.segment.factor == 0.5
     assert len(run.sink.descriptions) == 2
     run.advance(0.2)
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running():
@@ -171,7 +158,7 @@ def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running()
         raise ZeroDivisionError("by\na bug")
     assert len(run.sink.errors) == 2  # it had succeeded in between
     run.advance(0.1)
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_an_exception_during_shutdown_is_raised():
@@ -185,19 +172,13 @@ def test_requests_of_many_threads_are_carried_out_one_at_a_time():
     run = Run()
     run.advance(0.1)
 
-    def kick():
-        for _ in range(50):
-            assert run.ask("kick", {"precession_rate_change": 0.01})[0]
+    def kick(_):
+        return run.ask("kick", {"precession_rate_change": 0.01})[0]
 
-    threads = [threading.Thread(target=kick) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(kick, range(200)))
     kicks = [event for event in run.sink.events if event.name == "kick"]
     assert len(kicks) == 200
-    assert all(
-        after.values["before.orientation"] == before.values["after.orientation"]
-        for before, after in pairwise(kicks)
-    )
-    assert_recomputed(run)
+    for before, after in pairwise(kicks):
+        assert after.values["before.orientation"] == before.values["after.orientation"]
+    run.assert_recomputed()

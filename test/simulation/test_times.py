@@ -21,10 +21,6 @@ def start(scene="cusps", **changes):
     return run
 
 
-def stamps_of(run):
-    return [stamp for stamp, _ in run.sink.samples]
-
-
 def differentiate(run):
     """The largest error of body rates that a consumer finds from two samples and their stamps."""
     worst = 0.0
@@ -42,21 +38,14 @@ def differentiate(run):
     return worst
 
 
-def assert_recomputed(run):
-    for stamp, numbers in run.sink.samples:
-        event = [each for each in run.sink.events if each.stamp <= stamp][-1]
-        w, x, y, z = event.segment().state_at(stamp).orientation.tolist()
-        assert numbers == [x, y, z, w]
-
-
 @pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
 def test_stamps_advance_by_the_factor_and_differences_by_them_are_the_rates(factor):
     run = start(real_time_factor=factor, publish_rate=400.0)
     run.advance(0.6)
-    assert stamps_of(run) == [k * SECOND // 400 for k in range(round(0.6 * factor * 400) + 1)]
+    assert run.stamps == [k * SECOND // 400 for k in range(round(0.6 * factor * 400) + 1)]
     # a quotient of differences: h^2/24 times the second derivative of the rate, about 60^2 * 60
     assert differentiate(run) < 0.1
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 @pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
@@ -71,41 +60,40 @@ def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
     assert not run.simulation.segment.running
     assert run.ask("pause", False)[0]
     run.advance(0.3)
-    assert set(np.diff(stamps_of(run))) == {SECOND // 400}
+    assert set(np.diff(run.stamps)) == {SECOND // 400}
     assert differentiate(run) < 0.1
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_a_step_advances_time_by_its_duration_with_one_sample_at_the_end():
     run = start()
     run.advance(0.1)
     assert run.ask("pause", True)[0]
-    last = stamps_of(run)[-1]
+    last = run.stamps[-1]
     for duration in (0.001, 0.25, 1e-9):
         assert run.ask("step", {"duration": duration})[0]
         last += round(duration * SECOND)
-        assert stamps_of(run)[-1] == run.simulation.now == last
+        assert run.stamps[-1] == run.simulation.now == last
     assert run.ask("step", {"duration": 0.0})[0]
-    assert stamps_of(run)[-1] == run.simulation.now == last
+    assert run.stamps[-1] == run.simulation.now == last
     assert run.ask("pause", False)[0]
     run.advance(0.1)
-    assert np.diff(stamps_of(run))[-20:].tolist() == [PERIOD] * 20
-    assert_recomputed(run)
+    assert np.diff(run.stamps)[-20:].tolist() == [PERIOD] * 20
+    run.assert_recomputed()
 
 
 def test_a_torque_that_ends_in_a_step_acts_until_then():
     run = start()
     run.advance(0.1)
     assert run.ask("pause", True)[0]
-    with run.simulation.turn("torque"):
-        run.simulation.hold_torque((0.0, 0.0, 2e-4))
+    run.push((0.0, 0.0, 2e-4))
     assert run.ask("step", {"duration": 0.3})[0]
     assert run.ask("pause", False)[0]
     run.advance(0.1)
     begin, end = (each.stamp for each in run.sink.events if each.name == "torque")
     assert end - begin == 100 * MS
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 @pytest.mark.parametrize("paused", [False, True])
@@ -126,9 +114,9 @@ def test_no_request_sets_the_time_back(paused):
         assert granted, answer
         run.advance(0.004, step=0.002)
     run.advance(0.1)
-    assert min(np.diff(stamps_of(run))) > 0
+    assert min(np.diff(run.stamps)) > 0
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_another_factor_and_rate_continue_on_the_same_time():
@@ -138,9 +126,9 @@ def test_another_factor_and_rate_continue_on_the_same_time():
         run.change(changes)
         run.advance(1.0)
     assert run.simulation.factor == 5.0
-    assert stamps_of(run)[-1] == pytest.approx(10.1 * SECOND, abs=10 * MS)
+    assert run.stamps[-1] == pytest.approx(10.1 * SECOND, abs=10 * MS)
     assert {each.segment().factor for each in run.sink.events} == {1.0}
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 def test_the_time_waits_for_a_process_that_was_stopped():
@@ -149,7 +137,7 @@ def test_the_time_waits_for_a_process_that_was_stopped():
     run.clock.now += 3 * SECOND
     run.tick()
     run.advance(0.1)
-    assert set(np.diff(stamps_of(run))) == {MS}
+    assert set(np.diff(run.stamps)) == {MS}
     assert run.simulation.ticker.missed == 0
 
 
@@ -160,13 +148,8 @@ def test_more_samples_than_can_be_sent_are_refused():
 
 def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered():
     # ten million steps for each second
-    run = start(
-        top__Ix=1e-4,
-        top__Iz=1e-4,
-        initial__psi_dot=5e6,
-        friction__transverse=1e-6,
-        real_time_factor=10.0,
-    )
+    sphere = {"top__Ix": 1e-4, "top__Iz": 1e-4, "friction__transverse": 1e-6}
+    run = start(**sphere, initial__psi_dot=5e6, real_time_factor=10.0)
     begin = time.monotonic()
     # some ticks in Python alone; the kernel takes hundreds until it has tried for long enough
     while run.simulation.factor >= 0.1 and time.monotonic() - begin < 4.0:
@@ -179,9 +162,9 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
     assert run.ask("hurry_precession")[1]
     assert run.ask("set_initial_conditions", {"psi_dot": 1.0})[0]
     assert time.monotonic() - begin < 5.0
-    assert min(np.diff(stamps_of(run))) > 0
+    assert min(np.diff(run.stamps)) > 0
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
-    assert_recomputed(run)
+    run.assert_recomputed()
 
 
 @pytest.mark.parametrize("publish_clock", [True, False])
@@ -201,5 +184,5 @@ def test_a_motion_that_becomes_too_fast_for_doubles_is_paused_there(publish_cloc
     assert paused.state_before() == paused.segment().motion.at(end)
     assert run.ask("reset")[0]
     assert run.simulation.state == run.simulation.timeline.start
-    assert_recomputed(run)
+    run.assert_recomputed()
     assert list(find_mismatches(run.sink.events)) == []

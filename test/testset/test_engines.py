@@ -37,12 +37,20 @@ def is_shown(value, text):
     return value == pytest.approx(float(re.match(r"[-+.\de]+", text)[0]), rel=0.06)
 
 
-def test_free_bodies_are_damped_as_the_page_says(folder):
-    mujoco = pytest.importorskip("mujoco")
+@pytest.fixture(scope="module")
+def mujoco():
+    return pytest.importorskip("mujoco")
+
+
+def rows_of(name, first, mujoco):
+    """The rows of a table that begin with the version that is installed, if there are any."""
+    rows = [row for row in read_table(name)[1] if row[0] == first]
+    return rows or pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
+
+
+def test_free_bodies_are_damped_as_the_page_says(folder, mujoco):
     problem = read_problems()["free_rod_fast"]
-    rows = [row for row in read_table("free")[1] if row[0] == mujoco.__version__]
-    if not rows:
-        pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
+    rows = rows_of("free", mujoco.__version__, mujoco)
     for _, integrator, error, rate in rows:
         found = integrate(mujoco, folder / "models", problem, "free.mjcf", integrator, 256)
         assert is_shown(found[0], error), (integrator, found)
@@ -51,13 +59,9 @@ def test_free_bodies_are_damped_as_the_page_says(folder):
         assert part == pytest.approx(float(rate.split()[0]), rel=0.03, abs=0.005), integrator
 
 
-def test_rk4_has_the_order_that_the_page_says(folder):
-    mujoco = pytest.importorskip("mujoco")
+def test_rk4_has_the_order_that_the_page_says(folder, mujoco):
     problem = read_problems()["gentle_cusps"]
-    rows = [row for row in read_table("order")[1] if row[0] == f"MuJoCo {mujoco.__version__}, RK4"]
-    if not rows:
-        pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
-    ((_, *errors, order),) = rows
+    ((_, *errors, order),) = rows_of("order", f"MuJoCo {mujoco.__version__}, RK4", mujoco)
     found = [
         integrate(mujoco, folder / "models", problem, "mjcf", "RK4", steps)[0]
         for steps in (64, 128, 256)
@@ -66,8 +70,7 @@ def test_rk4_has_the_order_that_the_page_says(folder):
     assert np.log2(found[0] / found[1]) == pytest.approx(float(order), abs=0.1)
 
 
-def test_a_tumbling_top_is_integrated_as_the_page_says(folder):
-    mujoco = pytest.importorskip("mujoco")
+def test_a_tumbling_top_is_integrated_as_the_page_says(folder, mujoco):
     if f"MuJoCo {mujoco.__version__}:\n" not in PAGE:
         pytest.skip(f"no numbers of MuJoCo {mujoco.__version__}")
     problem = read_problems()["tumbling"]

@@ -6,12 +6,12 @@ import json
 import lzma
 import re
 import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from python_runs import run_python
+from testset.test_scorers import make_table, write
 
 from symtop_ros.models.formats import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
@@ -79,7 +79,7 @@ def test_inputs_rounded_to_single_precision_err_by_no_more_than_their_limits_all
 
 
 @pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
-def test_the_package_has_the_same_accelerations_forces_and_energies(setting):
+def test_the_package_has_the_same_forces_energies_accelerations_and_states_in_the_world(setting):
     facts = PROBLEMS[setting.name]
     exact = {name: np.array(facts[name], dtype=float) for name in FORCES}
     motion = Motion(setting.top, setting.start)
@@ -104,15 +104,9 @@ def test_the_package_has_the_same_accelerations_forces_and_energies(setting):
     )
     ours = point_acceleration(motion, states, p)
     assert ours == pytest.approx(local, abs=8 * 2.0**-52 * fastest**2)
-
-
-@pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
-def test_the_package_has_the_same_states_in_the_world_frame(setting):
-    facts = PROBLEMS[setting.name]
+    # the world frame: an attitude within 10 eps, and products of it with the arm and the rates
     position, velocity, rate = (np.array(facts[name], dtype=float) for name in WORLD)
-    states = Motion(setting.top, setting.start).at([0.0, *facts["times"]])
-    arm, fastest = abs(setting.body.arm), np.abs(states.angular_velocity).max() + 1
-    # an attitude within 10 eps, as above, and products of it with the arm and the rates
+    arm = abs(setting.body.arm)
     assert position == pytest.approx(states.to_world([0, 0, setting.body.arm]), abs=3e-15 * arm)
     assert rate == pytest.approx(
         states.to_world(states.angular_velocity), abs=16 * 2.0**-52 * fastest
@@ -231,8 +225,8 @@ def test_every_problem_has_its_models(folder):
     for setting in SETTINGS:
         formats = FORMATS if setting.top.Mgl else {**FORMATS, **FREE_FORMATS}
         paths = {form: folder / f"models/{setting.name}.{form}" for form in formats}
-        for form, write in formats.items():
-            assert paths[form].read_text() == write(setting.top, setting.start, setting.body)
+        for form, make in formats.items():
+            assert paths[form].read_text() == make(setting.top, setting.start, setting.body)
         free = folder / "models" / f"{setting.name}.free.mjcf"
         assert free.exists() == (setting.top.Mgl == 0)
 
@@ -240,26 +234,12 @@ def test_every_problem_has_its_models(folder):
 def test_the_scorer_needs_numpy_only(folder, tmp_path):
     for name in ("score.py", "problems.json"):
         (tmp_path / name).write_bytes((folder / name).read_bytes())
-    facts = PROBLEMS["plane_pendulum"]
-    rows = [
-        ",".join((repr(t), *q, *omega))
-        for t, q, omega in zip(
-            facts["times"], facts["orientations"], facts["angular_velocities"], strict=True
-        )
-    ]
-    (tmp_path / "mine.csv").write_text("t,w,x,y,z,wx,wy,wz\n" + "\n".join(rows) + "\n")
-    code = "import sys; sys.argv[0] = 'score'; import score; code = score.main(sys.argv[1:]); "
-    code += (
+    (tmp_path / "mine.csv").write_text(write(make_table("plane_pendulum")))
+    code = (
+        "import sys; sys.argv[0] = 'score'; import score; code = score.main(sys.argv[1:]); "
         "assert not [m for m in sys.modules if m.startswith(('symtop', 'scipy'))]; sys.exit(code)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code, "plane_pendulum", "mine.csv"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-        env={"PATH": ""},
-    )
+    done = run_python(code, "plane_pendulum", "mine.csv", cwd=tmp_path, PATH="", PYTHONPATH="")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("plane_pendulum: attitude ")
     assert "angular velocity" in done.stdout

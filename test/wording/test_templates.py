@@ -8,6 +8,7 @@ from dataclasses import fields, is_dataclass
 from itertools import chain
 
 import pytest
+from physics.tops import ARTICLE, precess
 
 from symtop_ros.physics import (
     Friction,
@@ -28,12 +29,7 @@ from symtop_ros.wording.templates import FILE, PLACEHOLDER, TEMPLATES
 
 pytestmark = pytest.mark.wording
 
-ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 DISC = Top(Ix=0.000228, Iz=0.000456, Mgl=-0.068)
-
-
-def start(phi_dot, psi_dot=200.0, theta=0.5):
-    return State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
 
 
 def words_of(hint):
@@ -77,7 +73,7 @@ def test_the_file_has_each_key_once_and_plain_placeholders():
 
 
 def test_a_verdict_states_range_rule_and_average():
-    assert str(perrys_rule(ARTICLE, start(9.0))) == (
+    assert str(perrys_rule(ARTICLE, precess(9.0))) == (
         "The top rises: theta will stay between 0.439 and 0.500 rad. Perry's rule holds: hurried "
         "from 9.00 to 12.60 rad/s, theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies "
         "between the regular rates 6.50 and 69.82 rad/s). On average phi' is 6.42 rad/s, 0.157 "
@@ -87,11 +83,11 @@ def test_a_verdict_states_range_rule_and_average():
 
 def test_angles_that_read_the_same_are_written_once():
     slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
-    assert "theta will stay at 0.500 rad." in str(perrys_rule(ARTICLE, start(slow)))
+    assert "theta will stay at 0.500 rad." in str(perrys_rule(ARTICLE, precess(slow)))
 
 
 def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
-    before = start(5.0, psi_dot=-120.0)
+    before = precess(5.0, psi_dot=-120.0)
     kicked = kick_verdict(Motion(DISC, hurry(before)), before, "spin_rate")
     for text in (str(perrys_rule(DISC, before)), str(kicked)):
         assert "The axis falls (and the centre of mass rises)" in text
@@ -99,7 +95,7 @@ def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
 
 
 def test_a_driven_motion_has_turning_angles_without_friction():
-    before = start(9.0)
+    before = precess(9.0)
     motion = Motion(ARTICLE, hurry(before), Friction(axial=2e-6))
     text = str(kick_verdict(motion, before, "spin_rate"))
     assert "without friction and applied torque theta will stay between" in text
@@ -107,7 +103,7 @@ def test_a_driven_motion_has_turning_angles_without_friction():
 
 
 def test_facts_against_the_rule_are_joined():
-    before = start(30.0)
+    before = precess(30.0)
     text = str(kick_verdict(Motion(ARTICLE, hurry(before)), before, "spin_rate"))
     assert "Although Perry's rule holds, the highest point is lower. On average" in text
 
@@ -121,7 +117,7 @@ def test_an_impulse_on_the_vertical_has_an_answer():
 
 
 def test_angles_are_written_in_degrees_on_request():
-    before = start(9.0)
+    before = precess(9.0)
     kicked = kick_verdict(Motion(ARTICLE, hurry(before)), before, "spin_rate")
     text = write("kick", kicked, "degrees")
     low, high = map(math.degrees, kicked.turning_angles)
@@ -142,5 +138,5 @@ def test_a_text_is_written_as_it_is():
 
 def test_with_keys_for_templates_a_record_is_written_by_its_key(monkeypatch):
     monkeypatch.setattr(templates, "TEMPLATES", {key: key for key in TEMPLATES})
-    assert str(perrys_rule(ARTICLE, start(9.0))) == "verdict"
+    assert str(perrys_rule(ARTICLE, precess(9.0))) == "verdict"
     assert is_dataclass(KickVerdict)

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 from mpmath import mp, mpf
+from physics.tops import multiply
 
 from workshop.taylor_motion import TaylorMotion
 
@@ -15,30 +16,15 @@ BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 
 
 def differentiate(motion, times, returns=True, digits=DIGITS):
-    """The Jacobians (n, 6, 9) at times in s; `returns` says that the nutation has a period."""
+    """The Jacobians (n, 6, 9) at times in s > 0; `returns` says that the nutation has a period."""
+    friction = motion.friction.axial, motion.friction.transverse
 
-    def follow(moments, orientation, omega):
-        exact = TaylorMotion(moments, orientation, omega, digits)
+    def follow(*arguments):
+        exact = TaylorMotion(*arguments, digits, friction, motion.applied_torque)
         if not returns:
             exact.reach(max(times))
         return [exact.state_at(t) for t in times]
 
-    return _differentiate(motion, follow, digits)
-
-
-def differentiate_driven(motion, times):
-    """The Jacobians (n, 6, 9) of a motion with friction or a torque, at times in s > 0."""
-    friction = motion.friction.axial, motion.friction.transverse
-
-    def follow(moments, orientation, omega):
-        drive = {"friction": friction, "torque": motion.applied_torque}
-        exact = TaylorMotion(moments, orientation, omega, FEW_DIGITS, **drive)
-        return [exact.state_at(t) for t in times]
-
-    return _differentiate(motion, follow, FEW_DIGITS)
-
-
-def _differentiate(motion, follow, digits):
     # Of a parameter of size 1: its square is the relative error, as much as rounding leaves.
     step = Fraction(1, 10 ** (digits // 3))
     moments = [Fraction(each) for each in motion.top.moments]
@@ -66,27 +52,16 @@ def _differentiate(motion, follow, digits):
 
 def _turn(q, axis, angle):
     """A quaternion turned about an axis of the body by a small angle, not normalised."""
-    w, x, y, z = q
-    a, b, c = (angle / 2 if k == axis else Fraction(0) for k in range(3))
-    return [
-        w - x * a - y * b - z * c,
-        x + w * a + y * c - z * b,
-        y + w * b + z * a - x * c,
-        z + w * c + x * b - y * a,
-    ]
+    return multiply(q, (1, *(angle / 2 if k == axis else Fraction(0) for k in range(3))))
 
 
 def _compare(base, plus, minus, twice):
     """The derivative of attitude, as a rotation vector of the body, and of omega."""
     (w, x, y, z), _ = base
-    a, b, c, d = (
+    change = [
         (p - m) / twice for p, m in zip(_near(plus[0], base), _near(minus[0], base), strict=True)
-    )
-    turned = (
-        w * b - x * a - y * d + z * c,
-        w * c + x * d - y * a - z * b,
-        w * d - x * c + y * b - z * a,
-    )
+    ]
+    _, *turned = multiply((w, -x, -y, -z), change)
     rates = ((p - m) / twice for p, m in zip(plus[1], minus[1], strict=True))
     return [float(each) for each in (*(2 * each for each in turned), *rates)]
 

@@ -13,13 +13,13 @@ from symtop_ros.physics.exact.phases import Phase, Phases
 RATES = (Decimal("6.49714481615578871234567890123456"), Decimal("-1234567890.123456789012345678"))
 
 
-@pytest.mark.parametrize("t", [0.0, 1e-9, 0.3, 1.0, 1e6, -1e9, 123456789012.345])
+COUNTED = [0.0, 1e-9, 0.3, 1.0, 1e6, -1e9, 123456789012.345]
+BEYOND = [1e14, -1e17, 1e20]  # the count of ticks
+
+
+@pytest.mark.parametrize("t", [*COUNTED, *BEYOND])
 def test_a_phase_is_reduced_without_loss_at_any_time(t):
-    check(t, Phases(*RATES))
-
-
-def check(t, phases):
-    """Compare phases with the product of rate and time, and those of arrays with those of one."""
+    phases = Phases(*RATES)
     values, many = phases.at(t), phases.at(np.array([t, t]))
     assert_equal_bits(values, many)
     with mp.workdps(80):
@@ -37,11 +37,6 @@ def assert_equal_bits(one, many):
     for phase, phases in zip(one, many, strict=True):
         assert phase.radians == tuple(part[-1] for part in phases.radians)
         assert phase.unit == tuple(part[-1] for part in phases.unit)
-
-
-@pytest.mark.parametrize("t", [1e14, -1e17, 1e20])
-def test_a_phase_beyond_the_count_of_ticks_is_as_right(t):
-    check(t, Phases(*RATES))
 
 
 @pytest.mark.parametrize("t", [1e-3, 1e-9, -1e-15, 1e-300])

@@ -2,17 +2,17 @@
 
 import struct
 from fractions import Fraction
+from functools import cache
 from typing import get_args
 
 import numpy as np
 from physics.driven_families import FAMILIES as DRIVEN_FAMILIES
 from physics.driven_families import DrivenCase
-from physics.tops import random_case
+from physics.tops import FAMILIES, random_case
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
 from symtop_ros.physics.exact.kind import Kind
 
-FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
 TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
 STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64)
@@ -104,6 +104,14 @@ def expect(samples):
 def normalize(numbers):
     """Return the bytes of doubles, with one NaN for all: its sign is not defined."""
     return np.where(np.isnan(numbers), np.nan, numbers).tobytes()
+
+
+@cache
+def list_many():
+    """About two thousand samples, as bytes for a program and as what it writes."""
+    samples = list_samples(range(210), range(34))
+    assert len(samples) >= (2000 if accelerated else 1500)
+    return encode(samples), expect(samples)
 
 
 def list_samples(gravity, driven):

@@ -9,13 +9,8 @@ from symtop_ros.physics import Motion, State, Top
 
 HALF_ROOT = 0.5**0.5
 ATTITUDES = (
-    (0.5, 0.5, 0.5, 0.5),
-    (HALF_ROOT, HALF_ROOT, 0, 0),
-    (0.8, 0.6, 0, 0),
-    (0, 0.6, 0.8, 0),
-    (0.6, 0, 0.8, 0),
-    (HALF_ROOT, 0, HALF_ROOT, 0),
-    (0, 1, 0, 0),
+    *((0.5, 0.5, 0.5, 0.5), (HALF_ROOT, HALF_ROOT, 0, 0), (0.8, 0.6, 0, 0), (0, 0.6, 0.8, 0)),
+    *((0.6, 0, 0.8, 0), (HALF_ROOT, 0, HALF_ROOT, 0), (0, 1, 0, 0)),
 )
 FEW, ALL = (-1, 0, 2), (-1, 0, 1, 2)  # components of the angular velocity
 TOPS = [

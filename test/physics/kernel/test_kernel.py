@@ -1,8 +1,6 @@
 """The kernel gives the states of Python, bit for bit, and the package works without it."""
 
 import hashlib
-import json
-import lzma
 import os
 import shutil
 import subprocess
@@ -13,18 +11,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from physics.tops import random_case, seeds
+from physics.taylor_families import STORED, read_stored
+from physics.tops import ARTICLE, CUSPS, FAMILIES, random_case, seeds
+from python_runs import run_python
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top, accelerated
 from symtop_ros.physics.kernel import find_kernel
 
 FOLDER = Path(__file__).parents[1]
 ROOT = FOLDER.parents[1]
-SOURCES = ROOT / "symtop_ros/physics/kernel"
-STORED = json.loads(lzma.decompress((FOLDER / "taylor_motions.json.xz").read_bytes()))
 # Of all states at the stored times; the same for x86 and ARM, and every version of NumPy.
 BITS = "902cf70d3c4c"
-FAMILIES = "any", "weak gravity", "fast", "critical", "pendulum", "from below"
 
 compiled = pytest.mark.skipif(not accelerated, reason="the kernel is not built")
 
@@ -56,9 +53,8 @@ def assert_same_bits(one, other):
 @pytest.mark.parametrize("data", STORED, ids=[data["family"] for data in STORED])
 def test_stored_motions_have_the_same_bits(data):
     times = np.concatenate([list_times(data["t"][0]), data["t"]])
-    top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
-    assert_same_bits(*compute_both(top, start, times))
-    assert_same_bits(*compute_both(top, start, float(times[-1])))
+    assert_same_bits(*compute_both(*read_stored(data), times))
+    assert_same_bits(*compute_both(*read_stored(data), float(times[-1])))
 
 
 @compiled
@@ -86,7 +82,7 @@ def test_random_motions_have_the_same_bits(family, seed):
 def test_the_bits_are_those_of_every_other_machine():
     digest = hashlib.sha256()
     for data in STORED:
-        states = Motion(Top(*data["moments"]), State(data["q0"], data["omega0"])).at(data["t"])
+        states = Motion(*read_stored(data)).at(data["t"])
         digest.update(states.orientation.tobytes() + states.angular_velocity.tobytes())
     assert digest.hexdigest()[:12] == BITS
 
@@ -94,17 +90,16 @@ def test_the_bits_are_those_of_every_other_machine():
 @compiled
 @pytest.mark.parametrize("data", STORED[::8], ids=[data["family"] for data in STORED[::8]])
 def test_exact_times_have_the_same_bits(data):
-    top, start = Top(*data["moments"]), State(data["q0"], data["omega0"])
     ticks = np.array([0, 1, 1000, -(10**9), 10**12 + 7, 10**17 + 1, 10**10, 1, -(10**16)])
     for stamps, elapsed in ((ticks, Fraction(1, 4)), (10**9 + 1, Fraction(1)), (0, Fraction(0))):
         times = ExactTimes(stamps, factor=1 / 3, elapsed=elapsed)
-        assert_same_bits(*compute_both(top, start, times))
+        assert_same_bits(*compute_both(*read_stored(data), times))
 
 
 @compiled
 @pytest.mark.parametrize("data", STORED[::8], ids=[data["family"] for data in STORED[::8]])
 def test_an_instant_has_the_same_bits_alone_and_among_others(data):
-    motion = Motion(Top(*data["moments"]), State(data["q0"], data["omega0"]))
+    motion = Motion(*read_stored(data))
     times = np.concatenate([data["t"][0] * np.linspace(-1, 3, 23), list_times(data["t"][0])])
     together = motion.at(times)
     for n, t in enumerate(times):
@@ -113,41 +108,26 @@ def test_an_instant_has_the_same_bits_alone_and_among_others(data):
 
 @compiled
 def test_times_beyond_the_counts_of_the_kernel_come_from_python():
-    top, start = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
     for times in (1e17, np.array([1.0, 1e17, -1e20])):
-        assert_same_bits(*compute_both(top, start, times))
-
-
-def run_python(code, **environment):
-    result = subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return result.stdout.split()
+        assert_same_bits(*compute_both(ARTICLE, CUSPS, times))
 
 
 def test_an_environment_variable_selects_python():
     code = "from symtop_ros.physics import accelerated; print(accelerated)"
-    assert run_python(code, SYMTOP_PURE="1") == ["False"]
-    assert run_python(code, SYMTOP_PURE="0") == [str(find_kernel(False) is not None)]
+    assert run_python(code, SYMTOP_PURE="1").stdout == "False\n"
+    assert run_python(code, SYMTOP_PURE="0").stdout == f"{find_kernel(False) is not None}\n"
 
 
 def test_the_physics_imports_neither_scipy_nor_a_compiler_of_numpy():
     code = "import sys, symtop_ros.physics; print('scipy' in sys.modules, 'numba' in sys.modules)"
-    assert run_python(code) == ["False", "False"]
+    assert run_python(code).stdout == "False False\n"
 
 
 def test_without_a_compiler_the_build_succeeds_and_has_no_kernel(tmp_path):
     command = [sys.executable, "setup.py", "-q", "build_ext"]
-    folders = ["--build-lib", str(tmp_path / "lib"), "--build-temp", str(tmp_path / "temp")]
+    folders = ["--build-lib", tmp_path / "lib", "--build-temp", tmp_path / "temp"]
     environment = {**os.environ, "CC": "no-compiler", "CXX": "no-compiler"}
-    result = subprocess.run(
-        command + folders, cwd=ROOT, env=environment, capture_output=True, check=False
-    )
-    assert result.returncode == 0
+    subprocess.run([*command, *folders], cwd=ROOT, env=environment, capture_output=True, check=True)
     assert not list(tmp_path.rglob("*.so"))
 
 

@@ -6,8 +6,7 @@ import random
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from physics.refusals import FINITE_NUMBER, refused
-from physics.tops import ARTICLE, DISC, random_case, seeds
+from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, precess, random_case, seeds
 
 from symtop_ros.physics import (
     HOLDS,
@@ -31,10 +30,6 @@ SIX = {0.0: "falls", 3.0: "falls", 9.0: "rises", 67.0: "rises", 73.0: "falls", 6
 SLOW, FAST = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 
 
-def start(phi_dot, psi_dot=200.0, theta=0.5):
-    return State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
-
-
 def answer(before, factor=1.4, hold="spin_rate", top=ARTICLE):
     return kick_verdict(Motion(top, hurry(before, factor, hold)), before, hold)
 
@@ -50,15 +45,9 @@ def exact_change(top, state, factor, hold):
     From the doubles of the state and the article's equation; the spin rate of the kicked top
     follows from what is held.
     """
-    w, x, y, z, wx, wy, wz = (mpf(float(c)) for part in state.parts for c in part)
-    Ix, Iz = mpf(top.Ix), mpf(top.Iz)
-    norm = w * w + x * x + y * y + z * z
-    gx, gy = 2 * (x * z - w * y) / norm, 2 * (y * z + w * x) / norm
-    u = (w * w + z * z - x * x - y * y) / norm
-    rate = (wx * gx + wy * gy) / (gx * gx + gy * gy)
-    kicked = mpf(factor) * rate
-    spin = wz - rate * u
-    kicked_spin = spin if hold == "spin_rate" else wz - kicked * u
+    (_, theta, _), (rate, _, spin) = exact_euler(*exact_parts(state))
+    Ix, Iz, u, kicked = mpf(top.Ix), mpf(top.Iz), mp.cos(theta), factor * rate
+    kicked_spin = spin if hold == "spin_rate" else spin + (rate - kicked) * u
 
     def theta_torque(p, s):
         return (Ix - Iz) * u * p * p - Iz * p * s
@@ -68,27 +57,29 @@ def exact_change(top, state, factor, hold):
 
 @pytest.mark.parametrize(("phi_dot", "direction"), SIX.items())
 def test_the_articles_rates_do_what_the_article_says(phi_dot, direction):
-    verdict = perrys_rule(ARTICLE, start(phi_dot))
+    verdict = perrys_rule(ARTICLE, precess(phi_dot))
     assert verdict.direction == direction
     low, high = verdict.turning_angles
     assert (high if direction == "rises" else low) == pytest.approx(0.5, abs=1e-15)
 
 
+REVERSED = regular_precession_rates(DISC, theta=0.5, psi_dot=-120.0)
+
+
 @pytest.mark.parametrize("hold", HOLDS)
-def test_hurrying_the_slow_root_raises_and_the_fast_root_lowers(hold):
-    for rate, direction, holds in ((SLOW, "rises", True), (FAST, "falls", False)):
-        before = start(rate)
-        verdict = perrys_rule(ARTICLE, before, 1.05, hold)
-        assert verdict.direction == "stays"
-        assert verdict.rule_holds is holds
-        assert perrys_rule(ARTICLE, hurry(before, 1.05, hold)).direction == direction
-
-
-def test_with_everything_reversed_hurrying_the_slow_root_lowers():
-    slow = regular_precession_rates(DISC, theta=0.5, psi_dot=-120.0)[0]
-    before = start(slow, psi_dot=-120.0)
-    assert perrys_rule(DISC, before).rule_holds is False
-    assert perrys_rule(DISC, hurry(before)).direction == "falls"
+@pytest.mark.parametrize(
+    ("top", "before", "direction"),
+    [
+        (ARTICLE, precess(SLOW), "rises"),
+        (ARTICLE, precess(FAST), "falls"),
+        (DISC, precess(REVERSED[0], psi_dot=-120.0), "falls"),
+    ],
+)
+def test_hurrying_the_slow_root_raises_unless_all_is_reversed(top, before, direction, hold):
+    verdict = perrys_rule(top, before, 1.05, hold)
+    assert verdict.direction == "stays"
+    assert verdict.rule_holds is (direction == "rises")
+    assert perrys_rule(top, hurry(before, 1.05, hold)).direction == direction
 
 
 @pytest.mark.parametrize("seed", range(200))
@@ -96,7 +87,7 @@ def test_the_direction_is_where_the_top_then_moves(seed):
     rng = random.Random(seed)
     Ix = 10 ** rng.uniform(-4, 0)
     top = Top(Ix, Ix * rng.uniform(0.05, 2.0), Ix * rng.uniform(-300, 300))
-    state = start(rng.uniform(-40, 40), rng.uniform(-200, 200), rng.uniform(0.05, 3.0))
+    state = precess(rng.uniform(-40, 40), rng.uniform(-200, 200), rng.uniform(0.05, 3.0))
     theta = Motion(top, state).at(1e-5).euler_angles.theta - state.euler_angles.theta
     # theta''/2 t^2 with t = 10 us is above rounding of theta for theta'' > 1e-4; these starts all
     # have much more
@@ -117,29 +108,13 @@ def test_the_rule_compares_theta_acceleration_with_the_kick_and_without(seed, fa
         assert verdict.rule_holds is expected
 
 
-@pytest.mark.parametrize("hold", HOLDS)
-def test_state_kick_and_map_agree(hold):
-    rng = np.random.default_rng(5)
-    for factor in (0.0, 0.6, 1.4, 2.5):
-        theta, phi_dot = rng.uniform(0.05, 3.0, 50), rng.uniform(-100, 100, 50)
-        psi_dot = rng.uniform(-400, 400, 50)
-        effect = compare_hurried(ARTICLE, theta, phi_dot, psi_dot, factor, hold)
-        assert effect.rule_applies.all()
-        for k, rates in enumerate(zip(phi_dot, psi_dot, theta, strict=True)):
-            state = start(*rates)
-            verdict = perrys_rule(ARTICLE, state, factor, hold)
-            assert verdict.rule_holds is said(verdict)
-            assert verdict.rule_holds is said(answer(state, factor, hold))
-            assert bool(effect.rule_holds[k]) is verdict.rule_holds
-
-
 @pytest.mark.parametrize(
     ("state", "factor", "why"),
     [
-        (start(0.0), 1.4, "no_precession"),
+        (precess(0.0), 1.4, "no_precession"),
         (State.from_euler(theta=0.5, psi=1.1, theta_dot=3.0), 1.4, "no_precession"),
-        (start(6.5), 1.0, "unchanged"),
-        (start(6.5), -0.5, "reversed"),
+        (precess(6.5), 1.0, "unchanged"),
+        (precess(6.5), -0.5, "reversed"),
         (State((1, 0, 0, 0), (1.0, 0.0, 200.0)), 1.4, "undefined"),
         (State((1, 0, 0, 0), (0.0, 0.0, 200.0)), 1.4, "stable"),
     ],
@@ -166,7 +141,7 @@ def test_the_rule_says_nothing_of_a_change_that_theta_acceleration_does_not_feel
 
 
 def test_an_impulse_has_no_rule_but_facts():
-    before = start(SLOW)
+    before = precess(SLOW)
     after = apply_impulse(ARTICLE, before, (0.0, 0.0, 1e-4))
     found = kick_verdict(Motion(ARTICLE, after), before, None)
     assert (found.hold, found.factor, found.reason.kind) == (None, None, "angular_impulse")
@@ -190,7 +165,7 @@ def test_a_rate_that_is_set_to_itself_is_unchanged():
 
 def test_facts_that_disagree_with_the_rule_are_named():
     # From 30 to 42 rad/s theta'' sinks, and yet the highest point sinks too.
-    before = start(30.0)
+    before = precess(30.0)
     found = answer(before)
     assert perrys_rule(ARTICLE, before).rule_holds is said(found) is True
     # from an independent evaluation of both turning angles, to the digits given
@@ -205,7 +180,7 @@ def test_facts_that_disagree_with_the_rule_are_named():
 @pytest.mark.parametrize("seed", range(60))
 def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
     rng = random.Random(seed)
-    before = start(rng.uniform(-90, 90), rng.uniform(-300, 300), rng.uniform(0.1, 3.0))
+    before = precess(rng.uniform(-90, 90), rng.uniform(-300, 300), rng.uniform(0.1, 3.0))
     factor = rng.choice([0.5, 1.4])
     found = answer(before, factor)
     motion, without = Motion(ARTICLE, hurry(before, factor)), Motion(ARTICLE, before)
@@ -225,7 +200,7 @@ def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
 
 
 def test_the_reason_names_theta_acceleration_and_the_place_among_the_rates():
-    reason = perrys_rule(ARTICLE, start(SLOW)).reason
+    reason = perrys_rule(ARTICLE, precess(SLOW)).reason
     assert (reason.kind, reason.theta_ddot_without) == ("if_hurried", 0.0)
     assert round(reason.theta_ddot, 1) == -49.7
     assert reason.place.rate == reason.before
@@ -235,30 +210,17 @@ def test_the_reason_names_theta_acceleration_and_the_place_among_the_rates():
     def place(top, state):
         return perrys_rule(top, state).reason.place.kind
 
-    assert [place(ARTICLE, start(rate)) for rate in (SLOW, FAST)] == ["slow", "fast"]
-    assert [place(ARTICLE, start(rate)) for rate in (9.0, 3.0)] == ["between", "outside"]
-    assert place(ARTICLE, start(5.0, psi_dot=20.0)) == "none"
+    assert [place(ARTICLE, precess(rate)) for rate in (SLOW, FAST)] == ["slow", "fast"]
+    assert [place(ARTICLE, precess(rate)) for rate in (9.0, 3.0)] == ["between", "outside"]
+    assert place(ARTICLE, precess(5.0, psi_dot=20.0)) == "none"
     sphere = Top(1e-3, 1e-3, 0.2)
-    assert [place(sphere, start(rate)) for rate in (5.0, 1.0, 0.5)] == ["above", "only", "below"]
+    assert [place(sphere, precess(rate)) for rate in (5.0, 1.0, 0.5)] == ["above", "only", "below"]
 
 
 def test_on_the_vertical_the_direction_is_away_from_the_pole():
     assert perrys_rule(ARTICLE, State((1, 0, 0, 0), (0, 0, 200.0))).direction == "stays"
     assert perrys_rule(ARTICLE, State((1, 0, 0, 0), (1.0, 0, 200.0))).direction == "falls"
     assert perrys_rule(ARTICLE, State((0, 1, 0, 0), (1.0, 0, 200.0))).direction == "rises"
-
-
-@pytest.mark.wording
-def test_the_answer_to_hurrying_the_slow_root_is_that_of_the_handbook():
-    assert str(answer(start(SLOW))) == (
-        "Precession 6.50 -> 9.10 rad/s. "
-        "The top rises: theta will stay between 0.437 and 0.500 rad. "
-        "Perry's rule holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 "
-        "(9.10 rad/s lies between the regular rates 6.50 and 69.82 rad/s). "
-        "Compared with no kick, the highest point is 0.063 rad higher "
-        "and the lowest point unchanged. On average phi' is 6.41 rad/s, 0.157 turns in a nutation "
-        "(slow precession of a fast top: Mgl/p_psi = 5.72 rad/s)."
-    )
 
 
 def test_a_kick_on_the_vertical_has_an_answer():
@@ -271,10 +233,10 @@ def test_a_kick_on_the_vertical_has_an_answer():
 
 
 def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
-    before = start(5.0, psi_dot=-120.0)
+    before = precess(5.0, psi_dot=-120.0)
     for found in (perrys_rule(DISC, before), answer(before, top=DISC)):
         assert (found.subject, found.direction, found.reason.subject) == ("axis", "falls", "axis")
-    assert answer(start(5.0)).subject == "top"
+    assert answer(precess(5.0)).subject == "top"
 
 
 @pytest.mark.parametrize("hold", HOLDS)
@@ -295,31 +257,20 @@ def test_a_hurry_from_a_root_has_the_acceleration_of_the_derivation(factor, hold
 
 
 def test_with_friction_the_turning_angles_are_said_to_be_without_it():
-    before = start(SLOW)
+    before = precess(SLOW)
     motion = Motion(ARTICLE, hurry(before), Friction(axial=2e-6))
     found = kick_verdict(motion, before, "spin_rate")
     assert (found.driven, found.average) == (True, None)
 
 
-@pytest.mark.parametrize("factor", [math.nan, math.inf, -math.inf])
-def test_a_factor_that_is_not_finite_is_refused(factor):
-    with refused("factor", FINITE_NUMBER, str(factor)):
-        perrys_rule(ARTICLE, start(6.5), factor)
-
-
-def test_a_factor_that_makes_phi_dot_too_large_is_refused():
-    with refused("factor", "phi' stays within 1e+100 rad/s", "1e+200"):
-        perrys_rule(ARTICLE, start(6.5), 1e200)
-
-
 def test_a_spin_that_reverses_is_said():
-    assert perrys_rule(ARTICLE, start(-60.0, psi_dot=60.0)).average.spin_reverses is True
-    assert answer(start(SLOW)).average.spin_reverses is False
+    assert perrys_rule(ARTICLE, precess(-60.0, psi_dot=60.0)).average.spin_reverses is True
+    assert answer(precess(SLOW)).average.spin_reverses is False
 
 
 def test_a_slow_top_is_not_compared_with_a_fast_one():
-    assert perrys_rule(ARTICLE, start(1.0, psi_dot=20.0)).average.speed == "slow"
-    assert perrys_rule(ARTICLE, start(1.0, psi_dot=-200.0)).average.speed == "fast"
+    assert perrys_rule(ARTICLE, precess(1.0, psi_dot=20.0)).average.speed == "slow"
+    assert perrys_rule(ARTICLE, precess(1.0, psi_dot=-200.0)).average.speed == "fast"
     assert perrys_rule(ARTICLE, State.from_euler(theta=0.0, psi_dot=200.0)).average is None
 
 
@@ -358,12 +309,14 @@ def test_a_large_factor_next_to_the_vertical_is_judged_by_exact_rates():
 
 def state_next_to_the_vertical(rng):
     """A tilt of 1e-3 to 1e-12, with phi' of which the two terms nearly cancel."""
-    tilt, phi, psi = 10 ** rng.uniform(-12, -3), rng.uniform(-3, 3), rng.uniform(-3, 3)
-    rates = {
-        "theta_dot": 10 ** rng.uniform(-3, 1),
-        "phi_dot": rng.gauss(0, 10 ** rng.uniform(-3, 2)),
-    }
-    return State.from_euler(theta=tilt, phi=phi, psi=psi, psi_dot=rng.gauss(0, 3), **rates)
+    return State.from_euler(
+        theta=10 ** rng.uniform(-12, -3),
+        phi=rng.uniform(-3, 3),
+        psi=rng.uniform(-3, 3),
+        theta_dot=10 ** rng.uniform(-3, 1),
+        phi_dot=rng.gauss(0, 10 ** rng.uniform(-3, 2)),
+        psi_dot=rng.gauss(0, 3),
+    )
 
 
 @pytest.mark.parametrize("seed", seeds(10, 50))

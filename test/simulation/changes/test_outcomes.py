@@ -4,17 +4,8 @@ import pytest
 from simulation.runs import Run
 
 from symtop_ros.physics import KickVerdict
-from symtop_ros.simulation.changes.outcomes import (
-    OUTCOMES,
-    Failure,
-    Parameters,
-    Pause,
-    Record,
-    Setting,
-    Start,
-    Step,
-    Torque,
-)
+from symtop_ros.simulation.changes import outcomes
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Setting
 from symtop_ros.simulation.events import Event, decode_events
 
 
@@ -33,8 +24,8 @@ def _run():
     simulation.hold_torque((0.0, 0.0, 1e-4))
     run.advance(0.3)
     run.change({"hurry_factor": 1.5, "top.Mgl": 0.05})
-    simulation.report("record", Record("begun", "a  b/c; d=e.mcap"))
-    simulation.report("failure", Failure("~/kick", "KeyError", "by a bug"))
+    simulation.report("record", outcomes.Record("begun", "a  b/c; d=e.mcap"))
+    simulation.report("failure", outcomes.Failure("~/kick", "KeyError", "by a bug"))
     simulation.apply(simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25))
     run.jump(run.clock.now + 10**12)
     run.tick()
@@ -76,13 +67,13 @@ def test_a_kick_has_factor_hold_rates_and_what_became_of_both_limits(run):
 
 def test_each_outcome_has_the_numbers_of_its_event(run):
     found = {event.name: again(event).outcome() for event in run.sink.events}
-    assert isinstance(found["start"], Start)
+    assert isinstance(found["start"], outcomes.Start)
     assert found["start"].motion == found["reset"].motion == "cusps"
-    assert isinstance(found["pause"], Pause)
-    assert found["step"] == Step("stepped", found["pause"].time + 0.01)
-    assert found["torque"] == Torque("released", (0.0, 0.0, 0.0))
+    assert isinstance(found["pause"], outcomes.Pause)
+    assert found["step"] == outcomes.Step("stepped", found["pause"].time + 0.01)
+    assert found["torque"] == outcomes.Torque("released", (0.0, 0.0, 0.0))
     changes = (Setting("top.Mgl", "0.05"), Setting("hurry_factor", "1.5"))
-    assert found["parameters"] == Parameters(changes)
+    assert found["parameters"] == outcomes.Parameters(changes)
     assert (found["pace"].before, found["pace"].after) == (1.0, 0.25)
     assert found["clock"].after - found["clock"].before > 9e11
     assert found["record"].path == "a  b/c; d=e.mcap"

@@ -1,0 +1,32 @@
+"""Lines of Python in a process of their own, and programs where some modules are missing."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+
+def run_python(
+    code: str, *arguments: object, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run some lines of Python to their end, in a process of their own."""
+    return subprocess.run(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        cwd=cwd,
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+def run_without(
+    modules: tuple[str, ...], program: str, *arguments: str, cwd: Path
+) -> subprocess.CompletedProcess[str]:
+    """Run a program as where some modules are not installed."""
+    code = f"import sys; sys.modules.update(dict.fromkeys({modules})); "
+    code += f"from symtop_ros import programs; sys.exit(programs.{program}())"
+    return run_python(code, *arguments, cwd=cwd, PYTHONPATH=str(Path(__file__).parents[1]))
