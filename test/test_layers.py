@@ -28,10 +28,7 @@ ARROWS = {
         {"numpy", "mcap"},
     ),
     # of session the log that a node would have written of a run of the page
-    "playback": (
-        {"check", "log", "physics", "session", "simulation", "web"},
-        {"numpy", *RERUN},
-    ),
+    "playback": ({"check", "log", "physics", "session", "simulation", "web"}, {"numpy", *RERUN}),
     "session": (
         {"__init__", "log", "models", "physics", "simulation", "wire", "wording"},
         {"numpy"},
@@ -51,10 +48,7 @@ ARROWS = {
         {"session", "shutdown", "simulation"},
         {"rclpy", "rcl_interfaces", "sensor_msgs", "std_srvs"},
     ),
-    "live": (
-        {"log", "playback", "shutdown", "simulation"},
-        {"rclpy", "rerun"},
-    ),
+    "live": ({"log", "playback", "shutdown", "simulation"}, {"rclpy", "rerun"}),
     "panel": (
         # client, live and rclpy: only in bridge.py, which main.py imports for --node
         {"client", "live", "shutdown", "simulation", "web"},

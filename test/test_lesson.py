@@ -47,10 +47,7 @@ def tops():
     starts = [shlex.split(line) for line in typed(BEFORE) if "top_node" in line]
     parameters = [[value for word, value in pairwise(words) if word == "-p"] for words in starts]
     assert [words[-1] for words in starts] == ["real_time_factor:=0.1", "__node:=disc"]
-    with (
-        running_node(DOMAIN, *parameters[0]),
-        running_node(DOMAIN, *parameters[1], name="disc"),
-    ):
+    with running_node(DOMAIN, *parameters[0]), running_node(DOMAIN, *parameters[1], name="disc"):
         context = rclpy.Context()
         rclpy.init(context=context, domain_id=DOMAIN)
         try:

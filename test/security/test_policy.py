@@ -41,10 +41,7 @@ def processes(*commands):
     with contextlib.ExitStack() as stack:
         for words in commands:
             process = subprocess.Popen(
-                words,
-                env=environment(DOMAIN),
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
+                words, env=environment(DOMAIN), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
             )
             stack.callback(process.wait)
             stack.callback(process.kill)

@@ -7,13 +7,7 @@ import numpy as np
 import pytest
 from web.opened import FEW_FRAMES, read_motion, read_state
 
-from symtop_ros.physics import (
-    Motion,
-    State,
-    Top,
-    regular_precession_rates,
-    theta_acceleration,
-)
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates, theta_acceleration
 from workshop.article.answers.ledger import KickLedger
 from workshop.article.answers.starts import find_boundaries, find_curves, loops
 

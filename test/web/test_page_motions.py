@@ -52,10 +52,7 @@ def test_every_scene_starts_with_the_doubles_of_a_node(opened):
         opened.tab.select_option("#scenes", name)
         opened.tab.click("#start-scene")
         assert opened.say("refusal") == ""
-        event, motion = (
-            opened.read_run()["events"][-1],
-            start_motion(Settings.from_scene(name)),
-        )
+        event, motion = (opened.read_run()["events"][-1], start_motion(Settings.from_scene(name)))
         assert event["orientation"] == motion.start.given_orientation.tolist()
         assert event["angular_velocity"] == motion.start.angular_velocity.tolist()
         assert event["top"] == list(motion.top.moments)

@@ -2,13 +2,7 @@ import numpy as np
 import pytest
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from workshop.speed.peers.peer import (
-    Task,
-    body_rates,
-    count_steps,
-    euler_rates,
-    initial_values,
-)
+from workshop.speed.peers.peer import Task, body_rates, count_steps, euler_rates, initial_values
 
 STEP = 1e-4  # s
 
