@@ -5,12 +5,14 @@ Time is simulated unless a test is about real time: it advances while the test s
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import WrenchStamped
 from rclpy.clock_type import ClockType
 from rclpy.executors import SingleThreadedExecutor
@@ -34,16 +36,23 @@ class RunningTop:
     """A TopNode and a client node, spun together until a condition holds.
 
     With `realtime` the node follows the clock of the system, else a simulated clock that begins
-    at 0 and advances by 5 ms at most every 2 ms while the test spins.
+    at 0 and advances by 5 ms at most every 2 ms while the test spins. With `record` it records
+    into this folder.
     """
 
     def __init__(
-        self, realtime: bool = False, arguments: list[str] | None = None, **parameters: Any
+        self,
+        realtime: bool = False,
+        arguments: list[str] | None = None,
+        record: Path | None = None,
+        **parameters: Any,
     ) -> None:
         self.context = rclpy.Context()
         self.domain = claim_domain()
         rclpy.init(context=self.context, domain_id=self.domain)
         self.now, self._advanced, self._frozen = 0, 0.0, realtime
+        if record:
+            parameters |= {"record__enabled": True, "record__directory": str(record)}
         if not realtime:
             parameters = {"use_sim_time": True, **parameters}
         overrides = [
@@ -97,6 +106,17 @@ class RunningTop:
         self.user.create_subscription(kind, topic, messages.append, qos, raw=raw)
         return messages
 
+    def collect_events(self) -> list[Any]:
+        """Subscribe to the events, wait for the first, and return the list that they come into."""
+        events = self.collect(DiagnosticArray, "/top/events", LATCHED)
+        self.spin_until(lambda: events)
+        return events
+
+    def wait_for(self, messages: list[Any], count: int = 1) -> None:
+        """Wait until so many more messages have come into a list."""
+        enough = len(messages) + count
+        self.spin_until(lambda: len(messages) >= enough)
+
     def publisher(self, kind: Any, topic: str) -> Any:
         """Create a publisher to the top and wait until messages arrive."""
         publisher = self.user.create_publisher(kind, topic, 10)
@@ -122,6 +142,22 @@ class RunningTop:
         file = self.top.session._recorder._file
         assert file
         return file.path
+
+    def end_log(self) -> Path:
+        """End the recording; return its file."""
+        granted, answer = self.switch("record", False)
+        assert granted, answer
+        return self.last_log
+
+    def state(self) -> Any:
+        """The answer of ~/get_state."""
+        granted, text = self.trigger("get_state")
+        assert granted, text
+        return json.loads(text)
+
+    def change(self, values: Mapping[str, Any]) -> tuple[bool, str]:
+        """Set parameters."""
+        return self.connection.set("set_parameters_atomically", values)
 
     def set(self, service: str, **values: Any) -> tuple[bool, str]:
         return self.connection.set(service, values)

@@ -46,24 +46,16 @@ def _messages():
 class Client:
     """Calls the services of a simulator under the names that Gazebo gives them."""
 
-    def __init__(self, run, server="/top"):
-        self.run, self.server = run, server
+    def __init__(self, run):
+        self.run = run
         self.srv = importlib.import_module("simulation_interfaces.srv")
-        self.clients = {}
         action = importlib.import_module("simulation_interfaces.action").SimulateSteps
-        self.steps = ActionClient(run.user, action, f"{server}/simulate_steps")
+        self.steps = ActionClient(run.user, action, "/top/simulate_steps")
         self.goal = action.Goal
 
     def call(self, kind, name, **fields):
         kind = getattr(self.srv, kind)
-        client = self.clients.get(name)
-        if client is None:
-            client = self.run.user.create_client(kind, f"{self.server}/{name}")
-            self.clients[name] = client
-        self.run.spin_until(client.service_is_ready)
-        future = client.call_async(fill(kind.Request(), fields))
-        self.run.spin_until(future.done)
-        return future.result()
+        return self.run.connection._call(kind, name, fill(kind.Request(), fields))
 
     def features(self):
         return self.call("GetSimulatorFeatures", "get_simulator_features").features
@@ -344,14 +336,13 @@ def test_a_mistake_of_ours_is_an_answer_and_the_motion_goes_on(client, monkeypat
 
 
 def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, tmp_path):
-    run = start_top(scene="cusps", record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(scene="cusps", record=tmp_path)
     client = Client(run)
     for act in (lambda: client.set_state(STOPPED), lambda: client.step(7), client.reset):
         assert act().result == OK
     client.set_entity(set_twist=True, state={"twist": {"angular": {"z": 5.0}}})
     client.set_state(PLAYING)
-    assert run.switch("record", False)[0]
-    importlib.import_module("exact_log").assert_exact(run.last_log)
+    importlib.import_module("exact_log").assert_exact(run.end_log())
 
 
 def test_the_commands_and_the_table_of_the_page_on_ros_are_those_of_the_node(client):

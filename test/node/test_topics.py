@@ -56,27 +56,14 @@ TOPICS = {
 def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
     run = start_top(publish_rate=200.0)
     got = {name: run.collect(kind, f"/top/{name}") for name, (kind, *_) in TOPICS.items()}
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    run.spin_until(lambda: events and all(len(messages) > 20 for messages in got.values()))
-    segment = segment_of(events[0])
+    (event,) = run.collect_events()
+    run.spin_until(lambda: all(len(messages) > 20 for messages in got.values()))
+    segment = segment_of(event)
     for name, (_, read, compute) in TOPICS.items():
         for message in got[name][5:20]:
             state = segment.state_at(stamp_of(message))
             assert (name, read(message)) == (name, compute(segment.motion, state))
             assert message.header.frame_id == "world"
-
-
-def test_stamps_are_exactly_one_period_apart_and_shared_by_all_topics(start_top):
-    run = start_top(publish_rate=1000.0)
-    orientation = run.collect(QuaternionStamped, "/top/orientation")
-    torque = run.collect(WrenchStamped, "/top/torque")
-    run.spin_until(lambda: min(len(orientation), len(torque)) > 300)
-    first = max(stamp_of(orientation[0]), stamp_of(torque[0]))
-    stamps = [
-        [stamp for each in messages if (stamp := stamp_of(each)) >= first][:200]
-        for messages in (orientation, torque)
-    ]
-    assert stamps[0] == stamps[1] == [first + k * 1_000_000 for k in range(200)]
 
 
 def test_a_rate_that_does_not_divide_a_second_does_not_drift(start_top):
@@ -126,9 +113,11 @@ def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top
     # energy about 1.2 J: rounding of its few terms
     assert abs(float(values["energy.drift"])) < 1e-15
     assert abs(float(values["L_z'.drift"])) < 1e-17
-    names = {status.name for status in messages[-1].status}
+    names = {(status.name, status.hardware_id) for status in messages[-1].status}
     kinds = ("motion", "pace", "log", "balance", "name", "clock")
-    assert names == {f"top: {kind}" for kind in kinds}
+    assert names == {(f"top: {kind}", "/top") for kind in kinds}
+    (event,) = run.collect_events()
+    assert [status.hardware_id for status in event.status] == ["/top"]
     pace = facts(messages[-1], "top: pace")
     assert pace["missed"] == "0"
     assert pace["real_time_factor.achieved"] == "1.0"
@@ -143,13 +132,6 @@ def test_the_clock_is_published_if_the_parameter_asks_for_it(start_top):
     run.spin_until(lambda: len(clocks) > 3)
     times = [message.clock.sec * 10**9 + message.clock.nanosec for message in clocks]
     assert set(np.diff(times)) == {5_000_000}
-
-
-def test_events_name_their_node(start_top):
-    run = start_top()
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    run.spin_until(lambda: events)
-    assert [each.hardware_id for each in events[0].status] == ["/top"]
 
 
 def test_the_sensor_may_have_the_topic_of_rep_145(start_top):
