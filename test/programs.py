@@ -29,10 +29,12 @@ def environment(domain: int) -> dict[str, str]:
     return {**os.environ, "ROS_DOMAIN_ID": str(domain)}
 
 
-def execute(words: Iterable[object], **options: Any) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end, whatever its exit status, within a minute if not told otherwise."""
-    usual = {"capture_output": True, "text": True, "timeout": 60, "check": False}
-    return subprocess.run([*map(str, words)], **{**usual, **options})
+def execute(
+    words: Iterable[object], check: bool = False, timeout: float = 60, **options: Any
+) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end; its output is text."""
+    options = {"capture_output": True, "text": True, **options}
+    return subprocess.run([*map(str, words)], check=check, timeout=timeout, **options)
 
 
 def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[str]:

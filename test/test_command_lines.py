@@ -106,6 +106,8 @@ UNREADABLE = [
     ("top_panel", "--node", "/top", "--no-such-option"),
     ("top_replay",),
     ("top_replay", "a", "--save"),
+    ("top_replay", "a.mcap", "--fly"),
+    ("top_replay", "a", "--web", "--check"),
     ("workshop",),
     ("workshop", CONTROL),
     ("workshop", "maps", "--points", "1000000"),
