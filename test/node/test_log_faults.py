@@ -6,8 +6,8 @@ import subprocess
 import sys
 from itertools import pairwise
 
-import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from disks import mounted, remount
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import facts, status_of
@@ -63,21 +63,6 @@ class Recording:
         assert self.switch(False) == path
         assert assert_exact(path) > 20
         assert not any((b - a) % (2 * MS) for a, b in pairwise(stamps_of(path)))
-
-
-@contextlib.contextmanager
-def mounted(folder, options):
-    mount = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)]
-    if shutil.which("mount") is None or subprocess.run(mount, check=False).returncode:
-        pytest.skip("a file system cannot be mounted: not root")
-    try:
-        yield
-    finally:
-        subprocess.run(["umount", "-l", str(folder)], check=True)
-
-
-def remount(folder, options):
-    subprocess.run(["mount", "-o", f"remount,{options}", str(folder)], check=True)
 
 
 def test_a_folder_that_is_read_only_is_refused_until_it_is_not(start_top, tmp_path):
@@ -147,9 +132,7 @@ def test_a_recording_whose_end_fails_is_refused_and_one_error(start_top, tmp_pat
 
 
 def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_path):
-    folder = tmp_path / "small"
-    folder.mkdir()
-    with mounted(folder, "size=2m"):
+    with mounted(tmp_path / "small", "size=2m") as folder:
         recording = Recording(start_top, folder)
         ballast = folder / "ballast"
         path = recording.switch(True)
