@@ -57,7 +57,7 @@ def test_what_changes_fills_its_chart(open_page):
 def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     assert not opened.tab.is_visible("#ledger-chart")
     opened.tab.click("#hurry")
-    _, kick = opened.read_run()["events"]
+    _, kick = opened.read_events()
     slow = regular_precession_rates(ARTICLE, 0.5, 200.0)[0]
     before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
     ledger = KickLedger.of(ARTICLE, before, read_state(kick))
@@ -130,7 +130,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     opened.tab.click("#hurry")
     opened.wait_for_time(0.05)
     opened.tab.click("#pause")
-    _, kick = opened.read_run()["events"]
+    _, kick = opened.read_events()
     opened.tab.locator("#free").scroll_into_view_if_needed()
     opened.tab.evaluate("document.getElementById('free-place').value = 1")
     opened.tab.wait_for_timeout(300)
@@ -146,8 +146,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     box = opened.tab.locator("#free svg").bounding_box()
     opened.tab.locator("#free svg").hover(position={"x": 50, "y": box["height"] / 2})
     opened.until(lambda: float(opened.tab.input_value("#free-place")) < 0.2)
-    opened.tab.reload()
-    opened.tab.wait_for_selector("#headline:not(:empty)")
+    opened.reload()
     assert opened.tab.input_value("#free-y") == "theta_ddot"  # the choice is kept
 
 
@@ -206,9 +205,9 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.mouse.down()
     opened.tab.mouse.move(x, y + 60)
     opened.tab.wait_for_timeout(300)
-    assert len(opened.read_run()["events"]) == 1  # nothing has happened yet
+    assert len(opened.read_events()) == 1  # nothing has happened yet
     opened.tab.mouse.up()
-    first, tilted = opened.read_run()["events"]
+    first, tilted = opened.read_events()
     assert tilted["kind"] == "start"
     before, after = read_state(first), read_state(tilted)
     assert abs(after.euler_angles.theta - before.euler_angles.theta) > 0.05
@@ -224,6 +223,6 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.mouse.move(x + 60, y)
     opened.tab.mouse.up()
     opened.tab.keyboard.up("Shift")
-    kick = opened.read_run()["events"][-1]
+    kick = opened.read_events()[-1]
     assert kick["kind"] == "kick"
     assert kick["request"] == "pulled by the ball"
