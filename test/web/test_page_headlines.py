@@ -34,15 +34,6 @@ def test_a_kick_under_friction_is_judged_apart_from_friction(opened):
     )
 
 
-def test_a_torque_that_is_held_is_said_and_so_is_its_end(opened):
-    opened.open_tab("push")
-    button = opened.tab.locator("[data-hold='1']")
-    button.dispatch_event("pointerdown")
-    opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
-    button.dispatch_event("pointerup")
-    opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
-
-
 @pytest.mark.wording
 @pytest.mark.parametrize("Mgl", [0.068, -0.068])
 def test_headline_and_reason_agree(opened, Mgl):

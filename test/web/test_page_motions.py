@@ -83,13 +83,13 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
     assert table[:, 2] == pytest.approx(states.euler_rates.phi, rel=1e-14)
 
 
-def test_a_torque_acts_while_its_button_is_held(opened):
+def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.tab.click("#tab-push")
     button = opened.tab.locator("[data-hold='1']")
     button.dispatch_event("pointerdown")
-    opened.tab.wait_for_timeout(200)
+    opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
     button.dispatch_event("pointerup")
-    opened.tab.wait_for_timeout(700)
+    opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
     torques = [each["torque"] for each in opened.read_events() if each["kind"] == "torque"]
     assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]]
 

@@ -9,12 +9,6 @@ from web.opened import FEW_FRAMES
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.join import write_file
 
-LARGEST = 700_000  # bytes, so that it can be sent by mail and opened on a phone
-
-
-def test_the_file_is_small(path):
-    assert path.stat().st_size < LARGEST
-
 
 def test_a_saved_page_holds_the_run_and_goes_on(opened, open_page, tmp_path):
     opened.wait_for_time(0.03)
@@ -29,15 +23,6 @@ def test_a_saved_page_holds_the_run_and_goes_on(opened, open_page, tmp_path):
     events = other.read_events()
     assert events[:-1] == wanted["events"]
     assert events[-1]["kind"] == "kick"
-
-
-def test_a_run_that_is_dropped_is_opened(opened):
-    opened.tab.click("#hurry")
-    run = opened.read_run()
-    opened.tab.click("text=Reset")
-    opened.drop(run)
-    opened.until(lambda: "higher" in opened.say("headline"))
-    assert opened.read_events() == run["events"]
 
 
 def test_a_frame_of_another_site_shows_the_top(browser, path):
