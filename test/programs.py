@@ -19,9 +19,9 @@ PATIENT = "--timeout", "60"
 LOSSY_PROFILES = {"jazzy": "fastdds_lossy.xml", "kilted": "fastdds_lossy_kilted.xml"}
 
 
-def command(name: str, *arguments: str) -> list[str]:
+def command(name: str, *arguments: object) -> list[str]:
     """Command line of a program, with the Python of the tests."""
-    return bound([sys.executable, str(RESOURCE / name), *arguments])
+    return bound([sys.executable, str(RESOURCE / name), *map(str, arguments)])
 
 
 def environment(domain: int) -> dict[str, str]:

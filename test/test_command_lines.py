@@ -94,7 +94,7 @@ def status_and_lines(capsys, name, *arguments):
     return status, capsys.readouterr().err.splitlines()
 
 
-@pytest.mark.parametrize("arguments", list_lines(FAILED), ids=shorten)
+@pytest.mark.parametrize("arguments", [*list_lines(FAILED)], ids=shorten)
 def test_what_cannot_be_done_is_status_1_and_one_line(arguments, capsys, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
     status, (line,) = status_and_lines(capsys, *arguments)
@@ -103,14 +103,14 @@ def test_what_cannot_be_done_is_status_1_and_one_line(arguments, capsys, monkeyp
     assert_one_sentence(line)
 
 
-@pytest.mark.parametrize("arguments", list_lines(MISUSED), ids=shorten)
+@pytest.mark.parametrize("arguments", [*list_lines(MISUSED)], ids=shorten)
 def test_values_that_are_not_allowed_are_status_2_and_one_line(arguments, capsys):
     status, (line,) = status_and_lines(capsys, *arguments)
     assert status == 2
     assert_one_sentence(line)
 
 
-@pytest.mark.parametrize("arguments", list_lines(UNREADABLE), ids=shorten)
+@pytest.mark.parametrize("arguments", [*list_lines(UNREADABLE)], ids=shorten)
 def test_words_that_cannot_be_read_are_status_2_and_the_usage(arguments, capsys):
     with pytest.raises(SystemExit) as end:
         MAINS[arguments[0]](list(arguments[1:]))

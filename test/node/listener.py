@@ -40,6 +40,11 @@ class Listener:
             assert time.monotonic() < deadline, "the condition did not come true in time"
             self.executor.spin_once(timeout_sec=0.05)
 
+    def wait_for(self, messages: list[Any], count: int = 1) -> None:
+        """Wait until so many more messages have come into a list."""
+        enough = len(messages) + count
+        self.spin_until(lambda: len(messages) >= enough)
+
     def spin(self, seconds: float) -> None:
         end = time.monotonic() + seconds
         while time.monotonic() < end:

@@ -75,10 +75,8 @@ def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
         os.kill(node.pid, signal.SIGSTOP)
         listener.spin(1.0)
         os.kill(node.pid, signal.SIGCONT)
-        seen = len(orientations)
-        listener.spin_until(lambda: len(orientations) > seen + 40)
-        reported = len(diagnostics)
-        listener.spin_until(lambda: len(diagnostics) > reported)
+        listener.wait_for(orientations, 41)
+        listener.wait_for(diagnostics)
     gaps = np.diff([stamp_of(each) for each in orientations])
     assert 500 * MS < gaps.max() < 1500 * MS
     assert not (gaps % (5 * MS)).any()

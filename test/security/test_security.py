@@ -8,7 +8,7 @@ import pytest
 from listening import tcp_addresses
 from log_files import Run
 from node.running_top import RunningTop
-from programs import command, environment, run
+from programs import command, run, running
 from rclpy.parameter import Parameter
 
 from symtop_ros.playback import viewer
@@ -53,17 +53,9 @@ def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_pat
     log = Run(seconds=0.5).write(tmp_path)
     port = viewer.free_port()
     words = [str(log)] if program == "top_replay" else ["--port", str(port)]
-    process = subprocess.Popen(
-        command(program, *words, "--web"),
-        env=environment(DOMAIN),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
+    silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with running(command(program, *words, "--web"), DOMAIN, **silent) as process:
         addresses = waited_for(lambda: tcp_addresses(process.pid), 2)
-    finally:
-        process.terminate()
-        process.wait(timeout=TIMEOUT)
     assert {address for address, _ in addresses} == {"127.0.0.1"}
     for address in addresses:  # the viewer has ended with the program
         with socket.socket() as probe:
@@ -89,11 +81,10 @@ def test_no_text_that_can_be_set_from_afar_is_a_path():
         }
         assert {"scene", "record.directory", "world_frame"} <= set(texts)
         for name, value in texts.items():
-            granted, why = run.connection.set("set_parameters_atomically", {name: "/tmp/elsewhere"})
+            granted, why = run.change({name: "/tmp/elsewhere"})
             assert not granted
             assert "read-only" in why or " must be " in why, (name, why)
             assert run.top.get_parameter(name).value == value
-        granted, _ = run.connection.set("set_parameters_atomically", {"record.path": "/tmp/else"})
-        assert not granted
+        assert not run.change({"record.path": "/tmp/else"})[0]
     finally:
         run.close()

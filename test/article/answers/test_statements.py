@@ -7,10 +7,6 @@ from workshop.article.answers import statements
 from workshop.article.motions import TOP, accelerations, cusps
 
 
-def test_all_claims_hold():
-    assert all(claim.holds for claim in statements.claims_on_statements(TOP))
-
-
 def test_a_body_that_is_symmetric_shows_nothing_of_the_second_term(monkeypatch):
     monkeypatch.setattr(statements, "ACROSS_Y", TOP.Ix)
     assert not statements.axis_moves_too(cusps()).holds
