@@ -13,7 +13,7 @@ import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import pytest
 
@@ -32,20 +32,7 @@ FIREFOX_PREFERENCES = {
 }
 
 
-class Driver(Protocol):
-    """Requests of the tests to a browser."""
-
-    def open(self, url: str) -> None:
-        """Open an address."""
-
-    def run(self, script: str, *arguments: Any) -> Any:
-        """Run the body of an asynchronous function in the page, and return its value."""
-
-    def reload(self) -> None:
-        """Load the page again."""
-
-
-def until(driver: Driver, condition: str) -> None:
+def until(driver: Any, condition: str) -> None:
     """Wait until an expression is true in the page."""
     deadline = time.monotonic() + TIMEOUT
     while not driver.run(f"return Boolean({condition});"):
@@ -100,7 +87,7 @@ class Firefox:
 
 
 @contextlib.contextmanager
-def running_firefox() -> Iterator[Driver]:
+def running_firefox() -> Iterator[Any]:
     """Run Firefox; the test is skipped without it."""
     module = pytest.importorskip("marionette_driver.marionette", reason=f"no Marionette: {HELP}")
     program = shutil.which("firefox-esr") or shutil.which("firefox")
@@ -156,7 +143,7 @@ class WebKit:
 
 
 @contextlib.contextmanager
-def running_webkit() -> Iterator[Driver]:
+def running_webkit() -> Iterator[Any]:
     """Run WebKit; the test is skipped without it."""
     if not shutil.which("WebKitWebDriver") or not shutil.which("Xvfb"):
         pytest.skip(f"no WebKit: {HELP}")
