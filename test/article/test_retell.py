@@ -81,31 +81,26 @@ def luminance(color):
     return np.dot([0.299, 0.587, 0.114], list(bytes.fromhex(color[1:])))
 
 
-@pytest.mark.parametrize("name", MOTIONS)
-def test_a_recording_has_the_axis_the_momentum_and_the_torque(folder, name):
-    rows = dict.fromkeys((entities.TRACE, entities.MOMENTUM, entities.TORQUE), 0)
+PATHS = {name: [entities.TRACE, entities.MOMENTUM, entities.TORQUE] for name in MOTIONS}
+for scene, list_exhibits in SCENES.items():
+    PATHS[scene] = [
+        path
+        for each in list_exhibits()
+        for path in (
+            f"/tops/{each.name}/top",
+            f"/tops/{each.name}/trace",
+            f"/{each.group}/{each.name}",
+        )
+    ]
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_a_recording_has_what_it_shows_at_each_sample(folder, name):
+    rows = dict.fromkeys(PATHS[name], 0)
     for chunk in RrdReader(folder / f"{name}.rrd").stream():
         if chunk.entity_path in rows and not chunk.is_static:
             rows[chunk.entity_path] += chunk.to_record_batch().num_rows
     assert all(count >= RATE * SPAN for count in rows.values()), rows
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_a_scene_has_the_body_the_trace_and_the_tilt_of_each_top(folder, name):
-    rows = dict.fromkeys(
-        path
-        for each in SCENES[name]()
-        for path in (f"/tops/{each.name}/top", f"/tops/{each.name}/trace", _curve(each))
-    )
-    for chunk in RrdReader(folder / f"{name}.rrd").stream():
-        if chunk.entity_path in rows and not chunk.is_static:
-            count = chunk.to_record_batch().num_rows
-            rows[chunk.entity_path] = (rows[chunk.entity_path] or 0) + count
-    assert all(count >= RATE * SPAN for count in rows.values()), rows
-
-
-def _curve(exhibit):
-    return f"/{exhibit.group}/{exhibit.name}"
 
 
 @pytest.mark.usefixtures("without_files")
@@ -117,9 +112,8 @@ def test_the_claims_are_written_and_printed(tmp_path, capsys):
 
 @pytest.mark.usefixtures("without_files")
 def test_a_claim_that_fails_is_an_exit_status(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(
-        article, "check_claims", lambda: [Claim("It is so.", "it is not", holds=False)]
-    )
+    wrong = [Claim("It is so.", "it is not", holds=False)]
+    monkeypatch.setattr(article, "check_claims", lambda: wrong)
     assert retell(tmp_path) == 1
     assert "FAIL It is so." in capsys.readouterr().out
 

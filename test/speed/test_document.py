@@ -60,13 +60,8 @@ def test_a_report_can_be_written_after_each_curve(by):
 
 def test_every_case_in_which_a_peer_is_ahead_is_named():
     def swept(peer, *points):
-        return Curve(
-            peer,
-            "cusps",
-            10.0,
-            tuple(Measurement(1.0, e, e, 9, s, 0.0) for e, s in points),
-            "finest",
-        )
+        found = tuple(Measurement(1.0, e, e, 9, s, 0.0) for e, s in points)
+        return Curve(peer, "cusps", 10.0, found, "finest")
 
     results = Results(
         curves=[
