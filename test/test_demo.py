@@ -146,14 +146,12 @@ def test_states_of_python_alone_are_reported(tmp_path):
 
 
 @pytest.fixture
-def here(tmp_path, monkeypatch):
+def here(tmp_path, monkeypatch, signals_as_before):
     """A folder, and an environment that the demonstration may change."""
     for name in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_DOMAIN_ID", *VARIABLES):
         monkeypatch.setenv(name, "LOCALHOST" if name.endswith("RANGE") else "")
-    handler = signal.getsignal(signal.SIGTERM)
     monkeypatch.chdir(tmp_path)
-    yield tmp_path
-    signal.signal(signal.SIGTERM, handler)
+    return tmp_path
 
 
 @pytest.mark.usefixtures("here")
@@ -167,11 +165,10 @@ def test_a_signal_while_the_node_is_started_leaves_none_behind(number, monkeypat
         return started[0]
 
     # A shell starts programs in the background with SIGINT ignored.
-    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     monkeypatch.setattr(demo, "NODE", "import time; time.sleep(60)")
     monkeypatch.setattr(demo.subprocess, "Popen", start_and_signal)
     assert demo.main() == demo.INTERRUPTED
-    signal.signal(signal.SIGINT, usual)
     (node,) = started
     assert node.returncode == -signal.SIGTERM
 

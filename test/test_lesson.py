@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rclpy
+from node.listener import Listener
 from programs import running_node
 from shown_pictures import assert_same_picture
 from test_lesson_numbers import PUSH
@@ -49,14 +49,14 @@ def tops():
     starts = [shlex.split(line) for line in typed(BEFORE) if "top_node" in line]
     parameters = [[value for word, value in pairwise(words) if word == "-p"] for words in starts]
     assert [words[-1] for words in starts] == ["real_time_factor:=0.1", "__node:=disc"]
-    with running_node(DOMAIN, *parameters[0]), running_node(DOMAIN, *parameters[1], name="disc"):
-        context = rclpy.Context()
-        rclpy.init(context=context, domain_id=DOMAIN)
-        try:
-            users = {name: rclpy.create_node(f"of_{name[1:]}", context=context) for name in NAMES}
-            yield {name: Connection(user, name, timeout=20.0) for name, user in users.items()}
-        finally:
-            rclpy.shutdown(context=context)
+    with (
+        running_node(DOMAIN, *parameters[0]),
+        running_node(DOMAIN, *parameters[1], name="disc"),
+        Listener(DOMAIN) as user,
+        Listener(DOMAIN, "user_of_disc") as other,
+    ):
+        nodes = dict(zip(NAMES, (user.node, other.node), strict=True))
+        yield {name: Connection(node, name, timeout=20.0) for name, node in nodes.items()}
 
 
 def do(tops, line):

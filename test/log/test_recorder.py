@@ -1,7 +1,6 @@
 """The recorder: all messages are in the file in order, whatever happens to the disk."""
 
 import os
-import shutil
 import threading
 import time
 
@@ -187,22 +186,6 @@ def test_what_was_flushed_is_readable_while_the_recording_goes_on(tmp_path):
     recorder.stop()
 
 
-def test_a_removed_directory_stops_the_recording_with_one_sentence(tmp_path):
-    folder = tmp_path / "logs"
-    recorder = create(folder)
-    path = recorder.start({})
-    shutil.rmtree(folder)
-    wait_until(lambda: recorder.failure)
-    assert recorder.failure == f"{path}: the file was removed"
-    assert not recorder.running
-    recorder.add(1, 1, b"ignored")
-    again = recorder.start({})
-    assert recorder.failure == ""
-    recorder.add(1, 2, b"x")
-    recorder.stop()
-    assert contents(again) == [("/plain", 2, b"x")]
-
-
 @pytest.fixture
 def small_disk(tmp_path):
     with mounted(tmp_path / "small", "size=300k") as folder:
@@ -226,12 +209,6 @@ def test_a_full_disk_stops_the_recording_and_what_was_written_opens(small_disk):
     (problem,) = file.problems
     assert "not finished" in problem
     assert [log_time for _, log_time, _ in contents(path)] == found  # a whole file for others
-
-
-def test_a_folder_that_cannot_be_created_is_an_error(tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(OSError, match=r"\S"):
-        create(tmp_path / "file" / "logs").start({})
 
 
 def test_messages_of_the_first_channel_are_written_before_the_others(tmp_path):

@@ -1,10 +1,10 @@
-"""A node of the test that listens to a top in another process."""
+"""A node of the test that listens to a top, in another process or in its own."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Self
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -15,14 +15,14 @@ TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
 class Listener:
     """A node in a domain, spun until a condition holds."""
 
-    def __init__(self, domain: int) -> None:
+    def __init__(self, domain: int, name: str = "listener") -> None:
         self.context = rclpy.Context()
         rclpy.init(context=self.context, domain_id=domain)
-        self.node = rclpy.create_node("listener", context=self.context)
+        self.node = rclpy.create_node(name, context=self.context)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
 
-    def __enter__(self) -> Listener:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -14,8 +14,8 @@ from typing import Any
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import WrenchStamped
+from node.listener import Listener
 from rclpy.clock_type import ClockType
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.time import Time
@@ -32,7 +32,7 @@ TURN = 0.002  # s of real time between two advances of the simulated clock, at l
 STEP = 5_000_000  # ns; an advance of the simulated clock
 
 
-class RunningTop:
+class RunningTop(Listener):
     """A TopNode and a client node, spun together until a condition holds.
 
     With `realtime` the node follows the clock of the system, else a simulated clock that begins
@@ -47,9 +47,8 @@ class RunningTop:
         record: Path | None = None,
         **parameters: Any,
     ) -> None:
-        self.context = rclpy.Context()
         self.domain = claim_domain()
-        rclpy.init(context=self.context, domain_id=self.domain)
+        super().__init__(self.domain, "user")
         self.now, self._advanced, self._frozen = 0, 0.0, realtime
         if record:
             parameters |= {"record__enabled": True, "record__directory": str(record)}
@@ -66,11 +65,9 @@ class RunningTop:
             rclpy.try_shutdown(context=self.context)
             release_domain(self.domain)
             raise
-        self.user = rclpy.create_node("user", context=self.context)
+        self.user = self.node
         self.connection = _SharedConnection(self)
-        self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.top)
-        self.executor.add_node(self.user)
 
     def close(self) -> None:
         self.executor.shutdown()
@@ -100,22 +97,11 @@ class RunningTop:
                 self.set_clock(self.now + STEP)
             self.executor.spin_once(timeout_sec=0.05 if self._frozen else TURN)
 
-    def collect(self, kind: Any, topic: str, qos: Any = 1000, raw: bool = False) -> list[Any]:
-        """Subscribe, and return the list that messages (or their bytes) come into."""
-        messages: list[Any] = []
-        self.user.create_subscription(kind, topic, messages.append, qos, raw=raw)
-        return messages
-
     def collect_events(self) -> list[Any]:
         """Subscribe to the events, wait for the first, and return the list that they come into."""
         events = self.collect(DiagnosticArray, "/top/events", LATCHED)
         self.spin_until(lambda: events)
         return events
-
-    def wait_for(self, messages: list[Any], count: int = 1) -> None:
-        """Wait until so many more messages have come into a list."""
-        enough = len(messages) + count
-        self.spin_until(lambda: len(messages) >= enough)
 
     def publisher(self, kind: Any, topic: str) -> Any:
         """Create a publisher to the top and wait until messages arrive."""

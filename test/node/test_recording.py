@@ -149,10 +149,12 @@ def test_a_run_with_everything_in_it_is_computed_again_from_its_events_and_its_l
     assert assert_exact(run.end_log()) > 280
 
 
-def test_a_log_that_begins_in_the_middle_of_a_run_can_be_checked_alone(start_top, tmp_path):
-    run = start_top(record__directory=str(tmp_path), record__max_duration=0.5)
+@pytest.mark.parametrize("limits", [{"max_duration": 0.5}, {"max_size": 50_000}], ids=str)
+def test_each_file_of_a_recording_can_be_checked_alone(limits, start_top, tmp_path):
+    parameters = {f"record__{name}": value for name, value in limits.items()}
+    run = start_top(record__directory=str(tmp_path), **parameters)
     run.trigger("hurry_precession")
-    run.spin_until(lambda: run.now > 3 * 10**8)
+    run.spin_until(lambda: run.now > 3 * 10**8)  # it begins in the middle of the run
     run.switch("record", True)
     run.spin_until(lambda: len(list(tmp_path.iterdir())) == 3)
     third = run.now
@@ -160,16 +162,8 @@ def test_a_log_that_begins_in_the_middle_of_a_run_can_be_checked_alone(start_top
     run.end_log()
     for path in tmp_path.iterdir():
         assert_no_deviation(path)
-
-
-def test_a_log_that_is_large_enough_is_followed_by_another(start_top, tmp_path):
-    run = start_top(record=tmp_path, record__max_size=50_000)
-    run.spin_until(lambda: len(list(tmp_path.iterdir())) == 3)
-    run.end_log()
-    first, second, _ = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
-    for path in (first, second):
-        assert path.stat().st_size > 50_000
-        assert_no_deviation(path)
+    files = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
+    assert all(path.stat().st_size > limits.get("max_size", 0) for path in files[:2])
 
 
 def test_a_folder_that_cannot_be_written_is_refused_and_the_motion_goes_on(start_top, tmp_path):

@@ -7,13 +7,16 @@ import time
 import pytest
 import rclpy
 from browser import running_browser
+from node.listener import Listener
 from node.running_top import RunningTop
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
 from symtop_ros.panel.server import LOCAL_HOST, PageServer
 from symtop_ros.physics import State
 from symtop_ros.web.join import write_file
+from workshop.load.domains import claim_domain
 
+DOMAIN = claim_domain()
 TIMEOUT = 60.0
 
 
@@ -251,15 +254,12 @@ def test_of_a_long_run_the_last_events_are_kept(node, page):
 
 
 def test_a_missing_node_is_one_message():
-    context = rclpy.Context()
-    rclpy.init(context=context)
-    with bridge_to("missing", context) as bridge:
+    with Listener(DOMAIN) as alone, bridge_to("missing", alone.context) as bridge:
         bridge._connection._timeout = 0.1
         assert bridge.name == "/missing"
         granted, answer = ask(bridge, "kick", {"precession_rate": 1.0})
     assert not granted
     assert answer.startswith("no answer from /missing ")
-    rclpy.try_shutdown(context=context)
 
 
 def start_of(running):
