@@ -22,6 +22,7 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 from simulation.test_run_file import make_run
 
 import workshop.main
+from symtop_ros.client.connection import Connection
 from symtop_ros.judge.main import main as judge_main
 from symtop_ros.simulation.run_file import write_run
 from symtop_ros.testset.score import read_problems
@@ -236,12 +237,12 @@ def call_ros2(_, words):
 def call_service(name, kind, text="{}"):
     package, _, message = kind.split("/")
     service = getattr(importlib.import_module(f"{package}.srv"), message)
+    node, _, short = name.rpartition("/")
     with Listener(DOMAIN) as listener:
-        client = listener.node.create_client(service, name)
-        listener.spin_until(client.service_is_ready)
-        future = client.call_async(fill(service.Request(), yaml.safe_load(text)))
-        listener.spin_until(future.done)
-    answer = str(future.result())
+        connection = Connection(listener.node, node, timeout=60.0)
+        answer = str(
+            connection._call(service, short, fill(service.Request(), yaml.safe_load(text)))
+        )
     assert "success=True" in answer or "successful=True" in answer
 
 

@@ -193,7 +193,7 @@ def test_a_description_that_changes_is_logged_anew(start_top, tmp_path):
 def started(folder, rate=1000.0):
     parameters = (f"publish_rate:={rate}", "record.enabled:=true", f"record.directory:={folder}")
     words = command("top_node", *set_parameters(*parameters)[:-1], "error")
-    node = subprocess.Popen(words, env=environment(DOMAIN))
+    node = subprocess.Popen(words, env=environment(DOMAIN), stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
     while not (logs := list(folder.glob("*.mcap"))):
         assert node.poll() is None
@@ -204,14 +204,14 @@ def started(folder, rate=1000.0):
 
 @pytest.mark.realtime
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
+def test_a_signal_ends_the_node_in_silence_and_its_log_as_it_should(number, tmp_path):
     node, path = started(tmp_path)
     with Listener(DOMAIN) as listener:
         heard = listener.collect(QuaternionStamped, "/top/orientation", raw=True)
         listener.spin_until(lambda: len(heard) > 100)
         node.send_signal(number)
         listener.spin_until(lambda: node.poll() is not None)
-    assert node.returncode == 0
+    assert (node.returncode, node.communicate()[1]) == (0, "")
     file = McapFile(path)
     logged = {message.data for chunk in file.chunks() for message in chunk}
     assert file.problems == []
@@ -245,7 +245,7 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
         time.sleep(rng.uniform(0.5, 1.5))
         killed = time.time()
         os.kill(node.pid, signal.SIGKILL)
-        node.wait()
+        node.communicate()
         assert_exact(path)
         file = McapFile(path)
         latest = max(message.log_time for chunk in file.chunks() for message in chunk)

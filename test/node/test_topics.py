@@ -16,53 +16,53 @@ from symtop_ros.physics import Body
 pytestmark = pytest.mark.untraced
 
 
+JOINTS = ["precession", "tilt", "spin"]
+
+
 def vector(message):
     return [message.x, message.y, message.z]
 
 
-# By the topic: its type, what a message says, and what the library says of a state of a motion.
-TOPICS = {
-    "orientation": (
-        QuaternionStamped,
-        lambda m: [m.quaternion.w, *vector(m.quaternion)],
-        lambda _, state: state.orientation.tolist(),
-    ),
-    "angular_velocity": (
-        TwistStamped,
-        lambda m: [vector(m.twist.angular), vector(m.twist.linear)],
-        lambda _, state: [state.to_world(state.angular_velocity).tolist(), [0.0, 0.0, 0.0]],
-    ),
-    "angular_momentum": (
-        Vector3Stamped,
-        lambda m: vector(m.vector),
-        lambda motion, state: motion.top.angular_momentum(state).tolist(),
-    ),
-    "torque": (
-        WrenchStamped,
-        lambda m: [vector(m.wrench.torque), vector(m.wrench.force)],
-        lambda motion, state: [
-            motion.top.gravity_torque(state).tolist(),
-            Body.of(motion.top).pivot_force(motion, state).tolist(),
-        ],
-    ),
-    "euler_angles": (
-        JointState,
-        lambda m: [m.name, *m.position, *m.velocity],
-        lambda _, state: [["precession", "tilt", "spin"], *state.euler_angles, *state.euler_rates],
-    ),
+TYPES = {
+    "orientation": QuaternionStamped,
+    "angular_velocity": TwistStamped,
+    "torque": WrenchStamped,
+    "angular_momentum": Vector3Stamped,
+    "euler_angles": JointState,
 }
+# What a message says.
+READ = {
+    "orientation": lambda m: [m.quaternion.w, *vector(m.quaternion)],
+    "angular_velocity": lambda m: [vector(m.twist.angular), vector(m.twist.linear)],
+    "angular_momentum": lambda m: vector(m.vector),
+    "torque": lambda m: [vector(m.wrench.torque), vector(m.wrench.force)],
+    "euler_angles": lambda m: [m.name, *m.position, *m.velocity],
+}
+
+
+def compute(motion, state):
+    """What the library says of a state of a motion, by the topic."""
+    top, omega = motion.top, state.to_world(state.angular_velocity)
+    force = Body.of(top).pivot_force(motion, state)
+    return {
+        "orientation": state.orientation.tolist(),
+        "angular_velocity": [omega.tolist(), [0.0, 0.0, 0.0]],
+        "angular_momentum": top.angular_momentum(state).tolist(),
+        "torque": [top.gravity_torque(state).tolist(), force.tolist()],
+        "euler_angles": [JOINTS, *state.euler_angles, *state.euler_rates],
+    }
 
 
 def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
     run = start_top(publish_rate=200.0)
-    got = {name: run.collect(kind, f"/top/{name}") for name, (kind, *_) in TOPICS.items()}
+    got = {name: run.collect(kind, f"/top/{name}") for name, kind in TYPES.items()}
     (event,) = run.collect_events()
     run.spin_until(lambda: all(len(messages) > 20 for messages in got.values()))
     segment = segment_of(event)
-    for name, (_, read, compute) in TOPICS.items():
+    for name, read in READ.items():
         for message in got[name][5:20]:
-            state = segment.state_at(stamp_of(message))
-            assert (name, read(message)) == (name, compute(segment.motion, state))
+            expected = compute(segment.motion, segment.state_at(stamp_of(message)))[name]
+            assert (name, read(message)) == (name, expected)
             assert message.header.frame_id == "world"
 
 
@@ -94,7 +94,7 @@ def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles
     late = run.collect(String, "/robot_description", LATCHED)
     run.spin_until(lambda: late)
     robot = ElementTree.fromstring(late[0].data)
-    assert [joint.get("name") for joint in robot.iter("joint")] == ["precession", "tilt", "spin"]
+    assert [joint.get("name") for joint in robot.iter("joint")] == JOINTS
     assert [axis.get("xyz") for axis in robot.iter("axis")] == ["0 0 1", "1 0 0", "0 0 1"]
     inertia = next(robot.iter("inertia"))
     assert float(inertia.get("izz")) == 5.72e-05

@@ -79,6 +79,12 @@ class Opened:
         field.fill(text)
         field.press("Enter")
 
+    def drag(self, x, y, right, down):
+        """Move the pointer to a place, and with its button held by some pixels."""
+        self.tab.mouse.move(x, y)
+        self.tab.mouse.down()
+        self.tab.mouse.move(x + right, y + down)
+
     def press(self, key):
         """Press a key while no field has the focus."""
         self.tab.evaluate("document.activeElement.blur()")

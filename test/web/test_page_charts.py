@@ -201,9 +201,7 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.click("#pause")
     opened.tab.wait_for_timeout(300)
     x, y, _ = find_ball(opened)
-    opened.tab.mouse.move(x, y)
-    opened.tab.mouse.down()
-    opened.tab.mouse.move(x, y + 60)
+    opened.drag(x, y, 0, 60)
     opened.tab.wait_for_timeout(300)
     assert len(opened.read_events()) == 1  # nothing has happened yet
     opened.tab.mouse.up()
@@ -217,10 +215,8 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.wait_for_timeout(300)
     opened.tab.click("#pause")
     x, y, _ = find_ball(opened)
-    opened.tab.mouse.move(x, y)
     opened.tab.keyboard.down("Shift")
-    opened.tab.mouse.down()
-    opened.tab.mouse.move(x + 60, y)
+    opened.drag(x, y, 60, 0)
     opened.tab.mouse.up()
     opened.tab.keyboard.up("Shift")
     kick = opened.read_events()[-1]

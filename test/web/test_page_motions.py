@@ -138,9 +138,7 @@ def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     box = opened.tab.locator("canvas").bounding_box()
     x, y = box["x"] + 60, box["y"] + 60
     before = read()
-    opened.tab.mouse.move(x, y)
-    opened.tab.mouse.down()
-    opened.tab.mouse.move(x + 80, y + 20)
+    opened.drag(x, y, 80, 20)
     opened.tab.mouse.up()
     turned = read()
     assert turned != before
