@@ -6,7 +6,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -15,6 +14,7 @@ from exact_log import assert_no_deviation
 from listening import udp_addresses
 from log_files import Run
 from programs import running_node
+from waiting import until
 
 from symtop_ros.distribution import VARIABLES
 from symtop_ros.playback import viewer
@@ -113,10 +113,8 @@ def test_a_domain_with_a_node_of_someone_else_is_not_chosen(monkeypatch):
     free, claim = demo.claim_domain()
     claim.close()
     monkeypatch.setattr(demo, "DOMAINS", range(free, free + 1))
-    with running_node(free) as node:
-        while not listening_in(free):
-            assert node.poll() is None
-            time.sleep(0.02)
+    with running_node(free):
+        until(lambda: listening_in(free))
         with pytest.raises(demo.DemoError, match=f"domains {free} to {free} must be free, got no"):
             demo.claim_domain()
 

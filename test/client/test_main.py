@@ -9,6 +9,7 @@ import time
 import pytest
 from node.listener import Listener
 from programs import PATIENT, command, environment, run, running_node
+from waiting import until
 
 from symtop_ros.programs import BROKEN_PIPE
 from workshop.load.domains import claim_domain
@@ -49,9 +50,7 @@ def test_start_kick_and_state_work_together():
 
 def test_two_nodes_of_one_name_are_named_next_to_the_answer():
     with running_node(DOMAIN, "scene:=hurry_slow"):
-        deadline = time.monotonic() + 60
-        while not (result := ctl("state")).stderr:
-            assert time.monotonic() < deadline, "the second node was not found"
+        result = until(lambda: (answer := ctl("state")).stderr and answer)
         assert result.returncode == 0
         assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
     with Listener(DOMAIN) as listener:  # until the second one is gone

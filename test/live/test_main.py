@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 from programs import PATIENT, command, run, running, running_node
+from waiting import until
 
 from symtop_ros.live import main as module
 from symtop_ros.log.batch import Batch
@@ -16,7 +17,6 @@ from workshop.load.domains import claim_domain
 from workshop.pictures.viewer import running_viewer, views
 
 DOMAIN = claim_domain()
-TIMEOUT = 60.0
 
 
 @pytest.fixture
@@ -32,11 +32,8 @@ def live():
 
 def moving(client):
     """Wait until the top is seen to move."""
-    pictures, deadline = set(), time.monotonic() + TIMEOUT
-    while len(pictures) < 2:
-        assert time.monotonic() < deadline, "nothing moves"
-        pictures |= picture_now(client)
-        time.sleep(0.2)
+    pictures = set()
+    until(lambda: len(pictures) > 1, lambda: pictures.update(picture_now(client)))
 
 
 def picture_now(client):

@@ -7,6 +7,7 @@ import time
 import pytest
 from disks import mounted
 from mcap.reader import make_reader
+from waiting import until
 
 from symtop_ros.log import recorder as module
 from symtop_ros.log.reader import McapFile
@@ -42,13 +43,6 @@ def read_whole(path):
     file = McapFile(path)
     list(file.chunks())
     return file
-
-
-def wait_until(done):
-    deadline = time.monotonic() + TIMEOUT
-    while not done():
-        assert time.monotonic() < deadline, "the condition did not come true in time"
-        time.sleep(0.005)
 
 
 def test_all_messages_are_in_the_file_in_order(tmp_path):
@@ -92,7 +86,7 @@ def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp
     recorder.add(0, 0, b"latched")
     for stamp in (0, 1_100_000_000):
         recorder.add(1, stamp, b"one")
-    wait_until(lambda: is_finished(path))
+    until(lambda: is_finished(path))
     recorder.add(1, 1_200_000_000, b"two")
     recorder.stop()
     first, second = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
@@ -106,7 +100,7 @@ def test_a_recording_that_ends_between_two_files_leaves_none_without_messages(tm
     path = recorder.start({})
     for stamp in (0, 2 * 10**9):
         recorder.add(1, stamp, b"x")
-    wait_until(lambda: is_finished(path))
+    until(lambda: is_finished(path))
     recorder.stop()
     assert recorder.failure == ""
     assert list(tmp_path.iterdir()) == [path]
@@ -182,7 +176,7 @@ def test_what_was_flushed_is_readable_while_the_recording_goes_on(tmp_path):
     def read():
         return [message.log_time for chunk in McapFile(path).chunks() for message in chunk]
 
-    wait_until(lambda: read() == [5])
+    until(lambda: read() == [5])
     recorder.stop()
 
 

@@ -62,10 +62,7 @@ class Watched(RunningTop):
     def restore(self):
         """The motion and the parameters of the beginning."""
         self.switch("pause", False)
-        (restored,) = self.ask(
-            "set_parameters_atomically", [_parameter(*each) for each in RESTORED.items()]
-        )
-        assert restored == (True, "")
+        assert self.change(RESTORED) == (True, "")
         assert self.set(START, theta=0.5, psi_dot=200.0)[0]
 
     def assert_samples_agree_with_the_motion(self):
@@ -80,12 +77,6 @@ class Watched(RunningTop):
 
     def push(self, numbers, frame):
         self.hand.publish(torque_of(*numbers, frame))
-
-
-def _parameter(name, value):
-    fields = {bool: (1, "bool_value"), float: (3, "double_value"), str: (4, "string_value")}
-    kind, field = fields.get(type(value), (8, "double_array_value"))
-    return Parameter(name=name, value=ParameterValue(type=kind, **{field: value}))
 
 
 @pytest.fixture(scope="module")
@@ -142,8 +133,7 @@ def test_any_torque_is_applied_or_refused_and_the_node_keeps_running(run, number
 
 def test_a_million_numbers_are_refused_in_one_sentence(run):
     for service, name in (("kick", "angular_impulse"), (START, "orientation")):
-        value = _parameter(name, [math.nan] * 1_000_000)
-        ((granted, reason),) = run.ask(service, [value])
+        granted, reason = run.set(service, **{name: [math.nan] * 1_000_000})
         assert not granted
         assert_one_sentence(reason)
     run.assert_samples_agree_with_the_motion()

@@ -19,6 +19,7 @@ from rosbags.highlevel import AnyReader
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
+from waiting import until
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
@@ -194,12 +195,8 @@ def started(folder, rate=1000.0):
     parameters = (f"publish_rate:={rate}", "record.enabled:=true", f"record.directory:={folder}")
     words = command("top_node", *set_parameters(*parameters)[:-1], "error")
     node = subprocess.Popen(words, env=environment(DOMAIN), stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 60
-    while not (logs := list(folder.glob("*.mcap"))):
-        assert node.poll() is None
-        assert time.monotonic() < deadline, "no log in time"
-        time.sleep(0.01)
-    return node, logs[0]
+    (path,) = until(lambda: [*folder.glob("*.mcap")])
+    return node, path
 
 
 @pytest.mark.realtime

@@ -2,13 +2,14 @@
 
 import contextlib
 import threading
-import time
+from functools import partial
 
 import pytest
 import rclpy
 from browser import running_browser
 from node.listener import Listener
 from node.running_top import RunningTop
+from waiting import until
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
 from symtop_ros.panel.server import LOCAL_HOST, PageServer
@@ -17,7 +18,6 @@ from symtop_ros.web.join import write_file
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
-TIMEOUT = 60.0
 
 
 @contextlib.contextmanager
@@ -67,7 +67,7 @@ class Page:
         self.state |= {k: v for k, v in message.items() if k not in ("events", "new")}
 
     def until(self, condition):
-        wait_for(condition, lambda _: self.look())
+        until(condition, self.look)
 
     def close(self):
         self._news.close()
@@ -79,14 +79,6 @@ def _page(node):
     page.until(lambda: page.events and "orientation" in page.state)
     yield page
     page.close()
-
-
-def wait_for(condition, wait=time.sleep):
-    """Wait until a condition holds, by a function that waits for some time."""
-    deadline = time.monotonic() + TIMEOUT
-    while not condition():
-        assert time.monotonic() < deadline, "the condition did not come true in time"
-        wait(0.02)
 
 
 def ask(bridge, service, argument=None):
@@ -195,12 +187,12 @@ def test_a_node_without_pages_sends_events_only(node):
     def count():
         return running.top.count_subscribers("/top/orientation")
 
-    wait_for(lambda: count() == 0)
+    until(lambda: count() == 0)
     page = Page(bridge)
     page.until(lambda: "orientation" in page.state)
-    wait_for(lambda: count() == 1)
+    until(lambda: count() == 1)
     page.close()
-    wait_for(lambda: count() == 0)
+    until(lambda: count() == 0)
 
 
 def test_two_pages_see_the_same_run(node, page):
@@ -281,37 +273,35 @@ def serving(bridge, port=0):
 def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
     running, bridge = node
 
-    def until(condition):
-        wait_for(condition, lambda _: tab.wait_for_timeout(20))
-
     with running_browser() as browser:
         tab = browser.new_page()
+        look = partial(tab.wait_for_timeout, 20)
         problems = []
         tab.on("pageerror", lambda error: problems.append(str(error)))
         with serving(bridge) as server:
             port = server.server_address[1]
             tab.goto(server.url)
-            until(lambda: "cusps" in tab.text_content("#headline"))
+            until(lambda: "cusps" in tab.text_content("#headline"), look)
             assert tab.is_hidden("#timeline")
             tab.click("#hurry")
-            until(lambda: "than without the kick" in tab.text_content("#headline"))
+            until(lambda: "than without the kick" in tab.text_content("#headline"), look)
             act = bridge._events[-1]["record"]["act"]
             assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
             tab.click("#tab-start")
             tab.fill("#field-top\\.Mgl", "0.05")
             tab.press("#field-top\\.Mgl", "Enter")
-            until(lambda: running.top.simulation.settings.top.Mgl == 0.05)
+            until(lambda: running.top.simulation.settings.top.Mgl == 0.05, look)
             tab.once("dialog", lambda dialog: dialog.dismiss())
             tab.goto(f"{server.url}#theta=1.5")  # a link of another page
             tab.wait_for_timeout(200)
             assert start_of(running).theta == pytest.approx(0.5)
             tab.once("dialog", lambda dialog: dialog.accept())
             tab.goto(f"{server.url}#theta=1.25")
-            until(lambda: abs(start_of(running).theta - 1.25) < 1e-9)
-        until(lambda: "connection is lost" in tab.text_content("#lost"))
+            until(lambda: abs(start_of(running).theta - 1.25) < 1e-9, look)
+        until(lambda: "connection is lost" in tab.text_content("#lost"), look)
         with serving(bridge, port):
-            until(lambda: tab.is_hidden("#lost"))
+            until(lambda: tab.is_hidden("#lost"), look)
             tab.click("#tab-history")
             assert "again" not in tab.text_content("#refusal")
-            until(lambda: "1.25 rad" in tab.text_content("#entries"))
+            until(lambda: "1.25 rad" in tab.text_content("#entries"), look)
         assert problems == []

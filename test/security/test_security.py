@@ -2,7 +2,6 @@
 
 import socket
 import subprocess
-import time
 
 import pytest
 from listening import tcp_addresses
@@ -10,6 +9,7 @@ from log_files import Run
 from node.running_top import RunningTop
 from programs import command, run, running
 from rclpy.parameter import Parameter
+from waiting import until
 
 from symtop_ros.playback import viewer
 from workshop.load.domains import claim_domain
@@ -22,7 +22,6 @@ PROGRAMS = (
     ("top_live", "--web"),
     ("top_panel", "--node", "/top", "--port", "0", "--no-browser"),
 )
-TIMEOUT = 20.0
 
 
 # Without a keystore all programs fail on the same way: top_node stands for them in `make test`.
@@ -55,20 +54,11 @@ def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_pat
     words = [str(log)] if program == "top_replay" else ["--port", str(port)]
     silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with running(command(program, *words, "--web"), DOMAIN, **silent) as process:
-        addresses = waited_for(lambda: tcp_addresses(process.pid), 2)
+        addresses = until(lambda: len(found := tcp_addresses(process.pid)) > 1 and found)
     assert {address for address, _ in addresses} == {"127.0.0.1"}
     for address in addresses:  # the viewer has ended with the program
         with socket.socket() as probe:
             assert probe.connect_ex(address) != 0
-
-
-def waited_for(look, count):
-    """Return the findings when there are at least `count`."""
-    deadline = time.monotonic() + TIMEOUT
-    while len(found := look()) < count:
-        assert time.monotonic() < deadline, f"only {found} in time"
-        time.sleep(0.02)
-    return found
 
 
 def test_no_text_that_can_be_set_from_afar_is_a_path():

@@ -11,6 +11,7 @@ import programs
 import pytest
 from programs import LOSSY_PROFILES, command, set_parameters
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
+from waiting import until
 
 from symtop_ros.distribution import VARIABLES, distribution_name
 from workshop.load.endings import bound
@@ -80,11 +81,7 @@ def ask(process, word):
 
 def report_of(process, done):
     """The first report for which something holds."""
-    deadline = time.monotonic() + TIMEOUT
-    while not done(report := ask(process, "report")):
-        assert time.monotonic() < deadline, report
-        time.sleep(0.1)
-    return report
+    return until(lambda: done(report := ask(process, "report")) and report)
 
 
 def counted(report):
