@@ -9,13 +9,13 @@ import shutil
 import socket
 import subprocess
 import tempfile
-import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+import waiting
 
 TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
 HELP = "sh test/get_browsers.sh, as root"
@@ -34,10 +34,7 @@ FIREFOX_PREFERENCES = {
 
 def until(driver: Any, condition: str) -> None:
     """Wait until an expression is true in the page."""
-    deadline = time.monotonic() + TIMEOUT
-    while not driver.run(f"return Boolean({condition});"):
-        assert time.monotonic() < deadline, condition
-        time.sleep(0.1)
+    waiting.until(lambda: driver.run(f"return Boolean({condition});"), timeout=TIMEOUT)
 
 
 def find_port() -> int:
@@ -182,9 +179,10 @@ def running(command: list[str], environment: dict[str, str] | None = None) -> It
 
 def wait_for_port(port: int) -> None:
     """Wait until a program listens."""
-    deadline = time.monotonic() + TIMEOUT
-    while True:
+
+    def listens() -> bool:
         with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), 1):
-            return
-        assert time.monotonic() < deadline
-        time.sleep(0.1)
+            return True
+        return False
+
+    waiting.until(listens, timeout=TIMEOUT)

@@ -55,9 +55,7 @@ FAILED = {
     "--position 1e999 0 0 -o x.csv | --orientation 0 0 0 0 -o x.csv | "
     "--seconds 1 -o /dev/null/x.csv | --seconds 1 -o aNULb",
 }
-MISUSED = {
-    "top_ctl": "kick CONTROL | kick LONG | kick CONTROL=1 CONTROL=2",
-}
+MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick CONTROL=1 CONTROL=2"}
 UNREADABLE = {
     "top_ctl": " | CONTROL | --timeout nan hurry | --timeout -inf hurry | watch --seconds 0",
     "top_live": "--port 65536 | --port -1 | --port NINES",

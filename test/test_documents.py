@@ -229,9 +229,8 @@ def replay(program, words):
 
 def call_ros2(_, words):
     """Do what `ros2 service`, `ros2 topic` or `ros2 launch` would; ros2cli is not on PyPI."""
-    {"service": call_service, "topic": publish_torque, "launch": check_arguments}[words[0]](
-        *words[2:]
-    )
+    ways = {"service": call_service, "topic": publish_torque, "launch": check_arguments}
+    ways[words[0]](*words[2:])
 
 
 def call_service(name, kind, text="{}"):
@@ -240,9 +239,8 @@ def call_service(name, kind, text="{}"):
     node, _, short = name.rpartition("/")
     with Listener(DOMAIN) as listener:
         connection = Connection(listener.node, node, timeout=60.0)
-        answer = str(
-            connection._call(service, short, fill(service.Request(), yaml.safe_load(text)))
-        )
+        request = fill(service.Request(), yaml.safe_load(text))
+        answer = str(connection._call(service, short, request))
     assert "success=True" in answer or "successful=True" in answer
 
 
@@ -277,9 +275,8 @@ def check_arguments(_, *arguments):
 def top():
     """A node with all its topics."""
     switches = ("publish_clock", "publish_markers", "imu__enabled", "odometry__enabled")
-    running = RunningTop(realtime=True, **dict.fromkeys(switches, True))
-    yield running.top
-    running.close()
+    with RunningTop(realtime=True, **dict.fromkeys(switches, True)) as running:
+        yield running.top
 
 
 def listed(section, kind):
@@ -294,9 +291,8 @@ def listed(section, kind):
 def test_the_topics_of_the_page_on_ros_are_those_of_the_node(top):
     pairs = [*top.get_publisher_names_and_types_by_node("top", "/")]
     pairs += [*top.get_subscriber_names_and_types_by_node("top", "/")]
-    found = {
-        (name, kind) for name, (kind,) in pairs if name not in ("/rosout", "/parameter_events")
-    }
+    of_ros = ("/rosout", "/parameter_events")
+    found = {(name, kind) for name, (kind,) in pairs if name not in of_ros}
     transforms = {(name, "tf2_msgs/msg/TFMessage") for name in ("/tf", "/tf_static")}
     # without tf2_msgs they are not published
     assert listed("Topics", "msg") == found | transforms
@@ -305,9 +301,8 @@ def test_the_topics_of_the_page_on_ros_are_those_of_the_node(top):
 def test_the_services_of_the_page_on_ros_are_those_of_the_node(top):
     pairs = top.get_service_names_and_types_by_node("top", "/")
     foreign = re.compile("parameter|type_description")
-    assert listed("Services", "srv") == {
-        (name, kind) for name, (kind,) in pairs if not foreign.search(name)
-    }
+    found = {(name, kind) for name, (kind,) in pairs if not foreign.search(name)}
+    assert listed("Services", "srv") == found
 
 
 def test_the_parameters_of_the_page_on_ros_are_those_of_the_node(top):

@@ -39,9 +39,7 @@ TABLE = {
     "judge": "figures log models physics shutdown simulation testset wire wording | "
     "matplotlib numpy rclpy scipy",
 }
-ARROWS = {
-    folder: tuple(set(part.split()) for part in text.split("|")) for folder, text in TABLE.items()
-}
+ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}
 
 
 def nodes(folder):

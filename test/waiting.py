@@ -9,9 +9,13 @@ from typing import Any
 TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
 
 
-def until(condition: Callable[[], Any], wait: Callable[[], Any] = lambda: time.sleep(0.02)) -> Any:
+def until(
+    condition: Callable[[], Any],
+    wait: Callable[[], Any] = lambda: time.sleep(0.02),
+    timeout: float = TIMEOUT,
+) -> Any:
     """Wait until a condition holds, and return what it gives; `wait` is called in between."""
-    deadline = time.monotonic() + TIMEOUT
+    deadline = time.monotonic() + timeout
     while not (found := condition()):
         assert time.monotonic() < deadline, "the condition did not come true in time"
         wait()

@@ -12,9 +12,7 @@ def test_a_slope_is_as_good_as_it_says():
 
 def test_the_seven_motions_are_of_the_kinds_that_the_article_describes():
     kinds = [motion.kind for motion in motions.seven_motions()]
-    of_rates = [
-        "regular" if rate.direction == "stays" else "unidirectional" for rate in motions.RATES
-    ]
+    of_rates = ["regular" if r.direction == "stays" else "unidirectional" for r in motions.RATES]
     assert kinds == [*of_rates, "cusps"]
 
 

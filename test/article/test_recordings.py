@@ -61,9 +61,8 @@ def test_the_tops_of_a_scene_are_seen_from_the_same_side_and_in_the_picture(name
     directions = away / np.linalg.norm(away, axis=1)[:, None]
     # 18 degrees; 65 with the eye of 55 degrees that was near enough to fill the picture
     assert np.arccos((directions @ directions.T).min()) < np.radians(20)
-    forward = (recordings.TARGET - recordings.EYE) / np.linalg.norm(
-        recordings.TARGET - recordings.EYE
-    )
+    forward = recordings.TARGET - recordings.EYE
+    forward = forward / np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
     around = np.linspace(0.0, 2 * np.pi, 73)

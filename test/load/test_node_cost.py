@@ -13,13 +13,10 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.long
-def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, tmp_path):
+def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, docs):
     monkeypatch.setattr(node_cost, "COST_RATES", (200.0,))
     monkeypatch.setattr(node_cost, "RATES", (500.0,))
     monkeypatch.setattr(node_cost, "KICKS", 10)
-    docs = tmp_path / "docs"
-    docs.mkdir()
-    (tmp_path / "README.md").write_text("")
     page = docs / "reliability.md"
     page.write_text("<!-- figures: node cost --><!-- end of figures -->")
     kept, write = [], node_cost.format_sections

@@ -66,9 +66,7 @@ class Publisher:
 
 def delay(messages, name, count):
     """Each message of a topic arrives after `count` others."""
-    arrivals = sorted(
-        (k + (count + 0.5 if each[0] == name else 0), each) for k, each in enumerate(messages)
-    )
+    arrivals = sorted((k + (count + 0.5) * (m[0] == name), m) for k, m in enumerate(messages))
     return [each for _, each in arrivals]
 
 

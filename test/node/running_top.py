@@ -54,9 +54,7 @@ class RunningTop(Listener):
             parameters |= {"record__enabled": True, "record__directory": str(record)}
         if not realtime:
             parameters = {"use_sim_time": True, **parameters}
-        overrides = [
-            Parameter(name.replace("__", "."), value=value) for name, value in parameters.items()
-        ]
+        overrides = [Parameter(k.replace("__", "."), value=v) for k, v in parameters.items()]
         try:
             self.top = TopNode(
                 context=self.context, cli_args=arguments, parameter_overrides=overrides
@@ -68,6 +66,9 @@ class RunningTop(Listener):
         self.user = self.node
         self.connection = _SharedConnection(self)
         self.executor.add_node(self.top)
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def close(self) -> None:
         self.executor.shutdown()
@@ -84,9 +85,8 @@ class RunningTop(Listener):
     def set_clock(self, stamp: int) -> None:
         """Set the simulated clock to a stamp in ns."""
         self.now = stamp
-        self.top.get_clock().set_ros_time_override(
-            Time(nanoseconds=stamp, clock_type=ClockType.ROS_TIME)
-        )
+        moment = Time(nanoseconds=stamp, clock_type=ClockType.ROS_TIME)
+        self.top.get_clock().set_ros_time_override(moment)
 
     def spin_until(self, done: Callable[[], Any], timeout: float = TIMEOUT) -> None:
         deadline = time.monotonic() + timeout

@@ -81,11 +81,9 @@ class Watched(RunningTop):
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    running = Watched(
-        publish_rate=RATE, record__directory=str(tmp_path_factory.mktemp("logs") / "logs")
-    )
-    yield running
-    running.close()
+    folder = tmp_path_factory.mktemp("logs") / "logs"
+    with Watched(publish_rate=RATE, record__directory=str(folder)) as running:
+        yield running
 
 
 @pytest.mark.parametrize("examples", trials(25, 150))
@@ -166,14 +164,11 @@ def test_requests_before_a_motion_is_slowed_down_are_answered(start_top):
 
 
 def test_a_torque_that_ends_before_a_motion_is_slowed_down_ends():
-    run = Watched(publish_rate=10.0, applied_torque_timeout=0.001)
-    try:
+    with Watched(publish_rate=10.0, applied_torque_timeout=0.001) as run:
         run.push([1e30, 0.0, 0.0], "world")
         run.spin_until(lambda: any(run.top.simulation.segment.motion.applied_torque))
         run.spin_until(lambda: not any(run.top.simulation.segment.motion.applied_torque))
         assert run.state()["engine"] == "closed form"
-    finally:
-        run.close()
 
 
 def test_a_node_that_publishes_the_clock_does_not_follow_it(start_top):

@@ -267,10 +267,8 @@ def test_a_run_starts_on_the_root_that_the_parameters_name(start_top):
 
 def test_a_run_starts_from_the_quaternion_of_the_parameters(start_top):
     half = math.sqrt(0.5)
-    run = start_top(
-        initial__orientation=[half, 0.0, 0.0, half], initial__angular_velocity=[0.0, 0.0, 150.0]
-    )
-    state = run.state()
+    start = {"orientation": [half, 0.0, 0.0, half], "angular_velocity": [0.0, 0.0, 150.0]}
+    state = start_top(**{f"initial__{name}": value for name, value in start.items()}).state()
     assert state["turning_angles"][0] == pytest.approx(math.pi / 2, abs=1e-15)
     assert state["euler_rates"]["psi"] != 0
 

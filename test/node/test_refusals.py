@@ -9,10 +9,8 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 
 START = "set_initial_conditions"
-IDENTITY = [0.0, 0.0, 0.0, 1.0]
-UNDEFINED = (
-    "axis must be tilted (phi' is undefined on the vertical; an angular impulse works there)"
-)
+UNIT = [0.0, 0.0, 0.0, 1.0]
+UNDEFINED = "axis must be tilted (phi' is undefined on the vertical; an angular impulse works there"
 PHI_DOT, FACTOR = "precession_rate", "precession_rate_factor"
 REST = {"angular_velocity": [0.0] * 3}
 
@@ -45,9 +43,7 @@ REFUSED = {
     'precession must be a rate that exists, got "slow": at theta 0.5 rad and psi_dot 20 rad/s '
     "regular precession has no real root": start(precession="slow", psi_dot=20.0),
     "regular precession has no real root": start(precession="fast", theta=math.pi / 2, psi_dot=0.0),
-    "angular_velocity must be given together with orientation, got none": start(
-        orientation=IDENTITY
-    ),
+    "angular_velocity must be given together with orientation, got none": start(orientation=UNIT),
     "orientation must be given together with angular_velocity": start(**REST),
     "orientation must be a quaternion of norm 1 within 0.001, got a norm of 2": start(
         orientation=[0.0, 0.0, 0.0, 2.0], **REST
@@ -56,9 +52,7 @@ REFUSED = {
     "orientation must be 4 numbers from -2 to 2 (x, y, z, w), got [0.0, 0.0, nan, 1.0]": start(
         orientation=[0.0, 0.0, math.nan, 1.0], **REST
     ),
-    "orientation must be given without theta, got both": start(
-        orientation=IDENTITY, **REST, theta=0.5
-    ),
+    "orientation must be given without theta, got both": start(orientation=UNIT, **REST, theta=0.5),
     "a request must have one of precession_rate, precession_rate_change,": kick(),
     "got precession_rate and precession_rate_factor": kick(**{PHI_DOT: 9.0, FACTOR: 2.0}),
     'hold must be "spin_rate" or "spin_momentum", got \'breath\'': kick(
@@ -84,9 +78,8 @@ REFUSED = {
 
 @pytest.fixture(scope="module")
 def run():
-    running = RunningTop(publish_rate=500.0)
-    yield running
-    running.close()
+    with RunningTop(publish_rate=500.0) as running:
+        yield running
 
 
 @pytest.fixture(scope="module")

@@ -55,13 +55,11 @@ def test_an_override_of_qos_for_a_topic_that_there_is_not_is_warned_about(start_
     ("policy", "value"), [("depth", -1), ("depth", "x"), ("reliability", "foo"), ("history", 3)]
 )
 def test_a_bad_override_of_qos_is_refused_in_one_line(start_top, policy, value, capfd):
-    name = f"qos_overrides./top/orientation.publisher.{policy}"
+    topic = "qos_overrides./top/orientation.publisher"
     with pytest.raises(RefusedError) as refusal:
-        start_top(**{name: value})
+        start_top(**{f"{topic}.{policy}": value})
     assert_one_sentence(str(refusal.value))
-    assert str(refusal.value).startswith(
-        "qos_overrides./top/orientation.publisher must be valid, got: "
-    )
+    assert str(refusal.value).startswith(f"{topic} must be valid, got: ")
     assert str(value) in str(refusal.value)
     assert "rcutils" not in capfd.readouterr().err
 
@@ -79,9 +77,8 @@ def test_a_bad_override_of_qos_is_refused_in_one_line(start_top, policy, value, 
 )
 def test_a_value_without_a_type_is_the_one_field_that_is_set(start_top, value, granted):
     run = start_top()
-    request = SetParametersAtomically.Request(
-        parameters=[Parameter(name="precession_rate", value=value)]
-    )
+    parameter = Parameter(name="precession_rate", value=value)
+    request = SetParametersAtomically.Request(parameters=[parameter])
     result = run.connection._call(SetParametersAtomically, "kick", request).result
     assert result.successful is granted
     if granted:

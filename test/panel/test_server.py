@@ -184,9 +184,8 @@ def test_a_long_request_is_not_read(live):
 def test_news_are_messages_of_an_event_stream(live):
     status, headers, content = ask(live, "/news")
     assert (status, headers["Content-Type"]) == (200, "text/event-stream")
-    found = [
-        json.loads(line.removeprefix("data: ")) for line in content.decode().split("\n\n")[:-1]
-    ]
+    lines = content.decode().split("\n\n")[:-1]
+    found = [json.loads(line.removeprefix("data: ")) for line in lines]
     assert found == [{"time": number} for number in range(3)]
 
 

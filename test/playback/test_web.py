@@ -29,7 +29,7 @@ def open_viewer(browser, address):
     tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
     tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
     tab.on("console", lambda line: refused.append(line.text))
-    until(lambda: tab.goto(f"{address}&renderer=webgl").status != 503)
+    until(lambda: tab.goto(f"{address}&renderer=webgl").status != 503, timeout=TIMEOUT)
     return tab, asked, [text for text in refused if "Content Security Policy" in text]
 
 
@@ -46,7 +46,7 @@ def test_the_viewer_runs_and_asks_no_other_host(address):
     with running_browser() as browser:
         tab, asked, _ = open_viewer(browser, address)
         started = "window._handle !== undefined"
-        until(lambda: tab.evaluate(started), lambda: tab.wait_for_timeout(100))
+        until(lambda: tab.evaluate(started), lambda: tab.wait_for_timeout(100), TIMEOUT)
         tab.wait_for_timeout(10_000)  # in which telemetry and the log-in would be asked for
         assert {host for host in asked if host} == {"127.0.0.1"}
         tab.screenshot(path="/tmp/rerun.png")

@@ -65,11 +65,8 @@ def test_the_policy_allows_top_node_what_it_uses():
     sensors = {"imu__enabled": True, "odometry__enabled": True}
     shown = {"publish_clock": True, "publish_markers": True, **sensors}
     for parameters in (shown, {"use_sim_time": True}):
-        run = RunningTop(realtime=True, **parameters)
-        try:
+        with RunningTop(realtime=True, **parameters) as run:
             seen |= used(run.user, "top")
-        finally:
-            run.close()
     assert seen == allowed()["/top/top_node"]
 
 

@@ -62,8 +62,7 @@ def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_pat
 
 
 def test_no_text_that_can_be_set_from_afar_is_a_path():
-    run = RunningTop()
-    try:
+    with RunningTop() as run:
         texts = {
             name: parameter.value
             for name, parameter in run.top.get_parameters_by_prefix("").items()
@@ -76,5 +75,3 @@ def test_no_text_that_can_be_set_from_afar_is_a_path():
             assert "read-only" in why or " must be " in why, (name, why)
             assert run.top.get_parameter(name).value == value
         assert not run.change({"record.path": "/tmp/else"})[0]
-    finally:
-        run.close()

@@ -60,9 +60,8 @@ def assert_as_derived(top, start, t, least=0):
     state = Motion(top, start).at(t)
     assert distance(orientation, state.orientation.tolist()) <= 5 * EPS
     pairs = zip(angular_velocity, state.angular_velocity.tolist(), strict=True)
-    assert mp.norm([a - mpf(b) for a, b in pairs]) <= 5 * EPS * max(
-        least, mp.norm(angular_velocity)
-    )
+    size = max(least, mp.norm(angular_velocity))
+    assert mp.norm([a - mpf(b) for a, b in pairs]) <= 5 * EPS * size
 
 
 @pytest.mark.parametrize("data", STORED["article"][:7], ids=lambda data: data["name"])

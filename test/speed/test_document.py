@@ -18,9 +18,8 @@ def curve(peer, motion):
 def test_the_table_of_other_motions_has_a_row_for_each_peer():
     problem = Reference.read().article[0]
     curves = [curve(peer, name) for name in ("looping", "sleeping") for peer in ("a", "b")]
-    text = document._format_other_motions(
-        Results(curves=[curve("a", problem.name), *curves]), problem
-    )
+    results = Results(curves=[curve("a", problem.name), *curves])
+    text = document._format_other_motions(results, problem)
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert rows[0] == "|  | looping | sleeping |"
     assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
@@ -44,12 +43,10 @@ def test_a_report_can_be_written_after_each_curve(by):
     pairs = [(CLOSED_FORM, name) for name in names[:-1]] + [(TAYLOR, FRICTION)]
     curves = [curve(*each) for each in [*pairs, *((peer, n) for peer in "ab" for n in names)]]
     curves.sort(key=lambda each: 0 if by == "peer" else names.index(each.motion))
-    environment = document.Environment(
-        "make report", "a machine", {}, [], 4.0, "the compiled kernel"
-    )
+    where = document.Environment("make report", "a machine", {}, [], 4.0, "the compiled kernel")
     for count in range(1, len(curves) + 1):
         checks = dict.fromkeys((CLOSED_FORM, TAYLOR, "a", "b"), 0.0)
-        text = document.format_document(Results(checks, curves[:count]), motion, environment)
+        text = document.format_document(Results(checks, curves[:count]), motion, where)
         assert "## Where a peer is ahead" in text
     assert "## Other motions" in text
     assert text.count("\n| b |") >= 3
@@ -119,6 +116,5 @@ def test_a_peer_that_is_faster_in_a_family_of_driven_motions_is_named():
     """Its errors are larger: only the median time is ahead."""
     errors, seconds = {TAYLOR: 1e-16, "peer": 1e-12}, {TAYLOR: 2e-3, "peer": 1e-3}
     results = Results(driven=[DrivenCase("rods", errors, seconds)] * 3)
-    assert [*list_ahead(results)] == [
-        "Friction and torques, rods, median: peer is faster, 1 against 2 ms."
-    ]
+    (line,) = list_ahead(results)
+    assert line == "Friction and torques, rods, median: peer is faster, 1 against 2 ms."

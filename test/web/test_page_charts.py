@@ -76,9 +76,8 @@ def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=11.325")
     dot = page.tab.locator("#kinds #present")
     x, y = (float(dot.get_attribute(name)) for name in ("cx", "cy"))
-    curve = page.tab.locator("#kinds path.cusps").evaluate_all(
-        "all => all.map(e => e.getAttribute('d'))"
-    )
+    read = "all => all.map(e => e.getAttribute('d'))"
+    curve = page.tab.locator("#kinds path.cusps").evaluate_all(read)
     points = np.array(
         [(float(a), float(b)) for a, b in re.findall(r"[ML]([-\d.]+) ([-\d.]+)", " ".join(curve))]
     )
@@ -138,9 +137,8 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     state = read_motion(kick).at(time - kick["time"])
     rates = state.euler_rates
     acceleration = theta_acceleration(ARTICLE, state.euler_angles.theta, rates.phi, rates.psi)
-    shown = re.fullmatch(
-        r"time (\S+) s, tilt acceleration theta'' (\S+) rad/s²", opened.say("free-values")
-    )
+    form = r"time (\S+) s, tilt acceleration theta'' (\S+) rad/s²"
+    shown = re.fullmatch(form, opened.say("free-values"))
     assert float(shown[1]) == pytest.approx(time, rel=1e-4)
     assert float(shown[2]) == pytest.approx(acceleration, rel=1e-3)
     box = opened.tab.locator("#free svg").bounding_box()

@@ -131,9 +131,8 @@ def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     def read():
         """Return the places of the labels, which move with the camera."""
         opened.tab.wait_for_timeout(300)
-        return opened.tab.locator(".label:visible").evaluate_all(
-            "all => all.map(e => e.style.transform)"
-        )
+        labels = opened.tab.locator(".label:visible")
+        return labels.evaluate_all("all => all.map(e => e.style.transform)")
 
     box = opened.tab.locator("canvas").bounding_box()
     x, y = box["x"] + 60, box["y"] + 60

@@ -114,9 +114,8 @@ def test_bytes_that_are_no_message_are_refused_and_the_others_read(name, damaged
     _, form, width = CASES.get(name, (None, messages.TRANSFORM, 7))
     names = {"tf": ("world", "top"), "euler_angles": ("world", *messages.JOINTS)}
     good = form.layout(*names.get(name, ("world",)))
-    found, refused = messages.decode_messages(
-        form, [damaged, good.encode(1, [0.5] * width), damaged]
-    )
+    mixed = [damaged, good.encode(1, [0.5] * width), damaged]
+    found, refused = messages.decode_messages(form, mixed)
     assert len(refused) == 2
     assert found[0].indices.tolist() == [1]
 

@@ -12,9 +12,7 @@ def test_the_figure_is_not_that_of_its_caption():
 
 
 def test_the_equations_fail_with_other_accelerations(monkeypatch):
-    monkeypatch.setattr(
-        corrections, "accelerations", lambda top, states: 1.0001 * accelerations(top, states)
-    )
+    monkeypatch.setattr(corrections, "accelerations", lambda *given: 1.0001 * accelerations(*given))
     assert not corrections.printed_equations_hold(TOP).holds
 
 
