@@ -1,9 +1,10 @@
 """top_node as a process: help, refusals in one line, and a clean end."""
 
+import signal
 import sys
 
 import pytest
-from programs import PATIENT, environment, execute, run, running, set_parameters
+from programs import PATIENT, command, environment, execute, run, running, set_parameters
 
 from workshop.load.domains import claim_domain
 
@@ -44,6 +45,18 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
         assert ".py" not in result.stderr  # no warning of Python
         lines = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
         assert len(lines) == 1
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_while_it_starts_ends_it_cleanly(ending):
+    with running(command("top_node", *set_parameters("publish_rate:=1000")[:3]), DOMAIN) as node:
+        while "scene cusps" not in node.stderr.readline():
+            assert node.poll() is None
+        node.send_signal(ending)
+        _, rest = node.communicate(timeout=60)
+    assert node.returncode == 0
+    assert "Traceback" not in rest
+    assert "top_node:" not in rest
 
 
 WITHOUT_MCAP = (
