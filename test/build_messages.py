@@ -26,11 +26,7 @@ from rosidl_adapter.srv import convert_srv_to_idl
 PREFIX = Path(sys.prefix)
 INTERFACES = Path(__file__).with_name("interfaces")
 BUILT = PREFIX / "messages"
-CONVERTERS = {
-    "msg": convert_msg_to_idl,
-    "srv": convert_srv_to_idl,
-    "action": convert_action_to_idl,
-}
+CONVERTERS = {"msg": convert_msg_to_idl, "srv": convert_srv_to_idl, "action": convert_action_to_idl}
 # Packages whose types the interfaces use, and their libraries.
 USED = ("action_msgs", "builtin_interfaces", "geometry_msgs", "service_msgs", "std_msgs")
 USED += ("unique_identifier_msgs",)

@@ -1,5 +1,6 @@
 import contextlib
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -41,6 +42,23 @@ def _untraced(request):
         coverage.stop()
         yield
     coverage.start()
+
+
+@pytest.fixture
+def docs(tmp_path):
+    """An empty folder of documents, next to a README."""
+    (tmp_path / "README.md").write_text("no section\n")
+    (tmp_path / "docs").mkdir()
+    return tmp_path / "docs"
+
+
+@pytest.fixture
+def signals_as_before():
+    """Restore the handlers of signals that a program replaces."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
 
 
 @pytest.fixture(autouse=True, scope="session")

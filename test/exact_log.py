@@ -34,6 +34,15 @@ def assert_exact(path: Path) -> int:
     return min(counts)
 
 
+def assert_no_deviation(path: Path, node: str | None = None) -> TopLog:
+    """Assert that a log, which may be one of several of a run, is sound and exact; return it."""
+    log = TopLog(McapFile(path), node)
+    found = check_log(log).values()
+    assert all(each.samples and not (each.largest or each.unchecked) for each in found)
+    assert log.problems == []
+    return log
+
+
 def assert_agrees(log: TopLog, samples: int) -> None:
     """Assert that a log is sound, with so many samples of each topic, exact and in their order."""
     deviations = check_log(log)

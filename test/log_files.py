@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from symtop_ros.arrays import Real
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
 from symtop_ros.log.writer import Channel, LogFile
 from symtop_ros.models.urdf import robot_description
-from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict
+from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
 from symtop_ros.simulation.changes.kick import plan_kick
 from symtop_ros.simulation.changes.outcomes import Outcome, Start
 from symtop_ros.simulation.events import Event
@@ -22,6 +24,8 @@ from symtop_ros.wire.messages import decode_messages
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
+SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
+REGULAR = State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0)
 NO_FRICTION = Friction()
 BEGIN = 1_795_000_000_000_000_000  # ns
 LAYOUTS = {name: topic.layout("world", "top") for name, topic in STATE_TOPICS.items()}
@@ -90,12 +94,21 @@ class Run:
         """Places of the messages of a topic."""
         return [place for place, each in enumerate(self.messages) if each[0] == name]
 
+    def without(self, name: str) -> Run:
+        """Leave the messages of a topic out."""
+        self.messages = [each for each in self.messages if each[0] != name]
+        return self
+
     def change(self, place: int, act: Callable[[Real], Real]) -> None:
         """Change the numbers of a sample."""
         name, stamp, data = self.messages[place]
         ((found,), _) = decode_messages(STATE_TOPICS[name].format, [data])
         changed = LAYOUTS[name].encode(stamp, act(found.numbers[0]).tolist())
         self.messages[place] = name, stamp, changed
+
+    def open(self, folder: Path) -> TopLog:
+        """Write the log, and open it."""
+        return TopLog(McapFile(self.write(folder)))
 
     def write(self, folder: Path) -> Path:
         """Write the log, with a chunk for each half second, and return its path."""

@@ -14,9 +14,7 @@ NUMBERS = st.sampled_from(
     ]
 )
 ANY_NUMBER = NUMBERS | st.floats() | st.integers(-(2**63), 2**63 - 1)
-SIZES = st.builds(
-    lambda sign, digits: sign * 10.0**digits, st.sampled_from([1, -1]), st.floats(-40, 32)
-)
+SIZES = st.builds(lambda sign, n: sign * 10.0**n, st.sampled_from([1, -1]), st.floats(-40, 32))
 TEXTS = st.text(max_size=8) | st.just(CONTROL * 100_000) | st.sampled_from(["", "slow", "fast"])
 SCALARS = ANY_NUMBER | TEXTS | st.booleans()
 LISTS = (

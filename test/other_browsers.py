@@ -9,13 +9,13 @@ import shutil
 import socket
 import subprocess
 import tempfile
-import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import pytest
+import waiting
 
 TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
 HELP = "sh test/get_browsers.sh, as root"
@@ -32,25 +32,9 @@ FIREFOX_PREFERENCES = {
 }
 
 
-class Driver(Protocol):
-    """Requests of the tests to a browser."""
-
-    def open(self, url: str) -> None:
-        """Open an address."""
-
-    def run(self, script: str, *arguments: Any) -> Any:
-        """Run the body of an asynchronous function in the page, and return its value."""
-
-    def reload(self) -> None:
-        """Load the page again."""
-
-
-def until(driver: Driver, condition: str) -> None:
+def until(driver: Any, condition: str) -> None:
     """Wait until an expression is true in the page."""
-    deadline = time.monotonic() + TIMEOUT
-    while not driver.run(f"return Boolean({condition});"):
-        assert time.monotonic() < deadline, condition
-        time.sleep(0.1)
+    waiting.until(lambda: driver.run(f"return Boolean({condition});"), timeout=TIMEOUT)
 
 
 def find_port() -> int:
@@ -100,7 +84,7 @@ class Firefox:
 
 
 @contextlib.contextmanager
-def running_firefox() -> Iterator[Driver]:
+def running_firefox() -> Iterator[Any]:
     """Run Firefox; the test is skipped without it."""
     module = pytest.importorskip("marionette_driver.marionette", reason=f"no Marionette: {HELP}")
     program = shutil.which("firefox-esr") or shutil.which("firefox")
@@ -156,7 +140,7 @@ class WebKit:
 
 
 @contextlib.contextmanager
-def running_webkit() -> Iterator[Driver]:
+def running_webkit() -> Iterator[Any]:
     """Run WebKit; the test is skipped without it."""
     if not shutil.which("WebKitWebDriver") or not shutil.which("Xvfb"):
         pytest.skip(f"no WebKit: {HELP}")
@@ -195,9 +179,10 @@ def running(command: list[str], environment: dict[str, str] | None = None) -> It
 
 def wait_for_port(port: int) -> None:
     """Wait until a program listens."""
-    deadline = time.monotonic() + TIMEOUT
-    while True:
+
+    def listens() -> bool:
         with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port), 1):
-            return
-        assert time.monotonic() < deadline
-        time.sleep(0.1)
+            return True
+        return False
+
+    waiting.until(listens, timeout=TIMEOUT)

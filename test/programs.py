@@ -6,8 +6,9 @@ import contextlib
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import Any
 
 from workshop.load.endings import bound
 
@@ -18,9 +19,9 @@ PATIENT = "--timeout", "60"
 LOSSY_PROFILES = {"jazzy": "fastdds_lossy.xml", "kilted": "fastdds_lossy_kilted.xml"}
 
 
-def command(name: str, *arguments: str) -> list[str]:
+def command(name: str, *arguments: object) -> list[str]:
     """Command line of a program, with the Python of the tests."""
-    return bound([sys.executable, str(RESOURCE / name), *arguments])
+    return bound([sys.executable, str(RESOURCE / name), *map(str, arguments)])
 
 
 def environment(domain: int) -> dict[str, str]:
@@ -28,16 +29,38 @@ def environment(domain: int) -> dict[str, str]:
     return {**os.environ, "ROS_DOMAIN_ID": str(domain)}
 
 
+def execute(
+    words: Iterable[object], check: bool = False, timeout: float = 60, **options: Any
+) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end; its output is text."""
+    options = {"capture_output": True, "text": True, **options}
+    return subprocess.run([*map(str, words)], check=check, timeout=timeout, **options)
+
+
 def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[str]:
     """Run a program to its end."""
-    return subprocess.run(
-        command(name, *arguments),
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-        env=environment(domain),
-    )
+    return execute(command(name, *arguments), env=environment(domain))
+
+
+@contextlib.contextmanager
+def running(words: Iterable[object], domain: int, **options: Any) -> Iterator[Any]:
+    """Run a command with its output in pipes, if not told otherwise, and end it."""
+    usual = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    usual["env"] = environment(domain)
+    with subprocess.Popen([*map(str, words)], **{**usual, **options}) as process:
+        try:
+            yield process
+        finally:
+            process.terminate()
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.communicate(timeout=60)
+            process.kill()
+
+
+def set_parameters(*parameters: str) -> list[str]:
+    """Options of ROS that set parameters such as publish_rate:=1000, and log warnings only."""
+    words = [word for parameter in parameters for word in ("-p", parameter)]
+    return ["--ros-args", *words, "--log-level", "warn"]
 
 
 @contextlib.contextmanager
@@ -45,11 +68,6 @@ def running_node(
     domain: int, *parameters: str, name: str = "top"
 ) -> Iterator[subprocess.Popen[bytes]]:
     """Run top_node with parameters such as publish_rate:=1000, and end it."""
-    words = [word for parameter in parameters for word in ("-p", parameter)]
-    options = ["--ros-args", *words, "-r", f"__node:={name}", "--log-level", "warn"]
-    node = subprocess.Popen(command("top_node", *options), env=environment(domain))
-    try:
+    words = command("top_node", *set_parameters(*parameters), "-r", f"__node:={name}")
+    with running(words, domain, stdout=None, stderr=None) as node:
         yield node
-    finally:
-        node.terminate()
-        node.wait(timeout=60)

@@ -1,5 +1,7 @@
 """Invalid command lines: status 1 and a line, or status 2 and the usage; no traceback."""
 
+import shlex
+
 import pytest
 from odd_values import CONTROL, assert_one_sentence
 from programs import run as run_program
@@ -17,6 +19,7 @@ from workshop.load.domains import claim_domain
 DOMAIN = claim_domain()
 LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
+TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}
 HEAD = "/**:\n  ros__parameters:\n"
 MAINS = {
     "top_ctl": client.main,
@@ -28,96 +31,60 @@ MAINS = {
     "top_judge": judge.main,
     "top_imu": imu.main,
 }
-FAILED = [
-    ("top_ctl", "--ros-args", "-p", "bad"),
-    ("top_ctl", "--ros-args", "--remap"),
-    ("top_ctl", "--node", CONTROL, "hurry"),
-    ("top_ctl", "--node", LONG, "hurry"),
-    ("top_ctl", "--node", BYTES, "hurry"),
-    ("top_ctl", "--node", "", "hurry"),
-    ("top_ctl", "kick", f"{BYTES}=1"),
-    ("top_ctl", "--node", "/missing", "--timeout", "1e-9", "kick", f"{CONTROL}={CONTROL}"),
-    ("top_ctl", "--node", "/missing", "--timeout", "1e-9", "kick", "angular_impulse=nan,inf,1e999"),
-    ("top_live", "--ros-args", "-p", "bad"),
-    ("top_live", "--ros-args", "--remap"),
-    ("top_live", "--node", BYTES),
-    ("top_panel", "--host", "192.0.2.1", "--port", "0"),  # TEST-NET: of no machine
-    ("top_panel", "--host", CONTROL, "--port", "0"),
-    ("top_panel", "--node", "/top", "--ros-args", "-p", "bad"),
-    ("top_panel", "--node", BYTES),
-    ("top_panel", "--write", CONTROL),
-    ("top_panel", "--write", f"{LONG}.html"),
-    ("top_replay", "/dev/null", "--mcap", "/dev/null/x.mcap"),
-    ("top_replay", "/dev/null", "--mcap", f"{BYTES}.mcap"),
-    ("top_replay", "/dev/null/run.json", "--save", "a.html"),
-    ("top_replay", "/dev/null/run.json", "--mcap", "a.mcap", "--rate", "nan"),
-    ("top_replay", CONTROL),
-    ("top_replay", LONG, "--check"),
-    ("top_replay", "/dev/null", "--repair", "/dev/null/x"),
-    ("top_replay", BYTES),
-    ("top_replay", "a", "b"),
-    ("top_replay", "a", "b", "--repair", "c.mcap"),
-    ("top_judge", CONTROL, "--topic", CONTROL),
-    ("top_judge", LONG, "--topic", LONG),
-    ("top_judge", BYTES, "--topic", BYTES),
-    ("top_judge", "/dev/null", "--estimates", "/dev/null/x.csv"),
-    ("top_judge", "--testset", CONTROL, "x.csv"),
-    ("top_judge", "--testset", "cusps", LONG),
-    ("top_judge", "--testset", "cusps", BYTES),
-    ("top_judge", "--testset", "cusps", "-o", "/dev/null/x"),
-    ("top_judge", "--live", "--topic", "/x", "--ros-args", "-p", "bad"),
-    ("top_model", "--format", "urdf", "--scene", CONTROL),
-    ("top_model", "--format", "sdf", "--scene", LONG),
-    ("top_model", "--format", "mjcf", "--scene", BYTES),
-    ("top_model", "--format", "urdf", "--gravity", "1e999"),
-    ("top_model", "--format", "urdf", "-o", LONG),
-    ("top_model", "--format", "urdf", "-o", "a\0b"),
-    ("top_imu", "--scene", CONTROL, "-o", "x.csv"),
-    ("top_imu", "--noise", "/dev/null", "-o", "x.csv"),
-    ("top_imu", "--noise", LONG, "-o", "x.csv"),
-    ("top_imu", "--rate", "nan", "-o", "x.csv"),
-    ("top_imu", "--rate", "1e6", "--seconds", "1e6", "-o", "x.csv"),
-    ("top_imu", "--seconds", "-1", "-o", "x.csv"),
-    ("top_imu", "--position", "1e999", "0", "0", "-o", "x.csv"),
-    ("top_imu", "--orientation", "0", "0", "0", "0", "-o", "x.csv"),
-    ("top_imu", "--seconds", "1", "-o", "/dev/null/x.csv"),
-    ("top_imu", "--seconds", "1", "-o", "a\0b"),
-]
-MISUSED = [
-    ("top_ctl", "kick", CONTROL),
-    ("top_ctl", "kick", LONG),
-    ("top_ctl", "kick", f"{CONTROL}=1", f"{CONTROL}=2"),
-]
-UNREADABLE = [
-    ("top_ctl",),
-    ("top_ctl", CONTROL),
-    ("top_ctl", "--timeout", "nan", "hurry"),
-    ("top_ctl", "--timeout", "-inf", "hurry"),
-    ("top_ctl", "watch", "--seconds", "0"),
-    ("top_live", "--port", "65536"),
-    ("top_live", "--port", "-1"),
-    ("top_live", "--port", "9" * 5000),
-    ("top_panel", "--port", "65536"),
-    ("top_panel", "--port", CONTROL),
-    ("top_panel", "--host"),
-    ("top_replay", "run.json", "--rate", "100"),
-    ("top_replay", "run.json", "--mcap", "a.mcap", "--rate", CONTROL),
-    ("top_panel", "--no-such-option"),
-    ("top_panel", "--node", "/top", "--no-such-option"),
-    ("top_replay",),
-    ("top_replay", "a", "--save"),
-    ("workshop",),
-    ("workshop", CONTROL),
-    ("workshop", "maps", "--points", "1000000"),
-    ("workshop", "maps", "--points", CONTROL),
-    ("top_model",),
-    ("top_judge",),
-    ("top_judge", "a", "--topic", "b", "--max-error", "nan"),
-    ("top_judge", "a", "--topic", "b", "--remove", CONTROL),
-    ("top_judge", "--live"),
-    ("top_judge", "a", "--topic", "b", "--ros-args"),
-    ("top_model", "--format", CONTROL),
-]
+# Of each program some command lines, with bars between; words in capitals stand for these texts.
+FAILED = {
+    "top_ctl": "--ros-args -p bad | --ros-args --remap | --node CONTROL hurry | "
+    "--node LONG hurry | --node BYTES hurry | --node '' hurry | kick BYTES=1 | "
+    "--node /missing --timeout 1e-9 kick CONTROL=CONTROL | "
+    "--node /missing --timeout 1e-9 kick angular_impulse=nan,inf,1e999",
+    "top_live": "--ros-args -p bad | --ros-args --remap | --node BYTES",
+    # 192.0.2.1 is of TEST-NET: of no machine
+    "top_panel": "--host 192.0.2.1 --port 0 | --host CONTROL --port 0 | "
+    "--node /top --ros-args -p bad | --node BYTES | --write CONTROL | --write LONG.html",
+    "top_replay": "/dev/null --mcap /dev/null/x.mcap | /dev/null --mcap BYTES.mcap | "
+    "/dev/null/run.json --save a.html | /dev/null/run.json --mcap a.mcap --rate nan | CONTROL | "
+    "LONG --check | /dev/null --repair /dev/null/x | BYTES | a b | a b --repair c.mcap",
+    "top_judge": "CONTROL --topic CONTROL | LONG --topic LONG | BYTES --topic BYTES | "
+    "/dev/null --estimates /dev/null/x.csv | --testset CONTROL x.csv | --testset cusps LONG | "
+    "--testset cusps BYTES | --testset cusps -o /dev/null/x | --live --topic /x --ros-args -p bad",
+    "top_model": "--format urdf --scene CONTROL | --format sdf --scene LONG | "
+    "--format mjcf --scene BYTES | --format urdf --gravity 1e999 | --format urdf -o LONG | "
+    "--format urdf -o aNULb",
+    "top_imu": "--scene CONTROL -o x.csv | --noise /dev/null -o x.csv | --noise LONG -o x.csv | "
+    "--rate nan -o x.csv | --rate 1e6 --seconds 1e6 -o x.csv | --seconds -1 -o x.csv | "
+    "--position 1e999 0 0 -o x.csv | --orientation 0 0 0 0 -o x.csv | "
+    "--seconds 1 -o /dev/null/x.csv | --seconds 1 -o aNULb",
+}
+MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick CONTROL=1 CONTROL=2"}
+UNREADABLE = {
+    "top_ctl": " | CONTROL | --timeout nan hurry | --timeout -inf hurry | watch --seconds 0",
+    "top_live": "--port 65536 | --port -1 | --port NINES",
+    "top_panel": "--port 65536 | --port CONTROL | --host | --no-such-option | "
+    "--node /top --no-such-option",
+    "top_replay": "run.json --rate 100 | run.json --mcap a.mcap --rate CONTROL |  | a --save | "
+    "a.mcap --fly | a --web --check",
+    "workshop": " | CONTROL | maps --points 1000000 | maps --points CONTROL",
+    "top_model": " | --format CONTROL",
+    "top_judge": " | a --topic b --max-error nan | a --topic b --remove CONTROL | --live | "
+    "a --topic b --ros-args",
+}
+
+
+def list_lines(table):
+    """Yield the words of each command line, the program first."""
+    for program, lines in table.items():
+        for line in lines.split(" | "):
+            yield [program, *map(replace, shlex.split(line))]
+
+
+def shorten(words):
+    return ascii(" ".join(words))[:50]
+
+
+def replace(word):
+    for name, text in TEXTS.items():
+        word = word.replace(name, text)
+    return word
 
 
 def status_and_lines(capsys, name, *arguments):
@@ -125,7 +92,7 @@ def status_and_lines(capsys, name, *arguments):
     return status, capsys.readouterr().err.splitlines()
 
 
-@pytest.mark.parametrize("arguments", FAILED, ids=range(len(FAILED)))
+@pytest.mark.parametrize("arguments", [*list_lines(FAILED)], ids=shorten)
 def test_what_cannot_be_done_is_status_1_and_one_line(arguments, capsys, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
     status, (line,) = status_and_lines(capsys, *arguments)
@@ -134,14 +101,14 @@ def test_what_cannot_be_done_is_status_1_and_one_line(arguments, capsys, monkeyp
     assert_one_sentence(line)
 
 
-@pytest.mark.parametrize("arguments", MISUSED, ids=range(len(MISUSED)))
+@pytest.mark.parametrize("arguments", [*list_lines(MISUSED)], ids=shorten)
 def test_values_that_are_not_allowed_are_status_2_and_one_line(arguments, capsys):
     status, (line,) = status_and_lines(capsys, *arguments)
     assert status == 2
     assert_one_sentence(line)
 
 
-@pytest.mark.parametrize("arguments", UNREADABLE, ids=range(len(UNREADABLE)))
+@pytest.mark.parametrize("arguments", [*list_lines(UNREADABLE)], ids=shorten)
 def test_words_that_cannot_be_read_are_status_2_and_the_usage(arguments, capsys):
     with pytest.raises(SystemExit) as end:
         MAINS[arguments[0]](list(arguments[1:]))

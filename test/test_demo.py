@@ -6,18 +6,17 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
+from exact_log import assert_no_deviation
 from listening import udp_addresses
 from log_files import Run
 from programs import running_node
+from waiting import until
 
-from symtop_ros.check.samples import check_log
 from symtop_ros.distribution import VARIABLES
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
 from workshop import demo
 from workshop.demo import FIRST_PORT, PORTS
@@ -49,6 +48,12 @@ def domain_of(line):
     return int(re.search(r"in the ROS domain (\d+) \.\.\.", line)[1])
 
 
+def listening_in(domain):
+    """Addresses on which anybody of a domain receives."""
+    first = FIRST_PORT + PORTS * domain
+    return udp_addresses(range(first, first + PORTS))
+
+
 def other_than_delays(errors):
     """The lines but those in which the node warns that a busy machine has delayed samples."""
     return [line for line in errors.splitlines() if "no samples for" not in line]
@@ -59,8 +64,7 @@ def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(tm
     with running_demo(tmp_path) as (process, line):
         process.stdout.readline()  # as soon as samples have come, and not at the end
         assert process.poll() is None
-        first = FIRST_PORT + PORTS * domain_of(line)
-        listening = udp_addresses(range(first, first + PORTS))
+        listening = listening_in(domain_of(line))
         printed, errors = process.communicate(timeout=120)
     assert (process.returncode, other_than_delays(errors)) == (0, [])
     assert len(listening) >= 4
@@ -69,7 +73,7 @@ def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(tm
     assert_rises(answer, after)
     assert ended == "stopped; nothing is left running"
     path, replay = tmp_path / Path(log.split()[-1]), tmp_path / Path(recording.split()[-1])
-    assert all(each.largest == 0.0 for each in check_log(TopLog(McapFile(path))).values())
+    assert_no_deviation(path)
     assert replay.stat().st_size > 100_000
     assert sorted(tmp_path.iterdir()) == [tmp_path / "logs"]
     assert_commands(commands, path, replay)
@@ -109,11 +113,8 @@ def test_a_domain_with_a_node_of_someone_else_is_not_chosen(monkeypatch):
     free, claim = demo.claim_domain()
     claim.close()
     monkeypatch.setattr(demo, "DOMAINS", range(free, free + 1))
-    first = FIRST_PORT + PORTS * free
-    with running_node(free) as node:
-        while not udp_addresses(range(first, first + PORTS)):
-            assert node.poll() is None
-            time.sleep(0.02)
+    with running_node(free):
+        until(lambda: listening_in(free))
         with pytest.raises(demo.DemoError, match=f"domains {free} to {free} must be free, got no"):
             demo.claim_domain()
 
@@ -134,8 +135,7 @@ def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
         process.send_signal(number)
         _, errors = process.communicate(timeout=60)
     assert (process.returncode, other_than_delays(errors)) == (130, [])
-    first = FIRST_PORT + PORTS * domain_of(line)
-    assert udp_addresses(range(first, first + PORTS)) == set()
+    assert listening_in(domain_of(line)) == set()
 
 
 def test_states_of_python_alone_are_reported(tmp_path):
@@ -144,14 +144,12 @@ def test_states_of_python_alone_are_reported(tmp_path):
 
 
 @pytest.fixture
-def here(tmp_path, monkeypatch):
+def here(tmp_path, monkeypatch, signals_as_before):
     """A folder, and an environment that the demonstration may change."""
     for name in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_DOMAIN_ID", *VARIABLES):
         monkeypatch.setenv(name, "LOCALHOST" if name.endswith("RANGE") else "")
-    handler = signal.getsignal(signal.SIGTERM)
     monkeypatch.chdir(tmp_path)
-    yield tmp_path
-    signal.signal(signal.SIGTERM, handler)
+    return tmp_path
 
 
 @pytest.mark.usefixtures("here")
@@ -165,11 +163,10 @@ def test_a_signal_while_the_node_is_started_leaves_none_behind(number, monkeypat
         return started[0]
 
     # A shell starts programs in the background with SIGINT ignored.
-    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     monkeypatch.setattr(demo, "NODE", "import time; time.sleep(60)")
     monkeypatch.setattr(demo.subprocess, "Popen", start_and_signal)
     assert demo.main() == demo.INTERRUPTED
-    signal.signal(signal.SIGINT, usual)
     (node,) = started
     assert node.returncode == -signal.SIGTERM
 
@@ -188,20 +185,13 @@ def test_a_log_that_cannot_be_replayed_is_reported(here, monkeypatch, capsys):
     assert capsys.readouterr().err.endswith("none.mcap: No such file or directory\n")
 
 
-class Full:
-    """A top whose recording has ended by itself."""
-
-    def switch(self, service, on):
-        assert (service, on) == ("record", False)
-        return True, "not recording"
-
-    def spin_until(self, condition, seconds):
-        return condition()
-
-
 def test_a_log_that_a_full_disk_has_ended_is_reported():
+    top = Mock()
+    top.switch.return_value = True, "not recording"
+    top.spin_until = lambda condition, _: condition()
     with pytest.raises(demo.DemoError, match="the log must be complete, got: not recording"):
-        demo._end_log(Full(), [])
+        demo._end_log(top, [])
+    top.switch.assert_called_once_with("record", False)
 
 
 def test_a_disk_that_has_no_place_for_the_replay_is_reported(here, monkeypatch, capsys):
@@ -210,9 +200,8 @@ def test_a_disk_that_has_no_place_for_the_replay_is_reported(here, monkeypatch, 
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
     monkeypatch.setattr(demo, "_run", lambda _: log)
     assert demo.main() == 1
-    assert capsys.readouterr().err == (
-        f"demo: cannot write {log.with_suffix('.rrd')}: No space left on device\n"
-    )
+    target = log.with_suffix(".rrd")
+    assert capsys.readouterr().err == f"demo: cannot write {target}: No space left on device\n"
 
 
 def test_on_a_screen_the_replay_is_shown(here, monkeypatch, capsys):

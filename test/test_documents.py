@@ -4,10 +4,8 @@ import contextlib
 import importlib
 import io
 import json
-import os
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -19,14 +17,15 @@ from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
 from node.listener import Listener
 from node.running_top import RunningTop
-from programs import PATIENT, run, running_node
+from programs import PATIENT, execute, run, running_node
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from simulation.test_run_file import make_run
 
 import workshop.main
+from symtop_ros.client.connection import Connection
 from symtop_ros.judge.main import main as judge_main
 from symtop_ros.simulation.run_file import write_run
-from symtop_ros.testset.score import read_problems, read_trajectory
+from symtop_ros.testset.score import read_problems
 from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
@@ -46,16 +45,13 @@ NOT_RUN = (
 # node/test_simulator.py those with messages that must be built first.
 COMMANDS = [
     pytest.param(
-        words,
-        output,
-        id=f"{page.stem}: {' '.join(words)}",
-        marks=pytest.mark.wording if output else (),
+        words, output, id=f"{page.stem}: {line}", marks=[pytest.mark.wording] * bool(output)
     )
     for page in PAGES
     if page.name != "lesson.md"
     for words, output in commands(page)
     if not any(words[: len(each)] == each for each in NOT_RUN)
-    and "simulation_interfaces/" not in " ".join(words)
+    and "simulation_interfaces/" not in (line := " ".join(words))
 ]
 
 
@@ -81,76 +77,66 @@ def test_the_python_of_a_page_prints_what_the_page_shows(page):
         assert same(printed.getvalue(), output), printed.getvalue()
 
 
-def compile_block(language, compiler, options, folder):
-    """Compile the program of docs/truth.md in a language, and return what it prints."""
-    if not shutil.which(compiler):
-        pytest.skip(f"no {compiler} here")
-    ((code, output),) = blocks(ROOT / "docs/truth.md", language)
-    source = folder / f"top.{language}"
-    source.write_text(code)
+@pytest.fixture
+def testset(tmp_path, monkeypatch):
+    """A folder with the states of a problem, in which the commands of a page run."""
+    monkeypatch.chdir(tmp_path)
     # rustc looks for the jobs of the make that runs the tests, and warns that they are not its own
-    environment = {name: os.environ[name] for name in os.environ.keys() - {"MAKEFLAGS", "MFLAGS"}}
-    for command in ([compiler, *options, str(source), "-o", "top"], ["./top"]):
-        done = subprocess.run(
-            command, cwd=folder, capture_output=True, text=True, check=False, env=environment
-        )
+    for name in ("MAKEFLAGS", "MFLAGS"):
+        monkeypatch.delenv(name, raising=False)
+    assert judge_main(["--testset", "cusps", "-o", "."]) == 0
+    return tmp_path
+
+
+def write_block(language, source, program):
+    """Write the program of docs/truth.md in a language; return the output that the page shows."""
+    if not shutil.which(program):
+        pytest.skip(f"no {program} here")
+    ((code, output),) = blocks(ROOT / "docs/truth.md", language)
+    source.write_text(code)
+    return output
+
+
+@pytest.mark.parametrize(
+    ("language", "compiler"),
+    [("cpp", "g++ -O2 -std=c++17 -Wall -Wextra"), ("rust", "rustc --edition=2021")],
+)
+def test_a_program_of_the_page_compiles_without_a_warning_and_prints_what_it_shows(
+    language, compiler, testset
+):
+    program, *options = compiler.split()
+    output = write_block(language, testset / f"top.{language}", program)
+    for words in ([program, *options, f"top.{language}", "-o", "top"], ["./top"]):
+        done = execute(words)
         assert (done.returncode, done.stderr) == (0, ""), done.stderr
     assert same(done.stdout, output)
-
-
-def test_the_program_in_cpp_scores_as_an_rk4_does(tmp_path):
-    assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
-    compile_block("cpp", "g++", ["-O2", "-std=c++17", "-Wall", "-Wextra"], tmp_path)
-    problem = read_problems()["cusps"]
-    score = problem.score(*read_trajectory(tmp_path / "trajectory.csv", problem))
-    # the page shows 3.6e-8 rad, for each compiler
-    assert score.angles.max() < 1e-7
-
-
-def find_commands(name):
-    """The commands of docs/truth.md that run a program, and the line that they print."""
-    text = (ROOT / "docs/truth.md").read_text()
-    (block,) = (each for each in text.split("```console\n") if f" {name} " in each.split("\n")[0])
-    lines = block.partition("```")[0].splitlines()
-    return [line[2:] for line in lines if line.startswith("$ ")], lines[-1]
 
 
 @pytest.mark.parametrize(
     ("language", "name", "program"), [("cpp", "top.cpp", "g++"), ("js", "top.mjs", "node")]
 )
-def test_the_commands_of_the_page_give_a_first_score(language, name, program, tmp_path):
-    if not shutil.which(program):
-        pytest.skip(f"no {program} here")
-    assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
-    ((code, _),) = blocks(ROOT / "docs/truth.md", language)
-    (tmp_path / name).write_text(code)
-    commands, shown = find_commands(name)
-    for command in commands:
-        done = subprocess.run(
-            command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=True
-        )
+def test_the_commands_of_the_page_give_a_first_score(language, name, program, testset):
+    write_block(language, testset / name, program)
+    text = (ROOT / "docs/truth.md").read_text()
+    (block,) = (each for each in text.split("```console\n") if f" {name} " in each.split("\n")[0])
+    *lines, shown = block.partition("```")[0].splitlines()
+    for line in lines:
+        if line.startswith("$ "):
+            printed = execute(["sh", "-c", line[2:]], check=True).stdout
     # the same numbers up to the last of two digits, which the order of sums may change
-    assert done.stdout.startswith("cusps: attitude 3.")
+    assert printed.startswith("cusps: attitude 3.")
     found, wanted = (
-        [float(each) for each in re.findall(r"\d\.\de[-+]\d\d", text)]
-        for text in (done.stdout, shown)
+        [float(each) for each in re.findall(r"\d\.\de[-+]\d\d", text)] for text in (printed, shown)
     )
     assert found == pytest.approx(wanted, rel=0.1)
-
-
-def test_the_program_in_rust_reads_the_states(tmp_path):
-    assert judge_main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
-    compile_block("rust", "rustc", ["--edition=2021"], tmp_path)
 
 
 def test_the_readme_activates_an_environment_with_its_programs():
     (words,) = (words for words, _ in commands(ROOT / "README.md") if words[0] == "source")
     used = {words[0] for words, _ in commands(ROOT / "README.md")} & {*MODULES, "top_node"}
     assert used == {"top_node", "top_ctl"}
-    found = subprocess.run(
-        ["bash", "-c", f"source {words[1]} && which {' '.join(sorted(used))} python"],
-        cwd=ROOT, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+    line = f"source {words[1]} && which {' '.join(sorted(used))} python"
+    found = execute(["bash", "-c", line], cwd=ROOT, env={"PATH": "/usr/bin:/bin"}, check=True)
     folders = {Path(line).parent.resolve() for line in found.stdout.splitlines()}
     assert folders == {(ROOT / words[1]).parent.resolve()}
 
@@ -184,17 +170,9 @@ def find_runner(program, words):
     """Return the function that tries a command."""
     if program in PARSED or {"--enclave", "--live", "--web"} & set(words):
         return parse
-    return {
-        "make": check_target,
-        "pip": check_extra,
-        "ros2": call_ros2,
-        "top_ctl": call_node,
-        "top_imu": run_program,
-        "top_judge": judge,
-        "top_model": run_program,
-        "top_node": start_node,
-        "top_replay": replay,
-    }[program]
+    others = {"make": check_target, "pip": check_extra, "ros2": call_ros2, "top_ctl": call_node}
+    others |= {"top_judge": judge, "top_node": start_node, "top_replay": replay}
+    return others.get(program, run_program)
 
 
 def check_target(_, words):
@@ -251,20 +229,18 @@ def replay(program, words):
 
 def call_ros2(_, words):
     """Do what `ros2 service`, `ros2 topic` or `ros2 launch` would; ros2cli is not on PyPI."""
-    {"service": call_service, "topic": publish_torque, "launch": check_arguments}[words[0]](
-        *words[2:]
-    )
+    ways = {"service": call_service, "topic": publish_torque, "launch": check_arguments}
+    ways[words[0]](*words[2:])
 
 
 def call_service(name, kind, text="{}"):
     package, _, message = kind.split("/")
     service = getattr(importlib.import_module(f"{package}.srv"), message)
+    node, _, short = name.rpartition("/")
     with Listener(DOMAIN) as listener:
-        client = listener.node.create_client(service, name)
-        listener.spin_until(client.service_is_ready)
-        future = client.call_async(fill(service.Request(), yaml.safe_load(text)))
-        listener.spin_until(future.done)
-    answer = str(future.result())
+        connection = Connection(listener.node, node, timeout=60.0)
+        request = fill(service.Request(), yaml.safe_load(text))
+        answer = str(connection._call(service, short, request))
     assert "success=True" in answer or "successful=True" in answer
 
 
@@ -299,9 +275,8 @@ def check_arguments(_, *arguments):
 def top():
     """A node with all its topics."""
     switches = ("publish_clock", "publish_markers", "imu__enabled", "odometry__enabled")
-    running = RunningTop(realtime=True, **dict.fromkeys(switches, True))
-    yield running.top
-    running.close()
+    with RunningTop(realtime=True, **dict.fromkeys(switches, True)) as running:
+        yield running.top
 
 
 def listed(section, kind):
@@ -316,9 +291,8 @@ def listed(section, kind):
 def test_the_topics_of_the_page_on_ros_are_those_of_the_node(top):
     pairs = [*top.get_publisher_names_and_types_by_node("top", "/")]
     pairs += [*top.get_subscriber_names_and_types_by_node("top", "/")]
-    found = {
-        (name, kind) for name, (kind,) in pairs if name not in ("/rosout", "/parameter_events")
-    }
+    of_ros = ("/rosout", "/parameter_events")
+    found = {(name, kind) for name, (kind,) in pairs if name not in of_ros}
     transforms = {(name, "tf2_msgs/msg/TFMessage") for name in ("/tf", "/tf_static")}
     # without tf2_msgs they are not published
     assert listed("Topics", "msg") == found | transforms
@@ -327,9 +301,8 @@ def test_the_topics_of_the_page_on_ros_are_those_of_the_node(top):
 def test_the_services_of_the_page_on_ros_are_those_of_the_node(top):
     pairs = top.get_service_names_and_types_by_node("top", "/")
     foreign = re.compile("parameter|type_description")
-    assert listed("Services", "srv") == {
-        (name, kind) for name, (kind,) in pairs if not foreign.search(name)
-    }
+    found = {(name, kind) for name, (kind,) in pairs if not foreign.search(name)}
+    assert listed("Services", "srv") == found
 
 
 def test_the_parameters_of_the_page_on_ros_are_those_of_the_node(top):

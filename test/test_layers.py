@@ -7,70 +7,45 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[1] / "symtop_ros"
-NUMERICAL = {"numpy", "scipy"}
-MCAP = {"mcap", "lz4", "zstandard"}
-RERUN = {"rerun", "rerun_cli"}
 # Files of the package itself.
 TOP = {"__init__", "arrays", "distribution", "figures", "programs", "shutdown"}
-# Folder -> (folders and files of the package, other packages). Each entry is exact: an import that
+# Folder -> folders and files of the package | other packages. Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
-ARROWS = {
-    "wording": (set(), set()),  # text from records of any kind, so it is below them
-    "physics": ({"wording"}, {"numpy"}),
-    "wire": (set(), {"numpy"}),
-    "simulation": ({"__init__", "physics", "wire", "wording"}, {*NUMERICAL, "yaml"}),
-    "log": ({"__init__", "simulation", "wire"}, {"numpy", *MCAP}),
+TABLE = {
+    # text from records of any kind, so it is below them
+    "wording": " | ",
+    "physics": "wording | numpy",
+    "wire": " | numpy",
+    "simulation": "__init__ physics wire wording | numpy scipy yaml",
+    "log": "__init__ simulation wire | lz4 mcap numpy zstandard",
     # the page as one file
-    "web": ({"physics", "simulation", "wording"}, {"yaml"}),
+    "web": "physics simulation wording | yaml",
     # of session what it says of a motion
-    "check": (
-        {"__init__", "log", "models", "physics", "session", "simulation", "wire"},
-        {"numpy", "mcap"},
-    ),
+    "check": "__init__ log models physics session simulation wire | mcap numpy",
     # of session the log that a node would have written of a run of the page
-    "playback": (
-        {"check", "log", "physics", "session", "simulation", "web"},
-        {"numpy", *RERUN},
-    ),
-    "session": (
-        {"__init__", "log", "models", "physics", "simulation", "wire", "wording"},
-        {"numpy"},
-    ),
-    "node": (
-        {
-            *("__init__", "distribution", "models", "physics", "session", "shutdown", "simulation"),
-            "wire",
-        },
-        {
-            *("numpy", "rclpy", "rcl_interfaces", "std_srvs", "simulation_interfaces"),
-            *("builtin_interfaces", "geometry_msgs", "visualization_msgs"),
-        },
-    ),
+    "playback": "check log physics session simulation web | numpy rerun rerun_cli",
+    "session": "__init__ log models physics simulation wire wording | numpy",
+    "node": "__init__ distribution models physics session shutdown simulation wire | "
+    "builtin_interfaces geometry_msgs numpy rcl_interfaces rclpy simulation_interfaces std_srvs "
+    "visualization_msgs",
     # of session only the table of services, which imports nothing
-    "client": (
-        {"session", "shutdown", "simulation"},
-        {"rclpy", "rcl_interfaces", "sensor_msgs", "std_srvs"},
-    ),
-    "live": (
-        {"log", "playback", "shutdown", "simulation"},
-        {"rclpy", "rerun"},
-    ),
-    "panel": (
-        # client, live and rclpy: only in bridge.py, which main.py imports for --node
-        {"client", "live", "shutdown", "simulation", "web"},
-        {"rclpy", "geometry_msgs"},
-    ),
-    "models": ({"physics", "simulation"}, set()),
-    "imu": ({"log", "physics", "simulation", "wire"}, {"numpy", "yaml"}),
-    "testset": (set(), {"numpy"}),
-    "judge": (
-        {
-            *("figures", "log", "models", "physics", "shutdown", "simulation", "testset"),
-            *("wire", "wording"),
-        },
-        {*NUMERICAL, "matplotlib", "rclpy"},
-    ),
+    "client": "session shutdown simulation | rcl_interfaces rclpy sensor_msgs std_srvs",
+    "live": "log playback shutdown simulation | rclpy rerun",
+    # client, live and rclpy: only in bridge.py, which main.py imports for --node
+    "panel": "client live shutdown simulation web | geometry_msgs rclpy",
+    "models": "physics simulation | ",
+    "imu": "log physics simulation wire | numpy yaml",
+    "testset": " | numpy",
+    "judge": "figures log models physics shutdown simulation testset wire wording | "
+    "matplotlib numpy rclpy scipy",
 }
+ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}
+
+
+def nodes(folder):
+    """Yield the nodes of the syntax of the files of a folder, each with the path."""
+    for path in sorted((PACKAGE / folder).rglob("*.py")):
+        yield from ((path, node) for node in ast.walk(ast.parse(path.read_text())))
 
 
 def imports(folder):
@@ -79,19 +54,18 @@ def imports(folder):
     Every folder may use `arrays`.
     """
     own, others = set(), set()
-    for path in sorted((PACKAGE / folder).rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text())):
-            modules = []
-            if isinstance(node, ast.Import):
-                modules = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom):
-                modules = [node.module]
-            for module in modules:
-                package, _, rest = module.partition(".")
-                if package == "symtop_ros":
-                    own.add(rest.partition(".")[0] or "__init__")
-                elif package not in {*sys.stdlib_module_names, "_typeshed"}:  # types only
-                    others.add(package)
+    for _, node in nodes(folder):
+        modules = []
+        if isinstance(node, ast.Import):
+            modules = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            modules = [node.module]
+        for module in modules:
+            package, _, rest = module.partition(".")
+            if package == "symtop_ros":
+                own.add(rest.partition(".")[0] or "__init__")
+            elif package not in {*sys.stdlib_module_names, "_typeshed"}:  # types only
+                others.add(package)
     return own - {folder, "arrays"}, others
 
 
@@ -117,9 +91,6 @@ def test_the_arrows_have_no_circle():
 def test_other_folders_import_physics_by_its_public_names_only():
     public = {"symtop_ros.physics"}
     for folder in set(ARROWS) - {"physics"}:
-        for path in sorted((PACKAGE / folder).rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text())):
-                if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(
-                    "symtop_ros.physics"
-                ):
-                    assert node.module in public, path
+        for path, node in nodes(folder):
+            module = getattr(node, "module", None) or ""
+            assert not module.startswith("symtop_ros.physics") or module in public, path

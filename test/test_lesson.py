@@ -1,6 +1,7 @@
 """The lesson does what it says: every command runs, and the pictures are those of the commands."""
 
 import html
+import io
 import json
 import re
 import shlex
@@ -9,20 +10,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rclpy
-from PIL import Image
+from node.listener import Listener
 from programs import running_node
+from shown_pictures import assert_same_picture
+from test_lesson_numbers import PUSH
 
 from symtop_ros.client import main as client
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.main import parse_values
 from symtop_ros.live import main as live
 from symtop_ros.panel import main as panel
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Motion, State
 from symtop_ros.web.lesson import read_lesson
 from workshop import main as report
-from workshop.article.answers.ledger import hold_decides, hurry_ledger
-from workshop.article.motions import HANGING_DISC, SLOW_ROOT_HURRIED, TOP
+from workshop.article.answers.ledger import hold_decides
+from workshop.article.motions import HANGING_DISC, TOP
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import DRAWS, picture_of, run_step, write_lesson
 from workshop.load.domains import claim_domain
@@ -50,14 +52,11 @@ def tops():
     with (
         running_node(DOMAIN, *parameters[0]),
         running_node(DOMAIN, *parameters[1], name="disc"),
+        Listener(DOMAIN) as user,
+        Listener(DOMAIN, "user_of_disc") as other,
     ):
-        context = rclpy.Context()
-        rclpy.init(context=context, domain_id=DOMAIN)
-        try:
-            users = {name: rclpy.create_node(f"of_{name[1:]}", context=context) for name in NAMES}
-            yield {name: Connection(user, name, timeout=20.0) for name, user in users.items()}
-        finally:
-            rclpy.shutdown(context=context)
+        nodes = dict(zip(NAMES, (user.node, other.node), strict=True))
+        yield {name: Connection(node, name, timeout=20.0) for name, node in nodes.items()}
 
 
 def do(tops, line):
@@ -76,35 +75,21 @@ def test_the_page_has_the_steps_of_the_data():
 
 
 def test_the_angle_that_is_computed_by_hand_is_that_of_the_motion():
-    Ix, Iz, Mgl, spin = 0.000228, 0.0000572, 0.068, 200.0
-    p_psi, u_0 = Iz * spin, np.cos(0.5)
-    factor = p_psi**2 / (2 * Ix * Mgl)
-    u = min(np.roots([1.0, -factor, factor * u_0 - 1.0]))
-    (_, lowest) = Motion(Top(Ix, Iz, Mgl), State.from_euler(theta=0.5, psi_dot=spin)).turning_angles
+    factor = (TOP.Iz * 200.0) ** 2 / (2 * TOP.Ix * TOP.Mgl)
+    u = min(np.roots([1.0, -factor, factor * np.cos(0.5) - 1.0]))
+    (_, lowest) = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0)).turning_angles
     assert np.arccos(u) == pytest.approx(lowest, abs=1e-14)  # rounding of a root and arccos
-    for shown in (f"{p_psi:.5f}", f"{factor:.2f}", f"{u:.3f}", f"{lowest:.3f}"):
-        assert f"= {shown}" in STEPS[2].seen
 
 
 def test_the_numbers_of_the_push_that_makes_cusps_are_those_of_the_motion():
-    Ix, Iz, Mgl = 0.000228, 0.0000572, 0.068
-    push = max(np.roots([Iz * np.cos(0.5), Iz * 200.0, -2 * Mgl]))
-    p_psi = Iz * (200.0 + push * np.cos(0.5))
-    u = np.cos(0.5) + Ix * push * np.sin(0.5) ** 2 / p_psi
-    start = State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=push)
-    motion = Motion(Top(Ix, Iz, Mgl), start)
+    p_psi = TOP.Iz * (200.0 + PUSH * np.cos(0.5))
+    u = np.cos(0.5) + TOP.Ix * PUSH * np.sin(0.5) ** 2 / p_psi
+    motion = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=PUSH))
     assert np.arccos(u) == pytest.approx(motion.turning_angles[0], abs=1e-14)
     assert motion.kind == "cusps"
-    for shown in (f"p = {push:.3f}", f"{p_psi:.4f}", f"u = {u:.3f}", f"{np.arccos(u):.3f} rad"):
-        assert shown in STEPS[5].seen
-    assert f"= {Mgl / (Iz * 200):.2f} rad/s, the" in STEPS[3].seen
 
 
-def test_the_energies_and_accelerations_of_the_kicks_are_those_of_the_claims():
-    found = hurry_ledger(TOP, SLOW_ROOT_HURRIED, "spin_rate")
-    values = (found.far.weight, found.kick.rest, -found.far.precession)
-    for shown in (*(f"{value:.2f} mJ" for value in values), f"{found.kick.spin:.1f} mJ"):
-        assert shown in STEPS[7].answer
+def test_the_accelerations_of_the_kicks_are_those_of_the_claims():
     disc, words = hold_decides(HANGING_DISC), STEPS[10].seen
     assert disc.holds
     for number in ("-592 rad/s^2", "+901 rad/s^2"):
@@ -143,16 +128,9 @@ def test_every_view_is_one_that_there_is(line):
     "number",
     [1, 8, *(pytest.param(k, marks=pytest.mark.long) for k in (2, 3, 4, 5, 6, 7, 9, 10, 11))],
 )
-def test_a_picture_is_what_the_command_draws(number, tmp_path):
-    name = f"step_{number:02}.png"
-    (tmp_path / name).write_bytes(picture_of(STEPS[number - 1]))
-    pictures = []
-    for folder in (ROOT / "docs/lesson", tmp_path):
-        with Image.open(folder / name) as picture:
-            pictures.append(np.asarray(picture.convert("L"), dtype=float))
-    assert pictures[0].shape == pictures[1].shape
-    # versions of Matplotlib smooth the edges of letters differently
-    assert np.abs(pictures[0] - pictures[1]).mean() < 2.0
+def test_a_picture_is_what_the_command_draws(number):
+    drawn = io.BytesIO(picture_of(STEPS[number - 1]))
+    assert_same_picture(ROOT / f"docs/lesson/step_{number:02}.png", drawn)
 
 
 def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
@@ -162,12 +140,10 @@ def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, m
         html.unescape((tmp_path / f"{name}.html").read_text()) for name in ("worksheet", "teacher")
     )
     for step in STEPS:
-        for text in (step.title, step.predict, step.compute, step.question):
-            assert text in worksheet
+        given = (step.title, step.predict, step.compute, step.question)
+        for text in (*given, step.seen, step.answer, *step.commands):
             assert text in teacher
-        for text in (step.seen, step.answer, *step.commands):
-            assert text not in worksheet
-            assert text in teacher
+            assert (text in worksheet) == (text in given)
     assert teacher.count("<img ") == len(STEPS)
 
 

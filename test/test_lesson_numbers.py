@@ -15,9 +15,8 @@ from workshop.article.pivot import SHORT_ARM
 THETA, SPIN, FACTOR = 0.5, 200.0, 1.4
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.\d+(?!\w)")
 PUSH = max(np.roots([TOP.Iz * np.cos(THETA), TOP.Iz * SPIN, -2 * TOP.Mgl]))
-SLOW_STATE, FAST_STATE = (
-    State.from_euler(theta=THETA, phi_dot=rate, psi_dot=SPIN) for rate in (SLOW, FAST)
-)
+SLOW_STATE = State.from_euler(theta=THETA, phi_dot=SLOW, psi_dot=SPIN)
+FAST_STATE = State.from_euler(theta=THETA, phi_dot=FAST, psi_dot=SPIN)
 DISC_SPIN = -25.0
 
 
@@ -124,9 +123,7 @@ def observer():
 
 def disc():
     slow, fast = find_roots(HANGING_DISC, THETA, DISC_SPIN)
-    states = [
-        State.from_euler(theta=THETA, phi_dot=rate, psi_dot=DISC_SPIN) for rate in (slow, fast)
-    ]
+    states = [State.from_euler(theta=THETA, phi_dot=r, psi_dot=DISC_SPIN) for r in (slow, fast)]
     fallen = hurried(states[0], "spin_rate", HANGING_DISC)[1]
     risen = hurried(states[1], "spin_rate", HANGING_DISC)[0]
     pushed = hurried(states[1], "spin_momentum", HANGING_DISC)[1]

@@ -2,11 +2,11 @@
 
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from programs import execute
 
 ROOT = Path(__file__).parents[1]
 MAKEFILE = ROOT / "Makefile"
@@ -17,10 +17,8 @@ def make(folder, *words, **variables):
     """Run make in a folder without any environment; return the process, which has ended."""
     outer = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL"}  # of the make that runs the tests
     environment = {name: os.environ[name] for name in os.environ.keys() - outer}
-    return subprocess.run(
-        ["make", "-f", MAKEFILE, *words, *(f"{name}={value}" for name, value in variables.items())],
-        cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=300,
-    )  # fmt: skip
+    words = ["make", "-f", MAKEFILE, *words, *(f"{k}={value}" for k, value in variables.items())]
+    return execute(words, cwd=folder, env=environment, timeout=300)
 
 
 def test_help_lists_every_target(tmp_path):
@@ -38,7 +36,7 @@ def test_an_environment_that_was_not_completed_is_made_again(tmp_path, present):
     made = make(tmp_path, ACTIVATE, PYTHON=sys.executable)
     assert made.returncode == 0, made.stderr
     pip = [tmp_path / ".venv/bin/python", "-m", "pip", "--version"]
-    assert str(tmp_path) in subprocess.run(pip, capture_output=True, text=True, check=True).stdout
+    assert str(tmp_path) in execute(pip, check=True).stdout
 
 
 def test_a_python_that_cannot_make_an_environment_leaves_none_and_names_the_package(tmp_path):
@@ -78,10 +76,8 @@ def test_the_tests_run_without_the_variables_of_the_machine(tmp_path):
     fake.chmod(0o755)
     variables = {"PYTHONUNBUFFERED": "1", "ROS_DOMAIN_ID": "7", "PIP_NO_INPUT": "1"}
     path = os.pathsep.join([str(tmp_path), os.environ["PATH"]])
-    printed = subprocess.run(
-        ROOT / ".ci/run", env={**os.environ, **variables, "PATH": path},
-        capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
+    variables = {**os.environ, **variables, "PATH": path}
+    printed = execute([ROOT / ".ci/run"], env=variables, check=True).stdout
     first, *rest = printed.splitlines()
     names = {line.partition("=")[0] for line in rest}
     assert first == "test"
@@ -91,8 +87,6 @@ def test_the_tests_run_without_the_variables_of_the_machine(tmp_path):
 
 def test_every_variable_of_the_makefile_has_a_value():
     """Of a variable without a definition make takes the empty text, and says so when asked."""
-    undefined = make(
-        ROOT, "--warn-undefined-variables", "-nB", "test", "test-kilted", "docs"
-    ).stderr
-    ours = [line for line in undefined.splitlines() if "undefined variable" in line]
+    told = make(ROOT, "--warn-undefined-variables", "-nB", "test", "test-kilted", "docs").stderr
+    ours = [line for line in told.splitlines() if "undefined variable" in line]
     assert [line for line in ours if not re.search("'(ROS_LOG_DIR|MPLCONFIGDIR)'", line)] == []

@@ -4,32 +4,22 @@ import ast
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tarfile
 from pathlib import Path
 
 import pytest
+from programs import execute
 
 from symtop_ros import __version__
 
 pytestmark = pytest.mark.untraced
 ROOT = Path(__file__).parents[1]
 PARTS = (
-    "symtop_ros",
-    "config",
-    "launch",
-    "resource",
-    "setup.py",
-    "setup.cfg",
-    "package.xml",
-    "pyproject.toml",
-    "MANIFEST.in",
-    "LICENSE",
-    "README.md",
-    "CITATION.cff",
-    "CHANGELOG.rst",
+    *("symtop_ros", "config", "launch", "resource", "setup.py", "setup.cfg", "package.xml"),
+    *("pyproject.toml", "MANIFEST.in", "LICENSE", "README.md", "CITATION.cff", "CHANGELOG.rst"),
 )
+PROGRAMS = ("node", "ctl", "replay", "live", "panel", "model", "imu", "judge")
 OLDEST_PYTHON = 11  # 3.11
 CONFIG = sorted(path.name for path in (ROOT / "config").iterdir())
 
@@ -58,17 +48,8 @@ def assert_tree(prefix, programs):
     web = ("web/page.html", "web/page.css", "web/js/start.js", "web/lesson.yaml")
     for name in ("py.typed", "log/definitions.json", *web):
         assert (package / name).is_file()
-    for name in (
-        "top_node",
-        "top_ctl",
-        "top_replay",
-        "top_live",
-        "top_panel",
-        "top_model",
-        "top_imu",
-        "top_judge",
-    ):
-        assert os.access(programs / name, os.X_OK)
+    for name in PROGRAMS:
+        assert os.access(programs / f"top_{name}", os.X_OK)
 
 
 def build(workspace, *options, **variables):
@@ -76,15 +57,9 @@ def build(workspace, *options, **variables):
     colcon = shutil.which("colcon", path=str(Path(sys.executable).parent))
     if colcon is None:
         pytest.skip("colcon is not installed")
-    result = subprocess.run(
-        [colcon, "build", "--packages-select", "symtop_ros", *options],
-        cwd=workspace,
-        check=True,
-        timeout=300,
-        capture_output=True,
-        text=True,
-        env={**os.environ, **variables},
-    )
+    words = [colcon, "build", "--packages-select", "symtop_ros", *options]
+    variables = {**os.environ, **variables}
+    result = execute(words, cwd=workspace, check=True, timeout=300, env=variables)
     return workspace / "install" / "symtop_ros", result.stdout + result.stderr
 
 
@@ -116,14 +91,7 @@ def test_colcon_build_installs_what_ros2_run_looks_for(workspace):
         "PYTHONPATH": str(site),
         "AMENT_PREFIX_PATH": str(prefix),
     }
-    result = subprocess.run(
-        [prefix / "lib/symtop_ros/top_node", "--help"],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    result = execute([prefix / "lib/symtop_ros/top_node", "--help"], env=environment)
     assert result.returncode == 0, result.stderr
     assert "perry_fails" in result.stdout
     # the Python of a venv that is active, where mcap may be installed
@@ -134,38 +102,34 @@ def test_colcon_build_installs_what_ros2_run_looks_for(workspace):
 def test_pip_installs_the_same_tree(sources, tmp_path):
     # --ignore-installed leaves the installed version in place
     options = ["--no-deps", "--ignore-installed", "--quiet", "--prefix", str(tmp_path)]
-    subprocess.run(
-        [sys.executable, "-m", "pip", "install", *options, str(sources)],
-        env={**os.environ, "CC": "no-compiler", "CXX": "no-compiler"},  # colcon had one
-        check=True,
-        timeout=300,
-    )
+    words = [sys.executable, "-m", "pip", "install", *options, sources]
+    without = {**os.environ, "CC": "no-compiler", "CXX": "no-compiler"}  # colcon had one
+    execute(words, env=without, check=True, timeout=300)
     assert_tree(tmp_path, tmp_path / "lib/symtop_ros")
     assert_tree(tmp_path, tmp_path / "bin")
 
 
+def list_files(folder, *parts):
+    """Paths of the files of some parts of a folder, but for those that are built."""
+    paths = [path for part in parts for path in [folder / part, *(folder / part).rglob("*")]]
+    files = {path for path in paths if path.is_file() and path.suffix not in (".pyc", ".so")}
+    return {str(path.relative_to(folder)) for path in files}
+
+
 def test_every_file_of_the_package_is_installed(sources, tmp_path):
-    setup = [sys.executable, "setup.py", "-q", "build_py", "-d", str(tmp_path)]
-    subprocess.run(setup, cwd=sources, check=True, timeout=60, capture_output=True)
-    built = ".pyc", ".so"
-    needed, found = (
-        {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
-        for folder in (sources / "symtop_ros", tmp_path / "symtop_ros")
-    )
+    setup = [sys.executable, "setup.py", "-q", "build_py", "-d", tmp_path]
+    execute(setup, cwd=sources, check=True)
+    needed, found = (list_files(folder / "symtop_ros", "") for folder in (sources, tmp_path))
     # the digest is for those who build the module anew
-    missing = {each for each in needed - found if not each.endswith(built)}
-    assert missing == {"web/kernel.sha256"}
+    assert needed - found == {"web/kernel.sha256"}
 
 
 def test_an_sdist_has_what_is_installed(sources, tmp_path):
-    setup = [sys.executable, "setup.py", "-q", "sdist", "-d", str(tmp_path)]
-    subprocess.run(setup, cwd=sources, check=True, timeout=60, capture_output=True)
+    setup = [sys.executable, "setup.py", "-q", "sdist", "-d", tmp_path]
+    execute(setup, cwd=sources, check=True)
     with tarfile.open(next(tmp_path.glob("*.tar.gz"))) as archive:
         packed = {name.partition("/")[2] for name in archive.getnames()}
-    parts = [path for part in PARTS[:4] for path in (sources / part).rglob("*") if path.is_file()]
-    built = ".pyc", ".so"
-    needed = {str(path.relative_to(sources)) for path in parts if path.suffix not in built}
-    assert {*needed, *PARTS[4:]} <= packed
+    assert list_files(sources, *PARTS) <= packed
     assert not any(name.startswith("test") for name in packed)
 
 
@@ -195,16 +159,17 @@ def test_nothing_but_the_extra_brings_ros_from_pypi():
     assert "ros-" not in required
 
 
+def is_own(node):
+    return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+
+
 def attributes_of(methods):
     """Names of the attributes of `self` that methods assign, by the name of the method."""
     return {
         method.name: {
             node.attr
             for node in ast.walk(method)
-            if isinstance(node, ast.Attribute)
-            and isinstance(node.ctx, ast.Store)
-            and isinstance(node.value, ast.Name)
-            and node.value.id == "self"
+            if is_own(node) and isinstance(node.ctx, ast.Store) and node.value.id == "self"
         }
         for method in methods
     }

@@ -8,15 +8,13 @@ import pytest
 from symtop_ros import programs
 from workshop import main as report
 
+pytestmark = pytest.mark.usefixtures("signals_as_before")
+
 
 @pytest.fixture(autouse=True)
-def _signals_and_environment_as_before(monkeypatch):
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+def _environment_as_before(monkeypatch):
     monkeypatch.setenv(programs.TRANSPORTS, "")
     monkeypatch.setattr(programs, "_leave", lambda status: status)
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
 
 
 ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"

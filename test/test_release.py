@@ -10,6 +10,7 @@ from pathlib import Path
 
 import docutils.core
 import pytest
+import yaml
 
 from symtop_ros import __version__
 
@@ -55,9 +56,8 @@ def test_the_changelog_has_the_form_of_catkin():
         writer="null",
         settings_overrides={"report_level": 1, "halt_level": 1},  # the least is an error
     )
-    assert [
-        link for link in LINK.findall(text) if not (ROOT / link.partition("#")[0]).exists()
-    ] == []
+    files = [ROOT / link.partition("#")[0] for link in LINK.findall(text)]
+    assert [file for file in files if not file.exists()] == []
 
 
 def write_index(folder):
@@ -67,29 +67,29 @@ def write_index(folder):
     (folder / "python.yaml").write_text(keys)
     (folder / "sources.d").mkdir()
     (folder / "sources.d/20-default.list").write_text(f"yaml {(folder / 'python.yaml').as_uri()}\n")
-    repositories = "".join(
-        f"  {name}:\n    release:\n      packages: [{name}]\n      tags: {{release: 'release'}}\n"
-        f"      url: https://example.org/{name}.git\n      version: 1.0.0-1\n"
+    repositories = {
+        name: {
+            "release": {
+                "packages": [name],
+                "tags": {"release": "release"},
+                "version": "1.0.0-1",
+                "url": f"https://example.org/{name}.git",
+            }
+        }
         for name in sorted({*ROS, "ros_workspace"})
-    )
-    file = (
-        "release_platforms:\n  ubuntu: [noble]\n"
-        f"repositories:\n{repositories}type: distribution\nversion: 2\n"
-    )
-    (folder / "jazzy.yaml").write_text(f"%YAML 1.1\n---\n{file}")
-    inner = file.replace("\n", "\n  ").rstrip()
-    cache = (
-        f"distribution_file:\n- {inner}\nname: jazzy\nrelease_package_xmls: {{}}\n"
-        "source_repo_package_xmls: {}\ntype: cache\nversion: 2\n"
-    )
-    with gzip.open(folder / "cache.yaml.gz", "wt") as packed:
-        packed.write(cache)
-    (folder / "index-v4.yaml").write_text(
-        "%YAML 1.1\n---\ndistributions:\n  jazzy:\n    distribution: [jazzy.yaml]\n"
-        f"    distribution_cache: {(folder / 'cache.yaml.gz').as_uri()}\n"
-        "    distribution_status: active\n    distribution_type: ros2\n    python_version: 3\n"
-        "type: index\nversion: 4\n"
-    )
+    }
+    file = {"release_platforms": {"ubuntu": ["noble"]}, "repositories": repositories}
+    file |= {"type": "distribution", "version": 2}
+    xmls = {"release_package_xmls": {}, "source_repo_package_xmls": {}}
+    cache = {"distribution_file": [file], "name": "jazzy", **xmls, "type": "cache", "version": 2}
+    jazzy = {"distribution": ["jazzy.yaml"], "distribution_type": "ros2", "python_version": 3}
+    jazzy |= {"distribution_cache": (folder / "cache.yaml.gz").as_uri()}
+    jazzy |= {"distribution_status": "active"}
+    index = {"distributions": {"jazzy": jazzy}, "type": "index", "version": 4}
+    head = "%YAML 1.1\n---\n"
+    (folder / "jazzy.yaml").write_text(head + yaml.safe_dump(file))
+    (folder / "cache.yaml.gz").write_bytes(gzip.compress(yaml.safe_dump(cache).encode()))
+    (folder / "index-v4.yaml").write_text(head + yaml.safe_dump(index))
     return {
         "ROS_HOME": str(folder / "home"),
         "ROSDEP_SOURCE_PATH": str(folder / "sources.d"),

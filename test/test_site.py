@@ -2,11 +2,11 @@
 
 import inspect
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from programs import execute
 
 from symtop_ros import physics
 
@@ -19,14 +19,8 @@ LOADED = re.compile(r'<(?:script|img|link)[^>]*(?:src|href)="([^"]+)"')
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", "docs/site"]
-    built = subprocess.run(
-        [*command, "-d", folder / "doctrees", "-b", "html", ".", folder / "html"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
+    words = [*command, "-d", folder / "doctrees", "-b", "html", ".", folder / "html"]
+    built = execute(words, cwd=ROOT, timeout=120)
     assert (built.returncode, built.stderr) == (0, "")
     return folder / "html"
 

@@ -21,11 +21,9 @@ from symtop_ros.wire.messages import JOINTS
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config"
 NAMES = {topic.resolve("/top") for topic in TOPICS.values()} | {"/top/markers"}
-ACTIONS = ("launch", "launch.actions", "launch.conditions", "launch.substitutions")
-ROS_ACTIONS = (
-    "launch_ros.actions",
-    "launch_ros.parameter_descriptions",
-    "launch_ros.substitutions",
+MODULES = (
+    *("launch", "launch.actions", "launch.conditions", "launch.substitutions", "launch_ros"),
+    *(f"launch_ros.{name}" for name in ("actions", "parameter_descriptions", "substitutions")),
 )
 
 
@@ -53,9 +51,8 @@ def test_foxglove_shows_topics_that_there_are():
 
 
 def test_plotjuggler_shows_topics_and_joints_that_there_are():
-    curves = [
-        each.get("name") for each in ElementTree.parse(CONFIG / "plotjuggler.xml").iter("curve")
-    ]
+    tree = ElementTree.parse(CONFIG / "plotjuggler.xml")
+    curves = [each.get("name") for each in tree.iter("curve")]
     assert len(curves) == len(set(curves)) == 6
     for name in curves:
         topic, part, quantity = re.fullmatch(r"(/top/[a-z_]+)/(\w+)/(\w+)", name).groups()
@@ -78,7 +75,7 @@ class Argument:
 def launch(monkeypatch):
     """Return what the launch file starts for some arguments: nodes by their executables."""
     defaults, functions = {}, []
-    for name in ("launch", "launch_ros", *ACTIONS, *ROS_ACTIONS):
+    for name in MODULES:
         module = ModuleType(name)
         module.__getattr__ = lambda attribute: lambda *values, **_: (attribute, *values)
         monkeypatch.setitem(sys.modules, name, module)
@@ -116,16 +113,9 @@ def test_a_launch_without_arguments_starts_a_node_that_decides_all(launch):
 
 
 def test_a_launch_sets_parameters_that_there_are_after_those_of_the_file(launch):
-    node = launch(
-        name="disc",
-        namespace="lab",
-        scene="disc",
-        params_file="mine.yaml",
-        use_sim_time="true",
-        publish_clock="false",
-        record="true",
-        record_directory="here",
-    )["top_node"]
+    place = {"name": "disc", "namespace": "lab", "scene": "disc", "params_file": "mine.yaml"}
+    clock = {"use_sim_time": "true", "publish_clock": "false"}
+    node = launch(**place, **clock, record="true", record_directory="here")["top_node"]
     assert (node["name"], node["namespace"]) == ("disc", "lab")
     file, given = node["parameters"]
     assert file == "mine.yaml"

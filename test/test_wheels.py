@@ -2,20 +2,22 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
-from physics.tops import random_case
+from physics.tops import ARTICLE, CUSPS, random_case
+from programs import execute
 
-from symtop_ros.physics import Friction, Motion, State, Top, accelerated
+from symtop_ros.physics import Friction, Motion, accelerated
 
 pytestmark = pytest.mark.untraced
 ROOT = Path(__file__).parents[1]
 ZIG, ARM = ROOT / ".venv/zig", ROOT / ".venv/aarch64"
 needs_zig = pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it")
+needs_kernel = pytest.mark.skipif(not accelerated, reason="no kernel to compare with")
 # Prints the states of the motions that it reads, as bytes in hexadecimal digits.
 PROGRAM = """
 import sys
@@ -34,18 +36,18 @@ def list_motions():
     for seed in range(60):
         case = random_case(70_000 + seed, "any")
         yield Motion(case.top, case.start), case.t
-    start = State.from_euler(theta=0.5, psi_dot=200.0)
     for axial in (1e-8, 1e-6, 1e-5):
-        yield Motion(Top(0.000228, 0.0000572, 0.068), start, Friction(axial, 2 * axial)), 1.5
+        yield Motion(ARTICLE, CUSPS, Friction(axial, 2 * axial)), 1.5
 
 
 def encode(motion, t):
-    friction = motion.friction
+    friction, start = motion.friction, motion.start
+    coefficients = (friction.axial, friction.transverse)
     parts = (
         motion.top.moments,
-        (friction.axial, friction.transverse),
-        motion.start.given_orientation,
-        motion.start.angular_velocity,
+        coefficients,
+        start.given_orientation,
+        start.angular_velocity,
         (t,),
     )
     return ",".join(" ".join(float(each).hex() for each in part) for part in parts)
@@ -61,16 +63,9 @@ def expect():
 def compute(command, **variables):
     """Return what the program prints."""
     text = "\n".join(encode(motion, t) for motion, t in list_motions())
-    result = subprocess.run(
-        [*map(str, command), "-c", PROGRAM],
-        input=text,
-        env=os.environ | {name: str(value) for name, value in variables.items()},
-        cwd="/",
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=600,
-    )
+    environment = os.environ | {name: str(value) for name, value in variables.items()}
+    words = [*command, "-c", PROGRAM]
+    result = execute(words, input=text, env=environment, cwd="/", timeout=600)
     assert result.returncode == 0, result.stderr
     return result.stdout.splitlines()
 
@@ -84,8 +79,7 @@ def wheels(tmp_path_factory):
     for path in folder.glob("*.whl"):
         processor = re.search(r"manylinux_2_28_(\w+)\.whl", path.name)[1]
         found[processor] = folder / processor
-        with zipfile.ZipFile(path) as wheel:
-            wheel.extractall(folder / processor)
+        shutil.unpack_archive(path, found[processor], "zip")
     return found
 
 
@@ -104,14 +98,14 @@ def test_there_is_a_wheel_for_each_processor_that_asks_for_no_newer_c_library(wh
 
 @pytest.mark.long
 @needs_zig
-@pytest.mark.skipif(not accelerated, reason="without the kernel there is nothing to compare with")
+@needs_kernel
 def test_the_wheel_for_this_processor_has_the_same_bits(wheels):
     assert compute([sys.executable], PYTHONPATH=wheels["x86_64"]) == list(expect())
 
 
 @pytest.mark.long
 @needs_zig
-@pytest.mark.skipif(not accelerated, reason="without the kernel there is nothing to compare with")
+@needs_kernel
 @pytest.mark.skipif(
     not list(ARM.glob("python/usr/bin/python3.*")), reason="make .venv/aarch64 fetches a Python"
 )
@@ -143,11 +137,6 @@ def test_a_free_threaded_python_gets_no_module_of_the_limited_interface(threads)
         "print(found.ext_modules[0].py_limited_api, "
         "found.command_options.get('bdist_wheel', {}).get('py_limited_api', ('', None))[1])"
     )
-    result = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", program, str(int(threads))],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    words = [sys.executable, "-W", "ignore", "-c", program, int(threads)]
+    result = execute(words, cwd=ROOT)
     assert result.stdout == ("False None\n" if threads else "True cp311\n"), result.stderr

@@ -12,19 +12,7 @@ from PIL import Image
 
 from symtop_ros.physics import HurryEffect, Motion, State, hurry, regular_precession_rates
 from workshop import main as report
-from workshop.article.maps import (
-    FACTOR,
-    OUTCOMES,
-    PSI_DOT,
-    SAME_ANGLE,
-    THETA,
-    TOP,
-    _draw_outcome,
-    find_outcome,
-    map_spin,
-    map_tilt,
-    write_maps,
-)
+from workshop.article import maps
 
 SIDES = ("highest", "lowest")
 FILES = {"perry.rrd"} | {
@@ -37,7 +25,7 @@ def written(tmp_path_factory):
     """Folder of both maps, and what was printed."""
     folder = tmp_path_factory.mktemp("maps")
     with contextlib.redirect_stdout(io.StringIO()) as printed:
-        assert write_maps(folder, 60) == 0
+        assert maps.write_maps(folder, 60) == 0
     return folder, printed.getvalue()
 
 
@@ -45,21 +33,23 @@ def test_the_points_of_a_table_are_those_of_the_closed_form(written):
     rows = pq.read_table(written[0] / "perry_spin.parquet").to_pylist()
     assert len(rows) == 3600
     for row in rows[::307]:
-        start = State.from_euler(theta=THETA, phi_dot=row["phi_dot"], psi_dot=row["psi_dot"])
-        before, after = Motion(TOP, start), Motion(TOP, hurry(start, FACTOR))
+        start = State.from_euler(theta=maps.THETA, phi_dot=row["phi_dot"], psi_dot=row["psi_dot"])
+        before, after = Motion(maps.TOP, start), Motion(maps.TOP, hurry(start, maps.FACTOR))
         found = [row[f"{which}_{when}"] for when in ("before", "after") for which in SIDES]
         # an angle near a pole is the square root of what is good to rounding
         assert found == pytest.approx([*before.turning_angles, *after.turning_angles], abs=1e-7)
 
 
-@pytest.mark.parametrize("make", [map_spin, map_tilt])
+@pytest.mark.parametrize("make", [maps.map_spin, maps.map_tilt])
 def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
     found = make(201)
     for k in range(0, 201, 10):
         theta, psi_dot = (
-            (THETA, found.across[k]) if make is map_spin else (found.across[k], PSI_DOT)
+            (maps.THETA, found.across[k])
+            if make is maps.map_spin
+            else (found.across[k], maps.PSI_DOT)
         )
-        rates = regular_precession_rates(TOP, theta=theta, psi_dot=psi_dot)
+        rates = regular_precession_rates(maps.TOP, theta=theta, psi_dot=psi_dot)
         inside = [each for each in rates if found.phi_dot[0] < each < found.phi_dot[-1]]
         changes = np.diff(np.sign(found.torque[:, k])) != 0
         assert changes.sum() == len(inside)
@@ -72,7 +62,7 @@ def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
 OUTCOME_OF = {
     "higher": ((0.5, 0.7), (0.4, 0.7)),
     "lower": ((0.5, 0.7), (0.5, 0.9)),
-    "as before": ((0.5, 0.7), (0.5, 0.7 + 0.5 * SAME_ANGLE)),
+    "as before": ((0.5, 0.7), (0.5, 0.7 + 0.5 * maps.SAME_ANGLE)),
 }
 
 
@@ -80,36 +70,36 @@ def test_the_third_panel_names_what_becomes_of_both_turning_points():
     before, after = (np.array([pair[k] for pair in OUTCOME_OF.values()]).T for k in (0, 1))
     everywhere = np.ones(len(OUTCOME_OF), dtype=bool)
     effect = HurryEffect(before, after, everywhere, everywhere)
-    assert [list(OUTCOMES)[k] for k in find_outcome(effect)] == list(OUTCOME_OF)
+    assert [list(maps.OUTCOMES)[k] for k in maps.find_outcome(effect)] == list(OUTCOME_OF)
 
 
 @pytest.mark.parametrize("name", ["spin", "tilt"])
 def test_the_outcomes_of_a_table_are_those_of_its_turning_points(written, name):
     table = pq.read_table(written[0] / f"perry_{name}.parquet").to_pylist()
     # on the row of phi' = 0, if there is one, a hurry changes nothing
-    assert {"higher", "lower"} <= {row["outcome"] for row in table} <= set(OUTCOMES)
+    assert {"higher", "lower"} <= {row["outcome"] for row in table} <= set(maps.OUTCOMES)
     for row in table[::101]:
         lifts = [row[f"{which}_before"] - row[f"{which}_after"] for which in SIDES]
         sign = {"higher": 1, "lower": -1, "as before": 0}[row["outcome"]]
         if sign:
-            assert min(sign * lift for lift in lifts) >= -SAME_ANGLE
-            assert max(sign * lift for lift in lifts) > SAME_ANGLE
+            assert min(sign * lift for lift in lifts) >= -maps.SAME_ANGLE
+            assert max(sign * lift for lift in lifts) > maps.SAME_ANGLE
         else:
-            assert max(map(abs, lifts)) <= SAME_ANGLE
+            assert max(map(abs, lifts)) <= maps.SAME_ANGLE
 
 
 def test_the_third_panel_paints_the_outcomes_and_says_where_the_rule_misleads():
-    found = map_spin(40)
+    found = maps.map_spin(40)
     axes = Figure().subplots()
-    _draw_outcome(axes, found)
+    maps._draw_outcome(axes, found)
     (image,) = axes.images
-    outcome = find_outcome(found.effect)
+    outcome = maps.find_outcome(found.effect)
     assert np.array_equal(image.get_array(), outcome)
-    for k, color in enumerate(OUTCOMES.values()):
+    for k, color in enumerate(maps.OUTCOMES.values()):
         assert to_hex(image.cmap(image.norm(k))) == color
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels == list(OUTCOMES)
-    misled = found.effect.rule_holds & (outcome == list(OUTCOMES).index("lower"))
+    assert labels == list(maps.OUTCOMES)
+    misled = found.effect.rule_holds & (outcome == list(maps.OUTCOMES).index("lower"))
     assert 0 < misled.mean() < found.effect.rule_holds.mean()
     assert f"{misled.mean():.1%}" in axes.get_title()
 

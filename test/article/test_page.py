@@ -5,10 +5,9 @@ import re
 from pathlib import Path
 from urllib.parse import parse_qsl
 
-import numpy as np
 import pytest
 from browser import running_browser
-from PIL import Image
+from shown_pictures import assert_same_picture
 from web.opened import UNDRAWN
 
 from symtop_ros.physics import Motion, State, Top
@@ -45,9 +44,8 @@ def test_every_figure_belongs_to_a_passage_and_is_in_the_page():
     named = [re.findall(r"\[`(\w+)`\]\(article/(\w+)\.png\)", row[3]) for row in ROWS]
     assert all(name == file for found in named for name, file in found)
     assert {name for found in named for name, _ in found} == set(FIGURES)
-    assert sorted(re.findall(r"^!\[.+\]\(article/(\w+)\.png\)$", TEXT, re.MULTILINE)) == sorted(
-        FIGURES
-    )
+    shown = re.findall(r"^!\[.+\]\(article/(\w+)\.png\)$", TEXT, re.MULTILINE)
+    assert sorted(shown) == sorted(FIGURES)
     assert {file.stem for file in (DOCS / "article").iterdir()} == set(FIGURES)
 
 
@@ -77,9 +75,8 @@ def test_a_link_starts_its_motion_whatever_moved_before(link, tab):
     fields = dict(parse_qsl(link, strict_parsing=True))
     if "lesson" in fields:
         tab.wait_for_function("document.body.classList.contains('in-lesson')")
-        assert tab.eval_on_selector("#steps", "list => list.selectedIndex") + 1 == int(
-            fields["lesson"]
-        )
+        chosen = tab.eval_on_selector("#steps", "list => list.selectedIndex")
+        assert chosen + 1 == int(fields["lesson"])
         return
     tab.wait_for_function("(count) => symtop.run().events.length > count", arg=count)
     event = tab.evaluate("symtop.run().events.at(-1)")
@@ -99,10 +96,4 @@ def test_a_link_starts_its_motion_whatever_moved_before(link, tab):
     [name if name in QUICK else pytest.param(name, marks=pytest.mark.long) for name in FIGURES],
 )
 def test_a_picture_is_what_the_command_draws(name):
-    pictures = []
-    for file in (DOCS / "article" / f"{name}.png", io.BytesIO(pack_figure(FIGURES[name]))):
-        with Image.open(file) as picture:
-            pictures.append(np.asarray(picture.convert("L"), dtype=float))
-    assert pictures[0].shape == pictures[1].shape
-    # versions of Matplotlib smooth the edges of letters differently
-    assert np.abs(pictures[0] - pictures[1]).mean() < 2.0
+    assert_same_picture(DOCS / "article" / f"{name}.png", io.BytesIO(pack_figure(FIGURES[name])))

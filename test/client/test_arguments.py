@@ -32,7 +32,5 @@ def test_invalid_words_are_refused(words, sentence):
 
 def test_it_is_imported_where_there_are_no_terminals():
     """As on Windows: only `top_ctl keys` needs them."""
-    program = (
-        "import sys; sys.modules.update(termios=None, tty=None); import symtop_ros.client.main"
-    )
-    subprocess.run([sys.executable, "-c", program], check=True)
+    code = "import sys; sys.modules.update(termios=None, tty=None); import symtop_ros.client.main"
+    subprocess.run([sys.executable, "-c", code], check=True)

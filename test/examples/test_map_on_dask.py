@@ -1,12 +1,12 @@
 """The map on Dask: each of its points is the motion alone, whatever the number of workers."""
 
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from programs import execute
 
 from symtop_ros.physics import Motion, State
 
@@ -18,15 +18,8 @@ SIZE = 200
 
 
 def run(*options):
-    done = subprocess.run(
-        [sys.executable, str(ROOT / "examples/map_on_dask.py"), *map(str, options)],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=True,
-        cwd=ROOT,
-    )
-    return done.stdout
+    words = [sys.executable, "examples/map_on_dask.py", *options]
+    return execute(words, timeout=300, check=True, cwd=ROOT).stdout
 
 
 def test_a_block_has_the_tilts_of_its_rows():

@@ -3,18 +3,17 @@
 import itertools
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from log_files import ARTICLE, CUSPS
+from programs import execute
 
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Motion
 
 ROOT = Path(__file__).parents[2]
 TRUTH = (ROOT / "docs/truth.md").read_text()
-TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-START = State.from_euler(theta=0.5, psi_dot=200.0)
 
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
 needs_rust = pytest.mark.skipif(not shutil.which("rustc"), reason="no rustc")
@@ -29,9 +28,7 @@ def run_block(name, folder):
         (folder / part).symlink_to(ROOT / part)
     output = ""
     for command in commands:
-        output += subprocess.run(
-            command, shell=True, cwd=folder, capture_output=True, text=True, check=True, timeout=300
-        ).stdout
+        output += execute(["sh", "-c", command], cwd=folder, check=True, timeout=300).stdout
     return output, "".join(f"{line}\n" for line in lines if not line.startswith("$ "))
 
 
@@ -49,7 +46,7 @@ def test_an_integrator_in_cpp_is_compared_with_the_library(tmp_path):
 def test_a_program_in_rust_prints_the_doubles_of_python(tmp_path):
     output, promised = run_block("exact_top", tmp_path)
     assert output == promised
-    motion = Motion(TOP, START)
+    motion = Motion(ARTICLE, CUSPS)
     smallest, largest = motion.turning_angles
     assert f"theta is between {smallest:.6f} and {largest:.6f} rad" in output
     for t, row in re.findall(r"t = +(\d+) s: \[(.*)\]", output):

@@ -1,11 +1,13 @@
 """top_live between a real node and a real viewer; both may end and be restarted."""
 
+import contextlib
 import subprocess
 import time
 from types import SimpleNamespace
 
 import pytest
-from programs import PATIENT, command, environment, run, running_node
+from programs import PATIENT, command, run, running, running_node
+from waiting import until
 
 from symtop_ros.live import main as module
 from symtop_ros.log.batch import Batch
@@ -15,36 +17,23 @@ from workshop.load.domains import claim_domain
 from workshop.pictures.viewer import running_viewer, views
 
 DOMAIN = claim_domain()
-TIMEOUT = 60.0
 
 
 @pytest.fixture
 def live():
-    """top_live on a port on which nothing listens yet, and the port."""
+    """A viewer that top_live shows a top in."""
     port = viewer.free_port()
-    with running_viewer(port=port) as (client, _):
-        arguments = ["--port", str(port)]
-        process = subprocess.Popen(
-            command("top_live", *arguments),
-            env=environment(DOMAIN),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        try:
-            yield process, client, port
-        finally:
-            process.terminate()
-            process.communicate(timeout=60)
+    with (
+        running_viewer(port=port) as (client, _),
+        running(command("top_live", "--port", port), DOMAIN),
+    ):
+        yield client
 
 
 def moving(client):
     """Wait until the top is seen to move."""
-    pictures, deadline = set(), time.monotonic() + TIMEOUT
-    while len(pictures) < 2:
-        assert time.monotonic() < deadline, "nothing moves"
-        pictures |= picture_now(client)
-        time.sleep(0.2)
+    pictures = set()
+    until(lambda: len(pictures) > 1, lambda: pictures.update(picture_now(client)))
 
 
 def picture_now(client):
@@ -59,12 +48,11 @@ def picture_now(client):
 
 
 def test_the_scene_follows_a_node_and_finds_it_again(live):
-    _, client, _ = live
     for scene in ("cusps", "looping"):
         with running_node(DOMAIN, f"scene:={scene}"):
-            moving(client)
+            moving(live)
             assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
-            assert all(not each.reports for each in views(client, 13).values())
+            assert not any(each.reports for each in views(live, 13).values())
 
 
 @pytest.mark.long
@@ -73,22 +61,16 @@ def test_a_viewer_that_was_closed_is_found_again():
     gyro = ("--node", "/gyro")
     with running_node(DOMAIN, "scene:=cusps", name="gyro"):
         assert run("top_ctl", *PATIENT, *gyro, "hurry", domain=DOMAIN).returncode == 0
-        with running_viewer(port=port) as (client, _):
-            process = subprocess.Popen(
-                command("top_live", *gyro, "--port", str(port)),
-                env=environment(DOMAIN),
-                stderr=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                text=True,
-            )
-            moving(client)
-        try:
+        with contextlib.ExitStack() as stack:
+            with running_viewer(port=port) as (client, _):
+                words = command("top_live", *gyro, "--port", port)
+                process = stack.enter_context(running(words, DOMAIN))
+                moving(client)
             for line in process.stderr:
                 if line.startswith("the viewer ended; waiting for a new one"):
                     break
             with running_viewer(port=port) as (client, _):
                 moving(client)
-        finally:
             process.terminate()
             said, _ = process.communicate(timeout=60)
         assert said.count(f"showing the top in the viewer on port {port}\n") == 2
@@ -99,9 +81,8 @@ def test_without_viewer_and_screen_the_message_names_the_option(monkeypatch):
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     port = viewer.free_port()
     result = run("top_live", "--port", str(port), domain=DOMAIN)
-    assert result.returncode == 1
     expected = f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
-    assert result.stderr == f"top_live: {expected}\n"
+    assert (result.returncode, result.stderr) == (1, f"top_live: {expected}\n")
 
 
 def test_a_viewer_that_ends_at_once_is_told(monkeypatch):
@@ -112,10 +93,6 @@ def test_a_viewer_that_ends_at_once_is_told(monkeypatch):
         module._viewer(viewer.free_port(), web=True),
     ):
         pass
-
-
-def test_help_is_answered():
-    assert run("top_live", "--help", domain=DOMAIN).returncode == 0
 
 
 def test_without_a_node_it_says_once_what_is_missing(monkeypatch, capsys):

@@ -4,10 +4,10 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from waiting import until
 
 from workshop.load.domains import claim_domain
 from workshop.load.endings import SETPRIV
@@ -37,15 +37,8 @@ def test_a_node_ends_with_the_test_run_that_is_killed():
     node = Path("/proc", run.stdout.readline().strip())
     # A parent that dies before setpriv has asked for the signal is not noticed. While a process
     # becomes another program its command line is empty.
-    wait_until(lambda: (node / "cmdline").read_bytes().startswith(sys.executable.encode()))
+    until(lambda: (node / "cmdline").read_bytes().startswith(sys.executable.encode()))
     run.send_signal(signal.SIGKILL)
     run.wait(timeout=TIMEOUT)
-    wait_until(lambda: not node.is_dir())
+    until(lambda: not node.is_dir())
     run.communicate(timeout=TIMEOUT)
-
-
-def wait_until(condition):
-    deadline = time.monotonic() + TIMEOUT
-    while not condition():
-        assert time.monotonic() < deadline, "the node still runs"
-        time.sleep(0.02)

@@ -1,7 +1,7 @@
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import QuaternionStamped
+from node.listener import Listener
 
 from workshop.load.follower import Follower
 from workshop.load.processes import domain
@@ -12,10 +12,9 @@ RATE = 100.0  # Hz
 class StandIn:
     """Publishes what a top would, when it is asked to."""
 
-    def __init__(self, context):
-        self.node = rclpy.create_node("stand_in", context=context)
-        self.orientation = self.node.create_publisher(QuaternionStamped, "/top/orientation", 1000)
-        self.diagnostics = self.node.create_publisher(DiagnosticArray, "/diagnostics", 100)
+    def __init__(self, node):
+        self.orientation = node.create_publisher(QuaternionStamped, "/top/orientation", 1000)
+        self.diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", 100)
 
     def sample(self, *ticks):
         for tick in ticks:
@@ -31,10 +30,8 @@ class StandIn:
 
 @pytest.fixture
 def top():
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain())
-    yield StandIn(context)
-    rclpy.shutdown(context=context)
+    with Listener(domain(), "stand_in") as stand_in:
+        yield StandIn(stand_in.node)
 
 
 @pytest.fixture

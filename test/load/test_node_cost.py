@@ -13,19 +13,14 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.long
-def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, tmp_path):
+def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, docs):
     monkeypatch.setattr(node_cost, "COST_RATES", (200.0,))
     monkeypatch.setattr(node_cost, "RATES", (500.0,))
     monkeypatch.setattr(node_cost, "KICKS", 10)
-    docs = tmp_path / "docs"
-    docs.mkdir()
-    (tmp_path / "README.md").write_text("")
     page = docs / "reliability.md"
     page.write_text("<!-- figures: node cost --><!-- end of figures -->")
     kept, write = [], node_cost.format_sections
-    monkeypatch.setattr(
-        node_cost, "format_sections", lambda facts: kept.append(facts) or write(facts)
-    )
+    monkeypatch.setattr(node_cost, "format_sections", lambda each: kept.append(each) or write(each))
     assert node_cost.main(["--seconds", "1", "--runs", "1", "--docs", str(docs)]) == 0
     (facts,) = kept
     assert facts["count"] == 1

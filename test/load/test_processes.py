@@ -1,41 +1,40 @@
 import subprocess
 import time
+from unittest.mock import Mock
 
 import pytest
+from programs import execute
 
 from symtop_ros.client.connection import UnreachableError
 from workshop.load import processes, usage
 
 
+def run(work, *words):
+    """Run a program that does some work, for a second if not told otherwise."""
+    return processes.run_program("load.py", "", 1.0, work, words)
+
+
 @pytest.mark.parametrize("text", ["0", "-1", "nan", "inf", "1e7", "soon"])
 def test_seconds_out_of_range_are_refused_as_usage(text, capsys):
     with pytest.raises(SystemExit) as stopped:
-        processes.run_program("load.py", "", 1.0, lambda _: True, [f"--seconds={text}"])
+        run(Mock(), f"--seconds={text}")
     assert stopped.value.code == 2
     message = f"--seconds: must be more than 0 and at most 1e+06 s, got '{text}'"
     assert message in capsys.readouterr().err
 
 
 def test_the_status_says_if_the_figures_are_good():
-    assert (
-        processes.run_program("load.py", "", 1.0, lambda options: options.seconds == 1.0, []) == 0
-    )
-    assert processes.run_program("load.py", "", 1.0, lambda _: False, []) == 1
+    assert run(lambda options: options.seconds == 1.0) == 0
+    assert run(lambda _: False) == 1
 
 
 def test_a_node_that_does_not_answer_is_one_line(capsys):
-    def run(_):
-        raise UnreachableError("no sample from /top within 30 s")
-
-    assert processes.run_program("load.py", "", 1.0, run, []) == 1
+    assert run(Mock(side_effect=UnreachableError("no sample from /top within 30 s"))) == 1
     assert capsys.readouterr().err == "load.py: no sample from /top within 30 s\n"
 
 
 def test_an_interrupt_is_status_130():
-    def run(_):
-        raise KeyboardInterrupt
-
-    assert processes.run_program("load.py", "", 1.0, run, []) == 130
+    assert run(Mock(side_effect=KeyboardInterrupt)) == 130
 
 
 def test_the_resources_of_a_process_are_measured():
@@ -49,7 +48,6 @@ def test_the_resources_of_a_process_are_measured():
 
 @pytest.mark.parametrize("name", ["stress", "soak", "node_cost"])
 def test_a_load_program_explains_itself(name):
-    command = processes.script(name, "--help")
-    result = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    result = execute(processes.script(name, "--help"), check=True)
     assert f"usage: {name}.py" in result.stdout
     assert "--seconds" in result.stdout

@@ -1,8 +1,7 @@
 """The node at 1000 Hz with friction, recording, kicked at random; for hours: `make soak`."""
 
-import subprocess
-
 import pytest
+from programs import execute
 
 from workshop.load import soak
 from workshop.load.processes import script
@@ -15,10 +14,7 @@ BALANCE = 1e-13  # J, of an energy of some J: 1e-15 of it in a stretch, and a fa
 
 @pytest.mark.long
 def test_at_full_rate_nothing_is_lost_and_every_log_is_what_its_events_say():
-    command = script("soak", "--seconds", SECONDS)
-    result = subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=SECONDS + 120
-    )
+    result = execute(script("soak", "--seconds", SECONDS), timeout=SECONDS + 120)
     warnings = result.stderr.splitlines()
     # the machine may be too busy for the node, which warns of it
     assert [line for line in warnings if "no samples for" not in line] == []

@@ -34,15 +34,12 @@ def test_under_load_nothing_is_lost_and_every_request_is_answered(capsys):
         assert (lost, unanswered) == ("0", "0")
 
 
-def test_the_outcomes_are_written_into_the_documents(tmp_path, monkeypatch, capsys):
+def test_the_outcomes_are_written_into_the_documents(docs, monkeypatch, capsys):
     outcomes = [
         Outcome("a load", 200.04, 0, 3, 0.123, 1.26, figures="9 calls/s"),
         Outcome("another", 1000.0, 2, 0, 0.5, 0.0, unanswered=1),
     ]
     monkeypatch.setattr(stress, "stress", lambda _: iter(outcomes))
-    docs = tmp_path / "docs"
-    docs.mkdir()
-    (tmp_path / "README.md").touch()
     page = docs / "reliability_tables.md"
     page.write_text(f"# T\n\n<!-- figures: {stress.NAME} -->\n<!-- end of figures -->\n")
     assert stress.main(["--docs", str(docs), "--seconds", "2"]) == 1

@@ -49,6 +49,12 @@ def parts(folder, count, storage=StoragePlugin.MCAP):
     return [file for each in folders for file in each.glob("part_*")]
 
 
+def compressed():
+    """The messages of the run, each compressed."""
+    pack = zstandard.ZstdCompressor().compress
+    return [(name, stamp, pack(data)) for name, stamp, data in RUN.messages]
+
+
 def assert_complete(paths):
     """All samples of the run are there and agree exactly with its events."""
     assert_agrees(TopLog(open_run(paths)), 300)
@@ -168,9 +174,7 @@ def test_messages_that_a_killed_recorder_left_in_the_write_ahead_log_are_read(tm
 @pytest.mark.parametrize("storage", STORAGES)
 def test_a_bag_of_compressed_messages_is_read(storage, tmp_path):
     """As `ros2 bag record --compression-mode message --compression-format zstd` writes it."""
-    compress = zstandard.ZstdCompressor().compress
-    messages = [(name, stamp, compress(data)) for name, stamp, data in RUN.messages]
-    folder = write(tmp_path / "bag", messages, storage)
+    folder = write(tmp_path / "bag", compressed(), storage)
     assert_complete([folder])
     findings = check_run(TopLog(open_run([folder])))
     assert (findings.mismatches, findings.damage) == ([], [])
@@ -192,8 +196,7 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
 
 
 def test_compressed_messages_that_are_damaged_are_counted(tmp_path):
-    compress = zstandard.ZstdCompressor().compress
-    messages = [(name, stamp, compress(data)) for name, stamp, data in RUN.messages]
+    messages = compressed()
     name, stamp, data = messages[40]
     messages[40] = name, stamp, data[:8] + b"\xff" * 8
     log = TopLog(open_run([write(tmp_path / "bag", messages)]))

@@ -33,6 +33,13 @@ def save(folder, data):
     return path
 
 
+def save_chunk(folder, chunk):
+    """A file of one chunk."""
+    builder = RecordBuilder()
+    chunk.write(builder)
+    return save(folder, reader.MAGIC + builder.end())
+
+
 def read(path):
     file = McapFile(path)
     return file, [
@@ -69,9 +76,7 @@ def _end_of_data(whole):
 
 
 def test_a_flipped_bit_costs_a_chunk_at_most_and_is_never_taken_for_a_number(good, tmp_path):
-    whole = good.read_bytes()
-    rng = random.Random(5)
-    incomplete = 0
+    whole, rng, incomplete = good.read_bytes(), random.Random(5), 0
     for _ in range(150):
         damaged = bytearray(whole)
         damaged[rng.randrange(8, len(damaged))] ^= 1 << rng.randrange(8)
@@ -122,12 +127,9 @@ def test_a_file_that_is_not_there_and_a_folder_are_refused(tmp_path):
 
 @pytest.mark.parametrize("compression", ["zstd", "lz4"])
 def test_a_chunk_that_unpacks_to_far_more_than_it_says_is_damaged(compression, tmp_path):
-    size = 2**30
     pack = zstandard.compress if compression == "zstd" else lz4.frame.compress
-    bomb = pack(bytes(size))
-    builder = RecordBuilder()
-    Chunk(compression, bomb, 0, 1, zlib.crc32(b""), 1000).write(builder)
-    path = save(tmp_path, reader.MAGIC + builder.end())
+    bomb = Chunk(compression, pack(bytes(2**30)), 0, 1, zlib.crc32(b""), 1000)
+    path = save_chunk(tmp_path, bomb)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     file, messages = read(path)
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before  # KiB
@@ -137,9 +139,7 @@ def test_a_chunk_that_unpacks_to_far_more_than_it_says_is_damaged(compression, t
 
 
 def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path):
-    builder = RecordBuilder()
-    Chunk("", b"x", 0, 1, 0, 2**62).write(builder)
-    path = save(tmp_path, reader.MAGIC + builder.end())
+    path = save_chunk(tmp_path, Chunk("", b"x", 0, 1, 0, 2**62))
     assert any("a chunk is damaged" in problem for problem in read(path)[0].problems)
 
 

@@ -14,8 +14,9 @@ RUN = Run(seconds=1.0)
 TYPES = {each.name: each.type for each in (EVENTS, *STATE_TOPICS.values())}
 
 
-def write(path, runs, encoding="cdr", others=()):
+def write(folder, runs, node=None, encoding="cdr", others=()):
     """A log by another program: tops by the names of their nodes, and other messages between."""
+    path = folder / "a.mcap"
     with path.open("wb") as stream:
         writer = Writer(stream)
         writer.start("ros2")
@@ -30,20 +31,17 @@ def write(path, runs, encoding="cdr", others=()):
             for name, kind in TYPES.items()
         }
         strangers = [channel(name, kind) for name, kind, _ in others]
-        merged = sorted(
-            (
-                (stamp, ids[node, name], data)
-                for node, run in runs.items()
-                for name, stamp, data in run.messages
-            ),
-            key=lambda each: each[0],
-        )
-        for stamp, number, data in merged:
+        merged = [
+            (stamp, ids[node, name], data)
+            for node, run in runs.items()
+            for name, stamp, data in run.messages
+        ]
+        for stamp, number, data in sorted(merged, key=lambda each: each[0]):
             writer.add_message(number, stamp + 1234, data, stamp + 1234)
             for stranger, (_, _, noise) in zip(strangers, others, strict=True):
                 writer.add_message(stranger, stamp + 2000, noise, stamp)
         writer.finish()
-    return path
+    return TopLog(McapFile(path), node)
 
 
 def columns_of(log):
@@ -59,8 +57,7 @@ def test_topics_are_found_in_any_namespace_and_between_others(tmp_path):
         ("/camera/image", "sensor_msgs/msg/Image", b"noise"),
         ("/other/orientation", "geometry_msgs/msg/PoseStamped", b"another type"),
     ]
-    path = write(tmp_path / "a.mcap", {"/lab/one/top": RUN}, others=others)
-    log = TopLog(McapFile(path))
+    log = write(tmp_path, {"/lab/one/top": RUN}, others=others)
     columns = columns_of(log)
     assert log.node == "/lab/one/top"
     assert len(columns["orientation"]) == 200
@@ -69,20 +66,18 @@ def test_topics_are_found_in_any_namespace_and_between_others(tmp_path):
 
 def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
     slow = Run(seconds=1.0, rate=50.0)
-    path = write(tmp_path / "a.mcap", {"/a": RUN, "/b": slow})
-    log = TopLog(McapFile(path))
+    log = write(tmp_path, {"/a": RUN, "/b": slow})
     assert len(columns_of(log)["torque"]) == 200
     (note,) = log.problems
     assert "/a;" in note
     assert note.endswith("--node: /b")
-    assert len(columns_of(TopLog(McapFile(path), "/b"))["torque"]) == 50
+    assert len(columns_of(TopLog(log.file, "/b"))["torque"]) == 50
 
 
 def test_missing_topics_are_listed(tmp_path):
     part = Run(seconds=1.0)
     part.messages = [each for each in part.messages if each[0] in ("orientation", "events")]
-    path = write(tmp_path / "a.mcap", {"/top": part})
-    log = TopLog(McapFile(path))
+    log = write(tmp_path, {"/top": part})
     assert set(columns_of(log)) == {"orientation"}
     missing = "no angular_velocity, no angular_momentum, no torque, no euler_angles, no tf"
     assert log.problems == [f"the log has {missing}"]
@@ -92,18 +87,17 @@ def test_a_log_without_a_top_is_refused_with_a_list_of_its_topics(tmp_path):
     others = [("/camera/image", "sensor_msgs/msg/Image", b"noise")]
     empty = Run(seconds=1.0)
     empty.messages = []
-    path = write(tmp_path / "a.mcap", {"/top": empty}, others=others)
+    log = write(tmp_path, {"/top": empty}, others=others)
     with pytest.raises(LogError, match=r"no run of a top in \S+a\.mcap: topics "):
-        list(TopLog(McapFile(path)).batches())
-    full = write(tmp_path / "b.mcap", {"/top": RUN})
+        list(log.batches())
+    log = write(tmp_path, {"/top": RUN}, "/missing")
     with pytest.raises(LogError, match=r"no run of a top /missing in \S+: topics /tf, /top/"):
-        list(TopLog(McapFile(full), "/missing").batches())
+        list(log.batches())
 
 
 def test_messages_of_another_encoding_are_not_decoded(tmp_path):
-    path = write(tmp_path / "a.mcap", {"/top": RUN}, encoding="json")
     with pytest.raises(LogError, match="no run of a top"):
-        list(TopLog(McapFile(path)).batches())
+        list(write(tmp_path, {"/top": RUN}, encoding="json").batches())
 
 
 def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(tmp_path):
@@ -112,18 +106,16 @@ def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(tmp_pa
         (name, stamp, data[:-3] if name == "torque" and k % 2 else data)
         for k, (name, stamp, data) in enumerate(run.messages)
     ]
-    path = write(tmp_path / "a.mcap", {"/top": run})
-    log = TopLog(McapFile(path))
-    taken = columns_of(log)["torque"]
-    assert 0 < len(taken) < 200
-    assert len(log.problems) == 1
-    assert "torque" in log.problems[0]
-    assert "are not a geometry_msgs/msg/WrenchStamped" in log.problems[0]
+    log = write(tmp_path, {"/top": run})
+    assert 0 < len(columns_of(log)["torque"]) < 200
+    (problem,) = log.problems
+    assert "torque" in problem
+    assert "are not a geometry_msgs/msg/WrenchStamped" in problem
 
 
 def test_samples_of_one_stamp_are_never_parted(tmp_path):
     run = Run(seconds=12.0, rate=1000.0)
-    log = TopLog(McapFile(run.write(tmp_path)))
+    log = run.open(tmp_path)
     for batch in log.batches():
         stamps = [columns.stamps.tolist() for columns in batch.columns.values()]
         assert all(each == stamps[0] for each in stamps)
@@ -132,16 +124,15 @@ def test_samples_of_one_stamp_are_never_parted(tmp_path):
 
 def test_two_tops_that_share_tf_are_told_apart_by_the_frames_in_their_events(tmp_path):
     one, other = Run(seconds=1.0), Run(seconds=1.0, rate=50.0, frame="gyro")
-    path = write(tmp_path / "a.mcap", {"/a": one, "/b": other})
     for node, count in (("/a", 200), ("/b", 50)):
-        columns = columns_of(TopLog(McapFile(path), node))
+        columns = columns_of(write(tmp_path, {"/a": one, "/b": other}, node))
         assert len(columns["tf"]) == count
         assert columns["tf"][:, 3:].tolist() == columns["orientation"].tolist()
 
 
 def test_the_slash_at_the_beginning_of_a_node_may_be_left_out(tmp_path):
-    path = write(tmp_path / "a.mcap", {"/lab2/top": RUN, "/top": Run(seconds=1.0, rate=50.0)})
-    log = TopLog(McapFile(path), "lab2/top")
+    runs = {"/lab2/top": RUN, "/top": Run(seconds=1.0, rate=50.0)}
+    log = write(tmp_path, runs, "lab2/top")
     assert len(columns_of(log)["torque"]) == 200
     assert log.node == "/lab2/top"
 
@@ -150,7 +141,6 @@ def test_transforms_of_another_top_before_the_first_event_are_not_those_of_this_
     one, other = Run(seconds=1.0), Run(seconds=1.0, rate=2000.0, frame="gyro")
     one.messages = [each for each in one.messages if each[1] >= one.messages[0][1] + 5 * 10**8]
     assert one.messages[0][0] == "events"  # the kick
-    path = write(tmp_path / "a.mcap", {"/top": other, "/one": one})
-    deviations = check_log(TopLog(McapFile(path), "/one"))
+    deviations = check_log(write(tmp_path, {"/top": other, "/one": one}, "/one"))
     for each in deviations.values():
         assert (each.samples, each.largest, each.unchecked) == (100, 0.0, 0)

@@ -24,13 +24,6 @@ def test_channels_store_the_quality_of_service_that_the_node_offers(tmp_path):
         assert profile.durability == (latched if topic.latched else volatile)
 
 
-def test_files_of_one_second_get_different_names(tmp_path):
-    files = [LogFile(tmp_path, [], {}, {}) for _ in range(3)]
-    assert len({file.path for file in files}) == 3
-    for file in files:
-        file.finish({})
-
-
 def test_a_file_without_a_chunk_is_removed_when_it_is_abandoned(tmp_path, monkeypatch):
     def fail(_):
         raise OSError(28, "No space left on device")

@@ -1,28 +1,27 @@
-"""A node of the test that listens to a top in another process."""
+"""A node of the test that listens to a top, in another process or in its own."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Self
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
-
-TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
+from waiting import until
 
 
 class Listener:
     """A node in a domain, spun until a condition holds."""
 
-    def __init__(self, domain: int) -> None:
+    def __init__(self, domain: int, name: str = "listener") -> None:
         self.context = rclpy.Context()
         rclpy.init(context=self.context, domain_id=domain)
-        self.node = rclpy.create_node("listener", context=self.context)
+        self.node = rclpy.create_node(name, context=self.context)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
 
-    def __enter__(self) -> Listener:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -35,10 +34,12 @@ class Listener:
         return messages
 
     def spin_until(self, done: Callable[[], Any]) -> None:
-        deadline = time.monotonic() + TIMEOUT
-        while not done():
-            assert time.monotonic() < deadline, "the condition did not come true in time"
-            self.executor.spin_once(timeout_sec=0.05)
+        until(done, lambda: self.executor.spin_once(timeout_sec=0.05))
+
+    def wait_for(self, messages: list[Any], count: int = 1) -> None:
+        """Wait until so many more messages have come into a list."""
+        enough = len(messages) + count
+        self.spin_until(lambda: len(messages) >= enough)
 
     def spin(self, seconds: float) -> None:
         end = time.monotonic() + seconds

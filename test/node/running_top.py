@@ -5,15 +5,17 @@ Time is simulated unless a test is about real time: it advances while the test s
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import WrenchStamped
+from node.listener import Listener
 from rclpy.clock_type import ClockType
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.time import Time
@@ -30,25 +32,29 @@ TURN = 0.002  # s of real time between two advances of the simulated clock, at l
 STEP = 5_000_000  # ns; an advance of the simulated clock
 
 
-class RunningTop:
+class RunningTop(Listener):
     """A TopNode and a client node, spun together until a condition holds.
 
     With `realtime` the node follows the clock of the system, else a simulated clock that begins
-    at 0 and advances by 5 ms at most every 2 ms while the test spins.
+    at 0 and advances by 5 ms at most every 2 ms while the test spins. With `record` it records
+    into this folder.
     """
 
     def __init__(
-        self, realtime: bool = False, arguments: list[str] | None = None, **parameters: Any
+        self,
+        realtime: bool = False,
+        arguments: list[str] | None = None,
+        record: Path | None = None,
+        **parameters: Any,
     ) -> None:
-        self.context = rclpy.Context()
         self.domain = claim_domain()
-        rclpy.init(context=self.context, domain_id=self.domain)
+        super().__init__(self.domain, "user")
         self.now, self._advanced, self._frozen = 0, 0.0, realtime
+        if record:
+            parameters |= {"record__enabled": True, "record__directory": str(record)}
         if not realtime:
             parameters = {"use_sim_time": True, **parameters}
-        overrides = [
-            Parameter(name.replace("__", "."), value=value) for name, value in parameters.items()
-        ]
+        overrides = [Parameter(k.replace("__", "."), value=v) for k, v in parameters.items()]
         try:
             self.top = TopNode(
                 context=self.context, cli_args=arguments, parameter_overrides=overrides
@@ -57,11 +63,12 @@ class RunningTop:
             rclpy.try_shutdown(context=self.context)
             release_domain(self.domain)
             raise
-        self.user = rclpy.create_node("user", context=self.context)
+        self.user = self.node
         self.connection = _SharedConnection(self)
-        self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.top)
-        self.executor.add_node(self.user)
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def close(self) -> None:
         self.executor.shutdown()
@@ -78,9 +85,8 @@ class RunningTop:
     def set_clock(self, stamp: int) -> None:
         """Set the simulated clock to a stamp in ns."""
         self.now = stamp
-        self.top.get_clock().set_ros_time_override(
-            Time(nanoseconds=stamp, clock_type=ClockType.ROS_TIME)
-        )
+        moment = Time(nanoseconds=stamp, clock_type=ClockType.ROS_TIME)
+        self.top.get_clock().set_ros_time_override(moment)
 
     def spin_until(self, done: Callable[[], Any], timeout: float = TIMEOUT) -> None:
         deadline = time.monotonic() + timeout
@@ -91,11 +97,11 @@ class RunningTop:
                 self.set_clock(self.now + STEP)
             self.executor.spin_once(timeout_sec=0.05 if self._frozen else TURN)
 
-    def collect(self, kind: Any, topic: str, qos: Any = 1000, raw: bool = False) -> list[Any]:
-        """Subscribe, and return the list that messages (or their bytes) come into."""
-        messages: list[Any] = []
-        self.user.create_subscription(kind, topic, messages.append, qos, raw=raw)
-        return messages
+    def collect_events(self) -> list[Any]:
+        """Subscribe to the events, wait for the first, and return the list that they come into."""
+        events = self.collect(DiagnosticArray, "/top/events", LATCHED)
+        self.spin_until(lambda: events)
+        return events
 
     def publisher(self, kind: Any, topic: str) -> Any:
         """Create a publisher to the top and wait until messages arrive."""
@@ -122,6 +128,22 @@ class RunningTop:
         file = self.top.session._recorder._file
         assert file
         return file.path
+
+    def end_log(self) -> Path:
+        """End the recording; return its file."""
+        granted, answer = self.switch("record", False)
+        assert granted, answer
+        return self.last_log
+
+    def state(self) -> Any:
+        """The answer of ~/get_state."""
+        granted, text = self.trigger("get_state")
+        assert granted, text
+        return json.loads(text)
+
+    def change(self, values: Mapping[str, Any]) -> tuple[bool, str]:
+        """Set parameters."""
+        return self.connection.set("set_parameters_atomically", values)
 
     def set(self, service: str, **values: Any) -> tuple[bool, str]:
         return self.connection.set(service, values)

@@ -1,14 +1,13 @@
 """Unexpected exceptions in every callback: reported, and the motion keeps running or ends."""
 
-import subprocess
 import sys
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
-from node.running_top import LATCHED, torque_of
-from programs import environment
+from node.running_top import events_named, torque_of
+from programs import environment, execute, set_parameters
 
 from symtop_ros.session.outputs import Output, Outputs
 from symtop_ros.simulation.changes.outcomes import Failure
@@ -30,28 +29,23 @@ def fail(*_):
 
 @pytest.fixture
 def run(start_top, tmp_path):
-    return start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
+    return start_top(publish_rate=500.0, record=tmp_path)
 
 
 @pytest.fixture
 def failures(run):
     """The events that report exceptions."""
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    run.spin_until(lambda: events)
-    return lambda: [
-        each.status[0].message for each in events if each.status[0].name == "top: failure"
-    ]
+    events = run.collect_events()
+    return lambda: [each.status[0].message for each in events_named(events, "failure")]
 
 
 def assert_keeps_running(run):
     """Samples are published, requests are answered, and the log agrees with its events."""
     samples = run.collect(QuaternionStamped, "/top/orientation")
-    run.spin_until(lambda: len(samples) > 20)
+    run.wait_for(samples, 20)
     assert run.trigger("hurry_precession")[0]
-    run.spin_until(lambda: len(samples) > 40)
-    granted, answer = run.switch("record", False)
-    assert granted, answer
-    assert_exact(run.last_log)
+    run.wait_for(samples, 20)
+    assert_exact(run.end_log())
     assert run.top.failure is None
 
 
@@ -99,12 +93,11 @@ def test_one_in_each_of_the_diagnostics_is_reported_once(run, failures, monkeypa
 def test_one_in_the_check_of_parameters_refuses_them(run, failures, monkeypatch):
     monkeypatch.setattr("symtop_ros.session.session.Settings.from_values", fail)
     report = report_of("a check of parameters")
-    values = {"hurry_factor": 1.2}
-    assert run.connection.set("set_parameters_atomically", values) == (False, report)
+    assert run.change({"hurry_factor": 1.2}) == (False, report)
     run.spin_until(failures)
     monkeypatch.undo()
     assert failures() == [report]
-    assert run.connection.set("set_parameters_atomically", values)[0]
+    assert run.change({"hurry_factor": 1.2})[0]
     assert_keeps_running(run)
 
 
@@ -112,7 +105,7 @@ def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
     run, failures, monkeypatch
 ):
     monkeypatch.setattr(Outputs, "send_description", fail)
-    run.connection.set("set_parameters_atomically", {"top.Mgl": 0.05})
+    run.change({"top.Mgl": 0.05})
     run.spin_until(failures)
     monkeypatch.undo()
     assert failures() == [report_of("a change of parameters")]
@@ -121,16 +114,18 @@ def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
     monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
+    before, report = run.top.simulation.segment, report_of("~/hurry_precession")
     for _ in range(2):
-        assert run.trigger("hurry_precession") == (False, report_of("~/hurry_precession"))
-    run.spin_until(lambda: len(failures()) == 2)
+        assert run.trigger("hurry_precession") == (False, report)
+    run.spin_until(lambda: failures() == [report] * 2)
+    assert run.top.simulation.segment is not before
     monkeypatch.undo()
     assert_keeps_running(run)
 
 
 def test_the_log_has_the_sample_complete_in_which_ros_ends(run, tmp_path, monkeypatch):
     heard = run.collect(QuaternionStamped, "/top/orientation")
-    run.spin_until(lambda: len(heard) > 10)
+    run.wait_for(heard, 10)
     first = run.top.session._outputs._samples["orientation"][0]
     send = Output.send
 
@@ -175,15 +170,8 @@ sys.exit(top_node())
 def test_one_in_a_tick_ends_the_node_with_a_line_and_a_complete_log(module, name, method, tmp_path):
     program = FAILING.format(module=module, name=name, method=method)
     words = ("publish_rate:=500", "record.enabled:=true", f"record.directory:={tmp_path}")
-    options = [word for parameter in words for word in ("-p", parameter)]
-    result = subprocess.run(
-        [sys.executable, "-c", program, "--ros-args", *options, "--log-level", "error"],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-        env=environment(DOMAIN),
-    )
+    options = [*set_parameters(*words)[:-1], "error"]
+    result = execute([sys.executable, "-c", program, *options], env=environment(DOMAIN))
     assert result.returncode == 1
     (line,) = result.stderr.splitlines()
     assert line.endswith(f"a tick failed: {BUG}")

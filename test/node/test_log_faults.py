@@ -6,12 +6,12 @@ import subprocess
 import sys
 from itertools import pairwise
 
-import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from disks import mounted, remount
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
-from node.running_top import LATCHED, facts
-from programs import environment
+from node.running_top import facts, status_of
+from programs import environment, set_parameters
 from sensor_msgs.msg import JointState
 
 from symtop_ros.session.recording import Answer
@@ -35,59 +35,41 @@ class Recording:
 
     def __init__(self, start_top, folder):
         self.run = start_top(publish_rate=500.0, record__directory=str(folder))
-        self._events = self.run.collect(DiagnosticArray, "/top/events", LATCHED)
+        self._events = self.run.collect_events()
         self._angles = self.run.collect(JointState, "/top/euler_angles", raw=True)
-        self.run.spin_until(lambda: self._events)
 
     @property
     def errors(self):
-        found = map(facts, self._events)
-        return [each["outcome.failure"] for each in found if each.get("outcome.kind") == "stopped"]
+        told = map(facts, self._events)
+        found = [each for each in told if each.get("outcome.kind") == "stopped"]
+        assert all(each["motion.running"] == "true" for each in found)
+        return [each["outcome.failure"] for each in found]
 
-    def begin(self):
-        granted, answer = self.run.switch("record", True)
-        return self.run.last_log if granted else answer
-
-    def end(self):
-        granted, answer = self.run.switch("record", False)
+    def switch(self, on):
+        """Begin or end; return the file, or the answer that refuses."""
+        granted, answer = self.run.switch("record", on)
         return self.run.last_log if granted else answer
 
     def wait(self, samples=100):
-        seen = len(self._angles)
-        self.run.spin_until(lambda: len(self._angles) > seen + samples)
+        self.run.wait_for(self._angles, samples)
 
     def assert_works(self):
         """The motion keeps running, and the next recording is complete."""
         self.wait()
-        path = self.begin()
+        path = self.switch(True)
         self.wait()
         assert self.run.trigger("hurry_precession")[0]
         self.wait()
-        assert self.end() == path
+        assert self.switch(False) == path
         assert assert_exact(path) > 20
         assert not any((b - a) % (2 * MS) for a, b in pairwise(stamps_of(path)))
-
-
-@contextlib.contextmanager
-def mounted(folder, options):
-    mount = ["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)]
-    if shutil.which("mount") is None or subprocess.run(mount, check=False).returncode:
-        pytest.skip("a file system cannot be mounted: not root")
-    try:
-        yield
-    finally:
-        subprocess.run(["umount", "-l", str(folder)], check=True)
-
-
-def remount(folder, options):
-    subprocess.run(["mount", "-o", f"remount,{options}", str(folder)], check=True)
 
 
 def test_a_folder_that_is_read_only_is_refused_until_it_is_not(start_top, tmp_path):
     with mounted(tmp_path, "ro,size=10m"):
         recording = Recording(start_top, tmp_path)
         refusal = f"{UNWRITABLE} {str(tmp_path)!r}: Read-only file system"
-        assert [recording.begin() for _ in range(2)] == [refusal] * 2
+        assert [recording.switch(True) for _ in range(2)] == [refusal] * 2
         remount(tmp_path, "rw")
         recording.assert_works()
         assert recording.errors == []
@@ -97,12 +79,12 @@ def test_a_folder_that_is_read_only_is_refused_until_it_is_not(start_top, tmp_pa
 def test_a_folder_that_a_file_takes_the_place_of_is_one_error(start_top, tmp_path):
     folder = tmp_path / "logs"
     recording = Recording(start_top, folder)
-    path = recording.begin()
+    path = recording.switch(True)
     recording.wait()
     shutil.rmtree(folder)
     folder.write_text("")
     recording.run.spin_until(lambda: recording.errors)
-    assert recording.begin() == f"{UNWRITABLE} {str(folder)!r}: File exists"
+    assert recording.switch(True) == f"{UNWRITABLE} {str(folder)!r}: File exists"
     folder.unlink()
     recording.assert_works()
     assert recording.errors == [f"{path}: the file was removed"]
@@ -110,10 +92,15 @@ def test_a_folder_that_a_file_takes_the_place_of_is_one_error(start_top, tmp_pat
 
 def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_path):
     recording = Recording(start_top, tmp_path)
-    path = recording.begin()
+    diagnostics = recording.run.collect(DiagnosticArray, "/diagnostics")
+    path = recording.switch(True)
     recording.wait()
     path.unlink()
     recording.run.spin_until(lambda: recording.errors)
+    recording.run.spin_until(
+        lambda: diagnostics and status_of(diagnostics[-1], "top: log").level == b"\2"
+    )
+    assert "the file was removed" in status_of(diagnostics[-1], "top: log").message
     recording.assert_works()
     assert recording.errors == [f"{path}: the file was removed"]
 
@@ -123,7 +110,7 @@ def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
     recorder = recording.run.top.session._recorder
     paths = []
     for _ in range(2):
-        paths.append(recording.begin())
+        paths.append(recording.switch(True))
         paths[-1].unlink()
         recording.run.spin_until(lambda: recorder.failure)
     assert not recorder.running
@@ -136,27 +123,25 @@ def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
 def test_a_recording_whose_end_fails_is_refused_and_one_error(start_top, tmp_path, monkeypatch):
     monkeypatch.setattr("symtop_ros.log.recorder.FLUSH_PERIOD", 3600.0)
     recording = Recording(start_top, tmp_path)
-    path = recording.begin()
+    path = recording.switch(True)
     recording.wait()
     path.unlink()
-    assert recording.end() == f"recording failed: {path}: the file was removed"
+    assert recording.switch(False) == f"recording failed: {path}: the file was removed"
     recording.assert_works()
     assert recording.errors == [f"{path}: the file was removed"]
 
 
 def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_path):
-    folder = tmp_path / "small"
-    folder.mkdir()
-    with mounted(folder, "size=2m"):
+    with mounted(tmp_path / "small", "size=2m") as folder:
         recording = Recording(start_top, folder)
         ballast = folder / "ballast"
-        path = recording.begin()
+        path = recording.switch(True)
         recording.wait(400)  # a flush and more
         with contextlib.suppress(OSError), ballast.open("wb", buffering=0) as file:
             while True:
                 file.write(bytes(4096))
         recording.run.spin_until(lambda: recording.errors)
-        assert "No space left on device" in recording.begin()
+        assert "No space left on device" in recording.switch(True)
         assert assert_exact(path) > 100
         assert set(folder.iterdir()) == {path, ballast}
         ballast.unlink()
@@ -166,10 +151,9 @@ def test_a_disk_that_is_full_and_then_free_again_is_one_error(start_top, tmp_pat
 
 
 def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
-    options = [f"-p record.directory:={tmp_path}", "-p record.enabled:=true", "--log-level warn"]
-    words = [word for each in options for word in each.split()]
+    options = set_parameters(f"record.directory:={tmp_path}", "record.enabled:=true")
     node = subprocess.Popen(
-        bound([sys.executable, "-c", LATE, "--ros-args", *words]),
+        bound([sys.executable, "-c", LATE, *options]),
         env=environment(DOMAIN),
         stderr=subprocess.PIPE,
         text=True,

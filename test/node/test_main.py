@@ -1,11 +1,10 @@
 """top_node as a process: help, refusals in one line, and a clean end."""
 
 import signal
-import subprocess
 import sys
 
 import pytest
-from programs import PATIENT, command, environment, run
+from programs import PATIENT, command, environment, execute, run, running, set_parameters
 
 from workshop.load.domains import claim_domain
 
@@ -22,33 +21,23 @@ def test_help_names_the_scenes():
 @pytest.mark.parametrize(
     ("arguments", "status", "sentence"),
     [
-        (["--fast"], 2, "unrecognized arguments: --fast"),
-        (["--ros-args", "-p", "publish_rate:=0"], 1, "publish_rate must be "),
-        (["--ros-args", "-p", "top.Iz:=1.0"], 1, "top.Iz must be "),
-        (["--ros-args", "-p", "scene:=x"], 1, "scene must be "),
-        (["--ros-args", "-p", "publish_tf:=1"], 1, "publish_tf must be "),
-        (["--ros-args", "-p", "top_frame:=/top"], 1, "top_frame must be "),
-        (
-            ["--ros-args", "-p", "steady_torque:=[0, 0, 0.0001]"],
-            1,
-            "got [0, 0, 0.0001]: write 0.0 for 0",  # the advice
-        ),
-        (
-            ["--ros-args", "-p", "qos_overrides./top/orientation.publisher.depth:=0"],
-            1,
-            "depth 0 (must be >= 1)",
-        ),
-        (["--ros-args", "--params-file", "/nowhere.yaml"], 1, "Couldn't parse params file"),
-        (["--ros-args", "-p", "use_sim_time:=7"], 1, "use_sim_time"),
-        (
-            ["--ros-args", "-p", "initial.precession:=slow", "-p", "initial.psi_dot:=3.0"],
-            1,
-            "regular precession ",
-        ),
+        ("--fast", 2, "unrecognized arguments: --fast"),
+        ("publish_rate:=0", 1, "publish_rate must be "),
+        ("top.Iz:=1.0", 1, "top.Iz must be "),
+        ("scene:=x", 1, "scene must be "),
+        ("publish_tf:=1", 1, "publish_tf must be "),
+        ("top_frame:=/top", 1, "top_frame must be "),
+        ("steady_torque:=[0,0,0.0001]", 1, "got [0,0,0.0001]: write 0.0 for 0"),  # the advice
+        ("qos_overrides./top/orientation.publisher.depth:=0", 1, "depth 0 (must be >= 1)"),
+        ("--ros-args --params-file /nowhere.yaml", 1, "Couldn't parse params file"),
+        ("use_sim_time:=7", 1, "use_sim_time"),
+        ("initial.precession:=slow initial.psi_dot:=3.0", 1, "regular precession "),
     ],
 )
 def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sentence):
-    result = run("top_node", *arguments, domain=DOMAIN)
+    words = arguments.split()
+    options = set_parameters(*words) if ":=" in arguments else words
+    result = run("top_node", *options, domain=DOMAIN)
     assert result.returncode == status
     assert sentence in result.stderr
     assert "Traceback" not in result.stderr
@@ -59,21 +48,12 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_ends_it_cleanly(ending):
-    node = subprocess.Popen(
-        command("top_node", "--ros-args", "-p", "publish_rate:=1000"),
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment(DOMAIN),
-    )
-    try:
-        assert node.stderr is not None
+def test_a_signal_while_it_starts_ends_it_cleanly(ending):
+    with running(command("top_node", *set_parameters("publish_rate:=1000")[:3]), DOMAIN) as node:
         while "scene cusps" not in node.stderr.readline():
             assert node.poll() is None
         node.send_signal(ending)
         _, rest = node.communicate(timeout=60)
-    finally:
-        node.kill()
     assert node.returncode == 0
     assert "Traceback" not in rest
     assert "top_node:" not in rest
@@ -90,25 +70,16 @@ WAY_OUT = (
 
 
 def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
-    node = subprocess.Popen([sys.executable, "-c", WITHOUT_MCAP], env=environment(DOMAIN))
-    try:
+    with running([sys.executable, "-c", WITHOUT_MCAP], DOMAIN, stderr=None) as node:
         assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
         refused = run("top_ctl", *PATIENT, "record", "on", domain=DOMAIN)
         assert (refused.returncode, refused.stderr) == (1, f"top_ctl: {WAY_OUT}\n")
         assert run("top_ctl", *PATIENT, "state", domain=DOMAIN).returncode == 0
-    finally:
-        node.terminate()
-    assert node.wait(timeout=60) == 0
+    assert node.returncode == 0
 
 
 def test_without_mcap_a_recording_from_the_start_is_refused_in_one_line():
-    result = subprocess.run(
-        [sys.executable, "-c", WITHOUT_MCAP, "--ros-args", "-p", "record.enabled:=true"],
-        env=environment(DOMAIN),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    words = [sys.executable, "-c", WITHOUT_MCAP, "--ros-args", "-p", "record.enabled:=true"]
+    result = execute(words, env=environment(DOMAIN))
     assert (result.returncode, result.stderr.splitlines()[-1]) == (1, f"top_node: {WAY_OUT}")
     assert "Traceback" not in result.stderr

@@ -20,7 +20,6 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
     seen = run.collect(messages.MarkerArray, "/top/markers")
     momenta = run.collect(Vector3Stamped, "/top/angular_momentum")
     run.spin_until(lambda: len(seen) > 20)
-    by_stamp = {stamp_of(each): each.vector for each in momenta}
     latest = seen[-1].markers
     assert [each.ns for each in latest] == ["trace", *markers.ARROWS]
     assert {each.header.frame_id for each in latest} == {"world"}

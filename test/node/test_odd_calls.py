@@ -7,6 +7,7 @@ import json
 import math
 
 import pytest
+from exact_log import assert_no_deviation
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from hypothesis import given
 from hypothesis import strategies as st
@@ -17,8 +18,6 @@ from rcl_interfaces.msg import Parameter, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 from symtop_ros.check.samples import check_log
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.changes import initial, kick
 from symtop_ros.simulation.settings import PARAMETERS
 
@@ -63,10 +62,7 @@ class Watched(RunningTop):
     def restore(self):
         """The motion and the parameters of the beginning."""
         self.switch("pause", False)
-        (restored,) = self.ask(
-            "set_parameters_atomically", [_parameter(*each) for each in RESTORED.items()]
-        )
-        assert restored == (True, "")
+        assert self.change(RESTORED) == (True, "")
         assert self.set(START, theta=0.5, psi_dot=200.0)[0]
 
     def assert_samples_agree_with_the_motion(self):
@@ -83,19 +79,11 @@ class Watched(RunningTop):
         self.hand.publish(torque_of(*numbers, frame))
 
 
-def _parameter(name, value):
-    fields = {bool: (1, "bool_value"), float: (3, "double_value"), str: (4, "string_value")}
-    kind, field = fields.get(type(value), (8, "double_array_value"))
-    return Parameter(name=name, value=ParameterValue(type=kind, **{field: value}))
-
-
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    running = Watched(
-        publish_rate=RATE, record__directory=str(tmp_path_factory.mktemp("logs") / "logs")
-    )
-    yield running
-    running.close()
+    folder = tmp_path_factory.mktemp("logs") / "logs"
+    with Watched(publish_rate=RATE, record__directory=str(folder)) as running:
+        yield running
 
 
 @pytest.mark.parametrize("examples", trials(25, 150))
@@ -136,16 +124,14 @@ def test_requests_in_any_order_are_answered_in_a_sentence(run, plain, switched, 
 )
 def test_any_torque_is_applied_or_refused_and_the_node_keeps_running(run, numbers, frame):
     run.push(numbers, frame)
-    seen = len(run.samples)
-    run.spin_until(lambda: len(run.samples) > seen + 2)
+    run.wait_for(run.samples, 3)
     run.assert_samples_agree_with_the_motion()
     run.restore()
 
 
 def test_a_million_numbers_are_refused_in_one_sentence(run):
     for service, name in (("kick", "angular_impulse"), (START, "orientation")):
-        value = _parameter(name, [math.nan] * 1_000_000)
-        ((granted, reason),) = run.ask(service, [value])
+        granted, reason = run.set(service, **{name: [math.nan] * 1_000_000})
         assert not granted
         assert_one_sentence(reason)
     run.assert_samples_agree_with_the_motion()
@@ -172,34 +158,28 @@ def test_a_parameter_cannot_be_taken_away(run, name):
 def test_requests_before_a_motion_is_slowed_down_are_answered(start_top):
     run = start_top(publish_rate=1.0)  # Hz: all of them before the next sample
     for name, value in (("friction.axial", 1e30), ("top.Mgl", 0.05), ("friction.axial", 0.0)):
-        assert run.connection.set("set_parameters_atomically", {name: value})[0]
+        assert run.change({name: value})[0]
     assert run.set("kick", precession_rate=2.0)[0]
     assert run.top.failure is None
 
 
 def test_a_torque_that_ends_before_a_motion_is_slowed_down_ends():
-    run = Watched(publish_rate=10.0, applied_torque_timeout=0.001)
-    try:
+    with Watched(publish_rate=10.0, applied_torque_timeout=0.001) as run:
         run.push([1e30, 0.0, 0.0], "world")
         run.spin_until(lambda: any(run.top.simulation.segment.motion.applied_torque))
         run.spin_until(lambda: not any(run.top.simulation.segment.motion.applied_torque))
-        assert json.loads(run.trigger("get_state")[1])["engine"] == "closed form"
-    finally:
-        run.close()
+        assert run.state()["engine"] == "closed form"
 
 
 def test_a_node_that_publishes_the_clock_does_not_follow_it(start_top):
     run = start_top(realtime=True, publish_clock=True)
-    granted, reason = run.connection.set("set_parameters_atomically", {"use_sim_time": True})
-    assert not granted
-    expected = "publish_clock must be false together with use_sim_time, got true"
-    assert reason == expected
+    reason = "publish_clock must be false together with use_sim_time, got true"
+    assert run.change({"use_sim_time": True}) == (False, reason)
 
 
 def test_the_log_of_all_that_agrees_with_its_events(run):
     run.switch("record", False)
     assert run.switch("record", True)[0]
-    path = run.last_log
 
     @deterministic(60)
     @given(call=CALLS)
@@ -212,9 +192,5 @@ def test_the_log_of_all_that_agrees_with_its_events(run):
     run.push([1e-4, 0.0, 2e-4], "world")
     run.restore()
     run.assert_samples_agree_with_the_motion()
-    run.switch("record", False)
-    log = TopLog(McapFile(path))
-    deviations = check_log(log)
-    assert log.problems == []
-    assert {name for name, each in deviations.items() if each.largest or each.unreached} == set()
-    assert min(each.samples for each in deviations.values()) > 0
+    deviations = check_log(assert_no_deviation(run.end_log()))
+    assert not any(each.unreached for each in deviations.values())

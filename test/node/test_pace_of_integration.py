@@ -1,6 +1,5 @@
 """A motion that is too fast to be integrated in real time is slowed down and reported."""
 
-import json
 import os
 import signal
 
@@ -24,7 +23,6 @@ HOPELESS = {
     "real_time_factor": 100.0,
 }
 DOMAIN = claim_domain()
-SET = "set_parameters_atomically"
 MS = 1_000_000
 
 
@@ -42,8 +40,7 @@ def test_a_motion_too_fast_for_the_budget_is_slowed_down_and_reported(start_top,
     assert float(pace["real_time_factor"]) == 100.0
     assert 0 < float(pace["real_time_factor.achieved"]) < 1.0
     assert status_of(diagnostics[-1], "top: pace").level == DiagnosticStatus.WARN
-    told = len(diagnostics)
-    run.spin_until(lambda: len(diagnostics) > told)
+    run.wait_for(diagnostics)
     stamps = np.array([stamp_of(each) for each in orientations])
     missed = int(facts(diagnostics[-1], "top: pace")["missed"])
     assert not (np.diff(stamps) % (5 * MS)).any()
@@ -57,16 +54,16 @@ def test_a_motion_too_fast_for_the_budget_is_slowed_down_and_reported(start_top,
 
 def test_without_friction_the_motion_returns_to_the_real_time_factor_of_the_settings(start_top):
     run = start_top(realtime=True, **HOPELESS)
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
+    events = run.collect_events()
     run.spin_until(lambda: events_named(events, "pace"))
-    assert run.set(SET, **{"friction.transverse": 0.0})[0]
+    assert run.change({"friction.transverse": 0.0})[0]
     run.spin_until(
         lambda: (
             float(facts(events[-1])["motion.real_time_factor"]) == 100.0
             and facts(events[-1])["engine"] == "closed form"
         )
     )
-    assert json.loads(run.trigger("get_state")[1])["engine"] == "closed form"
+    assert run.state()["engine"] == "closed form"
 
 
 def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
@@ -78,10 +75,8 @@ def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
         os.kill(node.pid, signal.SIGSTOP)
         listener.spin(1.0)
         os.kill(node.pid, signal.SIGCONT)
-        seen = len(orientations)
-        listener.spin_until(lambda: len(orientations) > seen + 40)
-        reported = len(diagnostics)
-        listener.spin_until(lambda: len(diagnostics) > reported)
+        listener.wait_for(orientations, 41)
+        listener.wait_for(diagnostics)
     gaps = np.diff([stamp_of(each) for each in orientations])
     assert 500 * MS < gaps.max() < 1500 * MS
     assert not (gaps % (5 * MS)).any()

@@ -1,11 +1,9 @@
 """The profiles of config/ are understood by the Fast DDS of this ROS 2."""
 
-import os
-import subprocess
 import sys
 
 import pytest
-from programs import LOSSY_PROFILES
+from programs import LOSSY_PROFILES, environment, execute
 
 from symtop_ros.distribution import VARIABLES, distribution_name
 from symtop_ros.simulation.presets import config_folder
@@ -19,14 +17,8 @@ LOSSY = LOSSY_PROFILES[distribution_name()]
 
 def said_with(profile):
     """Start a node with a profile; return what it prints."""
-    environment = {
-        **os.environ,
-        **dict.fromkeys(VARIABLES, str(config_folder() / profile)),
-        "ROS_DOMAIN_ID": str(DOMAIN),
-    }
-    result = subprocess.run(
-        [sys.executable, "-c", NODE], env=environment, capture_output=True, text=True, check=True
-    )
+    variables = environment(DOMAIN) | dict.fromkeys(VARIABLES, str(config_folder() / profile))
+    result = execute([sys.executable, "-c", NODE], env=variables, check=True)
     return result.stdout + result.stderr
 
 

@@ -1,9 +1,7 @@
 """Logs of the node: exactly the published bytes, however the node ends."""
 
-import json
 import os
 import random
-import shutil
 import signal
 import subprocess
 import time
@@ -11,21 +9,20 @@ from itertools import pairwise
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from exact_log import assert_exact
+from exact_log import assert_exact, assert_no_deviation
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from node.listener import Listener
-from node.running_top import LATCHED, facts, stamp_of, status_of, torque_of
-from programs import command, environment
-from rclpy.parameter import Parameter
+from node.running_top import LATCHED, assert_recomputed, stamp_of, torque_of
+from programs import command, environment, set_parameters
 from rosbags.highlevel import AnyReader
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Imu, JointState
+from sensor_msgs.msg import Imu
 from std_msgs.msg import String
+from waiting import until
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.validation import RefusedError
 from workshop.load.domains import claim_domain
@@ -51,19 +48,6 @@ def messages_of(path):
     ]
 
 
-def stop_and_read(run):
-    granted, _ = run.switch("record", False)
-    assert granted
-    return run.last_log
-
-
-def assert_part_is_exact(path):
-    """Check one file of several, which may end between the messages of a sample."""
-    log = TopLog(McapFile(path))
-    assert all(each.largest == 0.0 and not each.unchecked for each in check_log(log).values())
-    assert log.problems == []
-
-
 @pytest.mark.realtime
 def test_the_log_holds_the_bytes_that_were_published(start_top, tmp_path):
     run = start_top(
@@ -76,11 +60,10 @@ def test_the_log_holds_the_bytes_that_were_published(start_top, tmp_path):
     assert run.switch("record", True)[0]
     path = tmp_path / run.last_log.name
     assert run.switch("record", True) == (True, str(Answer("recording", str(path))))
-    heard = len(published)
-    run.spin_until(lambda: len(published) > heard + 700)  # more than one flush, and /diagnostics
+    run.wait_for(published, 700)  # more than one flush, and /diagnostics
     assert run.trigger("hurry_precession")[0]
-    run.spin_until(lambda: len(published) > heard + 800)
-    assert stop_and_read(run) == path
+    run.wait_for(published, 100)
+    assert run.end_log() == path
     assert run.switch("record", False) == (True, str(Answer("not_recording")))
     logged = messages_of(path)
     assert {topic for topic, _, _ in logged} == {*TOPICS, "/clock"}
@@ -96,9 +79,9 @@ def test_the_log_holds_the_bytes_that_were_published(start_top, tmp_path):
 
 
 def test_samples_of_a_log_are_complete_and_share_their_stamps(start_top, tmp_path):
-    run = start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(publish_rate=500.0, record=tmp_path)
     run.spin_until(lambda: run.now > 10**9)
-    logged = messages_of(stop_and_read(run))
+    logged = messages_of(run.end_log())
     stamps = {
         name: [log_time for topic, log_time, _ in logged if topic == name]
         for name in ("/tf", *(f"/top/{name}" for name in STATES))
@@ -112,8 +95,7 @@ def test_samples_of_a_log_are_complete_and_share_their_stamps(start_top, tmp_pat
 def test_the_sensors_samples_are_recorded_and_computed_again_to_the_bit(start_top, tmp_path):
     run = start_top(
         publish_rate=500.0,
-        record__enabled=True,
-        record__directory=str(tmp_path),
+        record=tmp_path,
         imu__enabled=True,
         odometry__enabled=True,
         imu__position=[0.0, 0.01, 0.02],
@@ -126,17 +108,11 @@ def test_the_sensors_samples_are_recorded_and_computed_again_to_the_bit(start_to
     odometry = run.collect(Odometry, "/top/odometry")
     run.spin_until(lambda: len(imus) > 100 and len(odometry) > 100)
     assert run.trigger("hurry_precession")[0]
-    (result,) = run.top.set_parameters([Parameter("publish_rate", value=100.0)])
-    assert result.successful
-    heard = len(imus)
-    run.spin_until(lambda: len(imus) > heard + 50)
-    path = stop_and_read(run)
-    log = TopLog(McapFile(path))
-    deviations = check_log(log)
+    assert run.change({"publish_rate": 100.0})[0]
+    run.wait_for(imus, 50)
+    path = run.end_log()
+    deviations = check_log(assert_no_deviation(path))
     assert {"imu", "odometry"} <= set(deviations)
-    assert log.problems == []
-    for each in deviations.values():
-        assert (each.largest, each.unchecked, each.unreached) == (0.0, 0, 0)
     assert "/tf_static" in {topic for topic, _, _ in messages_of(path)}
     assert imus[0].header.frame_id == "top_imu"
     assert imus[0].angular_velocity_covariance[0] == pytest.approx(1e-6 * 500, rel=1e-12)
@@ -144,54 +120,51 @@ def test_the_sensors_samples_are_recorded_and_computed_again_to_the_bit(start_to
     assert {stamp_of(each) for each in imus[:50]} & {stamp_of(each) for each in odometry}
 
 
-def test_a_run_with_everything_in_it_is_computed_again_from_its_log(start_top, tmp_path):
-    run = start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
-    angles = run.collect(JointState, "/top/euler_angles")
-
-    def wait_for_samples():
-        seen = len(angles)
-        run.spin_until(lambda: len(angles) > seen + 20)
-
-    parameters = "set_parameters_atomically"
+def test_a_run_with_everything_in_it_is_computed_again_from_its_events_and_its_log(
+    start_top, tmp_path
+):
+    run = start_top(publish_rate=500.0, record=tmp_path)
+    samples = run.collect(QuaternionStamped, "/top/orientation")
+    events = run.collect_events()
     for act in (
         lambda: run.trigger("hurry_precession"),
         lambda: run.switch("pause", True),
+        lambda: run.set("kick", precession_rate=12.0, hold="spin_momentum"),
         lambda: run.set("step", duration=0.1),
         lambda: run.set("kick", angular_impulse=[0.0, 1e-4, 1e-4]),
         lambda: run.switch("pause", False),
-        lambda: run.connection.set(parameters, {"real_time_factor": 3.0}),
-        lambda: run.connection.set(parameters, {"top.Mgl": 0.0}),
-        lambda: run.connection.set(parameters, {"publish_rate": 300.0}),
+        lambda: run.change({"real_time_factor": 0.3}),
+        lambda: run.change({"real_time_factor": 3.0}),
+        lambda: run.change({"top.Mgl": -0.02}),
+        lambda: run.change({"top.Mgl": 0.0}),
+        lambda: run.change({"publish_rate": 300.0}),
+        lambda: run.set("set_initial_conditions", theta=2.0, phi_dot=-3.0),
         lambda: run.set("set_initial_conditions", theta=0.0, psi_dot=100.0),
         lambda: run.trigger("reset"),
     ):
         granted, answer = act()
         assert granted, answer
-        wait_for_samples()
-    assert assert_exact(stop_and_read(run)) > 200
+        run.wait_for(samples, 20)
+    run.spin_until(lambda: len(events) == 15)
+    assert_recomputed(events, samples)
+    assert assert_exact(run.end_log()) > 280
 
 
-def test_a_log_that_begins_in_the_middle_of_a_run_can_be_checked_alone(start_top, tmp_path):
-    run = start_top(record__directory=str(tmp_path), record__max_duration=0.5)
+@pytest.mark.parametrize("limits", [{"max_duration": 0.5}, {"max_size": 50_000}], ids=str)
+def test_each_file_of_a_recording_can_be_checked_alone(limits, start_top, tmp_path):
+    parameters = {f"record__{name}": value for name, value in limits.items()}
+    run = start_top(record__directory=str(tmp_path), **parameters)
     run.trigger("hurry_precession")
-    run.spin_until(lambda: run.now > 3 * 10**8)
+    run.spin_until(lambda: run.now > 3 * 10**8)  # it begins in the middle of the run
     run.switch("record", True)
     run.spin_until(lambda: len(list(tmp_path.iterdir())) == 3)
     third = run.now
     run.spin_until(lambda: run.now > third + 10**8)  # 20 samples in the third file
-    stop_and_read(run)
+    run.end_log()
     for path in tmp_path.iterdir():
-        assert_part_is_exact(path)
-
-
-def test_a_log_that_is_large_enough_is_followed_by_another(start_top, tmp_path):
-    run = start_top(record__directory=str(tmp_path), record__max_size=50_000, record__enabled=True)
-    run.spin_until(lambda: len(list(tmp_path.iterdir())) == 3)
-    stop_and_read(run)
-    first, second, _ = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
-    for path in (first, second):
-        assert path.stat().st_size > 50_000
-        assert_part_is_exact(path)
+        assert_no_deviation(path)
+    files = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
+    assert all(path.stat().st_size > limits.get("max_size", 0) for path in files[:2])
 
 
 def test_a_folder_that_cannot_be_written_is_refused_and_the_motion_goes_on(start_top, tmp_path):
@@ -201,44 +174,17 @@ def test_a_folder_that_cannot_be_written_is_refused_and_the_motion_goes_on(start
     granted, answer = run.switch("record", True)
     assert not granted
     assert answer == f"record.directory must be a writable folder, got {folder!r}: Not a directory"
-    assert json.loads(run.trigger("get_state")[1])["running"]
+    assert run.state()["running"]
     with pytest.raises(RefusedError, match=r"record\.directory must be a writable folder"):
         start_top(record__directory=folder, record__enabled=True)
 
 
-def test_a_removed_folder_ends_the_recording_and_not_the_simulation(start_top, tmp_path):
-    run = start_top(publish_rate=200.0, record__enabled=True, record__directory=str(tmp_path / "x"))
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    diagnostics = run.collect(DiagnosticArray, "/diagnostics")
-    angles = run.collect(JointState, "/top/euler_angles")
-    run.spin_until(lambda: len(angles) > 10)
-    shutil.rmtree(tmp_path / "x")
-    run.spin_until(lambda: events and facts(events[-1]).get("outcome.kind") == "stopped")
-    assert facts(events[-1])["outcome.failure"].endswith("the file was removed")
-    run.spin_until(lambda: diagnostics and status_of(diagnostics[-1], "top: log").level == b"\2")
-    assert "the file was removed" in status_of(diagnostics[-1], "top: log").message
-    seen = len(angles)
-    run.spin_until(lambda: len(angles) > seen + 10)
-    reported = [each for each in events if facts(each).get("outcome.kind") == "stopped"]
-    assert len(reported) == 1
-    assert facts(reported[0])["motion.running"] == "true"
-    granted, _ = run.switch("record", True)
-    assert granted
-
-
-def test_the_folder_cannot_be_chosen_while_the_node_runs(start_top):
-    run = start_top()
-    for name, value in (("record.directory", "/etc"), ("record.enabled", True)):
-        granted, _ = run.connection.set("set_parameters_atomically", {name: value})
-        assert not granted
-
-
 def test_a_description_that_changes_is_logged_anew(start_top, tmp_path):
-    run = start_top(record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(record=tmp_path)
     heard = run.collect(String, "/robot_description", LATCHED)
-    run.connection.set("set_parameters_atomically", {"top.Iz": 1e-4})
-    run.spin_until(lambda: len(heard) >= 1 and "0.0001" in heard[-1].data)
-    logged = messages_of(stop_and_read(run))
+    run.change({"top.Iz": 1e-4})
+    run.spin_until(lambda: heard and "0.0001" in heard[-1].data)
+    logged = messages_of(run.end_log())
     assert len([topic for topic, _, _ in logged if topic == "/robot_description"]) == 2
 
 
@@ -247,27 +193,22 @@ def test_a_description_that_changes_is_logged_anew(start_top, tmp_path):
 
 def started(folder, rate=1000.0):
     parameters = (f"publish_rate:={rate}", "record.enabled:=true", f"record.directory:={folder}")
-    words = [word for parameter in parameters for word in ("-p", parameter)]
-    arguments = ["--ros-args", *words, "--log-level", "error"]
-    node = subprocess.Popen(command("top_node", *arguments), env=environment(DOMAIN))
-    deadline = time.monotonic() + 60
-    while not (logs := list(folder.glob("*.mcap"))):
-        assert node.poll() is None
-        assert time.monotonic() < deadline, "no log in time"
-        time.sleep(0.01)
-    return node, logs[0]
+    words = command("top_node", *set_parameters(*parameters)[:-1], "error")
+    node = subprocess.Popen(words, env=environment(DOMAIN), stderr=subprocess.PIPE, text=True)
+    (path,) = until(lambda: [*folder.glob("*.mcap")])
+    return node, path
 
 
 @pytest.mark.realtime
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
+def test_a_signal_ends_the_node_in_silence_and_its_log_as_it_should(number, tmp_path):
     node, path = started(tmp_path)
     with Listener(DOMAIN) as listener:
         heard = listener.collect(QuaternionStamped, "/top/orientation", raw=True)
         listener.spin_until(lambda: len(heard) > 100)
         node.send_signal(number)
         listener.spin_until(lambda: node.poll() is not None)
-    assert node.returncode == 0
+    assert (node.returncode, node.communicate()[1]) == (0, "")
     file = McapFile(path)
     logged = {message.data for chunk in file.chunks() for message in chunk}
     assert file.problems == []
@@ -276,16 +217,15 @@ def test_a_signal_ends_the_log_as_it_should(number, tmp_path):
 
 
 def test_a_log_holds_applied_torques_as_they_were_received(start_top, tmp_path):
-    run = start_top(record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(record=tmp_path)
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     heard = run.collect(WrenchStamped, "/top/applied_torque", raw=True)
     hand = run.publisher(WrenchStamped, "/top/applied_torque")
     for frame, size in (("world", 2e-4), ("elsewhere", 1.0), ("", 1e-4)):
         hand.publish(torque_of(z=size, frame=frame))
-        count = len(heard)
-        run.spin_until(lambda: len(heard) > count)  # noqa: B023
+        run.wait_for(heard)
     run.spin_until(lambda: any("0.0 0.0 0.0001" in str(each) for each in events))
-    path = stop_and_read(run)
+    path = run.end_log()
     logged = [data for name, _, data in messages_of(path) if name == "/top/applied_torque"]
     assert logged == heard
     assert_exact(path)
@@ -302,7 +242,7 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
         time.sleep(rng.uniform(0.5, 1.5))
         killed = time.time()
         os.kill(node.pid, signal.SIGKILL)
-        node.wait()
+        node.communicate()
         assert_exact(path)
         file = McapFile(path)
         latest = max(message.log_time for chunk in file.chunks() for message in chunk)
@@ -312,10 +252,10 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
 
 
 def test_an_independent_reader_agrees_message_for_message(start_top, tmp_path):
-    run = start_top(publish_rate=500.0, record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(publish_rate=500.0, record=tmp_path)
     run.trigger("hurry_precession")
     run.spin_until(lambda: run.now > 12 * 10**8)
-    path = stop_and_read(run)
+    path = run.end_log()
     ours = sorted(messages_of(path))
     with AnyReader([path]) as reader:
         theirs = [(each.topic, stamp, bytes(data)) for each, stamp, data in reader.messages()]

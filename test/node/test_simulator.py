@@ -46,24 +46,16 @@ def _messages():
 class Client:
     """Calls the services of a simulator under the names that Gazebo gives them."""
 
-    def __init__(self, run, server="/top"):
-        self.run, self.server = run, server
+    def __init__(self, run):
+        self.run = run
         self.srv = importlib.import_module("simulation_interfaces.srv")
-        self.clients = {}
         action = importlib.import_module("simulation_interfaces.action").SimulateSteps
-        self.steps = ActionClient(run.user, action, f"{server}/simulate_steps")
+        self.steps = ActionClient(run.user, action, "/top/simulate_steps")
         self.goal = action.Goal
 
     def call(self, kind, name, **fields):
         kind = getattr(self.srv, kind)
-        client = self.clients.get(name)
-        if client is None:
-            client = self.run.user.create_client(kind, f"{self.server}/{name}")
-            self.clients[name] = client
-        self.run.spin_until(client.service_is_ready)
-        future = client.call_async(fill(kind.Request(), fields))
-        self.run.spin_until(future.done)
-        return future.result()
+        return self.run.connection._call(kind, name, fill(kind.Request(), fields))
 
     def features(self):
         return self.call("GetSimulatorFeatures", "get_simulator_features").features
@@ -109,6 +101,14 @@ def fill(message, fields):
         else:
             setattr(message, name, value)
     return message
+
+
+def pose(fields):
+    return {"set_pose": True, "state": {"pose": fields}}
+
+
+def twist(fields):
+    return {"set_twist": True, "state": {"twist": fields}}
 
 
 @pytest.fixture
@@ -180,7 +180,7 @@ def test_steps_are_periods_to_the_nanosecond(start_top):
 def test_a_reset_goes_back_to_the_parameters_and_leaves_the_time(client):
     run = client.run
     start = run.top.simulation.segment.motion.start
-    assert client.set_entity(set_twist=True, state={"twist": {"angular": {"z": 5.0}}}).result == OK
+    assert client.set_entity(**twist({"angular": {"z": 5.0}})).result == OK
     before = run.top.simulation.stamp
     for scope in (0, 2, 255):
         assert client.reset(scope).result == OK
@@ -226,24 +226,21 @@ def test_the_state_of_the_top_is_that_of_the_topics(client):
     alpha = vector(found.state.acceleration.angular)
     assert alpha == pytest.approx(change / (2 * h), abs=2e-3)
     missing = client.entity("robot").result
-    assert (missing.result, missing.error_message) == (
-        NOT_FOUND,
-        "entity must be 'top', got 'robot'",
-    )
+    assert missing.result == NOT_FOUND
+    assert missing.error_message == "entity must be 'top', got 'robot'"
 
 
 def test_the_state_of_the_top_is_set_in_the_world(client):
     client.set_state(PAUSED)
     before = client.entity().state
-    orientation = {"w": 0.8, "x": 0.0, "y": 0.6, "z": 0.0}
-    pose = {"pose": {"orientation": orientation}}
-    assert client.set_entity(set_pose=True, state=pose).result == OK
+    turned = pose({"orientation": {"w": 0.8, "x": 0.0, "y": 0.6, "z": 0.0}})
+    assert client.set_entity(**turned).result == OK
     found = client.entity().state
     assert numbers(found.pose.orientation) == pytest.approx([0.8, 0.0, 0.6, 0.0], abs=1e-16)
     # forth and back between world and body: some roundings of 200 rad/s
     assert vector(found.twist.angular) == pytest.approx(vector(before.twist.angular), abs=2e-13)
-    twist = {"twist": {"angular": {"x": 1.0, "y": 2.0, "z": 3.0}}}
-    assert client.set_entity(set_twist=True, state=twist).result == OK
+    turning = twist({"angular": {"x": 1.0, "y": 2.0, "z": 3.0}})
+    assert client.set_entity(**turning).result == OK
     found = client.entity().state
     assert numbers(found.pose.orientation) == pytest.approx([0.8, 0.0, 0.6, 0.0], abs=1e-16)
     assert vector(found.twist.angular) == pytest.approx([1.0, 2.0, 3.0], abs=2e-15)
@@ -253,22 +250,22 @@ def test_the_state_of_the_top_is_set_in_the_world(client):
     ("fields", "code", "message"),
     [
         (
-            {"set_pose": True, "state": {"pose": {"position": {"x": 1.0}}}},
+            pose({"position": {"x": 1.0}}),
             INVALID_POSE,
             "position must be 0 (the pivot is fixed), got (1.0, 0.0, 0.0)",
         ),
         (
-            {"set_pose": True, "state": {"pose": {"orientation": {"w": 2.0}}}},
+            pose({"orientation": {"w": 2.0}}),
             INVALID_POSE,
             "orientation must be a quaternion of norm 1 within 0.001, got a norm of 2",
         ),
         (
-            {"set_twist": True, "state": {"twist": {"linear": {"y": 1.0}}}},
+            twist({"linear": {"y": 1.0}}),
             FAILED,
             "twist.linear must be 0 (the pivot is fixed), got (0.0, 1.0, 0.0)",
         ),
         (
-            {"set_twist": True, "state": {"twist": {"angular": {"z": float("nan")}}}},
+            twist({"angular": {"z": float("nan")}}),
             FAILED,
             "twist.angular must be 3 numbers from -1e+09 to 1e+09 (rad/s, world frame), "
             "got [0.0, 0.0, nan]",
@@ -344,14 +341,13 @@ def test_a_mistake_of_ours_is_an_answer_and_the_motion_goes_on(client, monkeypat
 
 
 def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, tmp_path):
-    run = start_top(scene="cusps", record__enabled=True, record__directory=str(tmp_path))
+    run = start_top(scene="cusps", record=tmp_path)
     client = Client(run)
     for act in (lambda: client.set_state(STOPPED), lambda: client.step(7), client.reset):
         assert act().result == OK
-    client.set_entity(set_twist=True, state={"twist": {"angular": {"z": 5.0}}})
+    client.set_entity(**twist({"angular": {"z": 5.0}}))
     client.set_state(PLAYING)
-    assert run.switch("record", False)[0]
-    importlib.import_module("exact_log").assert_exact(run.last_log)
+    importlib.import_module("exact_log").assert_exact(run.end_log())
 
 
 def test_the_commands_and_the_table_of_the_page_on_ros_are_those_of_the_node(client):

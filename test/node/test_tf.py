@@ -1,12 +1,11 @@
 """/tf with the real tf2_msgs, between processes."""
 
 import json
-import subprocess
 import sys
 
 import pytest
 from node.built_messages import with_messages
-from programs import command, environment
+from programs import command, environment, execute, running
 
 from symtop_ros.log.definitions import load_definition
 from workshop.load.domains import claim_domain
@@ -61,20 +60,9 @@ def with_tf2():
 
 
 def test_tf_is_published_with_the_quaternion_of_the_topic_and_the_type_of_the_log(with_tf2):
-    options = ("--ros-args", "-r", "__ns:=/a", "--log-level", "warn")
-    node = subprocess.Popen(command("top_node", *options), env=with_tf2)
-    try:
-        heard = subprocess.run(
-            bound([sys.executable, "-c", LISTEN]),
-            env=with_tf2,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=60,
-        )
-    finally:
-        node.terminate()
-        node.wait(timeout=60)
+    words = command("top_node", "--ros-args", "-r", "__ns:=/a", "--log-level", "warn")
+    with running(words, DOMAIN, env=with_tf2):
+        heard = execute(bound([sys.executable, "-c", LISTEN]), env=with_tf2)
     assert heard.returncode == 0, heard.stderr
     found = json.loads(heard.stdout)
     assert len(found["equal"]) >= 50

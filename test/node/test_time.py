@@ -1,6 +1,5 @@
 """Simulated time: the top follows /clock, and continues from its state when the clock jumps."""
 
-import json
 import random
 import time
 from itertools import pairwise
@@ -10,11 +9,10 @@ from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped
-from node.running_top import LATCHED, segment_of, stamp_of
+from node.running_top import LATCHED, events_named, segment_of, stamp_of
 from rosgraph_msgs.msg import Clock
 
 from symtop_ros.node import top_node
-from symtop_ros.simulation.validation import RefusedError
 
 MS = 1_000_000
 
@@ -49,7 +47,7 @@ def test_stamps_and_motion_follow_the_clock_even_when_it_jumps(start_top):
     clock.run_from(90_000 * MS, 30)  # and forward
     run.spin_until(lambda: any(stamp_of(each) >= 90_100 * MS for each in messages))
     # to the first /clock, back, and forward
-    run.spin_until(lambda: [each.status[0].name for each in events].count("top: clock") >= 3)
+    run.spin_until(lambda: len(events_named(events, "clock")) >= 3)
     segments = [segment_of(message) for message in events]
     assert max(segment.elapsed for segment in segments) < 10**9  # ns: no catching up with the jumps
     for message in messages:
@@ -72,44 +70,25 @@ def test_while_the_clock_stands_still_so_does_the_top(start_top):
     assert {b - a for a, b in pairwise(map(stamp_of, messages))} == {10 * MS}
 
 
-def test_a_published_clock_and_simulated_time_contradict_each_other(start_top):
-    with pytest.raises(
-        RefusedError, match=("publish_clock must be false together with use_sim_time")
-    ):
-        start_top(use_sim_time=True, publish_clock=True)
-
-
-def exact_log_of(run):
-    granted, answer = run.switch("record", False)
-    assert granted, answer
-    path = run.last_log
-    assert assert_exact(path) > 20
-    return path
+def assert_exact_log(run):
+    assert assert_exact(run.end_log()) > 20
 
 
 def test_a_clock_that_goes_back_and_forth_among_kicks_leaves_the_log_exact(start_top, tmp_path):
-    run = start_top(
-        use_sim_time=True, publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path)
-    )
+    run = start_top(use_sim_time=True, publish_rate=100.0, record=tmp_path)
     events = run.collect(DiagnosticArray, "/top/events", LATCHED)
     clock, chance = SimulatedClock(run), random.Random(1)
     for _ in range(20):
         clock.run_from(chance.randrange(10_000, 90_000) * MS, 10)
         assert run.set("kick", precession_rate=chance.uniform(5.0, 15.0))[0]
 
-    def names():
-        return [each.status[0].name for each in events]
-
-    run.spin_until(
-        lambda: [names().count(f"top: {each}") for each in ("kick", "clock")] == [20, 20]
-    )
-    exact_log_of(run)
+    for name in ("kick", "clock"):
+        run.spin_until(lambda: len(events_named(events, name)) == 20)  # noqa: B023
+    assert_exact_log(run)
 
 
 def test_when_the_clock_stops_for_good_requests_are_answered_and_the_log_ends(start_top, tmp_path):
-    run = start_top(
-        use_sim_time=True, publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path)
-    )
+    run = start_top(use_sim_time=True, publish_rate=100.0, record=tmp_path)
     clock = SimulatedClock(run)
     clock.run_from(50_000 * MS, 50)
     run.user.destroy_publisher(clock.publisher)
@@ -118,7 +97,7 @@ def test_when_the_clock_stops_for_good_requests_are_answered_and_the_log_ends(st
         assert run.switch("pause", True)[0]
         assert run.set("step", duration=0.01)[0]
         assert run.switch("pause", False)[0]
-    exact_log_of(run)
+    assert_exact_log(run)
     assert run.switch("record", True)[0]
 
 
@@ -126,13 +105,11 @@ def test_when_the_clock_stops_for_good_requests_are_answered_and_the_log_ends(st
 def test_simulated_time_switched_on_and_off_while_recording_leaves_the_log_exact(
     start_top, tmp_path
 ):
-    run = start_top(
-        realtime=True, publish_rate=100.0, record__enabled=True, record__directory=str(tmp_path)
-    )
+    run = start_top(realtime=True, publish_rate=100.0, record=tmp_path)
     messages = run.collect(QuaternionStamped, "/top/orientation")
     clock = None
     for begin in (50_000, 20_000, 70_000):
-        granted, answer = run.connection.set("set_parameters_atomically", {"use_sim_time": True})
+        granted, answer = run.change({"use_sim_time": True})
         assert granted, answer
         clock = clock or SimulatedClock(run)
         run.match(clock.publisher)  # it subscribes anew
@@ -141,12 +118,11 @@ def test_simulated_time_switched_on_and_off_while_recording_leaves_the_log_exact
         run.spin_until(
             lambda: any(0 < stamp_of(each) - begin * MS < 1000 * MS for each in messages)  # noqa: B023
         )
-        assert run.connection.set("set_parameters_atomically", {"use_sim_time": False})[0]
-        seen = len(messages)
-        run.spin_until(lambda: len(messages) > seen + 20)  # noqa: B023
+        assert run.change({"use_sim_time": False})[0]
+        run.wait_for(messages, 20)
         assert run.trigger("reset")[0]
         assert abs(stamp_of(messages[-1]) - time.time_ns()) < 5_000 * MS
-    exact_log_of(run)
+    assert_exact_log(run)
 
 
 def test_simulated_time_without_a_clock_is_warned_of_once(start_top, monkeypatch, capfd):
@@ -171,8 +147,7 @@ def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
         publish_clock=True,
         real_time_factor=factor,
         publish_rate=rate,
-        record__enabled=True,
-        record__directory=str(tmp_path),
+        record=tmp_path,
     )
     clocks = run.collect(Clock, "/clock")
     samples = run.collect(QuaternionStamped, "/top/orientation")
@@ -184,13 +159,13 @@ def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
         begin = time.monotonic()
         run.spin_until(lambda: time.monotonic() > begin + seconds)
 
-    run.spin_until(lambda: len(samples) > 20)
+    run.wait_for(samples, 20)
     begin, first = time.monotonic(), times()[-1]
     wait(1.0)
     # a loaded machine may hold the time back, and the last messages are on their way
     assert 0.5 * factor < (times()[-1] - first) / 1e9 / (time.monotonic() - begin) < 1.1 * factor
     assert run.switch("pause", True)[0]
-    assert not json.loads(run.trigger("get_state")[1])["running"]
+    assert not run.state()["running"]
     wait(0.3)
     stopped = len(samples)
     late = run.collect(Clock, "/clock")
@@ -201,14 +176,13 @@ def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
     assert stamp_of(samples[-1]) == stamp_of(samples[-2]) + 20 * MS
     assert run.set("kick", precession_rate=9.0)[0]
     assert run.switch("pause", False)[0]
-    run.spin_until(lambda: len(samples) > stopped + 20)
+    run.wait_for(samples, 20)
     for request in ("reset", "hurry_precession"):
         run.trigger(request)
-    seen = len(samples)
-    run.spin_until(lambda: len(samples) > seen + 20)
+    run.wait_for(samples, 20)
     stamps = [stamp_of(each) for each in samples]
     assert {b - a for a, b in pairwise(stamps)} == {round(1e9 / rate), 20 * MS}
     assert all(a <= b for a, b in pairwise(times()))
     before = {each for each in times() if each < stamps[0]}  # the first message missed the start
     assert set(times()) <= {*stamps, *times()[:1], *before}
-    exact_log_of(run)
+    assert_exact_log(run)

@@ -16,67 +16,54 @@ from symtop_ros.physics import Body
 pytestmark = pytest.mark.untraced
 
 
+JOINTS = ["precession", "tilt", "spin"]
+
+
 def vector(message):
     return [message.x, message.y, message.z]
 
 
-# By the topic: its type, what a message says, and what the library says of a state of a motion.
-TOPICS = {
-    "orientation": (
-        QuaternionStamped,
-        lambda m: [m.quaternion.w, *vector(m.quaternion)],
-        lambda _, state: state.orientation.tolist(),
-    ),
-    "angular_velocity": (
-        TwistStamped,
-        lambda m: [vector(m.twist.angular), vector(m.twist.linear)],
-        lambda _, state: [state.to_world(state.angular_velocity).tolist(), [0.0, 0.0, 0.0]],
-    ),
-    "angular_momentum": (
-        Vector3Stamped,
-        lambda m: vector(m.vector),
-        lambda motion, state: motion.top.angular_momentum(state).tolist(),
-    ),
-    "torque": (
-        WrenchStamped,
-        lambda m: [vector(m.wrench.torque), vector(m.wrench.force)],
-        lambda motion, state: [
-            motion.top.gravity_torque(state).tolist(),
-            Body.of(motion.top).pivot_force(motion, state).tolist(),
-        ],
-    ),
-    "euler_angles": (
-        JointState,
-        lambda m: [m.name, *m.position, *m.velocity],
-        lambda _, state: [["precession", "tilt", "spin"], *state.euler_angles, *state.euler_rates],
-    ),
+TYPES = {
+    "orientation": QuaternionStamped,
+    "angular_velocity": TwistStamped,
+    "torque": WrenchStamped,
+    "angular_momentum": Vector3Stamped,
+    "euler_angles": JointState,
 }
+# What a message says.
+READ = {
+    "orientation": lambda m: [m.quaternion.w, *vector(m.quaternion)],
+    "angular_velocity": lambda m: [vector(m.twist.angular), vector(m.twist.linear)],
+    "angular_momentum": lambda m: vector(m.vector),
+    "torque": lambda m: [vector(m.wrench.torque), vector(m.wrench.force)],
+    "euler_angles": lambda m: [m.name, *m.position, *m.velocity],
+}
+
+
+def compute(motion, state):
+    """What the library says of a state of a motion, by the topic."""
+    top, omega = motion.top, state.to_world(state.angular_velocity)
+    force = Body.of(top).pivot_force(motion, state)
+    return {
+        "orientation": state.orientation.tolist(),
+        "angular_velocity": [omega.tolist(), [0.0, 0.0, 0.0]],
+        "angular_momentum": top.angular_momentum(state).tolist(),
+        "torque": [top.gravity_torque(state).tolist(), force.tolist()],
+        "euler_angles": [JOINTS, *state.euler_angles, *state.euler_rates],
+    }
 
 
 def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
     run = start_top(publish_rate=200.0)
-    got = {name: run.collect(kind, f"/top/{name}") for name, (kind, *_) in TOPICS.items()}
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    run.spin_until(lambda: events and all(len(messages) > 20 for messages in got.values()))
-    segment = segment_of(events[0])
-    for name, (_, read, compute) in TOPICS.items():
+    got = {name: run.collect(kind, f"/top/{name}") for name, kind in TYPES.items()}
+    (event,) = run.collect_events()
+    run.spin_until(lambda: all(len(messages) > 20 for messages in got.values()))
+    segment = segment_of(event)
+    for name, read in READ.items():
         for message in got[name][5:20]:
-            state = segment.state_at(stamp_of(message))
-            assert (name, read(message)) == (name, compute(segment.motion, state))
+            expected = compute(segment.motion, segment.state_at(stamp_of(message)))[name]
+            assert (name, read(message)) == (name, expected)
             assert message.header.frame_id == "world"
-
-
-def test_stamps_are_exactly_one_period_apart_and_shared_by_all_topics(start_top):
-    run = start_top(publish_rate=1000.0)
-    orientation = run.collect(QuaternionStamped, "/top/orientation")
-    torque = run.collect(WrenchStamped, "/top/torque")
-    run.spin_until(lambda: min(len(orientation), len(torque)) > 300)
-    first = max(stamp_of(orientation[0]), stamp_of(torque[0]))
-    stamps = [
-        [stamp for each in messages if (stamp := stamp_of(each)) >= first][:200]
-        for messages in (orientation, torque)
-    ]
-    assert stamps[0] == stamps[1] == [first + k * 1_000_000 for k in range(200)]
 
 
 def test_a_rate_that_does_not_divide_a_second_does_not_drift(start_top):
@@ -107,7 +94,7 @@ def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles
     late = run.collect(String, "/robot_description", LATCHED)
     run.spin_until(lambda: late)
     robot = ElementTree.fromstring(late[0].data)
-    assert [joint.get("name") for joint in robot.iter("joint")] == ["precession", "tilt", "spin"]
+    assert [joint.get("name") for joint in robot.iter("joint")] == JOINTS
     assert [axis.get("xyz") for axis in robot.iter("axis")] == ["0 0 1", "1 0 0", "0 0 1"]
     inertia = next(robot.iter("inertia"))
     assert float(inertia.get("izz")) == 5.72e-05
@@ -126,9 +113,11 @@ def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top
     # energy about 1.2 J: rounding of its few terms
     assert abs(float(values["energy.drift"])) < 1e-15
     assert abs(float(values["L_z'.drift"])) < 1e-17
-    names = {status.name for status in messages[-1].status}
+    names = {(status.name, status.hardware_id) for status in messages[-1].status}
     kinds = ("motion", "pace", "log", "balance", "name", "clock")
-    assert names == {f"top: {kind}" for kind in kinds}
+    assert names == {(f"top: {kind}", "/top") for kind in kinds}
+    (event,) = run.collect_events()
+    assert [status.hardware_id for status in event.status] == ["/top"]
     pace = facts(messages[-1], "top: pace")
     assert pace["missed"] == "0"
     assert pace["real_time_factor.achieved"] == "1.0"
@@ -143,13 +132,6 @@ def test_the_clock_is_published_if_the_parameter_asks_for_it(start_top):
     run.spin_until(lambda: len(clocks) > 3)
     times = [message.clock.sec * 10**9 + message.clock.nanosec for message in clocks]
     assert set(np.diff(times)) == {5_000_000}
-
-
-def test_events_name_their_node(start_top):
-    run = start_top()
-    events = run.collect(DiagnosticArray, "/top/events", LATCHED)
-    run.spin_until(lambda: events)
-    assert [each.hardware_id for each in events[0].status] == ["/top"]
 
 
 def test_the_sensor_may_have_the_topic_of_rep_145(start_top):

@@ -2,49 +2,55 @@
 
 import contextlib
 import threading
-import time
+from functools import partial
 
 import pytest
 import rclpy
 from browser import running_browser
+from node.listener import Listener
 from node.running_top import RunningTop
+from waiting import until
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
 from symtop_ros.panel.server import LOCAL_HOST, PageServer
 from symtop_ros.physics import State
 from symtop_ros.web.join import write_file
+from workshop.load.domains import claim_domain
 
-TIMEOUT = 60.0
+DOMAIN = claim_domain()
 
 
-class Spinning:
-    """A node that a thread spins, as its own process would."""
+@contextlib.contextmanager
+def spinning(executor):
+    """Spin in a thread, as another process would."""
+    ending = threading.Event()
 
-    def __init__(self, top):
-        self._top, self._ending = top, threading.Event()
-        self._thread = threading.Thread(target=self._spin, daemon=True)
-        self._thread.start()
+    def spin():
+        while not ending.is_set():
+            executor.spin_once(timeout_sec=0.01)
 
-    def _spin(self):
-        while not self._ending.is_set():
-            self._top.executor.spin_once(timeout_sec=0.01)
+    thread = threading.Thread(target=spin, daemon=True)
+    thread.start()
+    yield
+    ending.set()
+    thread.join()
 
-    def close(self):
-        self._ending.set()
-        self._thread.join()
+
+@contextlib.contextmanager
+def bridge_to(name, context):
+    user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
+    bridge = Bridge(user, name)
+    yield bridge
+    bridge.close()
+    user.destroy_node()
 
 
 @pytest.fixture(name="node")
 def _node():
     """A node in real time, and the bridge to it."""
     running = RunningTop(realtime=True, scene="cusps", real_time_factor=0.1)
-    spinning = Spinning(running)
-    user = rclpy.create_node("top_panel", context=running.context, start_parameter_services=False)
-    bridge = Bridge(user, "/top")
-    yield running, bridge
-    bridge.close()
-    spinning.close()
-    user.destroy_node()
+    with spinning(running.executor), bridge_to("/top", running.context) as bridge:
+        yield running, bridge
     running.close()
 
 
@@ -61,10 +67,7 @@ class Page:
         self.state |= {k: v for k, v in message.items() if k not in ("events", "new")}
 
     def until(self, condition):
-        deadline = time.monotonic() + TIMEOUT
-        while not condition():
-            assert time.monotonic() < deadline, (self.state, self.events[-1:])
-            self.look()
+        until(condition, self.look)
 
     def close(self):
         self._news.close()
@@ -162,11 +165,7 @@ def test_a_torque_reaches_the_node_and_ends(node, page):
     def torques():
         return [e["record"]["torque"][2] for e in page.events if e["name"] == "torque"]
 
-    deadline = time.monotonic() + TIMEOUT
-    while not torques():
-        assert bridge.answer({"torque": [0, 0, 5e-4]})["granted"]
-        page.look()
-        assert time.monotonic() < deadline
+    page.until(lambda: torques() or not bridge.answer({"torque": [0, 0, 5e-4]})["granted"])
     page.until(lambda: torques()[-1] == 0.0)
     assert torques()[0] == 5e-4
 
@@ -184,19 +183,16 @@ def test_a_recording_is_known_to_the_page(node, page, tmp_path, monkeypatch):
 
 def test_a_node_without_pages_sends_events_only(node):
     running, bridge = node
-    deadline = time.monotonic() + TIMEOUT
 
-    def wait_for(count):
-        while running.top.count_subscribers("/top/orientation") != count:
-            assert time.monotonic() < deadline
-            time.sleep(0.01)
+    def count():
+        return running.top.count_subscribers("/top/orientation")
 
-    wait_for(0)
+    until(lambda: count() == 0)
     page = Page(bridge)
     page.until(lambda: "orientation" in page.state)
-    wait_for(1)
+    until(lambda: count() == 1)
     page.close()
-    wait_for(0)
+    until(lambda: count() == 0)
 
 
 def test_two_pages_see_the_same_run(node, page):
@@ -250,18 +246,16 @@ def test_of_a_long_run_the_last_events_are_kept(node, page):
 
 
 def test_a_missing_node_is_one_message():
-    context = rclpy.Context()
-    rclpy.init(context=context)
-    user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
-    bridge = Bridge(user, "missing")
-    bridge._connection._timeout = 0.1
-    assert bridge.name == "/missing"
-    granted, answer = ask(bridge, "kick", {"precession_rate": 1.0})
+    with Listener(DOMAIN) as alone, bridge_to("missing", alone.context) as bridge:
+        bridge._connection._timeout = 0.1
+        assert bridge.name == "/missing"
+        granted, answer = ask(bridge, "kick", {"precession_rate": 1.0})
     assert not granted
     assert answer.startswith("no answer from /missing ")
-    bridge.close()
-    user.destroy_node()
-    rclpy.try_shutdown(context=context)
+
+
+def start_of(running):
+    return running.top.simulation.timeline.start.euler_angles
 
 
 @contextlib.contextmanager
@@ -279,42 +273,35 @@ def serving(bridge, port=0):
 def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
     running, bridge = node
 
-    def until(condition):
-        deadline = time.monotonic() + TIMEOUT
-        while not condition():
-            assert time.monotonic() < deadline
-            tab.wait_for_timeout(20)
-
     with running_browser() as browser:
         tab = browser.new_page()
+        look = partial(tab.wait_for_timeout, 20)
         problems = []
         tab.on("pageerror", lambda error: problems.append(str(error)))
         with serving(bridge) as server:
             port = server.server_address[1]
             tab.goto(server.url)
-            until(lambda: "cusps" in tab.text_content("#headline"))
+            until(lambda: "cusps" in tab.text_content("#headline"), look)
             assert tab.is_hidden("#timeline")
             tab.click("#hurry")
-            until(lambda: "than without the kick" in tab.text_content("#headline"))
+            until(lambda: "than without the kick" in tab.text_content("#headline"), look)
             act = bridge._events[-1]["record"]["act"]
             assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
             tab.click("#tab-start")
             tab.fill("#field-top\\.Mgl", "0.05")
             tab.press("#field-top\\.Mgl", "Enter")
-            until(lambda: running.top.simulation.settings.top.Mgl == 0.05)
+            until(lambda: running.top.simulation.settings.top.Mgl == 0.05, look)
             tab.once("dialog", lambda dialog: dialog.dismiss())
             tab.goto(f"{server.url}#theta=1.5")  # a link of another page
             tab.wait_for_timeout(200)
-            assert running.top.simulation.timeline.start.euler_angles.theta == pytest.approx(0.5)
+            assert start_of(running).theta == pytest.approx(0.5)
             tab.once("dialog", lambda dialog: dialog.accept())
             tab.goto(f"{server.url}#theta=1.25")
-            until(
-                lambda: abs(running.top.simulation.timeline.start.euler_angles.theta - 1.25) < 1e-9
-            )
-        until(lambda: "connection is lost" in tab.text_content("#lost"))
+            until(lambda: abs(start_of(running).theta - 1.25) < 1e-9, look)
+        until(lambda: "connection is lost" in tab.text_content("#lost"), look)
         with serving(bridge, port):
-            until(lambda: tab.is_hidden("#lost"))
+            until(lambda: tab.is_hidden("#lost"), look)
             tab.click("#tab-history")
             assert "again" not in tab.text_content("#refusal")
-            until(lambda: "1.25 rad" in tab.text_content("#entries"))
+            until(lambda: "1.25 rad" in tab.text_content("#entries"), look)
         assert problems == []

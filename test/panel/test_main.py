@@ -6,14 +6,13 @@ import json
 import os
 import re
 import signal
-import subprocess
 import sys
 import urllib.request
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from programs import command
+from programs import command, running
 
 from symtop_ros.panel import main as module
 from symtop_ros.panel.server import LOCAL_HOST
@@ -23,12 +22,7 @@ TIMEOUT = 60.0
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.fixture(autouse=True)
-def _signals_as_before():
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
+pytestmark = pytest.mark.usefixtures("signals_as_before")
 
 
 @pytest.fixture(autouse=True)
@@ -39,21 +33,12 @@ def _folder(tmp_path, monkeypatch):
 @contextlib.contextmanager
 def running_panel(*words, start=None):
     """top_panel on any free port, and the address that it prints; it has ended afterwards."""
-    with subprocess.Popen(
-        [*(start or command("top_panel")), "--port", "0", "--no-browser", *words],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-    ) as process:
-        try:
-            line = process.stdout.readline()
-            found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
-            assert found, line
-            yield process, found[1]
-        finally:
-            process.terminate()
-            process.wait(timeout=TIMEOUT)
+    words = [*(start or command("top_panel")), "--port", "0", "--no-browser", *words]
+    with running(words, 0, env={**os.environ, "PYTHONPATH": str(ROOT)}) as process:
+        line = process.stdout.readline()
+        found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
+        assert found, line
+        yield process, found[1]
 
 
 def load(url):
@@ -148,9 +133,8 @@ def test_a_file_is_written_and_the_program_ends(capsys):
 @pytest.mark.parametrize("name", ["run.txt", "missing/run.html"])
 def test_a_file_that_cannot_be_written_is_refused(name, capsys):
     assert module.main(["--write", name]) == 1
-    assert capsys.readouterr().err == (
-        f"top_panel: --write must be a name that ends in .html in a folder, got {name}\n"
-    )
+    sentence = f"--write must be a name that ends in .html in a folder, got {name}"
+    assert capsys.readouterr().err == f"top_panel: {sentence}\n"
 
 
 def test_a_served_page_is_opened_where_there_is_a_screen(monkeypatch, capsys):

@@ -14,6 +14,7 @@ from listening import tcp_addresses
 from symtop_ros.panel.server import LOCAL_HOST, MAX_REQUEST, PageServer
 
 TIMEOUT = 60.0
+PORTS = ("", ":{port}")
 PAGE = "<!doctype html><title>Heavy symmetric top</title>"
 
 
@@ -132,14 +133,8 @@ def test_the_page_of_a_node_asks_it(live):
 @pytest.mark.parametrize(
     "origin",
     [
-        "http://evil.example",
-        "http://127.0.0.1:1",
-        "https://{address}",
-        "http://{address}.evil.example",
-        "http://localhost:{port}",  # the page was sent as 127.0.0.1: another origin
-        "null",
-        "",
-        None,
+        *("http://evil.example", "http://127.0.0.1:1", "https://{address}", "null", "", None),
+        *("http://{address}.evil.example", "http://localhost:{port}"),  # sent as 127.0.0.1
     ],
 )
 def test_a_request_of_another_origin_is_refused(live, origin):
@@ -151,13 +146,8 @@ def test_a_request_of_another_origin_is_refused(live, origin):
 
 def test_a_second_origin_does_not_help(live):
     own = address(live)
-    lines = [
-        "POST /request HTTP/1.1",
-        f"Host: {own}",
-        "Origin: http://evil.example",
-        f"Origin: http://{own}",
-        "Content-Length: 2",
-    ]
+    origins = ["Origin: http://evil.example", f"Origin: http://{own}"]
+    lines = ["POST /request HTTP/1.1", f"Host: {own}", *origins, "Content-Length: 2"]
     with socket.create_connection(live.server_address[:2], timeout=TIMEOUT) as connection:
         connection.sendall("\r\n".join([*lines, "", "{}"]).encode())
         assert connection.recv(100).startswith(b"HTTP/1.1 403 ")
@@ -166,14 +156,10 @@ def test_a_second_origin_does_not_help(live):
 @pytest.mark.parametrize(
     ("host", "status"),
     [
-        ("evil.example", 403),  # a name that was made to point to this machine
-        ("evil.example:{port}", 403),
-        ("127.0.0.1.evil.example", 403),
-        ("[::1", 403),
-        ("", 403),
-        ("localhost:{port}", 200),
-        ("127.0.0.1:{port}", 200),
-        ("[::1]:{port}", 200),
+        # a name may have been made to point to this machine
+        *((f"{name}evil.example{port}", 403) for name in ("", "127.0.0.1.") for port in PORTS),
+        *(("[::1", 403), ("", 403)),
+        *((f"{name}:{{port}}", 200) for name in ("localhost", "127.0.0.1", "[::1]")),
     ],
 )
 @pytest.mark.parametrize("path", ["/", "/news"])
@@ -199,9 +185,8 @@ def test_news_are_messages_of_an_event_stream(live):
     status, headers, content = ask(live, "/news")
     assert (status, headers["Content-Type"]) == (200, "text/event-stream")
     lines = content.decode().split("\n\n")[:-1]
-    assert [json.loads(line.removeprefix("data: ")) for line in lines] == [
-        {"time": number} for number in range(3)
-    ]
+    found = [json.loads(line.removeprefix("data: ")) for line in lines]
+    assert found == [{"time": number} for number in range(3)]
 
 
 def test_a_page_that_is_closed_is_no_error(capsys):

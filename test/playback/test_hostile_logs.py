@@ -28,12 +28,9 @@ from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY, decode_statuses, encod
 FRICTION = Friction(1e-6, 1e-5)
 SOON = 5.0  # s of processor time; all but some take milliseconds
 NUMBERS = st.floats().map(repr) | st.sampled_from(["1e12", "-1e18", "1e150", "9" * 5000, "0", ""])
-KEYS = ("top", "friction", "applied_torque", "after.orientation", "after.angular_velocity")
-MOTION = (
-    *("orientation", "angular_velocity", "stamp", "elapsed", "elapsed_ns"),
-    *("real_time_factor", "running"),
-)
-ALL_KEYS = (*KEYS, *(f"motion.{name}" for name in MOTION))
+MOTION = ("orientation", "angular_velocity", "stamp", "elapsed", "elapsed_ns", "running")
+ALL_KEYS = ["top", "friction", "applied_torque", "after.orientation", "after.angular_velocity"]
+ALL_KEYS += [f"motion.{name}" for name in (*MOTION, "real_time_factor")]
 
 
 def with_event(folder, changes, number=0):
@@ -69,28 +66,30 @@ ABSURD = {
     ("applied_torque", "1e300 0 0"): TOO_LONG,
     ("motion.elapsed_ns", "nan"): "motion.elapsed_ns must be a whole number of ns or a fraction",
     ("motion.elapsed_ns", "x" * 100_000): "motion.elapsed_ns must be a whole number of ns",
-    ("motion.stamp", "9" * 4000): (
-        "event 'start' must describe a motion, its numbers are out of range"
-    ),
+    (
+        "motion.stamp",
+        "9" * 4000,
+    ): "event 'start' must describe a motion, its numbers are out of range",
     ("motion.stamp", "9" * 5000): "Exceeds the limit (4300 digits)",
     ("motion.real_time_factor", "0"): "motion.real_time_factor must be 1e-300 to 1e+06, got 0",
     ("motion.real_time_factor", "inf"): "motion.real_time_factor must be 1e-300 to 1e+06, got inf",
-    ("motion.orientation", "1e300 0 0 0"): (
-        "orientation must be a quaternion of norm 1 within 0.001, got a norm of inf"
-    ),
-    ("motion.orientation", " 1" * 100_000): (
-        "orientation must be of shape (..., 4), got shape (100000,)"
-    ),
+    (
+        "motion.orientation",
+        "1e300 0 0 0",
+    ): "orientation must be a quaternion of norm 1 within 0.001, got a norm of inf",
+    (
+        "motion.orientation",
+        " 1" * 100_000,
+    ): "orientation must be of shape (..., 4), got shape (100000,)",
     ("motion.orientation", CONTROL): "could not convert string to float: '\\x1b[31m",
-    ("motion.angular_velocity", "1e101 0 0"): (
-        "angular_velocity must be at most 1e+100 rad/s, got 1e+101"
-    ),
+    (
+        "motion.angular_velocity",
+        "1e101 0 0",
+    ): "angular_velocity must be at most 1e+100 rad/s, got 1e+101",
     ("top", "nan nan nan"): "Ix must be a finite number (kg m^2), got nan",
     ("top", None): "event 'start' must have all values, 'top' is missing or incomplete",
     ("after.orientation", None): "orientation must be of shape (..., 4), got shape (0,)",
 }
-
-
 RARELY = (1, 2)  # as 0: a time that is too long
 ABSURD_CASES = [
     pytest.param(*case, id=str(k), marks=pytest.mark.long if k in RARELY else ())
@@ -157,6 +156,8 @@ def test_a_kick_that_cannot_be_read_is_a_change_of_the_motion_in_the_page(text, 
 
 # what is in no log of ours
 
+DAMAGED = "a chunk is damaged: all messages of"
+
 
 def record(opcode, data):
     return struct.pack("<BQ", opcode, len(data)) + data
@@ -179,10 +180,6 @@ def file_of(tmp_path, *records):
     return path
 
 
-def assert_damaged(problems):
-    assert any("a chunk is damaged: all messages of" in problem for problem in problems)
-
-
 def grown(call):
     """MiB by which the peak of memory grows during a call."""
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -198,9 +195,13 @@ def test_millions_of_messages_in_a_chunk_of_a_few_bytes_are_not_held_at_once(tmp
     assert counted == [300_000]
 
 
-def test_a_chunk_of_records_that_are_none_is_damaged_at_once(tmp_path, capsys):
-    path = file_of(tmp_path, repeated(bytes(1024), 64 * 1024))
-    assert_damaged(asked(capsys, path, "--repair", tmp_path / "whole.mcap")[1])
+@pytest.mark.parametrize(
+    ("one", "count"), [(bytes(1024), 64 * 1024), (record(5, b"short"), 1)], ids=["none", "short"]
+)
+def test_a_chunk_of_records_that_are_none_is_damaged_at_once(one, count, tmp_path, capsys):
+    path = file_of(tmp_path, repeated(one, count))
+    _, lines = asked(capsys, path, "--repair", tmp_path / "whole.mcap")
+    assert any(DAMAGED in line for line in lines)
 
 
 def test_chunks_that_unpack_to_ever_more_schemas_are_refused(tmp_path, capsys):
@@ -213,23 +214,16 @@ def test_chunks_that_unpack_to_ever_more_schemas_are_refused(tmp_path, capsys):
     for way in (["--check"], ["--repair", tmp_path / "whole.mcap"]):
         status, (line,) = asked(capsys, path, *way)
         assert status == 1
-        assert line.endswith(
-            "must have at most 67108864 bytes of schemas, channels and metadata, "
-            "got more: it is not a log"
-        )
+        assert "must have at most 67108864 bytes of schemas, channels and metadata" in line
+        assert line.endswith(", got more: it is not a log")
     assert not (tmp_path / "whole.mcap").exists()
-
-
-def test_a_message_shorter_than_its_head_damages_its_chunk(tmp_path, capsys):
-    path = file_of(tmp_path, repeated(record(5, b"short"), 1))
-    assert_damaged(asked(capsys, path, "--repair", tmp_path / "whole.mcap")[1])
 
 
 @pytest.mark.parametrize("size", [2**32, 10 * 2**30, 2**63])
 def test_a_chunk_that_lies_about_its_size_costs_no_memory(size, tmp_path):
     file = McapFile(file_of(tmp_path, chunk(zstandard.compress(bytes(2**20)), size, 0)))
     assert grown(lambda: list(file.chunks())) < 50
-    assert_damaged(file.problems)
+    assert any(DAMAGED in problem for problem in file.problems)
 
 
 @pytest.mark.parametrize("length", [MAX_RECORD + 1, 2**40, 2**64 - 1])
@@ -252,9 +246,8 @@ def write(path, kind, topic, contents):
     with path.open("wb") as stream:
         writer = Writer(stream)
         writer.start("ros2")
-        channel = writer.register_channel(
-            topic, "cdr", writer.register_schema(kind, "ros2msg", b"")
-        )
+        schema = writer.register_schema(kind, "ros2msg", b"")
+        channel = writer.register_channel(topic, "cdr", schema)
         for stamp, data in enumerate(contents):
             writer.add_message(channel, stamp, data, stamp)
         writer.finish()
@@ -263,10 +256,8 @@ def write(path, kind, topic, contents):
 
 def test_joints_that_are_not_three_are_not_those_of_a_top(tmp_path, capsys):
     names = [(), ("a",), messages.JOINTS, tuple("abcdefgh")]
-    data = [
-        messages.JOINT_STATE.layout("world", *each).encode(0, [0.5] * 2 * len(each))
-        for each in names
-    ]
+    layouts = [messages.JOINT_STATE.layout("world", *each) for each in names]
+    data = [each.encode(0, [0.5] * 2 * len(n)) for each, n in zip(layouts, names, strict=True)]
     path = write(tmp_path / "log.mcap", messages.JOINT_STATE.type, "/top/euler_angles", data)
     log = TopLog(McapFile(path))
     (batch,) = log.batches()

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-import rerun as rr
 import rerun.blueprint as rrb
-from log_files import ARTICLE, BEGIN, Run
+from log_files import BEGIN, REGULAR, Run
 from PIL import Image
+from playback.view.rows import recording_to
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import Motion, State, Top, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import EYE_UPPER_HALF, EYE_WHOLE_SPHERE
@@ -19,13 +17,10 @@ from workshop.pictures.viewer import pause_at, picture, running_viewer, view_nam
 
 VIEWS = 14
 FOV = np.radians(55.0)  # vertical, Rerun's own
-SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
 HANGING = Top(2.28e-4, 5.72e-5, -0.068)
 SCENES = {
     "cusps": Run(seconds=1.5, hurried=False),
-    "regular": Run(
-        start=State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0), seconds=1.5, hurried=False
-    ),
+    "regular": Run(start=REGULAR, seconds=1.5, hurried=False),
     "hurried": Run(seconds=1.5),
     "hanging": Run(HANGING, State.from_euler(theta=0.6, phi_dot=1.0, psi_dot=100.0), hurried=False),
 }
@@ -40,20 +35,15 @@ NAMES = [
 @pytest.mark.parametrize("name", NAMES)
 def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     target = tmp_path / f"{name}.rrd"
-    replay(TopLog(McapFile(SCENES[name].write(tmp_path))), target)
+    replay(SCENES[name].open(tmp_path), target)
     with running_viewer(target) as (client, _):
         found = views(client, VIEWS)
         pause_at(client, entities.TIMELINE, duration=1.2)
         shot = picture(client)
         Image.fromarray(shot).save(tmp_path / f"{name}.png")
         assert {each.origin for each in found.values()} == {
-            entities.SPACE,
-            entities.PANEL,
-            entities.EVENTS,
-            entities.SENTENCE,
-            entities.POTENTIAL,
-            entities.CUBIC,
-            *entities.PLOTS,
+            *(entities.SPACE, entities.PANEL, entities.EVENTS, entities.SENTENCE),
+            *(entities.POTENTIAL, entities.CUBIC, *entities.PLOTS),
         }
         assert [each.reports for each in views(client, VIEWS).values()] == [[]] * VIEWS
         drawn = picture(client, found["the top"])
@@ -64,7 +54,7 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
 def test_the_chart_of_the_potential_is_not_cut(size, tmp_path, monkeypatch):
     monkeypatch.setattr(viewer, "SIZE", size)
     target = tmp_path / "hurried.rrd"
-    replay(TopLog(McapFile(SCENES["hurried"].write(tmp_path))), target)
+    replay(SCENES["hurried"].open(tmp_path), target)
     with running_viewer(target) as (client, _):
         chart = view_named(client, "effective potential (J)")
         pause_at(client, entities.TIMELINE, duration=1.2)
@@ -93,11 +83,6 @@ def projected(point, eye, target, shape):
 @pytest.mark.parametrize("name", NAMES)
 def test_the_axis_is_drawn_where_the_log_says(name, tmp_path):
     run = SCENES[name]
-    recording = rr.RecordingStream("test")
-    recording.save(tmp_path / "body.rrd")
-    shown = View(recording)
-    for batch in TopLog(McapFile(run.write(tmp_path))).batches():
-        shown.send(batch)
     eye, target = EYE_WHOLE_SPHERE if name == "hanging" else EYE_UPPER_HALF
     alone = rrb.Spatial3DView(
         origin=entities.SPACE,
@@ -107,9 +92,11 @@ def test_the_axis_is_drawn_where_the_log_says(name, tmp_path):
         line_grid=False,
         eye_controls=rrb.EyeControls3D(position=eye, look_target=target, eye_up=(0, 0, 1)),
     )
-    recording.send_blueprint(rrb.Blueprint(alone, rrb.TimePanel(timeline=entities.TIMELINE)))
-    recording.flush()
-    recording.disconnect()
+    with recording_to(tmp_path / "body.rrd") as recording:
+        shown = View(recording)
+        for batch in run.open(tmp_path).batches():
+            shown.send(batch)
+        recording.send_blueprint(rrb.Blueprint(alone, rrb.TimePanel(timeline=entities.TIMELINE)))
     with running_viewer(tmp_path / "body.rrd") as (client, _):
         view = view_named(client, "alone")
         for seconds in (0.2, 0.5, 0.7):
@@ -137,6 +124,6 @@ def test_rerun_shows_the_turning_top_of_a_log_by_itself(tmp_path):
             pause_at(client, "message_log_time", timestamp=stamp)
             space = next(each for each in found.values() if each.view_class == "3D")
             shots.append(picture(client, space))
-            assert all(not each.reports for each in views(client, 4).values())
+            assert not any(each.reports for each in views(client, 4).values())
     changed = np.abs(shots[0].astype(int) - shots[1]).max(axis=2) > 60
     assert changed.mean() > 0.005

@@ -2,8 +2,6 @@ import sys
 
 from log_files import Run
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import replay as module
 from symtop_ros.playback.replay import replay
 
@@ -13,7 +11,7 @@ RUN = Run(seconds=1.0)
 def test_on_a_terminal_a_bar_shows_the_progress_of_a_long_log(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(module, "MIN_SIZE_FOR_BAR", 0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    replay(TopLog(McapFile(RUN.write(tmp_path))), tmp_path / "run.rrd")
+    replay(RUN.open(tmp_path), tmp_path / "run.rrd")
     steps = capsys.readouterr().err.replace("\n", "\r").split("\r")
     bars = [step.count("#") for step in steps if step]
     assert bars

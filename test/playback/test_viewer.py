@@ -1,7 +1,8 @@
 """The Rerun viewer: it leaves the home of the user unchanged."""
 
-import subprocess
 import sys
+
+from programs import execute
 
 from symtop_ros.playback import viewer
 
@@ -11,11 +12,8 @@ def test_in_a_venv_its_settings_are_there_without_statistics(tmp_path, monkeypat
     monkeypatch.setattr(sys, "prefix", str(tmp_path / "venv"))
     for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME"):
         monkeypatch.delenv(name, raising=False)
-    environment = viewer.settings()
-    config = subprocess.run(
-        [viewer.PROGRAM, "analytics", "config"],
-        env=environment, capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
+    words = [viewer.PROGRAM, "analytics", "config"]
+    config = execute(words, env=viewer.settings(), check=True).stdout
     assert '"analytics_enabled": false' in config
     assert not (tmp_path / "home").exists()
 

@@ -1,11 +1,11 @@
 """Rerun's viewer in a browser reaches nothing but this machine."""
 
 import re
-import time
 from urllib.parse import urlsplit
 
 import pytest
 from browser import running_browser
+from waiting import until
 
 from symtop_ros.playback import viewer
 
@@ -29,10 +29,7 @@ def open_viewer(browser, address):
     tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
     tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
     tab.on("console", lambda line: refused.append(line.text))
-    deadline = time.monotonic() + TIMEOUT
-    while tab.goto(f"{address}&renderer=webgl").status == 503:
-        assert time.monotonic() < deadline
-        time.sleep(0.1)
+    until(lambda: tab.goto(f"{address}&renderer=webgl").status != 503, timeout=TIMEOUT)
     return tab, asked, [text for text in refused if "Content Security Policy" in text]
 
 
@@ -48,10 +45,8 @@ def test_the_page_asks_no_other_host(address):
 def test_the_viewer_runs_and_asks_no_other_host(address):
     with running_browser() as browser:
         tab, asked, _ = open_viewer(browser, address)
-        deadline = time.monotonic() + TIMEOUT
-        while not tab.evaluate("window._handle !== undefined"):
-            assert time.monotonic() < deadline
-            tab.wait_for_timeout(100)
+        started = "window._handle !== undefined"
+        until(lambda: tab.evaluate(started), lambda: tab.wait_for_timeout(100), TIMEOUT)
         tab.wait_for_timeout(10_000)  # in which telemetry and the log-in would be asked for
         assert {host for host in asked if host} == {"127.0.0.1"}
         tab.screenshot(path="/tmp/rerun.png")

@@ -27,9 +27,7 @@ class Uses:
     request: frozenset[str] = frozenset()
 
     def __or__(self, other: Uses) -> Uses:
-        return Uses(
-            *(getattr(self, each.name) | getattr(other, each.name) for each in fields(self))
-        )
+        return Uses(*(getattr(self, f.name) | getattr(other, f.name) for f in fields(self)))
 
 
 def allowed() -> dict[str, Uses]:

@@ -10,7 +10,7 @@ import urllib.request
 import pytest
 from node.listener import Listener
 from node.running_top import RunningTop
-from programs import command, environment, running_node
+from programs import command, running, running_node
 from rclpy.node import NodeNameNonExistentError
 from security.policy import Uses, allowed, used
 
@@ -22,16 +22,11 @@ pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 TIMEOUT = 60.0
 COMMANDS = {
+    **{name: (name,) for name in ("hurry", "reset", "pause", "resume", "state", "watch")},
     "start": ("start", "theta=0.5"),
     "kick": ("kick", "precession_rate=9"),
     "step": ("step", "duration=0.01"),
-    "hurry": ("hurry",),
-    "reset": ("reset",),
-    "pause": ("pause",),
-    "resume": ("resume",),
     "record": ("record", "on"),
-    "state": ("state",),
-    "watch": ("watch",),
 }
 
 
@@ -40,14 +35,8 @@ def processes(*commands):
     """Run programs; they are killed at the end."""
     with contextlib.ExitStack() as stack:
         for words in commands:
-            process = subprocess.Popen(
-                words,
-                env=environment(DOMAIN),
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-            stack.callback(process.wait)
-            stack.callback(process.kill)
+            silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+            stack.enter_context(running(words, DOMAIN, **silent))
         yield
 
 
@@ -76,11 +65,8 @@ def test_the_policy_allows_top_node_what_it_uses():
     sensors = {"imu__enabled": True, "odometry__enabled": True}
     shown = {"publish_clock": True, "publish_markers": True, **sensors}
     for parameters in (shown, {"use_sim_time": True}):
-        run = RunningTop(realtime=True, **parameters)
-        try:
+        with RunningTop(realtime=True, **parameters) as run:
             seen |= used(run.user, "top")
-        finally:
-            run.close()
     assert seen == allowed()["/top/top_node"]
 
 

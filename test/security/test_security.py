@@ -2,14 +2,14 @@
 
 import socket
 import subprocess
-import time
 
 import pytest
 from listening import tcp_addresses
 from log_files import Run
 from node.running_top import RunningTop
-from programs import command, environment, run
+from programs import command, run, running
 from rclpy.parameter import Parameter
+from waiting import until
 
 from symtop_ros.playback import viewer
 from workshop.load.domains import claim_domain
@@ -22,7 +22,6 @@ PROGRAMS = (
     ("top_live", "--web"),
     ("top_panel", "--node", "/top", "--port", "0", "--no-browser"),
 )
-TIMEOUT = 20.0
 
 
 # Without a keystore all programs fail on the same way: top_node stands for them in `make test`.
@@ -53,35 +52,17 @@ def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_pat
     log = Run(seconds=0.5).write(tmp_path)
     port = viewer.free_port()
     words = [str(log)] if program == "top_replay" else ["--port", str(port)]
-    process = subprocess.Popen(
-        command(program, *words, "--web"),
-        env=environment(DOMAIN),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
-        addresses = waited_for(lambda: tcp_addresses(process.pid), 2)
-    finally:
-        process.terminate()
-        process.wait(timeout=TIMEOUT)
+    silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with running(command(program, *words, "--web"), DOMAIN, **silent) as process:
+        addresses = until(lambda: len(found := tcp_addresses(process.pid)) > 1 and found)
     assert {address for address, _ in addresses} == {"127.0.0.1"}
     for address in addresses:  # the viewer has ended with the program
         with socket.socket() as probe:
             assert probe.connect_ex(address) != 0
 
 
-def waited_for(look, count):
-    """Return the findings when there are at least `count`."""
-    deadline = time.monotonic() + TIMEOUT
-    while len(found := look()) < count:
-        assert time.monotonic() < deadline, f"only {found} in time"
-        time.sleep(0.02)
-    return found
-
-
 def test_no_text_that_can_be_set_from_afar_is_a_path():
-    run = RunningTop()
-    try:
+    with RunningTop() as run:
         texts = {
             name: parameter.value
             for name, parameter in run.top.get_parameters_by_prefix("").items()
@@ -89,11 +70,8 @@ def test_no_text_that_can_be_set_from_afar_is_a_path():
         }
         assert {"scene", "record.directory", "world_frame"} <= set(texts)
         for name, value in texts.items():
-            granted, why = run.connection.set("set_parameters_atomically", {name: "/tmp/elsewhere"})
+            granted, why = run.change({name: "/tmp/elsewhere"})
             assert not granted
             assert "read-only" in why or " must be " in why, (name, why)
             assert run.top.get_parameter(name).value == value
-        granted, _ = run.connection.set("set_parameters_atomically", {"record.path": "/tmp/else"})
-        assert not granted
-    finally:
-        run.close()
+        assert not run.change({"record.path": "/tmp/else"})[0]

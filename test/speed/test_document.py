@@ -2,16 +2,9 @@ from dataclasses import fields
 
 import pytest
 
+from workshop.speed import document
 from workshop.speed.ahead import FRICTION, TABLES, list_ahead
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
-from workshop.speed.document import (
-    CONDITIONS,
-    Environment,
-    _format_ahead,
-    _format_other_motions,
-    format_chapters,
-    format_document,
-)
 from workshop.speed.many import ManyCost
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.reference import Reference
@@ -25,20 +18,21 @@ def curve(peer, motion):
 def test_the_table_of_other_motions_has_a_row_for_each_peer():
     problem = Reference.read().article[0]
     curves = [curve(peer, name) for name in ("looping", "sleeping") for peer in ("a", "b")]
-    text = _format_other_motions(Results(curves=[curve("a", problem.name), *curves]), problem)
+    results = Results(curves=[curve("a", problem.name), *curves])
+    text = document._format_other_motions(results, problem)
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert rows[0] == "|  | looping | sleeping |"
     assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
 
 
 def test_the_conditions_of_a_report_are_a_list():
-    environment = Environment("make report", "a machine", {"numpy": "2"}, ["drake"], 4.0)
-    text = format_chapters(Results(), Reference.read().article[0], environment)
+    environment = document.Environment("make report", "a machine", {"numpy": "2"}, ["drake"], 4.0)
+    text = document.format_chapters(Results(), Reference.read().article[0], environment)
     first, empty, *lines = text.partition("\n\n## ")[0].splitlines()
     assert (first, empty) == ("Conditions:", "")
     assert all(line.startswith("- ") for line in lines)
     # the command, the machine, the versions, what is missing, and what a figure means
-    for part in ("make report", "a machine", "numpy 2", "drake", *CONDITIONS):
+    for part in ("make report", "a machine", "numpy 2", "drake", *document.CONDITIONS):
         assert sum(part in line for line in lines) == 1
 
 
@@ -49,10 +43,10 @@ def test_a_report_can_be_written_after_each_curve(by):
     pairs = [(CLOSED_FORM, name) for name in names[:-1]] + [(TAYLOR, FRICTION)]
     curves = [curve(*each) for each in [*pairs, *((peer, n) for peer in "ab" for n in names)]]
     curves.sort(key=lambda each: 0 if by == "peer" else names.index(each.motion))
-    environment = Environment("make report", "a machine", {}, [], 4.0, "the compiled kernel")
+    where = document.Environment("make report", "a machine", {}, [], 4.0, "the compiled kernel")
     for count in range(1, len(curves) + 1):
         checks = dict.fromkeys((CLOSED_FORM, TAYLOR, "a", "b"), 0.0)
-        text = format_document(Results(checks, curves[:count]), motion, environment)
+        text = document.format_document(Results(checks, curves[:count]), motion, where)
         assert "## Where a peer is ahead" in text
     assert "## Other motions" in text
     assert text.count("\n| b |") >= 3
@@ -60,13 +54,8 @@ def test_a_report_can_be_written_after_each_curve(by):
 
 def test_every_case_in_which_a_peer_is_ahead_is_named():
     def swept(peer, *points):
-        return Curve(
-            peer,
-            "cusps",
-            10.0,
-            tuple(Measurement(1.0, e, e, 9, s, 0.0) for e, s in points),
-            "finest",
-        )
+        found = tuple(Measurement(1.0, e, e, 9, s, 0.0) for e, s in points)
+        return Curve(peer, "cusps", 10.0, found, "finest")
 
     results = Results(
         curves=[
@@ -80,7 +69,7 @@ def test_every_case_in_which_a_peer_is_ahead_is_named():
             ArrayCost("dense", (1, 10), (2.0, 1.0), 1e-14),
         ],
     )
-    lines = [line for line in _format_ahead(results).splitlines() if line.startswith("-")]
+    lines = [line for line in document._format_ahead(results).splitlines() if line.startswith("-")]
     # the sentences are the result: numbers are compared where they are found
     assert lines == [
         "- cusps: fast reaches 1.0e-09 rad in 0.1 ms, closed form 1.0e-15 in 0.3 ms.",
@@ -120,13 +109,12 @@ def test_every_table_is_looked_at():
 
 
 def test_a_peer_that_is_nowhere_ahead_is_not_named():
-    assert _format_ahead(results_of(1e-3, 2e-3)).endswith("- None.")
+    assert document._format_ahead(results_of(1e-3, 2e-3)).endswith("- None.")
 
 
 def test_a_peer_that_is_faster_in_a_family_of_driven_motions_is_named():
     """Its errors are larger: only the median time is ahead."""
     errors, seconds = {TAYLOR: 1e-16, "peer": 1e-12}, {TAYLOR: 2e-3, "peer": 1e-3}
     results = Results(driven=[DrivenCase("rods", errors, seconds)] * 3)
-    assert [*list_ahead(results)] == [
-        "Friction and torques, rods, median: peer is faster, 1 against 2 ms."
-    ]
+    (line,) = list_ahead(results)
+    assert line == "Friction and torques, rods, median: peer is faster, 1 against 2 ms."

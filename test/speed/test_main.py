@@ -1,9 +1,9 @@
 import dataclasses
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from programs import execute
 
 from workshop import main as report
 from workshop.article import maps, retell
@@ -50,10 +50,7 @@ def test_a_command_chooses_the_part_that_runs(words, monkeypatch):
         (["speed", "--limit", "0"], "--limit: must be above 0 and at most 3600 s, got 0"),
         (["speed", "--limit", "nan"], "--limit: must be above 0 and at most 3600 s, got nan"),
         (["testset", "--limit", "long"], "--limit: must be above 0 and at most 3600 s, got long"),
-        (
-            ["filters", "--docs", "nowhere"],
-            "--docs: must be a folder next to a README.md, got nowhere",
-        ),
+        (["filters", "--docs", "nowhere"], "must be a folder next to a README.md, got nowhere"),
         (["article", "--full"], "unrecognized arguments: --full"),
         ([], "the following arguments are required: COMMAND"),
     ],
@@ -76,10 +73,7 @@ def test_a_wrong_option_is_refused_as_usage(words, message, capsys):
 def test_a_missing_package_is_named_with_the_extra_that_brings_it(module, command, extra, tmp_path):
     hidden = f"import sys; sys.path.insert(0, {str(ROOT)!r}); sys.modules[{module!r}] = None; "
     program = "from symtop_ros.programs import run; sys.exit(run('workshop', 'workshop.main'))"
-    result = subprocess.run(
-        [sys.executable, "-c", hidden + program, command],
-        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+    result = execute([sys.executable, "-c", hidden + program, command], cwd=tmp_path)
     assert result.returncode == 1
     remedy = f"pip install '.[{extra}]' in the checkout"
     assert result.stderr == f"workshop: {module} is missing: {remedy}\n"

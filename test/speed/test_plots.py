@@ -11,8 +11,7 @@ def test_the_legend_names_each_method_once():
     """A method that was measured on one motion of two is named, too."""
     measured = (("symtop_ros", "cusps"), ("symtop_ros", "loops"), ("SciPy DOP853", "cusps"))
     curves = [Curve(peer, motion, 10.0, (POINT,), "finest") for peer, motion in measured]
-    figure = draw_motions(
-        Results(curves=curves), _choose_looks(dict.fromkeys(peer for peer, _ in measured))
-    )
+    looks = _choose_looks(dict.fromkeys(peer for peer, _ in measured))
+    figure = draw_motions(Results(curves=curves), looks)
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["symtop_ros", "SciPy DOP853"]

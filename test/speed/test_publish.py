@@ -5,15 +5,7 @@ from pathlib import Path
 import pytest
 
 from workshop.load import node_cost, stress
-from workshop.speed import derivatives, filters, testset
-from workshop.speed.publish import (
-    COLUMNS,
-    find_section,
-    format_table,
-    format_tables,
-    publish,
-    replace_section,
-)
+from workshop.speed import derivatives, filters, publish, testset
 
 ROOT = Path(__file__).parents[2]
 TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
@@ -25,7 +17,7 @@ SECTIONS = (
 
 
 def test_a_table_has_as_many_cells_in_each_row():
-    lines = format_table(["", "a"], [["b", "1"], ["c", "2"]]).splitlines()
+    lines = publish.format_table(["", "a"], [["b", "1"], ["c", "2"]]).splitlines()
     assert lines == ["|  | a |", "| --- | --: |", "| b | 1 |", "| c | 2 |"]
 
 
@@ -43,10 +35,10 @@ def read_tables(text):
 def test_a_wide_table_is_several_narrow_ones_with_all_its_cells(columns, kept):
     head = [f"h{k}" for k in range(max(columns, kept))]
     rows = [[f"{row}{k}" for k in range(len(head))] for row in "ab"]
-    tables = read_tables(format_tables(head, rows, kept))
+    tables = read_tables(publish.format_tables(head, rows, kept))
     for table in tables:
         assert {len(row) for row in table} == {len(table[0])}
-        assert len(table[0]) <= COLUMNS
+        assert len(table[0]) <= publish.COLUMNS
         assert table[0][:kept] == head[:kept]
     for number, row in ((0, head), (2, rows[0]), (3, rows[1])):
         assert row[kept:] == [cell for table in tables for cell in table[number][kept:]]
@@ -57,7 +49,7 @@ def test_a_wide_table_is_several_narrow_ones_with_all_its_cells(columns, kept):
 def test_each_table_of_a_command_stands_in_one_page():
     texts = [page.read_text(encoding="utf-8") for page in PAGES]
     for name in SECTIONS:
-        (table,) = filter(None, (find_section(text, name) for text in texts))
+        (table,) = filter(None, (publish.find_section(text, name) for text in texts))
         assert read_tables(table)
     assert sum(text.count("<!-- figures: ") for text in texts) == len(SECTIONS)
 
@@ -66,21 +58,17 @@ def test_each_table_of_a_command_stands_in_one_page():
 def test_the_tables_of_a_page_of_tables_are_narrow(page):
     tables = read_tables(page.read_text(encoding="utf-8"))
     assert len(tables) > 3
-    assert max(len(row) for each in tables for row in each) <= COLUMNS
+    assert max(len(row) for each in tables for row in each) <= publish.COLUMNS
 
 
-def test_sections_are_written_into_the_pages_that_have_them(tmp_path):
-    docs = tmp_path / "docs"
-    docs.mkdir()
-    page, readme = docs / "accuracy_tables.md", tmp_path / "README.md"
-    page.write_text("# Title\n\n<!-- figures: chapters -->\nold\n<!-- end of figures -->\nend\n")
-    readme.write_text("no section\n")
-    publish({"chapters": "new", "summary": "other"}, docs)
-    assert page.read_text() == (
-        "# Title\n\n<!-- figures: chapters -->\nnew\n<!-- end of figures -->\nend\n"
-    )
-    assert readme.read_text() == "no section\n"
+def test_sections_are_written_into_the_pages_that_have_them(docs):
+    page = docs / "accuracy_tables.md"
+    text = "# Title\n\n<!-- figures: chapters -->\nold\n<!-- end of figures -->\nend\n"
+    page.write_text(text)
+    publish.publish({"chapters": "new", "summary": "other"}, docs)
+    assert page.read_text() == text.replace("old", "new")
+    assert (docs.parent / "README.md").read_text() == "no section\n"
 
 
 def test_a_text_without_the_section_is_unchanged():
-    assert replace_section("a text", "summary", "new") == "a text"
+    assert publish.replace_section("a text", "summary", "new") == "a text"

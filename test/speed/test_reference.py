@@ -37,9 +37,8 @@ ENTRIES = read_entries()
 
 
 def exact(data, k):
-    inputs = Inputs.of(
-        *(data[name] for name in ("Ix", "Iz", "Mgl", "orientation", "angular_velocity"))
-    )
+    names = ("Ix", "Iz", "Mgl", "orientation", "angular_velocity")
+    inputs = Inputs.of(*(data[name] for name in names))
     return inputs, exact_motion(inputs, data["t"][k])[0]
 
 

@@ -56,13 +56,9 @@ def test_a_point_has_the_time_and_the_error_of_its_run():
 
 
 def test_a_sweep_ends_when_two_settings_in_a_row_are_no_better():
-    curve = sweep_motion(
-        make_peer([1e-2, 1e-6, 2e-6, 3e-6, 1e-9], [0.0] * 5), PROBLEM, 1.0, limit=1.0
-    )
-    assert (len(curve.points), curve.end) == (4, "turning point")
-    assert curve.best.setting == 0.1
-
-
-def test_a_sweep_through_all_settings_ends_at_the_finest():
-    curve = sweep_motion(make_peer([1e-2, 1e-6, 2e-6], [0.0] * 3), PROBLEM, 1.0, limit=1.0)
-    assert (len(curve.points), curve.end) == (3, "finest")
+    for errors, expected in (
+        ([1e-2, 1e-6, 2e-6, 3e-6, 1e-9], (4, "turning point", 0.1)),
+        ([1e-2, 1e-6, 2e-6], (3, "finest", 0.1)),  # through all settings
+    ):
+        curve = sweep_motion(make_peer(errors, [0.0] * 5), PROBLEM, 1.0, limit=1.0)
+        assert (len(curve.points), curve.end, curve.best.setting) == expected

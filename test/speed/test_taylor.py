@@ -65,8 +65,7 @@ def test_times_may_come_in_any_order_and_again():
 
 
 def test_a_top_that_rests_on_the_vertical_stays():
-    high, low = integrate(
-        Task(Top(1.0, 0.5, 2.0), State((1.0, 0.0, 0.0, 0.0), (0.0,) * 3))
-    ).doubles_at([50.0])
+    task = Task(Top(1.0, 0.5, 2.0), State((1.0, 0.0, 0.0, 0.0), (0.0,) * 3))
+    high, low = integrate(task).doubles_at([50.0])
     assert high.tolist() == [[1.0, 0.0, 0.0, 0.0]]
     assert (low == 0).all()

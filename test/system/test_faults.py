@@ -1,10 +1,8 @@
 """Faults of processes: one that is stopped again and again, and two of one name."""
 
-import contextlib
 import os
 import random
 import signal
-import subprocess
 import time
 
 import numpy as np
@@ -13,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import facts
-from programs import PATIENT, command, environment, run, running_node
+from programs import PATIENT, command, run, running, running_node, set_parameters
 from sensor_msgs.msg import JointState
 
 from symtop_ros.log.reader import McapFile
@@ -31,10 +29,6 @@ SEVERAL = (
 )
 
 
-def pace_of(message):
-    return facts(message, "top: pace")
-
-
 def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(tmp_path):
     chance = random.Random(1)
     stops = [1.0, *(chance.uniform(0.02, 0.3) for _ in range(8))]
@@ -48,9 +42,8 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
             time.sleep(seconds)
             os.kill(node.pid, signal.SIGCONT)
             listener.spin(chance.uniform(0.0, 0.1))
-        told = len(diagnostics)
-        listener.spin_until(lambda: len(diagnostics) > told + 1)
-        missed = int(pace_of(diagnostics[-1])["missed"])
+        listener.wait_for(diagnostics, 2)
+        missed = int(facts(diagnostics[-1], "top: pace")["missed"])
         stamp = diagnostics[-1].header.stamp
         asked = time.time_ns()
         angles.clear()
@@ -70,20 +63,9 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
 
 
 def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
-    with contextlib.ExitStack() as stack:
-        nodes = [
-            stack.enter_context(
-                subprocess.Popen(
-                    command("top_node", "--ros-args", "--log-level", "warn"),
-                    env=environment(DOMAIN),
-                    stderr=subprocess.PIPE,
-                    text=True,
-                )
-            )
-            for _ in range(2)
-        ]
-        for node in nodes:
-            stack.callback(node.kill)
+    words = command("top_node", *set_parameters())
+    with running(words, DOMAIN) as first, running(words, DOMAIN) as second:
+        nodes = first, second
         lines = [
             next(each for each in iter(node.stderr.readline, "") if DUPLICATE in each)
             for node in nodes

@@ -6,17 +6,14 @@ A moment before that is Python's own: there Ctrl-C may show a traceback of its s
 import contextlib
 import random
 import signal
-import subprocess
 import time
 from pathlib import Path
 
 import pytest
+from exact_log import assert_no_deviation
 from log_files import Run
-from programs import command, environment
+from programs import command, running, set_parameters
 
-from symtop_ros.check.samples import check_log
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
 from workshop.load.domains import claim_domain
 
@@ -32,19 +29,9 @@ SECONDS, ATTEMPTS = 1.0, 3
 @contextlib.contextmanager
 def begun(*words):
     """Run a program; it is there when it has begun to run its own lines."""
-    process = subprocess.Popen(
-        command(*words),
-        env=environment(DOMAIN),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    with running(command(*words), DOMAIN) as process:
         _wait_for_first_line(process)
         yield process
-    finally:
-        process.kill()
-        process.communicate()
 
 
 def _wait_for_first_line(process):
@@ -82,22 +69,14 @@ def test_top_node_ends_in_silence_and_its_log_is_whole_or_absent(tmp_path):
     chance, statuses = random.Random(1), set()
     for attempt in range(2 * ATTEMPTS):
         folder = tmp_path / str(attempt)
-        parameters = (*RECORDING, f"record.directory:={folder}")
-        words = [word for parameter in parameters for word in ("-p", parameter)]
-        status, told = ended_at_random(
-            chance, "top_node", "--ros-args", *words, "--log-level", "warn"
-        )
+        options = set_parameters(*RECORDING, f"record.directory:={folder}")
+        status, told = ended_at_random(chance, "top_node", *options)
         # A machine that is overloaded adds its own warning, which is not the matter here.
         assert [line for line in told.splitlines() if "no samples for" not in line] == []
         statuses.add(status)
         for path in folder.glob("*"):
             assert status in {0, *SILENT}
-            log = TopLog(McapFile(path))
-            assert all(
-                each.largest == 0.0 and not each.unchecked for each in check_log(log).values()
-            )
-            assert log.problems == []
-            assert "symtop_ros.end" in log.file.metadata
+            assert "symtop_ros.end" in assert_no_deviation(path).file.metadata
     assert statuses <= {0, *SILENT}
 
 

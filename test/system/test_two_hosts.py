@@ -2,15 +2,16 @@
 
 import contextlib
 import json
-import os
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import programs
 import pytest
-from programs import LOSSY_PROFILES, command
+from programs import LOSSY_PROFILES, command, set_parameters
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
+from waiting import until
 
 from symtop_ros.distribution import VARIABLES, distribution_name
 from workshop.load.endings import bound
@@ -46,31 +47,21 @@ def hosts():
 
 
 def environment(domain, settings):
-    bare = {name: value for name, value in os.environ.items() if name not in SETTINGS}
-    return {**bare, "ROS_DOMAIN_ID": str(domain), **settings}
+    usual = programs.environment(domain).items()
+    return {name: value for name, value in usual if name not in SETTINGS} | settings
 
 
 @contextlib.contextmanager
 def running(host, domain, settings, *words):
     """Run a program on a host; a line that is written to it is answered by a line."""
-    process = subprocess.Popen(
-        host.words(*words),
-        env=environment(domain, settings),
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    pipes = {"stdin": subprocess.PIPE, "stderr": None}
+    words = host.words(*words)
+    with programs.running(words, domain, env=environment(domain, settings), **pipes) as process:
         yield process
-    finally:
-        process.kill()
-        process.communicate()
 
 
 def top(host, domain, settings):
-    return running(
-        host, domain, settings, *command("top_node", "--ros-args", "--log-level", "warn")
-    )
+    return running(host, domain, settings, *command("top_node", *set_parameters()))
 
 
 def witness(host, domain, settings):
@@ -90,11 +81,7 @@ def ask(process, word):
 
 def report_of(process, done):
     """The first report for which something holds."""
-    deadline = time.monotonic() + TIMEOUT
-    while not done(report := ask(process, "report")):
-        assert time.monotonic() < deadline, report
-        time.sleep(0.1)
-    return report
+    return until(lambda: done(report := ask(process, "report")) and report)
 
 
 def counted(report):

@@ -84,14 +84,8 @@ class Host:
 
     def words(self, *command: str) -> list[str]:
         """Return the command line that runs a command on this host."""
-        return [
-            "nsenter",
-            f"--target={self.pid}",
-            "--net",
-            "--mount",
-            f"--wd={Path.cwd()}",
-            *command,
-        ]
+        options = [f"--target={self.pid}", "--net", "--mount", f"--wd={Path.cwd()}"]
+        return ["nsenter", *options, *command]
 
     def run(self, *command: str) -> str:
         done = subprocess.run(self.words(*command), check=True, capture_output=True, text=True)

@@ -27,6 +27,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 TIMEOUT = 60_000  # ms
 # The canvas is drawn twice as large and shrunk: its edges are smooth, as with a graphics card.
 SMOOTH = "Object.defineProperty(window, 'devicePixelRatio', {value: 2})"
+PUSH = {"angular_impulse": [-1e-3, -1e-3, 0.0]}
 HURRY = {"precession_rate_factor": 1.4}
 
 
@@ -45,16 +46,7 @@ class Picture(NamedTuple):
 
 PICTURES = (
     Picture("panel", 1280, 720, "hurry_slow", HURRY, (2.9, 2.5)),
-    Picture(
-        "panel_dark",
-        1280,
-        720,
-        "looping",
-        {"angular_impulse": [-1e-3, -1e-3, 0.0]},
-        (2.2, 2.4),
-        "dark",
-        "History",
-    ),
+    Picture("panel_dark", 1280, 720, "looping", PUSH, (2.2, 2.4), "dark", "History"),
     Picture("panel_tablet", 820, 1180, "cusps", {}, (2.5, 0.0), tab="Push"),
     Picture("panel_phone", 390, 844, "hurry_slow", HURRY, (2.0, 2.2)),
 )

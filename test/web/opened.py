@@ -1,5 +1,6 @@
 """The page as one file in a tab of Chromium, without a network."""
 
+import json
 import time
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top
@@ -31,13 +32,36 @@ class Opened:
         self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
         self.tab.on("request", lambda request: self.requests.append(request.url))
         self.tab.goto(path.as_uri() + fragment)
-        self.tab.wait_for_selector("#headline:not(:empty)")
+        self.wait_for_page()
 
     def close(self):
         """Close the tab; nothing went wrong in it, and it asked for nothing from elsewhere."""
         self.context.close()
         assert self.problems == []
         assert all(request.startswith(NO_REQUESTS) for request in self.requests)
+
+    def wait_for_page(self):
+        self.tab.wait_for_selector("#headline:not(:empty)")
+
+    def reload(self):
+        self.tab.reload()
+        self.wait_for_page()
+
+    def drop(self, run):
+        """Drop a file with a run."""
+        self.tab.evaluate(
+            """(text) => {
+                const dataTransfer = new DataTransfer();
+                dataTransfer.items.add(new File([text], "run.json"));
+                document.dispatchEvent(new DragEvent("drop", {dataTransfer, cancelable: true}));
+            }""",
+            json.dumps(run),
+        )
+
+    def start_scene(self, name):
+        self.open_tab("start")
+        self.tab.select_option("#scenes", name)
+        self.tab.click("#start-scene")
 
     def say(self, name):
         """Return a text before its symbols became formulas."""
@@ -55,6 +79,12 @@ class Opened:
         field.fill(text)
         field.press("Enter")
 
+    def drag(self, x, y, right, down):
+        """Move the pointer to a place, and with its button held by some pixels."""
+        self.tab.mouse.move(x, y)
+        self.tab.mouse.down()
+        self.tab.mouse.move(x + right, y + down)
+
     def press(self, key):
         """Press a key while no field has the focus."""
         self.tab.evaluate("document.activeElement.blur()")
@@ -71,6 +101,13 @@ class Opened:
 
     def read_run(self):
         return self.tab.evaluate("window.symtop.run()")
+
+    def read_events(self):
+        return self.read_run()["events"]
+
+    def read_last(self):
+        """Return the state after the last event."""
+        return read_state(self.read_events()[-1])
 
     def until(self, condition):
         """Wait, while the browser works; its own way would need what the page forbids."""

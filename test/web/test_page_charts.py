@@ -7,13 +7,7 @@ import numpy as np
 import pytest
 from web.opened import FEW_FRAMES, read_motion, read_state
 
-from symtop_ros.physics import (
-    Motion,
-    State,
-    Top,
-    regular_precession_rates,
-    theta_acceleration,
-)
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates, theta_acceleration
 from workshop.article.answers.ledger import KickLedger
 from workshop.article.answers.starts import find_boundaries, find_curves, loops
 
@@ -63,7 +57,7 @@ def test_what_changes_fills_its_chart(open_page):
 def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     assert not opened.tab.is_visible("#ledger-chart")
     opened.tab.click("#hurry")
-    _, kick = opened.read_run()["events"]
+    _, kick = opened.read_events()
     slow = regular_precession_rates(ARTICLE, 0.5, 200.0)[0]
     before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
     ledger = KickLedger.of(ARTICLE, before, read_state(kick))
@@ -82,9 +76,8 @@ def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=11.325")
     dot = page.tab.locator("#kinds #present")
     x, y = (float(dot.get_attribute(name)) for name in ("cx", "cy"))
-    curve = page.tab.locator("#kinds path.cusps").evaluate_all(
-        "all => all.map(e => e.getAttribute('d'))"
-    )
+    read = "all => all.map(e => e.getAttribute('d'))"
+    curve = page.tab.locator("#kinds path.cusps").evaluate_all(read)
     points = np.array(
         [(float(a), float(b)) for a, b in re.findall(r"[ML]([-\d.]+) ([-\d.]+)", " ".join(curve))]
     )
@@ -136,7 +129,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     opened.tab.click("#hurry")
     opened.wait_for_time(0.05)
     opened.tab.click("#pause")
-    _, kick = opened.read_run()["events"]
+    _, kick = opened.read_events()
     opened.tab.locator("#free").scroll_into_view_if_needed()
     opened.tab.evaluate("document.getElementById('free-place').value = 1")
     opened.tab.wait_for_timeout(300)
@@ -144,16 +137,14 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     state = read_motion(kick).at(time - kick["time"])
     rates = state.euler_rates
     acceleration = theta_acceleration(ARTICLE, state.euler_angles.theta, rates.phi, rates.psi)
-    shown = re.fullmatch(
-        r"time (\S+) s, tilt acceleration theta'' (\S+) rad/s²", opened.say("free-values")
-    )
+    form = r"time (\S+) s, tilt acceleration theta'' (\S+) rad/s²"
+    shown = re.fullmatch(form, opened.say("free-values"))
     assert float(shown[1]) == pytest.approx(time, rel=1e-4)
     assert float(shown[2]) == pytest.approx(acceleration, rel=1e-3)
     box = opened.tab.locator("#free svg").bounding_box()
     opened.tab.locator("#free svg").hover(position={"x": 50, "y": box["height"] / 2})
     opened.until(lambda: float(opened.tab.input_value("#free-place")) < 0.2)
-    opened.tab.reload()
-    opened.tab.wait_for_selector("#headline:not(:empty)")
+    opened.reload()
     assert opened.tab.input_value("#free-y") == "theta_ddot"  # the choice is kept
 
 
@@ -208,13 +199,11 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.click("#pause")
     opened.tab.wait_for_timeout(300)
     x, y, _ = find_ball(opened)
-    opened.tab.mouse.move(x, y)
-    opened.tab.mouse.down()
-    opened.tab.mouse.move(x, y + 60)
+    opened.drag(x, y, 0, 60)
     opened.tab.wait_for_timeout(300)
-    assert len(opened.read_run()["events"]) == 1  # nothing has happened yet
+    assert len(opened.read_events()) == 1  # nothing has happened yet
     opened.tab.mouse.up()
-    first, tilted = opened.read_run()["events"]
+    first, tilted = opened.read_events()
     assert tilted["kind"] == "start"
     before, after = read_state(first), read_state(tilted)
     assert abs(after.euler_angles.theta - before.euler_angles.theta) > 0.05
@@ -224,12 +213,10 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.wait_for_timeout(300)
     opened.tab.click("#pause")
     x, y, _ = find_ball(opened)
-    opened.tab.mouse.move(x, y)
     opened.tab.keyboard.down("Shift")
-    opened.tab.mouse.down()
-    opened.tab.mouse.move(x + 60, y)
+    opened.drag(x, y, 60, 0)
     opened.tab.mouse.up()
     opened.tab.keyboard.up("Shift")
-    kick = opened.read_run()["events"][-1]
+    kick = opened.read_events()[-1]
     assert kick["kind"] == "kick"
     assert kick["request"] == "pulled by the ball"

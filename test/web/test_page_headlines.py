@@ -3,21 +3,14 @@
 import itertools
 
 import pytest
-from web.opened import read_state
-
-
-def start_scene(page, name):
-    page.open_tab("start")
-    page.tab.select_option("#scenes", name)
-    page.tab.click("#start-scene")
 
 
 def test_the_headline_of_a_driven_motion_says_what_acts(opened):
     said = {}
     for name in opened.tab.locator("#scenes option").evaluate_all("all => all.map(e => e.value)"):
         if name:
-            start_scene(opened, name)
-            event = opened.read_run()["events"][-1]
+            opened.start_scene(name)
+            event = opened.read_events()[-1]
             acts = [any(event["friction"]), any(event["torque"])]
             said[name] = acts
             words = {
@@ -34,20 +27,11 @@ def test_the_headline_of_a_driven_motion_says_what_acts(opened):
 
 
 def test_a_kick_under_friction_is_judged_apart_from_friction(opened):
-    start_scene(opened, "friction")
+    opened.start_scene("friction")
     opened.tab.click("#hurry")
     assert opened.say("headline").endswith(" (apart from friction).") or (
         "(apart from friction):" in opened.say("headline")
     )
-
-
-def test_a_torque_that_is_held_is_said_and_so_is_its_end(opened):
-    opened.open_tab("push")
-    button = opened.tab.locator("[data-hold='1']")
-    button.dispatch_event("pointerdown")
-    opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
-    button.dispatch_event("pointerup")
-    opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
 
 
 @pytest.mark.wording
@@ -97,4 +81,4 @@ def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     opened.open_tab("history")
     assert "started: theta 34.38°, phi' 6.497, psi' 200 rad/s" in read()
     opened.tab.click("#entries button:text('started:')")
-    assert read_state(opened.read_run()["events"][-1]).euler_angles.theta == pytest.approx(0.6)
+    assert opened.read_last().euler_angles.theta == pytest.approx(0.6)

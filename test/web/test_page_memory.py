@@ -1,7 +1,5 @@
 """A run is kept: over a reload, with Back, through a sleep of the computer, and in a small file."""
 
-import json
-
 import pytest
 from web.opened import find_time, read_motion, read_state
 
@@ -13,11 +11,6 @@ ACTS = 40  # in an hour
 LARGEST = 20_000  # bytes
 
 
-def reload(page):
-    page.tab.reload()
-    page.tab.wait_for_selector("#headline:not(:empty)")
-
-
 @pytest.mark.parametrize("fragment", ["", "#theta=0.7&psi_dot=180"])
 def test_a_reload_loses_nothing(open_page, fragment):
     page = open_page(fragment)
@@ -27,33 +20,33 @@ def test_a_reload_loses_nothing(open_page, fragment):
     page.wait_for_time(0.04)
     page.tab.click("#pause")
     run, headline = page.read_run(), page.say("headline")
-    reload(page)
+    page.reload()
     assert page.read_run() == run
     assert page.say("headline") == headline
     assert page.say("pause") == "Run"
     assert page.tab.input_value("#speed") == "0.05"
     page.tab.click("#pause")
     page.wait_for_time(run["end"])
-    reload(page)
+    page.reload()
     assert page.say("pause") == "Pause"  # what ran runs on
-    assert page.read_run()["events"] == run["events"]
+    assert page.read_events() == run["events"]
 
 
 def test_a_run_is_there_after_another_page_and_back(open_page):
     page = open_page()
     page.tab.click("#hurry")
-    events = page.read_run()["events"]
+    events = page.read_events()
     page.tab.goto("about:blank")
     page.tab.go_back()
-    page.tab.wait_for_selector("#headline:not(:empty)")
-    assert page.read_run()["events"] == events
+    page.wait_for_page()
+    assert page.read_events() == events
     assert "higher" in page.say("headline")
 
 
 def test_a_sleep_of_the_computer_loses_nothing(open_page):
     page = open_page()
     page.tab.click("#hurry")
-    events, before = page.read_run()["events"], page.read_run()["end"]
+    events, before = page.read_events(), page.read_run()["end"]
     # nothing runs for some time, and the clock runs
     page.tab.evaluate("const end = performance.now() + 3000; while (performance.now() < end) {}")
     page.tab.wait_for_timeout(400)
@@ -79,8 +72,8 @@ def make_hour():
             "request": "hurried: phi' times 1.1" if n else "started",
         }
         if n:
-            event |= {"act": {"precession_rate_factor": 1.1, "hold": "spin_rate"}}
-            event |= {"hold": "spin_rate"}
+            act = {"precession_rate_factor": 1.1, "hold": "spin_rate"}
+            event |= {"act": act, "hold": "spin_rate"}
         events.append(event)
         time = find_time({"time": n * HOUR / ACTS}, {"time": (n + 1) * HOUR / ACTS})
         state = hurry(read_motion(event).at(time), 1.1 if n % 2 else 1 / 1.1)
@@ -89,14 +82,7 @@ def make_hour():
 
 def test_the_run_of_an_hour_is_a_small_file_and_every_moment_of_it_is_there(opened, tmp_path):
     hour = make_hour()
-    opened.tab.evaluate(
-        """(text) => {
-            const dataTransfer = new DataTransfer();
-            dataTransfer.items.add(new File([text], "run.json"));
-            document.dispatchEvent(new DragEvent("drop", {dataTransfer, cancelable: true}));
-        }""",
-        json.dumps(hour),
-    )
+    opened.drop(hour)
     opened.until(lambda: float(opened.tab.get_attribute("#timeline", "max")) == HOUR)
     assert opened.read_run() == hour
     saved = opened.save("This run as a page", tmp_path)
@@ -109,7 +95,7 @@ def test_the_run_of_an_hour_is_a_small_file_and_every_moment_of_it_is_there(open
     opened.until(lambda: float(opened.tab.get_attribute("body", "data-time")) == moment)
     assert float(opened.tab.get_attribute("body", "data-theta")) == state.euler_angles.theta
     opened.tab.click("#hurry")
-    events = opened.read_run()["events"]
+    events = opened.read_events()
     assert events[:-1] == hour["events"][: place + 1]
     after = hurry(state, 1.4)
     assert read_state(events[-1]).angular_velocity.tolist() == after.angular_velocity.tolist()

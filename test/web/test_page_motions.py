@@ -25,7 +25,7 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
     opened.wait_for_time(0.05)
     opened.tab.click("#hurry")
     why = opened.say("why")
-    start, kick = opened.read_run()["events"]
+    start, kick = opened.read_events()
     before = read_motion(start).at(find_time(start, kick))
     after = hurry(before, 1.4)
     assert kick["orientation"] == after.given_orientation.tolist()
@@ -37,25 +37,18 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
 
 @pytest.mark.wording
 def test_a_start_is_judged_as_by_python(opened):
-    opened.tab.fill("#field-theta", "1.1")
-    opened.tab.press("#field-theta", "Enter")
-    start = opened.read_run()["events"][-1]
-    motion = read_motion(start)
-    outcome = {"motion": motion.kind, "verdict": perrys_rule(motion.top, motion.start)}
+    opened.enter("theta", "1.1")
+    motion = read_motion(opened.read_events()[-1])
+    verdict = write("verdict", perrys_rule(motion.top, motion.start))
     assert motion.start.euler_angles.theta == pytest.approx(1.1, rel=1e-15)
-    assert opened.say("why").startswith(f"{motion.kind}: {write('verdict', outcome['verdict'])}")
+    assert opened.say("why").startswith(f"{motion.kind}: {verdict}")
 
 
 def test_every_scene_starts_with_the_doubles_of_a_node(opened):
     for name in scene_names():
-        opened.tab.click("#tab-start")
-        opened.tab.select_option("#scenes", name)
-        opened.tab.click("#start-scene")
+        opened.start_scene(name)
         assert opened.say("refusal") == ""
-        event, motion = (
-            opened.read_run()["events"][-1],
-            start_motion(Settings.from_scene(name)),
-        )
+        event, motion = opened.read_events()[-1], start_motion(Settings.from_scene(name))
         assert event["orientation"] == motion.start.given_orientation.tolist()
         assert event["angular_velocity"] == motion.start.angular_velocity.tolist()
         assert event["top"] == list(motion.top.moments)
@@ -66,12 +59,12 @@ def test_every_scene_starts_with_the_doubles_of_a_node(opened):
 def test_somebody_goes_on_from_an_earlier_moment(opened):
     opened.wait_for_time(0.03)
     opened.tab.click("#hurry")
-    first, kick = opened.read_run()["events"]
+    first, kick = opened.read_events()
     opened.wait_for_time(kick["time"] + 0.02)
     opened.seek(kick["time"] / 2)
     assert opened.say("headline").startswith("The top precesses steadily")
     opened.tab.click("text=Delay")
-    events = opened.read_run()["events"]
+    events = opened.read_events()
     assert events[0] == first
     assert len(events) == 2
     assert events[1]["time"] == pytest.approx(kick["time"] / 2, rel=1e-12)
@@ -80,7 +73,7 @@ def test_somebody_goes_on_from_an_earlier_moment(opened):
 def test_the_series_are_those_of_the_motion(opened, tmp_path):
     opened.wait_for_time(0.03)
     opened.tab.click("text=Pause")
-    event = opened.read_run()["events"][0]
+    event = opened.read_events()[0]
     head, *rows = opened.save("Series (CSV)", tmp_path).read_text().splitlines()
     assert head == "time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"
     table = np.array([row.split(",") for row in rows], float)
@@ -90,26 +83,25 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
     assert table[:, 2] == pytest.approx(states.euler_rates.phi, rel=1e-14)
 
 
-def test_a_torque_acts_while_its_button_is_held(opened):
+def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.tab.click("#tab-push")
     button = opened.tab.locator("[data-hold='1']")
     button.dispatch_event("pointerdown")
-    opened.tab.wait_for_timeout(200)
+    opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
     button.dispatch_event("pointerup")
-    opened.tab.wait_for_timeout(700)
-    events = opened.read_run()["events"]
-    torques = [event["torque"] for event in events if event["kind"] == "torque"]
+    opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
+    torques = [each["torque"] for each in opened.read_events() if each["kind"] == "torque"]
     assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]]
 
 
 def test_a_push_changes_the_rates_as_it_says(opened):
     opened.tab.click("text=Pause")
     opened.tab.click("#tab-push")
-    before = opened.read_run()["events"][-1]
+    before = opened.read_events()[-1]
     opened.tab.click("#tab-push")
     for way in ("up", "along"):
         opened.tab.click(f"[data-push={way}]")
-    *_, up, along = opened.read_run()["events"]
+    *_, up, along = opened.read_events()
     rates = [read_state(event).euler_rates for event in (before, up, along)]
     assert rates[1].theta - rates[0].theta == pytest.approx(-1.0, rel=1e-12)
     assert rates[2].phi - rates[1].phi == pytest.approx(1.0, rel=1e-12)
@@ -122,7 +114,7 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
     opened.tab.click("#tab-push")
     for way in ("up", "along"):
         opened.tab.click(f"[data-push={way}]")
-    _, kick, up, along = opened.read_run()["events"]
+    _, kick, up, along = opened.read_events()
     for event in (kick, up, along):
         assert round(event["time"] * 1e9) / 1e9 == event["time"]
     assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
@@ -139,19 +131,16 @@ def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     def read():
         """Return the places of the labels, which move with the camera."""
         opened.tab.wait_for_timeout(300)
-        return opened.tab.locator(".label:visible").evaluate_all(
-            "all => all.map(e => e.style.transform)"
-        )
+        labels = opened.tab.locator(".label:visible")
+        return labels.evaluate_all("all => all.map(e => e.style.transform)")
 
     box = opened.tab.locator("canvas").bounding_box()
     x, y = box["x"] + 60, box["y"] + 60
     before = read()
-    opened.tab.mouse.move(x, y)
-    opened.tab.mouse.down()
-    opened.tab.mouse.move(x + 80, y + 20)
+    opened.drag(x, y, 80, 20)
     opened.tab.mouse.up()
     turned = read()
     assert turned != before
     opened.tab.mouse.wheel(0, 300)
     assert read() != turned
-    assert len(opened.read_run()["events"]) == 1  # the top is not touched
+    assert len(opened.read_events()) == 1  # the top is not touched

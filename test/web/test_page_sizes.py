@@ -67,7 +67,7 @@ def test_no_headline_moves_the_scene_and_no_legend_covers_much_of_it(open_page, 
     before = find_box(page, "#scene")
     words = "Friction and a torque act: without them the top falls and comes back to rest in cusps."
     page.tab.evaluate(
-        "(text) => { document.getElementById('headline').textContent = text; }", words
+        "(text) => { document.querySelector('#headline').textContent = text; }", words
     )
     if size != (320, 230):  # there the page scrolls as one column
         assert find_box(page, "#scene") == before

@@ -27,15 +27,8 @@ def test_what_rclpy_writes_is_read(given_statuses):
     assert all(each.stamp == 3_000_000_004 and each.level == 1 for each in found)
 
 
-LEVELS = st.sampled_from([OK, WARN, ERROR])
-STATUSES = st.builds(
-    Status,
-    stamp=st.just(3_000_000_004),
-    level=LEVELS,
-    name=TEXT,
-    message=TEXT,
-    values=st.dictionaries(TEXT, TEXT, max_size=4),
-)
+LEVELS, VALUES = st.sampled_from([OK, WARN, ERROR]), st.dictionaries(TEXT, TEXT, max_size=4)
+STATUSES = st.builds(Status, st.just(3_000_000_004), LEVELS, TEXT, TEXT, VALUES)
 
 
 @given(TEXT, st.lists(STATUSES, max_size=3))
@@ -60,9 +53,8 @@ def test_what_is_written_is_byte_for_byte_what_rclpy_writes():
     status = DiagnosticStatus(level=DiagnosticStatus.ERROR, name="abc", message="abcdefg")
     status.hardware_id, status.values = "", [pair]
     message.status.append(status)
-    ours = encode_statuses(
-        7_000_000_000, "abc", [Status(0, ERROR, "abc", "abcdefg", {"key": "1.5"})]
-    )
+    given_status = Status(0, ERROR, "abc", "abcdefg", {"key": "1.5"})
+    ours = encode_statuses(7_000_000_000, "abc", [given_status])
     theirs = serialize_message(message)
     padding = {25, 26, 27, 53, 54, 55}  # after the level, and after the empty hardware_id
     assert len(theirs) - len(ours) < 8  # rclpy hands out more than it sends

@@ -58,6 +58,7 @@ CASES = {
 @settings(max_examples=60)
 @given(stamp=STAMP, frame=NAME, data=st.data())
 def test_rclpy_reads_what_we_pack_and_we_read_what_rclpy_writes(name, stamp, frame, data):
+    """Byte for byte the same, but for padding."""
     kind, form, width = CASES[name]
     names = (frame, *messages.JOINTS) if name == "euler_angles" else (frame,)
     layout = form.layout(*names)
@@ -67,27 +68,16 @@ def test_rclpy_reads_what_we_pack_and_we_read_what_rclpy_writes(name, stamp, fra
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == divmod(stamp, 10**9)
     assert message.header.frame_id == frame
     assert numbers_of(message) == numbers
-    found, refused = messages.decode_messages(CASES[name][1], [serialize_message(message)])
-    assert not refused
-    assert found[0].stamps.tolist() == [stamp]
-    assert found[0].numbers.tolist() == [numbers]
-    assert found[0].names[0] == frame
-
-
-@pytest.mark.parametrize("name", CASES)
-@settings(max_examples=60)
-@given(stamp=STAMP, frame=NAME, data=st.data())
-def test_byte_for_byte_as_rclpy_but_for_padding(name, stamp, frame, data):
-    kind, form, width = CASES[name]
-    names = (frame, *messages.JOINTS) if name == "euler_angles" else (frame,)
-    layout = form.layout(*names)
-    numbers = data.draw(st.lists(DOUBLE, min_size=width, max_size=width))
-    packed = layout.encode(stamp, numbers)
-    theirs = serialize_message(deserialize_message(packed, kind))
+    theirs = serialize_message(message)
     assert 0 <= len(theirs) - len(packed) < 8  # rclpy estimates the size of an empty sequence
     rows = np.frombuffer(theirs[: len(packed)], np.uint8)[None]
     assert layout.match(rows)[0]
     assert layout.decode(rows)[1].tolist() == [numbers]
+    found, refused = messages.decode_messages(CASES[name][1], [theirs])
+    assert not refused
+    assert found[0].stamps.tolist() == [stamp]
+    assert found[0].numbers.tolist() == [numbers]
+    assert found[0].names[0] == frame
 
 
 def test_a_transform_is_a_sequence_of_one_transform_stamped():
@@ -95,9 +85,8 @@ def test_a_transform_is_a_sequence_of_one_transform_stamped():
     inner.transform.rotation.x, inner.transform.rotation.w = 0.6, 0.8
     # a sequence is its length and its elements, each aligned from the same origin; 4 bytes more
     # before the stamp shift nothing that is aligned to 8 here: world and top pad to the same place
-    packed = messages.TRANSFORM.layout("world", "top").encode(
-        5_000_000_007, [0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 0.8]
-    )
+    numbers = [0.0, 0.0, 0.0, 0.6, 0.0, 0.0, 0.8]
+    packed = messages.TRANSFORM.layout("world", "top").encode(5_000_000_007, numbers)
     reader = Reader(packed)
     assert reader.count() == 1
     assert (reader.integer("i"), reader.integer()) == (5, 7)
@@ -107,11 +96,8 @@ def test_a_transform_is_a_sequence_of_one_transform_stamped():
 
 def test_messages_of_several_frames_are_read_each_in_its_layout():
     one, two = messages.VECTOR.layout("world"), messages.VECTOR.layout("a longer name")
-    packed = [
-        one.encode(1, [1.0, 2.0, 3.0]),
-        two.encode(2, [4.0, 5.0, 6.0]),
-        one.encode(3, [7.0] * 3),
-    ]
+    packed = [one.encode(1, [1.0, 2.0, 3.0]), two.encode(2, [4.0, 5.0, 6.0])]
+    packed.append(one.encode(3, [7.0] * 3))
     found, refused = messages.decode_messages(messages.VECTOR, packed)
     assert not refused
     by_name = {each.names[0]: each for each in found}
@@ -128,17 +114,14 @@ def test_bytes_that_are_no_message_are_refused_and_the_others_read(name, damaged
     _, form, width = CASES.get(name, (None, messages.TRANSFORM, 7))
     names = {"tf": ("world", "top"), "euler_angles": ("world", *messages.JOINTS)}
     good = form.layout(*names.get(name, ("world",)))
-    found, refused = messages.decode_messages(
-        form, [damaged, good.encode(1, [0.5] * width), damaged]
-    )
+    mixed = [damaged, good.encode(1, [0.5] * width), damaged]
+    found, refused = messages.decode_messages(form, mixed)
     assert len(refused) == 2
     assert found[0].indices.tolist() == [1]
 
 
 def test_a_sequence_cannot_announce_more_than_there_is():
-    with pytest.raises(
-        DecodeError, match=("a sequence of 4294967295 elements does not fit in 12 bytes")
-    ):
+    with pytest.raises(DecodeError, match="sequence of 4294967295 elements does not fit in 12 b"):
         Reader(b"\0\1\0\0" + b"\xff" * 8).strings()
 
 

@@ -4,10 +4,7 @@ import pytest
 
 from symtop_ros.physics import FrameTorques, Top, precessing_frame_torques
 from workshop.article.answers import fictitious
-from workshop.article.answers.fictitious import (
-    claims_on_fictitious_forces,
-    point_masses,
-)
+from workshop.article.answers.fictitious import claims_on_fictitious_forces, point_masses
 from workshop.article.motions import HANGING_DISC, PSI_DOT, THETA, TOP
 
 # gravity, Coriolis, centrifugal in N m at the article's rates; computed by hand to five decimals

@@ -2,11 +2,7 @@
 
 from symtop_ros.physics import Top
 from workshop.article.answers import resolution
-from workshop.article.motions import TOP, cusps
-
-
-def test_the_steps_converge_to_the_motion():
-    assert all(claim.holds for claim in resolution.claims_on_resolution(TOP))
+from workshop.article.motions import cusps
 
 
 def test_with_another_torque_they_converge_to_another_motion(monkeypatch):

@@ -7,10 +7,6 @@ from workshop.article.answers import starts
 from workshop.article.motions import PSI_DOT, THETA, TOP
 
 
-def test_all_claims_hold():
-    assert all(claim.holds for claim in starts.claims_on_starts(TOP))
-
-
 def test_of_a_heavier_top_the_boundaries_are_others():
     heavier = Top(TOP.Ix, TOP.Iz, 1.01 * TOP.Mgl)
     assert not starts.start_decides(heavier).holds

@@ -1,7 +1,10 @@
 """Recordings of runs, and their rows, read back by the reader of Rerun."""
 
+import contextlib
+
 import numpy as np
 import rerun as rr
+from log_files import Run
 from rerun.chunk import RrdReader
 
 from symtop_ros.log.reader import McapFile
@@ -12,13 +15,29 @@ from symtop_ros.playback.view.view import ViewOptions
 
 
 def record(log, folder, **options):
-    """Return the recording of a log; what Rerun would only warn about is an error."""
-    rr.set_strict_mode(True)
-    try:
-        replay(TopLog(McapFile(log)), folder / "run.rrd", ViewOptions(**options))
-    finally:
-        rr.set_strict_mode(False)
+    """Return the recording of a run or of the file of its log."""
+    with strict():
+        opened = log.open(folder) if isinstance(log, Run) else TopLog(McapFile(log))
+        replay(opened, folder / "run.rrd", ViewOptions(**options))
     return folder / "run.rrd"
+
+
+@contextlib.contextmanager
+def strict():
+    """What Rerun would only warn about is an error."""
+    rr.set_strict_mode(True)
+    yield
+    rr.set_strict_mode(False)
+
+
+@contextlib.contextmanager
+def recording_to(path):
+    """A stream into a file, which is complete afterwards."""
+    recording = rr.RecordingStream("test")
+    recording.save(path)
+    yield recording
+    recording.flush()
+    recording.disconnect()
 
 
 def rows(path, entity, column):
@@ -32,6 +51,11 @@ def rows(path, entity, column):
                 values += batch.column(column).to_pylist()
     order = np.argsort(times, kind="stable")
     return np.array(times)[order], [values[k] for k in order]
+
+
+def arrows(path, entity, column="vectors"):
+    """Vectors or origins of an arrow at all times, (n, 3)."""
+    return np.array(rows(path, entity, f"Arrows3D:{column}")[1])[:, 0]
 
 
 def entities_of(path):

@@ -1,17 +1,15 @@
 """The spans of plots: a constant quantity is a line, not its rounding."""
 
 import pytest
+from log_files import ARTICLE, REGULAR, SLOW
 
-from symtop_ros.physics import Motion, State, Top, hurry, regular_precession_rates
+from symtop_ros.physics import Motion, hurry
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import LEAST_SPAN, Framing
 from symtop_ros.simulation.segment import Segment
 
-TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-SLOW = regular_precession_rates(TOP, theta=0.5, psi_dot=200.0)[0]
-START = State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0)
-STEADY = Framing.of(Segment.begin(Motion(TOP, START), 0, 1.0))
-KICKED = Framing.of(Segment.begin(Motion(TOP, hurry(START)), 0, 1.0))
+STEADY = Framing.of(Segment.begin(Motion(ARTICLE, REGULAR), 0, 1.0))
+KICKED = Framing.of(Segment.begin(Motion(ARTICLE, hurry(REGULAR)), 0, 1.0))
 
 
 def test_in_regular_precession_the_plots_span_a_part_of_their_quantities():

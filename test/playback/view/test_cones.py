@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import rerun as rr
 from log_files import ARTICLE, Run
-from playback.view.rows import entities_of, record, rows
+from playback.view.rows import arrows, entities_of, record, rows, strict
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import cones, entities
@@ -28,11 +28,11 @@ def turn(q, vectors):
 def test_omega_is_on_both_rims(name, tmp_path):
     ratio, start = STARTS[name]
     run = Run(Top(1.0, ratio, 0.0), State.from_euler(**start), seconds=0.5, hurried=False)
-    target = record(run.write(tmp_path), tmp_path)
+    target = record(run, tmp_path)
     ((polhode,),) = rows(target, f"{entities.POLHODE}/rim", "LineStrips3D:strips")[1]
     ((herpolhode,),) = rows(target, f"{entities.HERPOLHODE}/rim", "LineStrips3D:strips")[1]
     ((turned,),) = rows(target, entities.HERPOLHODE, "Transform3D:quaternion")[1]
-    omega = np.array(rows(target, entities.VELOCITY, "Arrows3D:vectors")[1])[:, 0]
+    omega = arrows(target, entities.VELOCITY)
     quaternions = np.array(rows(target, entities.BODY, "Transform3D:quaternion")[1])[:, 0]
     in_space = turn(turned, herpolhode)
     # an edge of the rim, which has 96, is nearer to its circle than the square of its angle
@@ -44,7 +44,7 @@ def test_omega_is_on_both_rims(name, tmp_path):
 
 
 def test_only_a_motion_without_any_torque_has_cones(tmp_path):
-    recording = record(Run().write(tmp_path), tmp_path)
+    recording = record(Run(), tmp_path)
     assert not any("polhode" in each for each in entities_of(recording))
     start = State.from_euler(theta=0.5, phi_dot=30.0, psi_dot=60.0)
     free = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
@@ -56,15 +56,12 @@ def test_only_a_motion_without_any_torque_has_cones(tmp_path):
 @pytest.mark.parametrize("spin", [0.0, 60.0])
 def test_omega_along_the_axis_has_no_cone_and_no_error(spin):
     motion = Motion(Top(1.0, 0.5, 0.0), State.from_euler(theta=0.5, psi_dot=spin))
-    rr.set_strict_mode(True)
-    cones.log_cones(Stream(rr.RecordingStream("test")), motion, motion.start, 50.0)
-    rr.set_strict_mode(False)
+    with strict():
+        cones.log_cones(Stream(rr.RecordingStream("test")), motion, motion.start, 50.0)
 
 
 def test_cones_end_when_gravity_begins():
-    memory = rr.RecordingStream("test")
-    stream = Stream(memory)
-    logged = []
+    stream, logged = Stream(rr.RecordingStream("test")), []
     stream.log = lambda entity, *values, static=False: logged.append((entity, values))
     cones.clear_cones(stream)
     assert [entity for entity, _ in logged] == [entities.POLHODE, entities.HERPOLHODE]

@@ -5,8 +5,6 @@ import pytest
 from log_files import ARTICLE, CUSPS, Run
 from physics.tops import EPS
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction
 from symtop_ros.playback.view.energy import EnergyBook
 
@@ -18,7 +16,7 @@ ROUNDING = 64 * EPS * SIZE  # of sums of energies; measured: 9 EPS
 def read(run, folder):
     """Return the rows of energies of a run, and its events."""
     book, segment, rows, events = EnergyBook(), None, [], []
-    for batch in TopLog(McapFile(run.write(folder))).batches():
+    for batch in run.open(folder).batches():
         for event, columns in batch.stretches():
             if event:
                 before, segment = segment, event.segment()

@@ -4,54 +4,22 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from colours import VISIONS, perceive
 
 from symtop_ros.playback.view import entities
 
 COLORS = ("BLUE", "GREEN", "RED", "GOLD", "ORANGE", "VIOLET", "WHITE")
-# Machado, Oliveira & Fernandes, "A physiologically-based model for simulation of color vision
-# deficiency" (2009): linear RGB as seen without the cones for long, middle or short waves
-VISIONS = {
-    "usual": np.eye(3),
-    "protanopia": [
-        [0.152286, 1.052583, -0.204868],
-        [0.114503, 0.786281, 0.099216],
-        [-0.003882, -0.048116, 1.051998],
-    ],
-    "deuteranopia": [
-        [0.367322, 0.860646, -0.227968],
-        [0.280085, 0.672501, 0.047413],
-        [-0.011820, 0.042940, 0.968881],
-    ],
-    "tritanopia": [
-        [1.255528, -0.076749, -0.178779],
-        [-0.078411, 0.930809, 0.147602],
-        [0.004733, 0.691367, 0.303900],
-    ],
-}
-TO_XYZ = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
-WHITE_POINT = [0.9505, 1.0, 1.089]
 APART = 25.0  # CIE 1976 units; 2.3 are just noticeable, and lines are thin
-
-
-def perceived(color, vision):
-    """CIE L*a*b* of a colour as someone sees it."""
-    share = np.array(color) / 255
-    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-    seen = np.clip(np.array(vision) @ linear, 0, 1)
-    f = np.array(TO_XYZ) @ seen / WHITE_POINT
-    f = np.where(f > 0.008856, np.cbrt(f), 7.787 * f + 16 / 116)
-    return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
 
 
 @pytest.mark.parametrize("name", VISIONS)
 def test_any_two_colours_differ(name):
-    seen = {color: perceived(getattr(entities, color), VISIONS[name]) for color in COLORS}
+    seen = {color: perceive(getattr(entities, color), name) for color in COLORS}
     for one, other in combinations(COLORS, 2):
         assert np.linalg.norm(seen[one] - seen[other]) > APART, (one, other)
 
 
 @pytest.mark.parametrize("color", COLORS)
 def test_each_colour_is_much_lighter_than_the_background(color):
-    usual = VISIONS["usual"]
-    lightness = perceived(getattr(entities, color), usual)[0]
-    assert lightness - perceived(entities.BACKGROUND, usual)[0] > 40
+    lightness = perceive(getattr(entities, color), "usual")[0]
+    assert lightness - perceive(entities.BACKGROUND, "usual")[0] > 40

@@ -2,23 +2,18 @@
 
 import numpy as np
 import pytest
-from log_files import ARTICLE, CUSPS, Run
-from playback.view.rows import entities_of, record, rows
+from log_files import ARTICLE, CUSPS, REGULAR, Run
+from playback.view.rows import arrows, record, rows
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import Motion, State, regular_precession_rates
+from symtop_ros.physics import Motion
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.inertial import ARROWS, LENGTH, Torques
 
-SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
-REGULAR = State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0)
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 
 
 def read(start, folder):
-    run = Run(start=start, seconds=0.5, hurried=False)
-    (batch,) = TopLog(McapFile(run.write(folder))).batches()
+    (batch,) = Run(start=start, seconds=0.5, hurried=False).open(folder).batches()
     return Torques.of(batch.columns)
 
 
@@ -41,34 +36,23 @@ def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
 
 @pytest.mark.parametrize("missing", ["angular_velocity", "torque", "euler_angles"])
 def test_without_a_topic_there_are_no_arrows(missing, tmp_path):
-    run = Run(hurried=False)
-    run.messages = [each for each in run.messages if each[0] != missing]
-    target = record(run.write(tmp_path), tmp_path, torques=True)
+    target = record(Run(hurried=False).without(missing), tmp_path, torques=True)
     assert not len(rows(target, f"{entities.INERTIAL}/body", "Arrows3D:vectors")[0])
 
 
 def test_the_second_arrow_begins_below_the_tip_of_the_first_and_ends_below_the_torque(tmp_path):
-    target = record(Run().write(tmp_path), tmp_path, torques=True)
-    drawn = {
-        name: [
-            np.array(rows(target, f"{entities.INERTIAL}/{name}", f"Arrows3D:{column}")[1])[:, 0]
-            for column in ("origins", "vectors")
-        ]
+    target = record(Run(), tmp_path, torques=True)
+    (origins, first), (tails, second) = (
+        [arrows(target, f"{entities.INERTIAL}/{name}", column) for column in ("origins", "vectors")]
         for name in ("body", "turning")
-    }
+    )
     shown, _ = rows(target, f"{entities.INERTIAL}/body", "Arrows3D:vectors")
-    times, torques = rows(target, entities.TORQUE, "Arrows3D:vectors")
-    at_shown = np.array(torques)[np.isin(times, shown), 0]
-    (origins, first), (tails, second) = drawn["body"], drawn["turning"]
+    times, _ = rows(target, entities.TORQUE, "Arrows3D:vectors")
+    at_shown = arrows(target, entities.TORQUE)[np.isin(times, shown)]
     assert np.abs((tails - origins - first)[:, :2]).max() <= FLOAT
     assert np.abs((tails + second - at_shown)[:, :2]).max() <= FLOAT
     lengths = np.linalg.norm(np.concatenate([first, second]), axis=1)
     assert 0.9 * LENGTH < lengths[: len(lengths) // 4].max() < 1.1 * LENGTH
     _, texts = rows(target, entities.PANEL, "TextDocument:text")
     assert "torque = dL/dt + φ' z' x L" in texts[0][0]
-
-
-def test_arrows_are_drawn_only_if_asked(tmp_path):
-    recording = record(Run().write(tmp_path), tmp_path)
-    assert not any(each.startswith(entities.INERTIAL) for each in entities_of(recording))
     assert len(ARROWS) == 3

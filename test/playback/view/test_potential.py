@@ -4,15 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from log_files import ARTICLE
+from log_files import ARTICLE, CUSPS, REGULAR
 
-from symtop_ros.physics import EffectivePotential, Motion, State, Top, regular_precession_rates
+from symtop_ros.physics import EffectivePotential, Motion, State, Top
 from symtop_ros.playback.view.potential import HEIGHT, WIDTH, Chart, frame_cubic, frame_potential
 
-SLOW = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
 MOTIONS = {
-    "cusps": Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)),
-    "regular": Motion(ARTICLE, State.from_euler(theta=0.5, phi_dot=SLOW, psi_dot=200.0)),
+    "cusps": Motion(ARTICLE, CUSPS),
+    "regular": Motion(ARTICLE, REGULAR),
     "through the pole": Motion(ARTICLE, State.from_euler(theta=0.5, theta_dot=30.0)),
     "sleeping": Motion(ARTICLE, State.from_euler(theta=0.0, psi_dot=200.0)),
     "hanging": Motion(Top(1.0, 0.5, -1.0), State.from_euler(theta=1.0, phi_dot=1.0, psi_dot=3.0)),

@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-import rerun as rr
 from log_files import ARTICLE, BEGIN, Run
-from playback.view.rows import record, rows
+from playback.view.rows import arrows, entities_of, record, recording_to, rows, strict
 from rerun.chunk import RrdReader
 
 from symtop_ros.log.batch import Batch, Columns
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import ExactTimes, Motion, State, specific_force
 from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
@@ -25,8 +22,7 @@ FLOAT = 2 * float(np.finfo(np.float32).eps)  # vectors and rotations are single 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("scene")
-    return record(RUN.write(folder), folder)
+    return record(RUN, tmp_path_factory.mktemp("scene"))
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +43,7 @@ def test_arrows_are_the_vectors_over_one_scale_that_is_stated(recording, truth):
     momentum = ARTICLE.angular_momentum(truth[1])
     _, texts = rows(recording, entities.PANEL, "TextDocument:text")
     scale = float(texts[0][0].split("1 unit of L, omega, torque | **")[1].split(" ")[0])
-    _, values = rows(recording, entities.MOMENTUM, "Arrows3D:vectors")
-    drawn = np.array([value[0] for value in values])[:200]
+    drawn = arrows(recording, entities.MOMENTUM)[:200]
     assert np.abs(drawn - momentum / scale).max() <= FLOAT * np.abs(momentum / scale).max()
     assert 1.3 < np.linalg.norm(drawn, axis=1).max() < 1.6
 
@@ -108,42 +103,34 @@ def test_what_is_missing_in_the_log_is_told_among_the_events(tmp_path):
 
 @pytest.mark.parametrize("missing", ["events", "orientation", "angular_momentum", "euler_angles"])
 def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
-    run = Run()
-    run.messages = [each for each in run.messages if each[0] != missing]
-    target = tmp_path / "part.rrd"
-    rr.set_strict_mode(True)
-    log = TopLog(McapFile(run.write(tmp_path)))
-    replay(log, target)
-    rr.set_strict_mode(False)
+    log, target = Run().without(missing).open(tmp_path), tmp_path / "part.rrd"
+    with strict():
+        replay(log, target)
     assert f"the log has no {missing}" in log.problems
     assert len(rows(target, entities.BODY, "Transform3D:quaternion")[0]) == 400
 
 
 def test_a_top_at_rest_is_drawn_too(tmp_path):
     run = Run(start=State.from_euler(theta=0.0), hurried=False)
-    _, values = rows(record(run.write(tmp_path), tmp_path), entities.TORQUE, "Arrows3D:vectors")
-    assert np.array(values).any() is np.False_
+    assert not arrows(record(run, tmp_path), entities.TORQUE).any()
 
 
 def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
     run = Run(hurried=False)
     run.messages = [each for each in run.messages if not 0.5e9 < each[1] - BEGIN < 1.0e9]
-    _, values = rows(record(run.write(tmp_path), tmp_path), entities.TRACE, "LineStrips3D:strips")
+    _, values = rows(record(run, tmp_path), entities.TRACE, "LineStrips3D:strips")
     strips = np.array([value[0] for value in values])
     steps = np.linalg.norm(strips[:, 1] - strips[:, 0], axis=1)
     assert steps.max() < 0.05  # a sample's worth; the gap is some tenths
 
 
 def test_samples_that_come_one_by_one_make_the_same_recording_as_all_at_once(tmp_path):
-    recording = rr.RecordingStream("test")
-    recording.save(tmp_path / "live.rrd")
-    view = View(recording, live=True)
     run = Run(seconds=0.5)
-    reader = TopLog(McapFile(run.write(tmp_path)))._reader
-    for name, _, data in run.messages:
-        view.send(reader.read([(name, data)]))
-    recording.flush()
-    recording.disconnect()
+    reader = run.open(tmp_path)._reader
+    with recording_to(tmp_path / "live.rrd") as recording:
+        view = View(recording, live=True)
+        for name, _, data in run.messages:
+            view.send(reader.read([(name, data)]))
     _, values = rows(tmp_path / "live.rrd", entities.TRACE, "LineStrips3D:strips")
     assert len(values) == 99
 
@@ -159,15 +146,11 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
     }
     event = Event.of(0, "start", None, {}, RUN.start, segment)
     file = tmp_path / "sensor.rrd"
-    recording = rr.RecordingStream("test")
-    recording.save(file)
-    View(recording).send(Batch(columns, [(0, event)]))
-    recording.flush()
-    recording.disconnect()
+    with recording_to(file) as recording:
+        View(recording).send(Batch(columns, [(0, event)]))
     _, texts = rows(file, entities.PANEL, "TextDocument:text")
     assert "a + g z'" in texts[0][0]
-    _, values = rows(file, entities.SPECIFIC_FORCE, "Arrows3D:vectors")
-    drawn = np.array([value[0] for value in values])
+    drawn = arrows(file, entities.SPECIFIC_FORCE)
     force = specific_force(segment.motion, samples.state, imu.position)
     world = samples.state.to_world(force)
     scale = np.linalg.norm(world, axis=1).max() / np.linalg.norm(drawn, axis=1).max()
@@ -177,7 +160,7 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
 
 @pytest.mark.parametrize("torques", [False, True])
 def test_every_arrow_that_is_drawn_has_a_colour_and_a_label(torques, tmp_path):
-    target = record(Run().write(tmp_path), tmp_path, torques=torques)
+    target = record(Run(), tmp_path, torques=torques)
     drawn, styled = set(), set()
     for chunk in RrdReader(target).stream():
         columns = chunk.to_record_batch().schema.names
@@ -187,3 +170,18 @@ def test_every_arrow_that_is_drawn_has_a_colour_and_a_label(torques, tmp_path):
             styled.add(chunk.entity_path)
     assert len(drawn) == (12 if torques else 6)
     assert drawn <= styled
+
+
+@pytest.mark.parametrize(
+    ("option", "own"),
+    [
+        ("torques", (entities.INERTIAL,)),
+        ("fictitious", (entities.FICTITIOUS,)),
+        ("angles", (entities.ANGLES, f"{entities.BODY}/axes")),
+    ],
+)
+def test_what_is_drawn_only_if_asked(option, own, recording, tmp_path):
+    added = entities_of(record(RUN, tmp_path, **{option: True})) - entities_of(recording)
+    assert len(added) > 2
+    assert all(each.startswith(own) for each in added), added
+    assert not any(each.startswith(own) for each in entities_of(recording))

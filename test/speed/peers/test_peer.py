@@ -2,13 +2,7 @@ import numpy as np
 import pytest
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from workshop.speed.peers.peer import (
-    Task,
-    body_rates,
-    count_steps,
-    euler_rates,
-    initial_values,
-)
+from workshop.speed.peers.peer import Task, body_rates, count_steps, euler_rates, initial_values
 
 STEP = 1e-4  # s
 
@@ -28,16 +22,14 @@ def test_the_body_rates_are_those_of_the_motion(theta, friction):
 def test_the_rates_of_the_euler_angles_are_those_of_the_motion(theta):
     task = task_of(theta, Friction())
     moving = Motion(task.top, task.start)
-    ahead, behind = (moving.at(t) for t in (STEP, -STEP))
-    change = np.array([ahead.euler_angles, ahead.euler_rates]) - np.array(
-        [behind.euler_angles, behind.euler_rates]
+    ahead, behind, here = (
+        np.array([state.euler_angles, state.euler_rates]).ravel()
+        for state in (moving.at(STEP), moving.at(-STEP), task.start)
     )
-    here = np.array([task.start.euler_angles, task.start.euler_rates]).ravel()
     slopes = euler_rates(task, 0.0, here)
     # the same, and rates that 1/sin(theta) makes up to seven times as large
-    np.testing.assert_allclose(
-        change.ravel() / (2 * STEP), slopes, atol=STEP**2 * 50**4 / np.sin(theta)
-    )
+    within = STEP**2 * 50**4 / np.sin(theta)
+    np.testing.assert_allclose((ahead - behind) / (2 * STEP), slopes, atol=within)
 
 
 def test_steps_are_counted_without_rounding_down():

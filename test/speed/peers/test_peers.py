@@ -85,10 +85,9 @@ def test_arrays_of_states_are_states_at_those_times(peer):
     found = peer.prepare_arrays(CUSPS.task)(times)
     exact = Motion(CUSPS.task.top, CUSPS.task.start).at(times).orientation
     assert found.shape == (10, 4)
+    signs = np.copysign(1.0, (found * exact).sum(axis=1))
     # at tolerances of 1e-13 and below, and a second
-    assert np.abs(found - np.copysign(1.0, (found * exact).sum(axis=1))[:, None] * exact).max() < (
-        1e-11
-    )
+    assert np.abs(found - signs[:, None] * exact).max() < 1e-11
 
 
 def test_what_is_not_installed_is_named():

@@ -1,0 +1,22 @@
+"""Waiting for what other processes and threads do."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
+
+
+def until(
+    condition: Callable[[], Any],
+    wait: Callable[[], Any] = lambda: time.sleep(0.02),
+    timeout: float = TIMEOUT,
+) -> Any:
+    """Wait until a condition holds, and return what it gives; `wait` is called in between."""
+    deadline = time.monotonic() + timeout
+    while not (found := condition()):
+        assert time.monotonic() < deadline, "the condition did not come true in time"
+        wait()
+    return found
