@@ -40,12 +40,12 @@ coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(N
 	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
-	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
+	@$(BIN)/python -m workshop.page_coverage $(VENV)/coverage/page
 
 coverage-js: $(VENV)/test $(VENV)/chromium  ## coverage of the lines of the page's modules, of which 90 % are asked (4 minutes)
 	@rm -rf $(VENV)/coverage/page
 	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python -m pytest -q -m "not long" test/web test/panel
-	@$(BIN)/python test/page_coverage.py $(VENV)/coverage/page
+	@$(BIN)/python -m workshop.page_coverage $(VENV)/coverage/page
 
 test-nodes: $(VENV)/test $(VENV)/messages/done $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
 test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, article
@@ -69,7 +69,7 @@ matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.m
 	@$(BIN)/python workshop/matrix.py
 
 test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
-	@$(KILTED)/bin/python test/build_messages.py
+	@$(KILTED)/bin/python workshop/messages.py
 	@$(KILTED)/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \
 	  test/node test/client test/log test/simulation/test_simulation.py
 
@@ -118,7 +118,7 @@ maps: $(VENV)/report  ## where hurrying the precession raises the top
 
 pictures: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium  ## the pictures in docs/ but plots of measurements, and the steps of docs/lesson.md
 	$(WORKSHOP) pictures $(ARGS)
-	@PYTHONPATH=.:test $(BIN)/python test/web/draw_page.py $(ARGS)
+	@$(BIN)/python -m workshop.pictures.page $(ARGS)
 
 stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
 	@$(BIN)/python -m workshop.load.stress $(ARGS)
@@ -165,9 +165,9 @@ $(VENV)/test: setup.py $(VENV)/ros
 	$(INSTALL) '.[ros,playback,report,test,lint,docs]'
 	@touch $@
 
-$(VENV)/messages/done: test/build_messages.py $(wildcard test/interfaces/*/*/*) $(VENV)/test
+$(VENV)/messages/done: workshop/messages.py $(wildcard test/interfaces/*/*/*) $(VENV)/test
 	@echo "Setting up $(VENV)/messages: messages that PyPI does not have (once) ..."
-	@$(TICK) $(BIN)/python test/build_messages.py
+	@$(TICK) $(BIN)/python workshop/messages.py
 	@mkdir -p $(@D)
 	@touch $@
 

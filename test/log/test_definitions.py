@@ -5,12 +5,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from log.write_definitions import TARGET, TF_HASH, TF_MESSAGE, definitions
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosidl_generator_type_description import calculate_type_hash
 
 from symtop_ros.log.definitions import load_definition
 from symtop_ros.simulation.topics import TOPICS
+from workshop.definitions import TARGET, TF_HASH, TF_MESSAGE, definitions
 
 TYPES = sorted({topic.type for topic in TOPICS.values()})
 

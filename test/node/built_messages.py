@@ -13,12 +13,12 @@ BUILT = Path(sys.prefix, "messages")
 
 
 def find_messages(package: str) -> Path | None:
-    """Return the folder in which build_messages.py has built a package; None if it is installed."""
+    """Return the folder of a package that was built; None if it is installed."""
     if importlib.util.find_spec(package):
         return None
     folder = BUILT / package
     if not folder.is_dir():
-        pytest.skip(f"{package} is not built: python test/build_messages.py")
+        pytest.skip(f"{package} is not built: python workshop/messages.py")
     return folder
 
 

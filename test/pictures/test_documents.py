@@ -6,9 +6,8 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 from PIL import Image
-from web import draw_page
 
-from workshop.pictures import documents, replay
+from workshop.pictures import documents, page, replay
 from workshop.speed import filters, plots
 
 ROOT = Path(__file__).parents[2]
@@ -35,7 +34,7 @@ def list_pictures(folder):
 
 
 def test_every_picture_of_the_documents_is_written_by_a_command(written):
-    of_the_page = {f"{each.name}.png" for each in (*draw_page.PICTURES, draw_page.LESSON)}
+    of_the_page = {f"{each.name}.png" for each in (*page.PICTURES, page.LESSON)}
     found = list_pictures(written)
     assert not found & of_the_page
     assert found | of_the_page | MEASURED == list_pictures(ROOT / "docs")
@@ -50,4 +49,4 @@ def test_every_picture_is_shown_by_a_document():
 def test_make_draws_all_of_them():
     rule = (ROOT / "Makefile").read_text().split("\npictures:")[1].split("\n\n")[0]
     assert "$(WORKSHOP) pictures" in rule
-    assert "test/web/draw_page.py" in rule
+    assert "workshop.pictures.page" in rule

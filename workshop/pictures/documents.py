@@ -1,7 +1,7 @@
 """The pictures of the documents that show motions, and the steps of docs/lesson.md.
 
-Those of the page, which need a browser, are drawn by test/web/draw_page.py; the plots of what was
-measured are written with their tables.
+Those of the page, which need a browser, are drawn by page.py; the plots of what was measured are
+written with their tables.
 """
 
 import io

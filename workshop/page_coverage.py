@@ -1,7 +1,7 @@
 """Coverage of the lines of the page's modules, by the browser's own counter.
 
 With a folder in PAGE_COVERAGE each test process writes there what its tabs have run. `python
-test/page_coverage.py FOLDER` sums it up, prints the share of each module, and returns 1 if less
+-m workshop.page_coverage FOLDER` sums it up, prints the share of each module, and returns 1 if less
 than 90 % of all lines ran. A line counts if it has code other than brackets.
 """
 
@@ -15,7 +15,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-sys.path.append(str(Path(__file__).parents[1]))
 from symtop_ros.web.join import EXPORT, IMPORT, MODULES, drop_comments
 
 FOLDER = os.environ.get("PAGE_COVERAGE")

@@ -1,6 +1,6 @@
 """Writes symtop_ros/log/definitions.json from the message packages of the installed ROS 2 (Jazzy).
 
-Run it when a topic with a new message type is added: .venv/bin/python test/log/write_definitions.py
+Run it when a topic with a new message type is added: python -m workshop.definitions
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 
 from symtop_ros.simulation.topics import TOPICS
 
-TARGET = Path(__file__).parents[2] / "symtop_ros" / "log" / "definitions.json"
+TARGET = Path(__file__).parents[1] / "symtop_ros" / "log" / "definitions.json"
 SEPARATOR = "=" * 80 + "\nMSG: {name}\n{text}"
 # tf2_msgs is not on PyPI, where the rest of ROS 2 is.
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"
@@ -52,10 +52,12 @@ def dependencies(name: str) -> list[str]:
 
 
 def text(name: str) -> str:
+    """The text of a type alone."""
     return TF_TEXT if name == TF_MESSAGE else file(name, "msg").read_text(encoding="utf-8")
 
 
 def type_hash(name: str) -> str:
+    """The hash of a type."""
     if name == TF_MESSAGE:
         return TF_HASH
     hashes = json.loads(file(name, "json").read_text(encoding="utf-8"))["type_hashes"]
@@ -63,6 +65,7 @@ def type_hash(name: str) -> str:
 
 
 def file(name: str, suffix: str) -> Path:
+    """The installed file that describes a type."""
     package, _, short = name.split("/")
     prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
     paths = [Path(each, "share", package, "msg", f"{short}.{suffix}") for each in prefixes if each]

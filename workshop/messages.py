@@ -1,4 +1,4 @@
-"""Build messages that PyPI does not have: python test/build_messages.py, once for an environment.
+"""Build messages that PyPI does not have: python workshop/messages.py, once for an environment.
 
 The tests get their ROS 2 from PyPI, where tf2_msgs and simulation_interfaces are missing. What
 `test/interfaces/PACKAGE` lists, fields and types only, is generated and compiled with the
@@ -24,12 +24,14 @@ from rosidl_adapter.msg import convert_msg_to_idl
 from rosidl_adapter.srv import convert_srv_to_idl
 
 PREFIX = Path(sys.prefix)
-INTERFACES = Path(__file__).with_name("interfaces")
+INTERFACES = Path(__file__).parents[1] / "test" / "interfaces"
 BUILT = PREFIX / "messages"
 CONVERTERS = {"msg": convert_msg_to_idl, "srv": convert_srv_to_idl, "action": convert_action_to_idl}
 # Packages whose types the interfaces use, and their libraries.
-USED = ("action_msgs", "builtin_interfaces", "geometry_msgs", "service_msgs", "std_msgs")
-USED += ("unique_identifier_msgs",)
+USED = (
+    *("action_msgs", "builtin_interfaces", "geometry_msgs", "service_msgs", "std_msgs"),
+    "unique_identifier_msgs",
+)
 GENERATORS = (
     ("rosidl_generator_c", "GenerateC", "c"),
     ("rosidl_generator_py", "GeneratePython", "py"),
@@ -129,7 +131,14 @@ def compile_library(folder: Path, target: Path, sources: list[Path], needed: lis
     ]
     subprocess.run(
         [
-            *("g++", "-shared", "-o", target, f"-Wl,-soname,{target.name}", *objects),
+            *(
+                "g++",
+                "-shared",
+                "-o",
+                str(target),
+                f"-Wl,-soname,{target.name}",
+                *map(str, objects),
+            ),
             *(f"-L{each}" for each in places),
             *(f"-Wl,-rpath,{each}" for each in places),
             *(f"-l{each}" for each in (*needed, *installed, "rosidl_runtime_c", "rcutils")),

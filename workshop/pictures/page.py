@@ -1,6 +1,6 @@
 """The pictures of the page in the docs: each is a run that the page opens, at its end.
 
-PYTHONPATH=.:test python test/web/draw_page.py [FOLDER]
+python -m workshop.pictures.page [FOLDER]
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from browser import running_browser
 from PIL import Image
+from playwright.sync_api import Browser, sync_playwright
 
 from symtop_ros.physics import ExactTimes, Motion
 from symtop_ros.simulation.changes.initial import start_motion
@@ -21,6 +21,7 @@ from symtop_ros.simulation.changes.kick import plan_kick
 from symtop_ros.simulation.run_file import RunEvent, write_run
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.join import write_file
+from workshop.browser import launch
 from workshop.pictures.pack import pack_shaded
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -57,20 +58,23 @@ PREDICTION = "The centrifugal torque lifts it, more and more."
 
 def main(folder: Path) -> None:
     """Draw all pictures into a folder."""
-    with running_browser() as browser:
+    with sync_playwright() as playwright:
+        browser = launch(playwright)
         for picture in (*PICTURES, LESSON):
-            path = draw(browser, picture, folder)
-            print(f"wrote {path}")
+            print(f"wrote {draw(browser, picture, folder)}")
+        browser.close()
 
 
-def draw(browser: Any, picture: Picture, folder: Path) -> Path:
+def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
     """Draw a picture."""
-    size = {"width": picture.width, "height": picture.height}
     path = folder / f"{picture.name}.png"
     with tempfile.TemporaryDirectory() as place:
         page = Path(place, "top.html")
         page.write_text(write_file(run=play(picture)), encoding="utf-8")
-        tab = browser.new_page(viewport=size, color_scheme=picture.scheme)
+        tab = browser.new_page(
+            viewport={"width": picture.width, "height": picture.height},
+            color_scheme=picture.scheme,
+        )
         tab.add_init_script(SMOOTH)
         tab.goto(page.as_uri() + (STEP if picture is LESSON else ""))
         tab.wait_for_selector("#headline:not(:empty)", timeout=TIMEOUT)
