@@ -1,6 +1,7 @@
 """Accuracy against 30 digits: the reference motions, and random tops of all kinds."""
 
 import json
+import lzma
 import random
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +15,8 @@ from workshop.exact_motion import error_and_limit
 
 pytestmark = pytest.mark.untraced
 FAMILIES = ["any", "weak gravity", "fast", "critical", "pendulum", "from below"]
-MOTIONS = json.loads(Path(__file__).parents[1].joinpath("motions.json").read_text())
+PACKED = Path(__file__).parents[1] / "motions.json.xz"
+MOTIONS = json.loads(lzma.decompress(PACKED.read_bytes()))
 
 
 def solved(motion_data):
