@@ -122,9 +122,9 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
     return {
         "nodes": [run(*WITH_NUMPY1, python=NUMPY1), run(*NODES, *ignore(WITH_NUMPY1))],
         "rest": [run("test", *ignore(ELSEWHERE))],
+        "judge": [run(*JUDGE)],
         "physics": [run("test/physics")],
         "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
-        "judge": [run(*JUDGE)],
         "plain": [run(*PLAIN, *WITH_ROS)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
         "lint": [
