@@ -83,14 +83,15 @@ class Search:
         start = next(each for each in causes if each.kind == ("", "none", ()))  # the first one
         if self.is_still():
             return Finding(start, (), tuple(self.hidden), explained=False, still=True)
+        if start.cost <= self.fit.rounding:  # nothing is simpler, and nothing can be better
+            return Finding(start, (), tuple(self.hidden))
         found = [start, *causes]
         best, others = self.choose(found)
         if "delay" in best.parameters and self.fit.loses_delay(best.offset):
             self.hidden.append("delay")
             best, others = self.choose([e for e in found if "delay" not in e.parameters])
         if best is start:
-            clear = start.cost <= self.fit.rounding or self.is_white(start)
-            return Finding(start, (), tuple(self.hidden), explained=clear)
+            return Finding(start, (), tuple(self.hidden), explained=self.is_white(start))
         ratio = np.sqrt(start.cost / max(best.cost, 1e-300))
         is_clear = ratio >= CLEAR and best.residual <= FAR
         if not is_clear and not (ratio >= HALF and self.is_white(best)):
