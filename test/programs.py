@@ -52,9 +52,10 @@ def running(words: Iterable[object], domain: int, **options: Any) -> Iterator[An
             yield process
         finally:
             process.terminate()
-            with contextlib.suppress(subprocess.TimeoutExpired):
+            try:
                 process.communicate(timeout=60)
-            process.kill()
+            finally:
+                process.kill()
 
 
 def set_parameters(*parameters: str) -> list[str]:

@@ -6,6 +6,7 @@ import math
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 
@@ -28,6 +29,7 @@ SEND_PERIOD = 0.05  # s between two batches
 PROBE_PERIOD = 1.0  # s between two checks that the viewer is running
 SILENCE = 5.0  # s without a message at the start, after which it says so
 START_TIMEOUT = 30.0  # s for the viewer to start
+END_TIMEOUT = 3.0  # s for the viewer to take what is left
 
 
 def main(args: list[str] | None = None) -> int:
@@ -120,7 +122,7 @@ def _stream(
             if view:
                 view.send(batch)
     finally:
-        view = None  # the recording is flushed while the viewer still runs
+        _end(view)  # while the viewer still runs
 
 
 def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View | None:
@@ -129,6 +131,7 @@ def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View
     if not _listens(port):
         if view:
             print("the viewer ended; waiting for a new one", file=sys.stderr, flush=True)
+            _end(view)
         return None
     if view is None:
         print(f"showing the top in the viewer on port {port}", flush=True)
@@ -137,6 +140,17 @@ def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View
         recording.connect_grpc(f"rerun+http://{HOST}:{port}/proxy")
         view = View(recording, live=True, options=ViewOptions(**view_options(options)))
     return view
+
+
+def _end(view: View | None) -> None:
+    """Send what is left, for some seconds: Rerun waits for ever for a viewer that takes nothing."""
+    if view:
+        ending = threading.Thread(target=view.close, daemon=True)
+        ending.start()
+        ending.join(END_TIMEOUT)
+        if ending.is_alive():
+            rr.unregister_shutdown()  # which would wait again
+            print("top_live: the viewer does not answer", file=sys.stderr, flush=True)
 
 
 def _spin(executor: SingleThreadedExecutor, deadline: float) -> None:

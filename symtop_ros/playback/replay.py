@@ -34,7 +34,7 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
     for problem in list_problems(log.problems):
         view.log_text(problem)
     recording.flush()
-    recording.disconnect()
+    view.close()
 
 
 def _require_space(target: Path, size: int) -> None:

@@ -1,6 +1,7 @@
 """top_live between a real node and a real viewer; both may end and be restarted."""
 
 import contextlib
+import socket
 import subprocess
 import time
 from types import SimpleNamespace
@@ -53,6 +54,17 @@ def test_the_scene_follows_a_node_and_finds_it_again(live):
             moving(live)
             assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
             assert not any(each.reports for each in views(live, 13).values())
+
+
+def test_a_program_on_the_port_that_does_not_answer_does_not_keep_it_from_ending():
+    with socket.create_server((viewer.HOST, 0)) as mute:
+        words = command("top_live", "--port", mute.getsockname()[1])
+        with running(words, DOMAIN) as process:
+            assert process.stdout.readline().startswith("showing the top in the viewer")
+            process.terminate()
+            said = "top_live: the viewer does not answer\n"
+            assert process.communicate(timeout=30) == ("", said)
+            assert process.returncode == 0
 
 
 @pytest.mark.long

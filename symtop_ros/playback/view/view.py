@@ -107,6 +107,10 @@ class View:
         """Add a sentence to the list of events at the current time."""
         self._stream.log(entities.EVENTS, rr.TextLog(sentence, level=level))
 
+    def close(self) -> None:
+        """Send what is left, and end the recording."""
+        self._stream.recording.disconnect()
+
     def _send_event(self, event: Event) -> None:
         previous, self._segment = self._segment, event.segment()
         motion, framing = self._segment.motion, Framing.of(self._segment).after(self._framing)
