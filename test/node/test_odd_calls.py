@@ -64,6 +64,7 @@ class Watched(RunningTop):
         self.switch("pause", False)
         assert self.change(RESTORED) == (True, "")
         assert self.set(START, theta=0.5, psi_dot=200.0)[0]
+        self.spin_until(lambda: not any(self.top.simulation.timeline.held_torque))
 
     def assert_samples_agree_with_the_motion(self):
         segment = None

@@ -19,7 +19,6 @@ from rosgraph_msgs.msg import Clock
 
 from symtop_ros.physics import Motion, Top
 
-pytestmark = pytest.mark.untraced
 MS = 1_000_000
 PERIOD = 5 * MS  # ns, at the 200 Hz of the scenes
 UNSUPPORTED, OK, NOT_FOUND, FAILED = 0, 1, 2, 4
