@@ -44,7 +44,7 @@ def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[
 
 @contextlib.contextmanager
 def running(words: Iterable[object], domain: int, **options: Any) -> Iterator[Any]:
-    """Run a command with its output in pipes, if not told otherwise, and end it."""
+    """Run a command with its output in pipes by default, and end it."""
     usual = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     usual["env"] = environment(domain)
     with subprocess.Popen([*map(str, words)], **{**usual, **options}) as process:

@@ -1,4 +1,4 @@
-"""Lines of Python in a process of their own, and programs where some modules are missing."""
+"""Lines of Python in a separate process, and programs where some modules are missing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 def run_python(
     code: str, *arguments: object, cwd: Path | None = None, **environment: str
 ) -> subprocess.CompletedProcess[str]:
-    """Run some lines of Python to their end, in a process of their own."""
+    """Run some lines of Python to their end, in a separate process."""
     return subprocess.run(
         [sys.executable, "-c", code, *map(str, arguments)],
         cwd=cwd,

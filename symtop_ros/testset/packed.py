@@ -28,7 +28,7 @@ STATES = ("orientations", "angular_velocities")
 ROUNDED, WORKING = Context(prec=30), Context(prec=80)
 FIXED = Decimal("1e-9")  # smaller numbers are shown with an exponent
 # A number is zero if it is so much smaller than the largest of its list: what the digits left of a
-# sum that cancels. The smallest number that is none is 8e-25 of its list's largest.
+# sum that cancels. The smallest number left is 8e-25 of its list's largest.
 ZERO = Decimal("1e-30")
 Numbers = Sequence[Decimal]
 

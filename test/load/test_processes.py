@@ -10,7 +10,7 @@ from workshop.load import processes, usage
 
 
 def run(work, *words):
-    """Run a program that does some work, for a second if not told otherwise."""
+    """Run a program that does some work, by default for a second."""
     return processes.run_program("load.py", "", 1.0, work, words)
 
 

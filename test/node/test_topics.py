@@ -41,7 +41,7 @@ READ = {
 
 
 def compute(motion, state):
-    """What the library says of a state of a motion, by the topic."""
+    """Messages of a state of a motion by the library, by the topic."""
     top, omega = motion.top, state.to_world(state.angular_velocity)
     force = Body.of(top).pivot_force(motion, state)
     return {

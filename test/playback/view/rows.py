@@ -24,7 +24,7 @@ def record(log, folder, **options):
 
 @contextlib.contextmanager
 def strict():
-    """What Rerun would only warn about is an error."""
+    """Warnings of Rerun are errors."""
     rr.set_strict_mode(True)
     yield
     rr.set_strict_mode(False)
