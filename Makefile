@@ -35,9 +35,10 @@ panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 test: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (9 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
-coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, of which 95 % are asked (11 minutes)
+coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, and with load, lesson and demonstration in full, of which 96 % are asked (18 minutes)
 	@rm -rf .venv/coverage/data* $(VENV)/coverage/page
 	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
+	@$(BIN)/coverage run -m pytest -q -m long test/load test/test_lesson.py test/test_demo.py
 	@$(BIN)/coverage combine --quiet
 	@$(BIN)/coverage report --skip-covered
 	@$(BIN)/python -m workshop.page_coverage $(VENV)/coverage/page

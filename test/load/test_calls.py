@@ -5,8 +5,6 @@ import pytest
 from workshop.load import calls
 from workshop.load.calls import HEAD, format_row
 
-pytestmark = pytest.mark.untraced
-
 
 def test_calls_that_take_a_second_are_counted(monkeypatch, capsys):
     assert format_row([0.5, 0.6, 0.7, 1.5]).split() == ["4", "0.50", "0.65", "1.48", "1.50", "3"]

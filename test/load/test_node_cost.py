@@ -7,8 +7,6 @@ from workshop.load import node_cost
 from workshop.load.listener import Traffic
 from workshop.speed.publish import find_section
 
-pytestmark = pytest.mark.untraced
-
 ROOT = Path(__file__).parents[2]
 
 

@@ -6,7 +6,7 @@ from programs import execute
 from workshop.load import soak
 from workshop.load.processes import script
 
-pytestmark = [pytest.mark.realtime, pytest.mark.untraced]
+pytestmark = pytest.mark.realtime
 SECONDS = 6
 GROWTH = 4.0  # MB; pools of the allocator take this much after ten seconds, however long it runs
 BALANCE = 1e-13  # J, of an energy of some J: 1e-15 of it in a stretch, and a factor for kicks

@@ -6,7 +6,7 @@ from workshop.load import stress
 from workshop.load.stress import HEAD, Outcome, format_row
 from workshop.speed.publish import find_section
 
-pytestmark = [pytest.mark.realtime, pytest.mark.untraced]
+pytestmark = pytest.mark.realtime
 
 
 @pytest.fixture
