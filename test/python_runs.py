@@ -7,20 +7,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+from programs import execute
+
 
 def run_python(
     code: str, *arguments: object, cwd: Path | None = None, **environment: str
 ) -> subprocess.CompletedProcess[str]:
     """Run some lines of Python to their end, in a separate process."""
-    return subprocess.run(
-        [sys.executable, "-c", code, *map(str, arguments)],
-        cwd=cwd,
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    words = [sys.executable, "-c", code, *arguments]
+    return execute(words, timeout=120, cwd=cwd, env={**os.environ, **environment})
 
 
 def run_without(

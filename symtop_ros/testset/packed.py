@@ -55,7 +55,7 @@ def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
     lists |= {name: [each[k] for each in found] for k, name in enumerate((*FORCES, *WORLD))}
     shown: dict[str, Any] = {name: _show_all(rows) for name, rows in lists.items()}
     shown["energies"] = [energy for (energy,) in shown["energies"]]
-    # The limits come after what they do not limit.
+    # In the order of problems.json: the problem, its states, what follows from them, the limits.
     entries = list(facts.items())
     place = list(facts).index(STATES[0])
     return dict([*entries[:place], *shown.items(), *entries[place + len(STATES) :]])
