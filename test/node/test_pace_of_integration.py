@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 
 import numpy as np
 import pytest
@@ -40,15 +41,16 @@ def test_a_motion_too_fast_for_the_budget_is_slowed_down_and_reported(start_top,
     assert float(pace["real_time_factor"]) == 100.0
     assert 0 < float(pace["real_time_factor.achieved"]) < 1.0
     assert status_of(diagnostics[-1], "top: pace").level == DiagnosticStatus.WARN
+    # Without a slow-down there would be no other sample. How many of those since then are missed
+    # depends on what else the machine does.
+    start = stamp_of(events_named(events, "pace")[0])
+    run.spin_until(lambda: sum(stamp_of(each) >= start for each in orientations) > 60)
     run.wait_for(diagnostics)
     stamps = np.array([stamp_of(each) for each in orientations])
-    missed = int(facts(diagnostics[-1], "top: pace")["missed"])
     assert not (np.diff(stamps) % (5 * MS)).any()
-    assert np.ptp(stamps) // (5 * MS) + 1 - len(stamps) <= missed  # what is missing is counted
-    # Until the first slow-down samples were missed; since then all of them are there, but for some
-    # that a busy machine misses.
-    kept = stamps[stamps >= stamp_of(events_named(events, "pace")[0])]
-    assert len(kept) > 0.9 * (np.ptp(kept) // (5 * MS) + 1)
+    # What is missing is counted, in the next diagnostics at the latest.
+    stamps = stamps[stamps < stamp_of(diagnostics[-2])]
+    assert np.ptp(stamps) // (5 * MS) + 1 - len(stamps) <= missed(diagnostics[-1])
     assert_recomputed(events, orientations)
 
 
@@ -72,16 +74,30 @@ def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
         diagnostics = listener.collect(DiagnosticArray, "/diagnostics")
         events = listener.collect(DiagnosticArray, "/top/events", LATCHED)
         listener.spin_until(lambda: len(orientations) > 20 and events)
+        listener.wait_for(diagnostics)
+        before = missed(diagnostics[-1])
         os.kill(node.pid, signal.SIGSTOP)
         listener.spin(1.0)
+        resumed = time.time_ns()
         os.kill(node.pid, signal.SIGCONT)
         listener.wait_for(orientations, 41)
         listener.wait_for(diagnostics)
-    gaps = np.diff([stamp_of(each) for each in orientations])
-    assert 500 * MS < gaps.max() < 1500 * MS
+        last = diagnostics[-1]
+        listener.spin_until(lambda: stamp_of(orientations[-1]) >= stamp_of(last))
+    stamps = np.array([stamp_of(each) for each in orientations])
+    gaps = np.diff(stamps)
     assert not (gaps % (5 * MS)).any()
-    pace = facts(diagnostics[-1], "top: pace")
-    assert int(pace["missed"]) == gaps.max() // (5 * MS) - 1
-    assert "ticks missed" in status_of(diagnostics[-1], "top: pace").message
+    assert gaps.max() > 500 * MS
+    # a tenth of a second is made up for, and the grid's next stamp is at most a period later
+    assert stamps[gaps.argmax() + 1] >= resumed - 105 * MS
+    # On a quiet machine the gap is all that is missing; on a busy one other samples may be missed.
+    missing = gaps.sum() // (5 * MS) - len(gaps)
+    assert gaps.max() // (5 * MS) - 1 <= missed(last) - before <= missing
+    assert "ticks missed" in status_of(last, "top: pace").message
     assert len(events) == 1
     assert_recomputed(events, orientations)
+
+
+def missed(diagnostics):
+    """Return how many ticks a node had missed by then."""
+    return int(facts(diagnostics, "top: pace")["missed"])
