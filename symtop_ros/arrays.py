@@ -13,6 +13,7 @@ Real = NDArray[np.float64]
 Stamps = NDArray[np.int64]  # ns
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]  # (w, x, y, z)
+CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def compose(p: Real, q: Real) -> Real:
@@ -20,8 +21,9 @@ def compose(p: Real, q: Real) -> Real:
     p, q = np.asarray(p), np.asarray(q)
     w, x, y, z = (p[..., k] for k in range(4))
     a, b, c, d = (q[..., k] for k in range(4))
-    product = np.empty(np.broadcast_shapes(p.shape, q.shape))
-    product[..., 0] = w * a - x * b - y * c - z * d
+    real = w * a - x * b - y * c - z * d
+    product = np.empty((*real.shape, 4))
+    product[..., 0] = real
     product[..., 1] = w * b + x * a + y * d - z * c
     product[..., 2] = w * c - x * d + y * a + z * b
     product[..., 3] = w * d + x * c - y * b + z * a
@@ -30,7 +32,7 @@ def compose(p: Real, q: Real) -> Real:
 
 def invert(q: Real) -> Real:
     """Return the inverse of unit quaternions, (..., 4)."""
-    return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
+    return np.asarray(q * CONJUGATE)
 
 
 def split(v: Real) -> list[Any]:

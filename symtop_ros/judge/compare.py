@@ -47,11 +47,11 @@ class Offset:
 
     def turn_world(self, stamps: Stamps) -> Real:
         """Return the rotations of the world, D(t) W, at stamps, (n, 4)."""
-        return compose(_turn_about_z(self.drift, stamps - self.begin), self.world)
+        return _turn_steadily(self.drift, stamps - self.begin, self.world)
 
     def turn_body(self, stamps: Stamps) -> Real:
         """Return the rotations of the body at stamps, (n, 4)."""
-        return compose(_turn_about_z(self.spin, stamps - self.begin), self.body)
+        return _turn_steadily(self.spin, stamps - self.begin, self.body)
 
     def shift(self, stamps: Stamps) -> Stamps:
         """Return the stamps in ns of the exact states, (n,)."""
@@ -134,10 +134,13 @@ def _angle(q: Real) -> float:
     return float(2 * np.arctan2(np.linalg.norm(q[1:]), abs(q[0])))
 
 
-def _turn_about_z(rate: float, nanoseconds: Stamps) -> Real:
+def _turn_steadily(rate: float, nanoseconds: Stamps, start: Real) -> Real:
+    """Return a rotation followed by turns about z, (n, 4); most rates of the search are zero."""
+    if not rate:
+        return np.broadcast_to(start, (len(nanoseconds), 4))
     half = rate * nanoseconds / NANOSECONDS / 2
     zero = np.zeros(len(nanoseconds))
-    return np.stack((np.cos(half), zero, zero, np.sin(half)), axis=-1)
+    return compose(np.stack((np.cos(half), zero, zero, np.sin(half)), axis=-1), start)
 
 
 def _wrap(angle: Real) -> Real:

@@ -32,6 +32,7 @@ class Grids:
     span: float  # s
     exacts: dict[Key, tuple[Real, Real]] = field(default_factory=dict)
     scalings: dict[int, Scaling] = field(default_factory=dict)
+    turns: dict[tuple[int, bytes], Real] = field(default_factory=dict)  # by their scales
 
     def tabulate(
         self, change: str, name: str, base: Offset = NONE, values: Real | None = None
@@ -74,12 +75,15 @@ class Grids:
 
     def _scale(self, some: Estimates, exact: Real, offsets: Sequence[Offset]) -> Real:
         """Return what gyroscopes show of exact attitudes; the best delay is refined later."""
-        if len(some) not in self.scalings:
-            self.scalings[len(some)] = Scaling(self.truth, some.stamps)
-        scaling = self.scalings[len(some)]
         scales, places = np.unique([each.scale for each in offsets], return_inverse=True)
-        turns = [scaling.turn(some) for some in np.split(scales, range(BATCH, len(scales), BATCH))]
-        return compose(np.concatenate(turns)[places], exact)
+        key = len(some), scales.tobytes()
+        if key not in self.turns:
+            if len(some) not in self.scalings:
+                self.scalings[len(some)] = Scaling(self.truth, some.stamps)
+            batches = np.split(scales, range(BATCH, len(scales), BATCH))
+            turn = self.scalings[len(some)].turn
+            self.turns[key] = np.concatenate([turn(each) for each in batches])
+        return compose(self.turns[key][places], exact)
 
     def _grid(self, name: str) -> Real:
         """Return the values of a parameter that are tried."""
