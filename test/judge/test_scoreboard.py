@@ -5,17 +5,18 @@ import json
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from testset.test_scorers import NAMES, SET, write
+from testset.test_scorers import NAMES, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.scoreboard import Entry
+from symtop_ros.testset.score import read_problems
 
 PROBLEMS = ("cusps", "plane_pendulum")
 
 
 def write_entry(folder, problem, name, error):
     """Write the exact states, turned about the x axis of the body by an angle in rad."""
-    facts = SET[problem].facts
+    facts = read_problems()[problem].facts
     q = np.array(facts["orientations"], dtype=float)[:, [1, 2, 3, 0]]
     turned = (Rotation.from_quat(q) * Rotation.from_rotvec([error, 0, 0])).as_quat()
     table = np.column_stack((facts["times"], turned[:, [3, 0, 1, 2]]))
@@ -71,7 +72,7 @@ def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tm
     ],
 )
 def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
-    problem = SET["cusps"]
+    problem = read_problems()["cusps"]
     score = problem.score(np.array(problem.facts["orientations"], dtype=float))
     assert Entry(name, score).step == step
 

@@ -14,13 +14,12 @@ from symtop_ros.testset.score import FILE, main, read_problems, split_decimals
 
 SCORER = FILE.with_name("score.mjs")
 NAMES = ("t", "w", "x", "y", "z", "wx", "wy", "wz")
-SET = read_problems()
 PROBLEMS = ("cusps", "gentle_pole", "plane_pendulum", "free_rod", "cusps_100000", "large")
 
 
 def read_exact(name):
     """Times, quaternions and rates in doubles."""
-    facts = SET[name].facts
+    facts = read_problems()[name].facts
     parts = [np.array(facts[key], dtype=float) for key in ("orientations", "angular_velocities")]
     return np.array(facts["times"]), *parts
 
