@@ -249,8 +249,8 @@ class Simulation:
         since = "" if last is None else " since the last warning of this kind"
         self.host.warn(
             f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: the process was "
-            "stopped or has too little CPU time; the motion follows the clock "
-            f"({self.ticker.missed} missed in all)"
+            "stopped, has too little CPU time or waited for its middleware; the motion follows the "
+            f"clock ({self.ticker.missed} missed in all)"
         )
         self._gap_reported, self._unreported = self.now, 0
 

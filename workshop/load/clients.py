@@ -21,7 +21,7 @@ from rclpy.node import Node
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from workshop.load.bare import LATCHED
-from workshop.load.follower import TIMEOUT, request
+from workshop.load.follower import DEPTH, TIMEOUT, request
 
 SUBSCRIBED_RATE = 200.0  # Hz, of the top that `subscribe` follows
 CALLS: tuple[tuple[str, Any], ...] = (
@@ -65,7 +65,8 @@ def subscribe(domain: int, count: float, seconds: float) -> list[int]:
     with client_node(domain) as node:
         connection = Connection(node)
         for received in stamps:
-            connection.subscribe(QuaternionStamped, "orientation", partial(_add_stamp, received))
+            add = partial(_add_stamp, received)
+            node.create_subscription(QuaternionStamped, "/top/orientation", add, DEPTH)
         connection.spin_until(lambda: all(stamps), TIMEOUT)
         connection.spin_until(lambda: False, seconds)
     period = round(1e9 / SUBSCRIBED_RATE)
