@@ -141,7 +141,7 @@ def _heavy(inputs: Inputs, A: mpc, B: mpc, t: mpf) -> Motion:  # noqa: PLR0915  
         u2 = u1 + tiny
     if u3 - u2 < tiny:
         u3 = u2 + tiny
-    # complete integrals by Gauss's mean: 50 times as fast as Carlson's, and 1/5 of all work
+    # complete integrals by Gauss's mean, which takes 1/50 of the time of Carlson's integrals
     k, kc = mp.sqrt((u2 - u1) / (u3 - u1)), mp.sqrt((u3 - u2) / (u3 - u1))
     K, Kc = mp.pi / (2 * mp.agm(1, kc)), mp.pi / (2 * mp.agm(1, k))
     q = mp.exp(-mp.pi * Kc / K)

@@ -87,7 +87,7 @@ def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
     stamps = np.array([stamp_of(each) for each in orientations])
     gaps = np.diff(stamps)
     assert not (gaps % (5 * MS)).any()
-    assert gaps.max() > 500 * MS
+    assert 500 * MS < gaps.max() < 1500 * MS
     # a tenth of a second is made up for, and the grid's next stamp is at most a period later
     assert stamps[gaps.argmax() + 1] >= resumed - 105 * MS
     # On a quiet machine the gap is all that is missing; on a busy one other samples may be missed.
