@@ -134,7 +134,8 @@ def test_an_sdist_has_what_is_installed(sources, tmp_path):
 
 
 def test_the_version_is_the_same_everywhere():
-    assert f"<version>{__version__}</version>" in (ROOT / "package.xml").read_text()
+    release = __version__.partition(".dev")[0]  # package.xml allows three numbers only
+    assert f"<version>{release}</version>" in (ROOT / "package.xml").read_text()
     assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
 
 
