@@ -2,7 +2,6 @@
 
 import re
 import sys
-import sysconfig
 from glob import glob
 from pathlib import Path
 
@@ -89,23 +88,28 @@ LINT = [
     "colcon-common-extensions>=0.3",  # a test builds the package in a workspace
 ]
 
-# One module for every Python from 3.11 on; free-threaded Pythons have no such interface.
-LIMITED = not sysconfig.get_config_var("Py_GIL_DISABLED")
-# The kernel of the physics. It is optional: without a compiler, or without Python's headers, the
-# package is installed without it. No fused products and sums, so that states have the same bits on
-# every machine (design/fused_products.py).
-KERNEL = Extension(
-    f"{NAME}.physics.kernel._kernel",
-    sources=[f"{NAME}/physics/kernel/{name}.cpp" for name in ("module", "symtop")],
-    depends=glob(f"{NAME}/physics/kernel/**/*.h*", recursive=True),
-    language="c++",
-    extra_compile_args=[
-        *("-O2", "-std=c++17", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),
-        "-Wno-psabi",  # vectors are passed between inlined functions only
-    ],
-    py_limited_api=LIMITED,
-    optional=True,
-)
+# `colcon build --symlink-install` runs this file by a link: the other one is beside the real one.
+sys.path.insert(0, str(README.parent))
+from build_kernel import BuildKernel  # noqa: E402
+
+LIBRARY = Extension(f"{NAME}.physics.kernel.libsymtop", [f"{NAME}/physics/kernel/symtop.cpp"])
+COMMANDS = {"build_ext": BuildKernel}
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel  # from 70.1 on
+except ImportError:
+    try:
+        from wheel.bdist_wheel import bdist_wheel
+    except ImportError:  # colcon needs none
+        bdist_wheel = None
+if bdist_wheel:
+
+    class BuildWheel(bdist_wheel):
+        """Marks the wheel: it is for a platform, and for every Python 3."""
+
+        def get_tag(self) -> tuple[str, str, str]:
+            return "py3", "none", super().get_tag()[2]
+
+    COMMANDS["bdist_wheel"] = BuildWheel
 
 
 class BuildPython(build_py):
@@ -128,9 +132,8 @@ setup(
     name=NAME,
     version=VERSION,
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
-    ext_modules=[KERNEL],
-    cmdclass={"build_py": BuildPython, "install_lib": InstallPython},
-    options={"bdist_wheel": {"py_limited_api": "cp311"} if LIMITED else {}},
+    ext_modules=[LIBRARY],
+    cmdclass={**COMMANDS, "build_py": BuildPython, "install_lib": InstallPython},
     package_data={
         NAME: [
             "py.typed",

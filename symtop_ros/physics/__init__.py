@@ -22,8 +22,7 @@ from symtop_ros.physics.accelerations import (
 )
 from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import Body
-from symtop_ros.physics.exact.kind import Kind
-from symtop_ros.physics.kernel import accelerated, describe_engine
+from symtop_ros.physics.kernel.door import Kind
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -73,12 +72,10 @@ __all__ = [
     "Top",
     "Verdict",
     "Verdicts",
-    "accelerated",
     "angular_acceleration",
     "apply_impulse",
     "balance",
     "compare_hurried",
-    "describe_engine",
     "hurry",
     "kick_verdict",
     "perrys_rule",

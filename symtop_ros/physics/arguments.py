@@ -1,29 +1,26 @@
-"""The arguments of many motions: tops, starts, frictions and torques, broadcast together."""
+"""The arguments of one motion or of many: tops, starts, frictions and torques, broadcast together."""
 
 import math
-from dataclasses import dataclass
-from functools import partial
+from struct import Struct
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Quaternion, Real, Vector
-from symtop_ros.physics.exact.kind import Rates
-from symtop_ros.physics.kernel.compiled import KINDS, STATES
+from symtop_ros.arrays import Real, Vector
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import fit_shapes, refuse, validate_array, validate_vector
 
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
-# Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
-# root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
-WEIGHTLESS = 1e-200
+# States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 # To set up a motion takes the time of some hundred states.
-STATES_OF_SETUP = 200
+STATES, STATES_OF_SETUP = 2**16, 200
 # Ends of the columns of starts: moments, orientation as given, omega, friction, torque.
-STARTS = (3, 7, 10, 12, 15)
+STARTS = (3, 7, 10, 12, door.START)
+_pack_start = Struct(f"{door.START}d").pack
 
 
 def validate_torque(torque: Any) -> Any:
@@ -85,22 +82,15 @@ class Setting:
     """The arguments of one motion or of many, and the torques that belong to them."""
 
     def __init__(
-        self,
-        top: Top,
-        start: State,
-        friction: Friction,
-        torque: Any,
-        shape: tuple[int, ...],
-        pure: bool,
+        self, top: Top, start: State, friction: Friction, torque: Any, shape: tuple[int, ...]
     ) -> None:
         self.top, self.start, self.friction = top, start, friction
         self.applied_torque: Any = torque
-        self.shape, self._pure = shape, pure
+        self.shape = shape
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integrator."""
-        arguments = self.top, self.start, self.friction, self.applied_torque
-        return partial(type(self), pure=self._pure), arguments
+        return type(self), (self.top, self.start, self.friction, self.applied_torque)
 
     def __repr__(self) -> str:
         """Return the call that makes the motion; without friction and torque, if none acts."""
@@ -150,19 +140,18 @@ class Setting:
         return np.asarray(state.to_world(self.friction.torque(state)) + torque)
 
 
-@dataclass(frozen=True, slots=True)
-class Constants:
-    """Constants of n motions."""
-
-    kinds: NDArray[np.str_]  # (n,)
-    angles: Real  # (n, 2): smallest and largest theta in rad
-    rates: Real  # (n, 5): the numbers of `Rates`
+def pack_start(top: Top, start: State, friction: Friction, torque: Vector) -> bytes:
+    """Return the arguments of one motion, as `symtop_start` has them."""
+    state = *start.given_orientation.tolist(), *start.angular_velocity.tolist()
+    return _pack_start(*top.moments, *state, friction.axial, friction.transverse, *torque)
 
 
 def list_starts(
     top: Top, start: State, friction: Friction, torque: Any, shape: tuple[int, ...]
 ) -> Real:
     """Return the arguments of the motions of a shape, (n, 15), as `symtop_start` has them."""
+    if not shape:
+        return np.frombuffer(pack_start(top, start, friction, torque)).reshape(1, -1)
     arrays = (
         np.stack(top.moments, axis=-1),
         start.given_orientation,
@@ -180,15 +169,13 @@ def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
     return Top(*moments), State(q, omega), Friction(*friction), (x, y, z)
 
 
-def fill_states(
-    kernel: Any, starts: Real, times: Real, orientation: Real, omega: Real
-) -> NDArray[np.bool_]:
-    """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3), with the kernel.
+def fill_states(starts: Real, times: Real, orientation: Real, omega: Real) -> NDArray[np.bool_]:
+    """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3).
 
     Returns (n, m), True for the states that are left: those of driven motions, and those from a
     time on that is too far.
     """
-    left = np.ones((len(starts), times.size), np.bool_)
+    left = np.ones((len(starts), times.size), np.uint8)
     kept = np.flatnonzero(~starts[:, STARTS[2] :].any(axis=1))  # neither friction nor a torque
     rows = max(1, STATES // (times.size + STATES_OF_SETUP))
     for first in range(0, len(kept), rows):
@@ -197,28 +184,14 @@ def fill_states(
         place: Any = slice(some[0], some[-1] + 1) if whole else some
         # In place if the motions are neighbours: an indexed array would be a copy.
         parts = orientation[place], omega[place], left[place]
-        kernel.fill_many(starts[some], times, *parts)
+        door.fill_many(starts[some], times, *parts)
         if not whole:
             orientation[place], omega[place], left[place] = parts
-    return left
+    return left.view(np.bool_)
 
 
-def describe_starts(kernel: Any, starts: Real) -> Constants:
-    """Return the constants of motions, from the kernel."""
-    count, rows = len(starts), STATES // STATES_OF_SETUP
-    codes, angles = np.empty(count, np.uint8), np.empty((count, 2))
-    rates = np.empty((count, len(Rates._fields)))
-    for first in range(0, count, rows):
-        part = slice(first, first + rows)
-        kernel.describe_many(starts[part], codes[part], angles[part], rates[part])
-    return Constants(np.array(KINDS)[codes], angles, rates)
-
-
-def is_free(moments: Vector, orientation: Quaternion, omega: Vector) -> bool:
-    """Return True if no torque turns the axis: for circular functions instead of elliptic ones."""
-    (Ix, Iz, Mgl), (w, x, y, z), (wx, wy, wz) = moments, orientation, omega
-    if wx == wy == 0 and (w == z == 0 or x == y == 0):
-        return True
-    # Not wz, but Iz/Ix wz: a rod may spin fast.
-    weight = abs(Mgl) / Ix
-    return any(weight <= WEIGHTLESS * rate * rate for rate in (wx, wy, Iz / Ix * wz))
+def describe_starts(starts: Real) -> NDArray[Any]:
+    """Return the constants of motions, as records (n,) of `door.CONSTANTS`."""
+    rows = STATES // STATES_OF_SETUP
+    blocks = [starts[first : first + rows] for first in range(0, len(starts), rows)]
+    return np.concatenate([door.describe_many(block) for block in blocks or [starts]])

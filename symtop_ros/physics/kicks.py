@@ -1,22 +1,21 @@
 """Kicks: instantaneous changes of the angular velocity at fixed attitude.
 
-If phi' changes by delta with theta' and psi' held, the angular velocity changes by delta z' (z' is
-the world's vertical). If theta' and the axial momentum are held, only the part of this across the
-axis is added. Neither divides by sin(theta), except to find the present phi'.
+The formulas are in the kernel (`kernel/rule/kicks.hpp`).
 """
 
-from typing import Any, Literal
+import math
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real, split
+from symtop_ros.arrays import Real
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top, match
+from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     fit_shapes,
-    ignore_underflow,
     refuse,
     validate_array,
     validate_numbers,
@@ -25,7 +24,9 @@ from symtop_ros.physics.values import (
 )
 
 Hold = Literal["spin_rate", "spin_momentum"]
-HOLDS: tuple[Hold, ...] = ("spin_rate", "spin_momentum")
+HOLDS: tuple[Hold, ...] = get_args(Hold)  # in the order of `symtop_hold`
+NEW_RATE, FACTOR_OF_RATE, IMPULSE = 0, 2, 3  # of `symtop_kick_kind`
+ANY_TOP = np.ones(3)  # a change of phi' asks for no top
 
 
 def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rate") -> State:
@@ -55,11 +56,7 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     (9.1, 200.0)
     """
     rate, hold = validate_rate("phi_dot", phi_dot), validate_hold(hold)
-    _validate_fit(state, np.shape(rate))
-    change = np.asarray(rate - precession_rate(state))[..., np.newaxis] * state.vertical
-    if hold == "spin_momentum":
-        change[..., 2] = 0.0
-    return _add(state, change)
+    return _kick(ANY_TOP, state, NEW_RATE, hold, rate, "phi_dot")
 
 
 def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> State:
@@ -90,10 +87,8 @@ def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> St
     >>> hurry(state, factor=[1.1, 1.2]).euler_rates.phi.round(9).tolist()
     [7.15, 7.8]
     """
-    factor = validate_numbers("factor", factor)
-    _validate_fit(state, np.shape(factor))
-    with np.errstate(over="ignore", under="ignore"):  # a rate that is too large is refused
-        return set_precession_rate(state, factor * precession_rate(state), hold)
+    factor, hold = validate_numbers("factor", factor), validate_hold(hold)
+    return _kick(ANY_TOP, state, FACTOR_OF_RATE, hold, factor, "factor")
 
 
 def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
@@ -128,31 +123,40 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
         J = np.array(validate_vector("impulse", impulse, unit))
     else:
         J = validate_array("impulse", impulse, 3, unit)
-    _validate_fit(state, J.shape[:-1])
-    x, y, z = split(state.to_body(J))
-    Ix, Iz = match(top.Ix, state), match(top.Iz, state)
-    with np.errstate(over="ignore", under="ignore"):
-        change = np.stack(np.broadcast_arrays(x / Ix, y / Ix, z / Iz), axis=-1)
-    if not (np.abs(change) <= LARGEST_ANGULAR_VELOCITY).all():
-        condition = f"so small that no rate changes by more than {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-        raise refuse("impulse", condition, f"{float(np.abs(J).max()):g} {unit}")
-    return _add(state, change)
+    tops = np.stack([np.asarray(each) for each in top.moments], axis=-1)
+    return _kick(tops, state, IMPULSE, "spin_rate", J, "impulse")
 
 
-def _add(state: State, change: Real) -> State:
-    """Return states with a change of their angular velocity, (..., 3), in the body frame."""
-    omega = state.angular_velocity + change
-    kicked = State(np.broadcast_to(state.orientation, (*omega.shape[:-1], 4)), omega)
-    vars(kicked)["time_axes"] = state.time_axes
-    return kicked
+def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: str) -> State:
+    """Return states after kicks of one kind; tops, states and amounts are broadcast together."""
+    given = np.asarray(amounts, np.float64)
+    axes = given.ndim - (kind == IMPULSE)
+    parts = (tops, *state.parts, given)
+    if axes or tops.ndim > 1 or state.orientation.ndim > 1:
+        parts = _spread(parts, axes)
+    kicked, done, status = door.kick(*parts[:3], kind, HOLDS.index(hold), parts[3])
+    if status == door.OK:
+        return State.wrap(parts[1], kicked, state.time_axes)
+    flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
+    if status == door.VERTICAL:
+        raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))
+    if status == door.BAD_KICK:
+        condition = f"so small that rates stay within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
+        amount = parts[3].reshape(len(flat[0]), -1)[done]
+        raise refuse(name, condition, float(np.abs(amount).max()))
+    raise door.refuse_status(status)
 
 
-def _validate_fit(state: State, shape: tuple[int, ...]) -> None:
-    states = state.orientation.shape[:-1]
-    fit_shapes("state and kick", states, shape, listed=f"{states} and {shape}")
+def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:
+    """Return copies of one shape of tops, orientations, angular velocities and amounts."""
+    shapes = [part.shape[:-1] for part in parts[:3]] + [parts[3].shape[:axes]]
+    listed = f"{shapes[1]} and {shapes[3] or shapes[0]}"
+    shape = fit_shapes("state and kick", *shapes, listed=listed)
+    widths = [part.shape[-1:] for part in parts[:3]] + [parts[3].shape[axes:]]
+    pairs = zip(parts, widths, strict=True)
+    return tuple(np.array(np.broadcast_to(part, shape + width)) for part, width in pairs)
 
 
-@ignore_underflow
 def precession_rate(state: State) -> Any:
     """Return phi' in rad/s, a float or (...).
 
@@ -173,10 +177,15 @@ def precession_rate(state: State) -> Any:
     4.0
     """
     if np.any(state.is_vertical):
-        condition = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
-        theta = float(np.extract(state.is_vertical, state.euler_angles.theta)[0])
-        raise refuse("axis", condition, f"theta = {theta:g} rad")
+        raise _refuse_vertical(
+            state if state.orientation.ndim == 1 else state[state.is_vertical][0]
+        )
     return state.euler_rates.phi
+
+
+def _refuse_vertical(state: State) -> ValueError:
+    condition = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
+    return refuse("axis", condition, f"theta = {state.euler_angles.theta:g} rad")
 
 
 def validate_hold(hold: Any) -> Hold:

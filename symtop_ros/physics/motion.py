@@ -1,20 +1,19 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
-from decimal import localcontext
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Quaternion, Real, Vector
+from symtop_ros.arrays import Real
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     Setting,
     find_shape,
-    is_free,
+    pack_start,
     validate_times,
     validate_torque,
     validate_types,
@@ -22,21 +21,12 @@ from symtop_ros.physics.arguments import (
 )
 from symtop_ros.physics.derivatives.driven import differentiate_driven
 from symtop_ros.physics.derivatives.gravity import GravityDerivatives, SleepingDerivatives
-from symtop_ros.physics.driven.trail import DrivenMotion
-from symtop_ros.physics.exact.closed_form import ClosedFormMotion
-from symtop_ros.physics.exact.elementary import Number
-from symtop_ros.physics.exact.free import FreeMotion
-from symtop_ros.physics.exact.kind import Kind, Rates
-from symtop_ros.physics.exact.precise import PRECISE
-from symtop_ros.physics.kernel import PURE, find_kernel
-from symtop_ros.physics.kernel.compiled import CompiledMotion
+from symtop_ros.physics.kernel import states
+from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, Rates
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import ignore_underflow, refuse, validate_array, validate_number
-
-# Times evaluated at once. Fewer cost more calls of NumPy for each time, more leave the cache.
-BLOCK = 12288
 
 
 class Motion(Setting):
@@ -58,10 +48,6 @@ class Motion(Setting):
         Friction at the pivot and in the air.
     torque : array_like (3,)
         Applied torque in the world frame, constant, in N m.
-    pure : bool
-        True computes with Python alone; else the compiled kernel is used if it was built. States
-        under gravity alone have the same bits. The default is that of the environment variable
-        SYMTOP_PURE.
 
     Attributes
     ----------
@@ -97,8 +83,6 @@ class Motion(Setting):
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
-        *,
-        pure: bool = PURE,
     ) -> Any:
         """Return the motion, or many if an argument is an array."""
         validate_types(top, start, friction)
@@ -106,7 +90,7 @@ class Motion(Setting):
             # Many motions are made of single ones, so their module imports this one.
             from symtop_ros.physics.motions import Motions  # noqa: PLC0415
 
-            return Motions(top, start, friction, torque, pure=pure)
+            return Motions(top, start, friction, torque)
         return object.__new__(cls)
 
     def __init__(
@@ -115,50 +99,19 @@ class Motion(Setting):
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
-        *,
-        pure: bool = PURE,
     ) -> None:
-        super().__init__(top, start, friction, validate_torque(torque), (), pure)
-        self._orientation: Quaternion = tuple(start.given_orientation.tolist())
-        self._omega: Vector = tuple(start.angular_velocity.tolist())
-        self._is_free = is_free(top.moments, self._orientation, self._omega)
-        self._driven: DrivenMotion | None = None
-        if self.is_driven:
-            self._driven = DrivenMotion(top, start, friction, self.applied_torque, self._compiled)
+        super().__init__(top, start, friction, validate_torque(torque), ())
+        self.packed_start = pack_start(top, start, friction, self.applied_torque)
+        self._kernel = KernelMotion(self.packed_start)
 
     @property
-    def engine(self) -> Literal["closed form", "free", "taylor"]:
+    def engine(self) -> Engine:
         """Method of solution.
 
         Elliptic functions; circular functions if Mgl is 0 or if the axis rests on the vertical;
         with friction or an applied torque Taylor series in time.
         """
-        if self._driven:
-            return "taylor"
-        return "free" if self._is_free else "closed form"
-
-    @cached_property
-    def _engine(self) -> ClosedFormMotion | FreeMotion:
-        # The closed form wants Mgl > 0. A world turned by pi about x' has the opposite gravity.
-        (w, x, y, z), top = self._orientation, self.top
-        moments = top.Ix, top.Iz, abs(top.Mgl)
-        orientation = (-x, w, -z, y) if self._is_turned_over else self._orientation
-        solver = FreeMotion if self._is_free else ClosedFormMotion
-        with localcontext(PRECISE):
-            return solver(moments, orientation, self._omega)
-
-    @property
-    def _is_turned_over(self) -> bool:
-        return self.top.Mgl < 0
-
-    @cached_property
-    def _compiled(self) -> CompiledMotion | None:
-        """The motion in the kernel, if that is to be used."""
-        kernel = find_kernel(self._pure)
-        if not kernel:
-            return None
-        state = self.top.moments, self._orientation, self._omega
-        return CompiledMotion(kernel, *state, self.friction, self.applied_torque)
+        return self._kernel.engine
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -166,8 +119,8 @@ class Motion(Setting):
         Parameters
         ----------
         t : float, array_like (...) or ExactTimes
-            Time since the start in s, any finite number of either sign, or exact times in ns. A
-            driven motion takes exact times in extended precision, and costs about 0.04 ms for
+            Time since the start in s, of either sign, up to 1e15 turns of the fastest phase, or
+            exact times in ns. A driven motion takes exact times in extended precision, and costs about 0.04 ms for
             each radian of nutation on the way: a minute for a time of six hours. Ctrl-C ends it.
 
         Returns
@@ -178,8 +131,8 @@ class Motion(Setting):
         Raises
         ------
         ValueError
-            If a time is not a finite number, or if a driven motion becomes too fast on the way to
-            it or has a friction too strong to reach it.
+            If a time is not a finite number or too far, or if a driven motion becomes too fast on
+            the way to it or has a friction too strong to reach it.
 
         Examples
         --------
@@ -198,12 +151,14 @@ class Motion(Setting):
         return wrap_states(orientation, angular_velocity, times.shape, len(times.shape))
 
     def _compute_one(self, time: float) -> State:
-        if self._driven:
-            return State.wrap(*self._driven.at(time))
-        state = self._compiled.at(time) if self._compiled else None
-        numbers = state or [*self._evaluate(time), self._omega[2]]
-        # Two arrays, not views of one: `base` of a view could be written to.
-        return State.wrap(np.array(numbers[:4]), np.array(numbers[4:]))
+        numbers = None if self.is_driven else self._kernel.at(time)
+        if numbers:
+            # Two arrays, not views of one: `base` of a view could be written to.
+            return State.wrap(np.array(numbers[:4]), np.array(numbers[4:]))
+        # Of a driven motion, in steps between which signals are seen; or a time that is refused.
+        orientation, omega = np.empty((1, 4)), np.empty((1, 3))
+        states.fill_states(self._kernel, np.array([time]), orientation, omega)
+        return State.wrap(orientation[0].copy(), omega[0].copy())
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at many times into arrays; the times are not validated.
@@ -217,43 +172,7 @@ class Motion(Setting):
         angular_velocity : ndarray (n, 3)
             Receives the angular velocities.
         """
-        flat = times.ravel()
-        if self._driven:
-            self._driven.fill(flat, orientation, angular_velocity)
-            return
-        written = self._compiled.fill(flat, orientation, angular_velocity) if self._compiled else 0
-        if written < len(orientation):  # without the kernel, or from a time on that is too far
-            left = slice(written, None)
-            self._fill_in_blocks(flat[left], orientation[left], angular_velocity[left])
-
-    def _fill_in_blocks(self, times: Real | ExactTimes, orientation: Real, omega: Real) -> None:
-        """Write the states at times (n,) by NumPy, in blocks that fit into a processor's cache."""
-        omega[:, 2] = self._omega[2]
-        for first in range(0, len(orientation), BLOCK):
-            block = slice(first, first + BLOCK)
-            # Terms of a series may underflow; the caller's NumPy may be set to raise for that.
-            with np.errstate(under="ignore"):
-                columns = self._evaluate(times[block])
-            for k, column in enumerate(columns[:4]):
-                orientation[block, k] = column
-            omega[block, 0], omega[block, 1] = columns[4:]
-
-    def _evaluate(self, times: Number | ExactTimes) -> tuple[Number, ...]:
-        """Return w, x, y, z, omega_x and omega_y at times in s or exact times."""
-        with localcontext(PRECISE):
-            (w, z), (x, y), (wx, wy) = self._engine.cayley_klein(times)
-        if self._is_turned_over:
-            w, x, y, z = x, -w, z, -y
-        # One step to norm 1. Newton's would correct A and B by the same factor, and so give a small
-        # B the error of A. Least squares correct the larger one more, by |A|^2/(|A|^4 + |B|^4) of
-        # the step, and B by |B|^2 over the same; a cubic of |A|^2 = 1 - |B|^2 is near enough. Of
-        # equal sizes both take the same, which removes their common error.
-        upper, lower = w * w + z * z, x * x + y * y
-        step = 0.5 - 0.5 * (upper + lower)
-        share = step * (upper - lower)
-        of_B = step - upper * share
-        of_A = of_B + share
-        return w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, wx, wy
+        states.fill_states(self._kernel, times.ravel(), orientation, angular_velocity)
 
     def reach(self, t: float, steps: float) -> float:
         """Prepare the states up to a time, within a limited number of steps.
@@ -284,7 +203,7 @@ class Motion(Setting):
         t = validate_number("t", t, "s")
         if not steps >= 0:
             raise refuse("steps", ">= 0", steps)
-        return self._driven.reach(t, steps) if self._driven else t
+        return states.reach(self._kernel, t, steps)
 
     @ignore_underflow
     def jacobian(self, t: ArrayLike) -> Real:
@@ -329,14 +248,14 @@ class Motion(Setting):
         """
         times = validate_array("t", t, unit="s")
         flat = times.reshape(-1)
-        found = differentiate_driven(self, flat) if self._driven else self._derivatives.at(flat)
+        found = differentiate_driven(self, flat) if self.is_driven else self._derivatives.at(flat)
         return found.reshape(*times.shape, *found.shape[-2:])
 
     @cached_property
     def _derivatives(self) -> GravityDerivatives | SleepingDerivatives:
         if self.kind == "sleeping":
             return SleepingDerivatives(self)
-        return GravityDerivatives(self, self._engine.nutation_rate)
+        return GravityDerivatives(self, self._kernel.nutation_rate)
 
     @property
     def kind(self) -> Kind:
@@ -348,26 +267,11 @@ class Motion(Setting):
         vertical). The article calls a unidirectional motion spiralling. With friction or an applied
         torque it is "driven": the angles then change, and phi' at them.
         """
-        if self._driven:
-            return "driven"
-        if self._compiled:
-            return self._compiled.kind
-        with localcontext(PRECISE):
-            return self._engine.kind
+        return self._kernel.kind
 
     @cached_property
     def _rates(self) -> Rates:
-        if self._compiled:
-            return self._compiled.rates
-        engine, sign = self._engine, -1 if self._is_turned_over else 1
-        with localcontext(PRECISE):
-            if engine.kind in ("sleeping", "through the pole"):
-                precession = spin = turns = math.nan
-            else:
-                # In the world that is turned over the precession is reversed.
-                precession, spin = engine.mean_rates
-                precession, turns = sign * precession, sign * engine.precession_per_nutation
-            return Rates(engine.nutation_period, precession, spin, turns, engine.spin_reverses)
+        return self._kernel.rates
 
     @property
     def nutation_period(self) -> float:
@@ -377,10 +281,7 @@ class Motion(Setting):
     @property
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
-        if self._compiled:
-            return self._compiled.turning_angles
-        with localcontext(PRECISE):
-            return self._engine.turning_angles(self._is_turned_over)
+        return self._kernel.turning_angles
 
     @property
     def mean_precession_rate(self) -> float:

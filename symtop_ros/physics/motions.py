@@ -12,7 +12,6 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
-    Constants,
     Setting,
     describe_starts,
     fill_states,
@@ -24,8 +23,7 @@ from symtop_ros.physics.arguments import (
     validate_types,
     wrap_states,
 )
-from symtop_ros.physics.exact.kind import Rates
-from symtop_ros.physics.kernel import PURE, find_kernel
+from symtop_ros.physics.kernel.door import ENGINES, KINDS
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
@@ -37,8 +35,8 @@ class Motions(Setting):
 
     Tops, starts, frictions and torques are one or many each; they are broadcast together. States
     have the shape of the motions, followed by that of the times, and properties have the shape of
-    the motions. Each motion is the same, bit for bit, as alone. The kernel computes the states of
-    all motions in one call; those that it cannot compute are computed one after the other.
+    the motions. Each motion is the same, bit for bit, as alone. The states of motions
+    under gravity alone are computed in one call, the others one motion after the other.
 
     Parameters
     ----------
@@ -50,8 +48,6 @@ class Motions(Setting):
         One friction, or many of shape (...).
     torque : array_like (..., 3)
         Applied torque in the world frame, constant, in N m.
-    pure : bool
-        True computes with Python alone, as in `Motion`.
 
     Attributes
     ----------
@@ -85,13 +81,11 @@ class Motions(Setting):
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
-        *,
-        pure: bool = PURE,
     ) -> None:
         validate_types(top, start, friction)
         torque = validate_torque(torque)
         shape = find_shape(top, start, friction, torque)
-        super().__init__(top, start, friction, torque, shape, pure)
+        super().__init__(top, start, friction, torque, shape)
         self._made: dict[int, Motion] = {}
 
     @property
@@ -102,7 +96,7 @@ class Motions(Setting):
     def _find_member(self, n: int) -> Motion:
         # Kept, because the pieces of an integration are.
         if n not in self._made:
-            self._made[n] = Motion(*read_start(self._starts[n]), pure=self._pure)
+            self._made[n] = Motion(*read_start(self._starts[n]))
         return self._made[n]
 
     @cached_property
@@ -133,9 +127,8 @@ class Motions(Setting):
         count, many = math.prod(self.shape), math.prod(shape)
         orientation, omega = np.empty((count, many, 4)), np.empty((count, many, 3))
         left = np.ones((count, many), np.bool_)
-        kernel = find_kernel(self._pure)
-        if kernel and not isinstance(flat, ExactTimes):
-            left = fill_states(kernel, self._starts, flat, orientation, omega)
+        if not isinstance(flat, ExactTimes):
+            left = fill_states(self._starts, flat, orientation, omega)
         for n in np.flatnonzero(left.any(axis=1)).tolist():
             self._fill_member(n, flat, left[n], (orientation[n], omega[n]))
         return wrap_states(orientation, omega, (*self.shape, *shape), len(shape))
@@ -175,28 +168,19 @@ class Motions(Setting):
     @property
     def engine(self) -> NDArray[np.str_]:
         """Methods of solution, as in `Motion.engine`."""
-        return np.asarray(self._collect(lambda motion: motion.engine, np.str_))
+        return np.array(ENGINES)[self._constants["engine"]].reshape(self.shape)
 
     @cached_property
-    def _constants(self) -> Constants:
-        kernel = find_kernel(self._pure)
-        if kernel:
-            return describe_starts(kernel, self._starts)
-        rates = [motion._rates for motion in self.members]
-        return Constants(
-            np.array([motion.kind for motion in self.members]),
-            np.array([motion.turning_angles for motion in self.members]).reshape(-1, 2),
-            np.array(rates, np.float64).reshape(-1, len(Rates._fields)),
-        )
+    def _constants(self) -> NDArray[Any]:
+        return describe_starts(self._starts)
 
-    def _find_rates(self, name: str) -> Real:
-        column = self._constants.rates[:, Rates._fields.index(name)]
-        return np.ascontiguousarray(column).reshape(self.shape)
+    def _find_rates(self, name: str) -> Any:
+        return np.ascontiguousarray(self._constants["rates"][name]).reshape(self.shape)
 
     @property
     def kind(self) -> NDArray[np.str_]:
         """Names of the motions, as in `Motion.kind`."""
-        return self._constants.kinds.reshape(self.shape)
+        return np.array(KINDS)[self._constants["kind"]].reshape(self.shape)
 
     @property
     def nutation_period(self) -> Real:
@@ -211,7 +195,7 @@ class Motions(Setting):
     @property
     def turning_angles(self) -> tuple[Real, Real]:
         """Smallest and largest theta in rad."""
-        smallest, largest = self._constants.angles.T.copy()
+        smallest, largest = self._constants["turning_angles"].T.copy()
         return smallest.reshape(self.shape), largest.reshape(self.shape)
 
     @property

@@ -1,5 +1,6 @@
 """The state of the top: a unit quaternion and a body angular velocity, for one instant or many."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,18 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real, rotate, split, stack
-from symtop_ros.physics.exact.elementary import (
-    arc_tangent,
-    find_cosine_and_sine,
-    find_length,
-    multiply,
-)
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
     ignore_underflow,
     refuse,
-    to_float,
     validate_array,
     validate_together,
 )
@@ -28,6 +23,9 @@ from symtop_ros.physics.values import (
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding
 SMALLEST = 1e-100  # the square of anything smaller would underflow
+NAMES = ("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot")
+UNITS = (*("rad",) * 3, *("rad/s",) * 3)
+FLOAT = {float}
 COLUMNS = (
     *("t", "w", "x", "y", "z", "wx", "wy", "wz"),
     *("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"),
@@ -140,8 +138,10 @@ class State:
         return state
 
     def _set(self, given: Real, orientation: Real, omega: Real, time_axes: int = 0) -> None:
-        for array in (given, orientation, omega):
-            _make_read_only(array)
+        orientation.setflags(write=False)
+        omega.setflags(write=False)
+        if given is not orientation:
+            given.setflags(write=False)
         # The class is frozen; its dictionary takes half the time of object.__setattr__.
         vars(self).update(
             given_orientation=given,
@@ -168,7 +168,6 @@ class State:
         return self.orientation, self.angular_velocity
 
     @classmethod
-    @ignore_underflow
     def from_euler(
         cls,
         *,
@@ -205,10 +204,15 @@ class State:
         >>> State.from_euler(theta=[0.4, 0.5, 0.6], psi_dot=200.0)
         <State of shape (3,)>
         """
-        names = "phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"
-        given = dict(zip(names, (phi, theta, psi, phi_dot, theta_dot, psi_dot), strict=True))
-        numbers = validate_together(given, ("rad",) * 3 + ("rad/s",) * 3)
-        return cls(_turn_by_angles(*numbers[:3]), _turn_by_rates(*numbers[1:]))
+        values: Any = phi, theta, psi, phi_dot, theta_dot, psi_dot
+        # One state of floats is the common case; their sum is finite unless one of them is not.
+        if set(map(type, values)) != FLOAT or not math.isfinite(sum(values)):
+            values = validate_together(dict(zip(NAMES, values, strict=True)), UNITS)
+        table = np.array(values)  # (6, ...)
+        if table.ndim > 1:
+            table = np.moveaxis(table, 0, -1)
+        q, omega = door.from_angles(table[..., :3], table[..., 3:])
+        return cls.wrap(_normalize(q), omega, given=q)
 
     @cached_property
     @ignore_underflow
@@ -234,31 +238,14 @@ class State:
         return w, x, y, z
 
     @property
-    @ignore_underflow
     def euler_angles(self) -> Angles:
         """Angles (phi, theta, psi) in rad, with 0 <= theta <= pi; phi is 0 on the vertical."""
-        w, x, y, z = self._components
-        # acos(cos theta) would lose half the digits of a small tilt; this quotient keeps them all.
-        theta = 2 * arc_tangent(find_length(x, y), find_length(w, z))
-        upper, lower = arc_tangent(z, w), arc_tangent(y, x)  # (phi + psi)/2 and (phi - psi)/2
-        on_vertical = (theta == 0) | (theta == np.pi)
-        phi = np.where(on_vertical, 0.0, _wrap_angle(upper + lower))
-        psi = np.where(on_vertical, np.where(theta == 0, 2 * upper, -2 * lower), upper - lower)
-        return Angles(*(to_float(angle) for angle in (phi, theta, _wrap_angle(psi))))
+        return Angles(*split(door.find_angles(self.orientation)))
 
     @cached_property
-    @ignore_underflow
     def euler_rates(self) -> Angles:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
-        gx, gy, gz = split(self.vertical)
-        wx, wy, wz = split(self.angular_velocity)
-        sine = np.asarray(find_length(gx, gy))[()]  # a float of NumPy's: 0/0 is nan
-        with np.errstate(invalid="ignore", divide="ignore"):
-            # Divided twice: the square of a sine below 1e-154 would underflow.
-            phi_dot = np.where(sine > 0, (wx * gx + wy * gy) / sine / sine, 0.0)
-            theta_dot = np.where(sine > 0, (wx * gy - wy * gx) / sine, find_length(wx, wy))
-        psi_dot = wz - phi_dot * gz
-        return Angles(*(to_float(rate) for rate in (phi_dot, theta_dot, psi_dot)))
+        return Angles(*split(door.find_angle_rates(*self.parts)))
 
     @ignore_underflow
     def to_world(self, vector: ArrayLike) -> Real:
@@ -470,33 +457,6 @@ def _count_axes(place: Any) -> int:
     return array.ndim if array is not None and array.dtype == np.bool_ else 1
 
 
-def _turn_by_angles(phi: Any, theta: Any, psi: Any) -> Real:
-    """Return the orientations of Euler angles."""
-    (cos_plus, sin_plus), (cos_minus, sin_minus) = _half_sum(phi, psi), _half_sum(phi, -psi)
-    c, s = find_cosine_and_sine(theta / 2)
-    return np.stack([c * cos_plus, s * cos_minus, s * sin_minus, c * sin_plus], axis=-1)
-
-
-def _turn_by_rates(theta: Any, psi: Any, phi_dot: Any, theta_dot: Any, psi_dot: Any) -> Real:
-    """Return the angular velocities of Euler rates."""
-    (cosine, sine), (c, s) = find_cosine_and_sine(theta), find_cosine_and_sine(psi)
-    across_x = phi_dot * sine * s + theta_dot * c
-    across_y = phi_dot * sine * c - theta_dot * s
-    return np.stack([across_x, across_y, phi_dot * cosine + psi_dot], axis=-1)
-
-
-def _half_sum(a: Any, b: Any) -> tuple[Any, Any]:
-    """Return cosine and sine of (a + b)/2; the rounding of a large sum is made good.
-
-    Up to a turn this rounding is no larger than that of the result, and it is left there.
-    """
-    total = a + b
-    part = total - a
-    lost = ((a - (total - part)) + (b - part)) / 2  # Knuth's two-sum
-    lost = np.where(np.abs(total) <= 2 * np.pi, 0.0, lost)[()]
-    return multiply(find_cosine_and_sine(total / 2), find_cosine_and_sine(lost))
-
-
 def _flush_tiny(array: Real) -> Real:
     """Set to zero, in place, the numbers whose squares would underflow."""
     array[np.abs(array) < SMALLEST] = 0.0
@@ -505,6 +465,10 @@ def _flush_tiny(array: Real) -> Real:
 
 def _normalize(q: Real) -> Real:
     """Return unit quaternions; those with norm 1 to rounding are unchanged, bit for bit."""
+    if q.ndim == 1:  # the common case, without NumPy in a fifth of the time
+        w, x, y, z = q.tolist()
+        if abs(math.sqrt((w * w + z * z) + (x * x + y * y)) - 1) <= NORM_ROUNDING:
+            return q
     w, x, y, z = np.moveaxis(q, -1, 0)
     with np.errstate(over="ignore"):
         norm = np.sqrt((w * w + z * z) + (x * x + y * y))[..., np.newaxis]
@@ -517,10 +481,6 @@ def _normalize(q: Real) -> Real:
         condition = f"a quaternion of norm 1 within {NORM_TOLERANCE:g}"
         raise refuse("orientation", condition, f"a norm of {worst:g}")
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
-
-
-def _wrap_angle(angle: Any) -> Real:
-    return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
 
 
 def _make_read_only(array: Real) -> Real:

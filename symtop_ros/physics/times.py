@@ -18,7 +18,8 @@ from symtop_ros.physics.values import ignore_underflow, refuse, validate_number
 
 SECOND = 10**9  # ns
 LARGEST_STAMP = 2**63 - 1  # ns
-LARGEST_FACTOR = 1e100
+SMALLEST, LARGEST_FACTOR = 1e-100, 1e100
+ELAPSED_PARTS = 4  # of `symtop_clock`
 LARGEST_ELAPSED = 10**300  # ns; so that the sum is a double of seconds
 
 
@@ -31,10 +32,11 @@ class ExactTimes:
     nanoseconds : int or ndarray (n,) of int64
         Nanoseconds of a clock since the elapsed time was read, of either sign.
     factor : float
-        Time of the motion per time of the clock; > 0. The exact value of the double counts.
+        Time of the motion per time of the clock; 1e-100 to 1e100. The exact value of the double
+        counts.
     elapsed : Fraction
         Time of the motion in ns at which `nanoseconds` is 0. Its denominator is a power of two, as
-        that of every sum of products of integers and doubles.
+        that of every sum of products of integers and doubles; states need a sum of four doubles.
 
     Raises
     ------
@@ -62,8 +64,8 @@ class ExactTimes:
     def __post_init__(self) -> None:
         object.__setattr__(self, "nanoseconds", _validate_nanoseconds(self.nanoseconds))
         object.__setattr__(self, "factor", validate_number("factor", self.factor))
-        if not 0 < self.factor <= LARGEST_FACTOR:
-            raise refuse("factor", f"> 0 and at most {LARGEST_FACTOR:g}", self.factor)
+        if not SMALLEST <= self.factor <= LARGEST_FACTOR:
+            raise refuse("factor", f"{SMALLEST:g} to {LARGEST_FACTOR:g}", self.factor)
         object.__setattr__(self, "elapsed", _validate_elapsed(self.elapsed))
 
     @property
@@ -80,24 +82,32 @@ class ExactTimes:
             return (start + step * self.nanoseconds) / divisor
         return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
 
-    @cached_property
-    def split_seconds(self) -> tuple[Real, Real]:
-        """Seconds as sums of two doubles, () or (n,): the nearest doubles, and what they lack."""
-        high = np.asarray(self.seconds, dtype=np.float64)
-        start, step, divisor = self._line
-        low = np.empty_like(high)
-        for place, seconds in np.ndenumerate(high):
-            over, under = float(seconds).as_integer_ratio()
-            n = int(np.asarray(self.nanoseconds)[place])
-            low[place] = ((start + step * n) * under - over * divisor) / (divisor * under)
-        return high, low
-
     @property
     def _line(self) -> tuple[int, int, int]:
         """The times in s as (start + step * nanoseconds)/divisor, in integers of any size."""
         ticks, parts = self.factor.as_integer_ratio()
         elapsed, pieces = self.elapsed.as_integer_ratio()
         return elapsed * parts, ticks * pieces, parts * pieces * SECOND
+
+    @cached_property
+    def clock(self) -> tuple[float, tuple[float, ...]]:
+        """The factor, and the elapsed time in ns as a sum of four doubles, for the kernel.
+
+        Raises
+        ------
+        ValueError
+            If these are not enough, or not 0 or 1e-100 to 1e100 in size.
+        """
+        parts, left = [0.0] * ELAPSED_PARTS, self.elapsed
+        for place in range(ELAPSED_PARTS):
+            if not left:
+                break
+            parts[place] = float(left)
+            left -= Fraction(parts[place])
+        if left or any(part and not SMALLEST <= abs(part) <= LARGEST_FACTOR for part in parts):
+            condition = "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size"
+            raise refuse("elapsed", condition, f"{float(self.elapsed):.17g}")
+        return self.factor, tuple(parts)
 
     def advance(self, nanoseconds: int) -> Fraction:
         """Return the time of the motion in ns at another reading of the clock, exactly.
@@ -133,11 +143,6 @@ class ExactTimes:
 def to_rough_seconds(times: Any) -> Any:
     """Return times in s up to a few roundings: those of exact times, others unchanged."""
     return times.rough_seconds if isinstance(times, ExactTimes) else times
-
-
-def refuse_too_fast(t: float, end: float) -> ValueError:
-    """Return the error for a time beyond the end of the range of doubles."""
-    return refuse("t", f"within {abs(end):g} s of the start (the motion then becomes too fast)", t)
 
 
 def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:

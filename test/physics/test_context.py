@@ -63,7 +63,7 @@ def test_the_context_of_the_caller_changes_no_bit(name, context):
         assert decimal.getcontext() is hostile
 
 
-@pytest.mark.parametrize("Iz", [1e-20, 1e-24, 1e-28])
+@pytest.mark.parametrize("Iz", [1e-12, 1e-20, 1e-28])
 def test_a_rod_of_any_slenderness_moves_as_the_limit_of_slender_rods(Iz):
     # With p_psi = Iz omega_z = 2 held, theta does not depend on Iz: the spin angle alone does.
     start = State.from_euler(theta=0.5, phi_dot=0.3, psi_dot=2 / Iz)
@@ -73,7 +73,7 @@ def test_a_rod_of_any_slenderness_moves_as_the_limit_of_slender_rods(Iz):
     tolerance = 1e-9
     assert motion.nutation_period == pytest.approx(limit.nutation_period, rel=tolerance)
     assert motion.turning_angles == pytest.approx(limit.turning_angles, rel=tolerance)
-    times = np.array([0.1, 1.0, 7.0])
+    times = np.array([0.1, 1.0, 7.0]) * min(1.0, 1e14 * Iz)  # within 1e15 turns
     assert motion.at(times).euler_angles.theta == pytest.approx(
         limit.at(times).euler_angles.theta, rel=10 * tolerance
     )

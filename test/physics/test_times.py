@@ -69,14 +69,6 @@ def test_a_driven_motion_at_exact_times_that_are_doubles_is_that_at_these_double
     assert motion.at(ExactTimes(1_953_125)) == motion.at(1 / 512)
 
 
-def test_split_seconds_are_the_exact_times_to_a_hundred_bits():
-    times = ExactTimes(np.array([7, -(10**15) - 3]), 1 / 3, Fraction(10**18 + 1, 4))
-    for high, low, n in zip(*times.split_seconds, times.nanoseconds.tolist(), strict=True):
-        exact = (times.elapsed + Fraction(times.factor) * n) / 10**9
-        parts = Fraction(float(high)) + Fraction(float(low))
-        assert abs(parts / exact - 1) <= Fraction(1, 2**105)
-
-
 def test_shapes_follow_those_of_the_nanoseconds():
     motion = Motion(Top(1.0, 0.5, 0.0), CUSPS)
     assert motion.at(ExactTimes(1)).orientation.shape == (4,)

@@ -118,7 +118,7 @@ def test_nothing_underflows_into_an_error():
     with np.errstate(all="raise"):
         State.from_euler(theta=0.5, phi_dot=5e-324)
         motion = Motion(ARTICLE, CUSPS)
-        motion.at(ExactTimes(np.array([1, 2]), 1e-305))
+        motion.at(ExactTimes(np.array([1, 2]), 1e-90))
         upright = Motion(Top(1, 1, 1), State((0, 1, 0, 0), (2, 0, 0)))
         states = upright.at([360.0, 3600.0])
         upright.top.energy(states)

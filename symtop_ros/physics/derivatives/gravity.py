@@ -16,7 +16,7 @@ nutation multiplies derivatives by 1 + N with N^2 = 0, and n of them by 1 + n N.
 """
 
 import math
-from decimal import Decimal, localcontext
+from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
 from functools import cached_property
 from typing import Any
 
@@ -24,10 +24,11 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.derivatives.collocation import LinearFlow
-from symtop_ros.physics.exact.elementary import find_rest
-from symtop_ros.physics.exact.precise import PRECISE, TWO_PI, split_short
 from symtop_ros.physics.values import Complex, refuse
 
+# Phases are reduced to one turn with these digits.
+PRECISE = Context(prec=50, traps=[InvalidOperation, DivisionByZero])
+TWO_PI = Decimal("6.28318530717958647692528676655900576839433879875021")
 # A step in units of the fastest rate. Half or twice of it changes no derivative by more than 4e-14
 # of the largest one of its kind, which is rounding.
 WIDTH = 1.0
@@ -40,15 +41,17 @@ MOST_STEPS = 2**18  # to a time, or in a nutation; some ten seconds
 class GravityDerivatives:
     """Derivatives of the attitude and of omega by Ix, Iz, Mgl and the start."""
 
-    def __init__(self, motion: Any, nutation_rate: Decimal) -> None:
-        self._motion, self._rate = motion, nutation_rate
+    def __init__(self, motion: Any, nutation_rate: tuple[float, float]) -> None:
+        with localcontext(PRECISE):
+            self._rate = sum(map(Decimal, nutation_rate), Decimal(0))
+            self._period = float(TWO_PI / self._rate) if self._rate else math.inf
+        self._motion = motion
         self._Ix, self._Iz, Mgl = motion.top.moments
         wx, wy, self._spin = motion.start.angular_velocity.tolist()
         self._r, self._m = self._Iz / self._Ix * self._spin, Mgl / self._Ix
         # |u|^2/2 changes by m times the change of height, at most 2.
         fastest = math.hypot(math.hypot(wx, wy), 2 * math.sqrt(abs(self._m))) + abs(self._r)
         self._fastest = max(fastest, SLOWEST)
-        self._period = float(TWO_PI / nutation_rate) if nutation_rate else math.inf
 
     def at(self, times: Real) -> Real:
         """Return the derivatives at times (n,) in s, (n, 6, 9)."""
@@ -222,5 +225,7 @@ def _rotate(turn: Complex, pairs: Real) -> Real:
 def _turn_by_product(rate: float, times: Real) -> Complex:
     """Return e^(i rate t), with all digits of the product."""
     product = rate * times
-    rest = find_rest((times, 0.0), split_short(Decimal(rate)), product)
-    return np.asarray(np.exp(1j * product) * np.exp(1j * rest))
+    with localcontext(PRECISE):
+        pairs = zip(times.tolist(), product.tolist(), strict=True)
+        lost = [float(Decimal(rate) * Decimal(t) - Decimal(p)) for t, p in pairs]
+    return np.asarray(np.exp(1j * product) * np.exp(1j * np.array(lost)))

@@ -37,8 +37,10 @@ class GravityMotion {
       start_.w = -given.x, start_.x = given.w, start_.y = -given.z, start_.z = given.y;
       start_.Mgl = -given.Mgl;
     }
-    is_free_ = is_free(start_);
+    is_free_ = symtop::is_free(start_);
   }
+
+  bool is_free() const { return is_free_; }
 
   // States at times or stamps, up to the first that is too far; returns how many.
   template <class... Times>
@@ -71,6 +73,19 @@ class GravityMotion {
     const double upper = 2 * find_half_angle(near.from_u2, far.from_u2);
     const double lower = 2 * find_half_angle(near.from_u1, far.from_u1);
     angles[0] = from_below ? lower : upper, angles[1] = from_below ? upper : lower;
+  }
+
+  double find_farthest_time() {
+    prepare(STATES);
+    return is_free_ ? free_.steps.farthest : closed_.steps.farthest;
+  }
+
+  // As the sum of two doubles.
+  void find_nutation_rate(double rate[2]) {
+    prepare(SOLVED);
+    const Precise& exact = is_free_ ? free_.nutation_rate : closed_.nutation_rate;
+    rate[0] = exact.to_double();
+    rate[1] = rest_of(exact, rate[0]);
   }
 
   Rates find_rates() {

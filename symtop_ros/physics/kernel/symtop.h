@@ -7,17 +7,41 @@
  *
  * Quaternions are (w, x, y, z), body to world; angular velocities are in the body frame, in rad/s.
  * The z axis of the world points up, that of the body along the axis of the top, away from the
- * pivot. Units are kg m^2, J, s, rad/s, N m, and N m s for friction.
+ * pivot. Euler angles are z-x-z in rad: phi (precession), theta (tilt), psi (spin). Units are
+ * kg m^2, J, s, rad/s, N m, and N m s for friction and for impulses. An orientation that is given
+ * may have a norm of 1 within 1e-3: it is normalised. One that is written has norm 1 to rounding.
+ *
+ * Functions on `count` elements read and write arrays of so many: a shape (count, 4) means four
+ * numbers for each. *done is the number of elements written, from the first on: all of them, or
+ * those before the one that the status is about.
  *
  * There is no global state. Threads may use different motions, and the same one, at the same time.
+ *
  * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. Without that option
- * a compiler may fuse products and sums, and the last bits are others.
+ * a compiler may fuse products and sums, and the last bits are others. With -ffast-math or -Ofast it
+ * does not compile: give -fno-fast-math after them. What a compiler does not announce, such as
+ * -fassociative-math, and a thread that does not round to the nearest or flushes subnormal numbers
+ * to zero, is found when a function is called: the status is SYMTOP_BAD_ARITHMETIC, and nothing is
+ * written. (A library that was linked with fast-math sets the latter for the thread that loads it.)
  */
 #ifndef SYMTOP_H
 #define SYMTOP_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#define SYMTOP_VERSION "0.4.0.dev0"
+
+/* Of a shared library, the functions below are exported. */
+#ifndef SYMTOP_API
+#if defined(_WIN32) && defined(SYMTOP_SHARED)
+#define SYMTOP_API __declspec(dllexport)
+#elif defined(__GNUC__)
+#define SYMTOP_API __attribute__((visibility("default")))
+#else
+#define SYMTOP_API
+#endif
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -46,31 +70,38 @@ typedef enum {
   SYMTOP_TOO_FAR,   /* more than 1e15 turns from the start */
   SYMTOP_TOO_FAST,  /* the driven motion becomes too fast on the way */
   SYMTOP_TOO_STIFF, /* friction stops the top so soon that the way takes too many steps */
-  SYMTOP_MORE_STEPS /* the allowed steps did not suffice: call again, and the integration goes on */
+  SYMTOP_MORE_STEPS, /* the allowed steps did not suffice: call again, and the integration goes on */
+  SYMTOP_BAD_ARITHMETIC, /* of the compiler or of the calling thread: see above */
+  SYMTOP_BAD_ANGLES,
+  SYMTOP_BAD_KICK,
+  SYMTOP_VERTICAL /* phi' is undefined on the vertical; an angular impulse works there */
 } symtop_status;
 
+/* The version of the library; SYMTOP_VERSION is that of the header. */
+SYMTOP_API const char* symtop_version(void);
+
 /* A sentence without a full stop: "NAME must be CONDITION". It is never to be freed. */
-const char* symtop_describe_status(symtop_status status);
+SYMTOP_API const char* symtop_describe_status(symtop_status status);
 
 /* Make a motion. On success it is written to *motion and has to be freed, else *motion is null. */
-symtop_status symtop_new(const symtop_start* start, symtop_motion** motion);
+SYMTOP_API symtop_status symtop_new(const symtop_start* start, symtop_motion** motion);
 
-void symtop_free(symtop_motion* motion); /* null is allowed */
+SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 
 /* Make the motion that goes on from a time with another torque, such as a hand that begins to push.
  * Its times count from there. */
-symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
+SYMTOP_API symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
                               symtop_motion** continued);
 
 /* The state at one time in s of either sign. A driven motion is integrated as far as it takes. */
-symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],
+SYMTOP_API symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],
                            double angular_velocity[3]);
 
 /* States at `count` times in s, in any order; driven motions take least time if they lead away from
  * the start. Orientations are (count, 4), angular velocities (count, 3). Driven motions take at
  * most `most_steps` steps, INFINITY for as many as are needed. *written is the number of states
  * written, from the first on: all of them, or those before the one that the status is about. */
-symtop_status symtop_states(symtop_motion* motion, const double* times, size_t count,
+SYMTOP_API symtop_status symtop_states(symtop_motion* motion, const double* times, size_t count,
                             double most_steps, double* orientation, double* angular_velocity,
                             size_t* written);
 
@@ -82,14 +113,14 @@ typedef struct {
   double elapsed[4];
 } symtop_clock;
 
-symtop_status symtop_states_of_clock(symtop_motion* motion, const symtop_clock* clock,
+SYMTOP_API symtop_status symtop_states_of_clock(symtop_motion* motion, const symtop_clock* clock,
                                      const int64_t* stamps, size_t count, double most_steps,
                                      double* orientation, double* angular_velocity,
                                      size_t* written);
 
 /* Integrate towards a time in at most so many steps. *reached is the time in s up to which states
  * now take no integration; for a motion that is not driven it is the time itself. */
-symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps, double* reached);
+SYMTOP_API symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps, double* reached);
 
 typedef enum {
   SYMTOP_REGULAR,          /* the tilt is constant */
@@ -99,16 +130,17 @@ typedef enum {
   SYMTOP_THROUGH_THE_POLE, /* the axis passes through the vertical */
   SYMTOP_ASYMPTOTIC,       /* the axis approaches the vertical for ever */
   SYMTOP_SLEEPING,         /* the axis rests on the vertical */
-  SYMTOP_DRIVEN            /* friction or a torque acts */
+  SYMTOP_DRIVEN,           /* friction or a torque acts */
+  SYMTOP_UNKNOWN_KIND      /* the arithmetic is bad: see above; numbers are NaN */
 } symtop_kind;
 
-symtop_kind symtop_find_kind(symtop_motion* motion);
+SYMTOP_API symtop_kind symtop_find_kind(symtop_motion* motion);
 
 /* Of a driven motion the following ones are those that would follow from the start under gravity
  * alone. */
 
 /* The smallest and the largest angle theta in rad between the axis and the vertical. */
-void symtop_find_turning_angles(symtop_motion* motion, double angles[2]);
+SYMTOP_API void symtop_find_turning_angles(symtop_motion* motion, double angles[2]);
 
 typedef struct {
   double nutation_period;         /* s; infinite if theta does not return */
@@ -118,7 +150,202 @@ typedef struct {
   int spin_reverses;              /* 1 if psi' takes both signs */
 } symtop_rates;
 
-void symtop_find_rates(symtop_motion* motion, symtop_rates* rates);
+SYMTOP_API void symtop_find_rates(symtop_motion* motion, symtop_rates* rates);
+
+/* 1e15 turns of the fastest phase in s: there are no states from there on. Infinite for a driven
+ * motion. */
+SYMTOP_API void symtop_find_farthest_time(symtop_motion* motion, double* t);
+
+/* 2 pi over the nutation period in rad/s, as the sum of two doubles; 0 if theta does not return. */
+SYMTOP_API void symtop_find_nutation_rate(symtop_motion* motion, double rate[2]);
+
+typedef enum {
+  SYMTOP_CLOSED_FORM, /* elliptic functions */
+  SYMTOP_FREE,        /* circular functions: Mgl is 0, or the axis rests on the vertical */
+  SYMTOP_TAYLOR       /* series in time: friction or a torque acts */
+} symtop_engine;
+
+SYMTOP_API symtop_engine symtop_find_engine(symtop_motion* motion);
+
+/* ---- Many motions ---- */
+
+/* Each of `count` motions at the same `times`, of which there are `each`. Orientations are (count,
+ * each, 4), angular velocities (count, each, 3). left (count, each) is 0 for a state that was
+ * written, and 1 for others: beyond 1e15 turns, or of a start that is refused. */
+SYMTOP_API symtop_status symtop_states_of_many(const symtop_start* starts, size_t count,
+                                               const double* times, size_t each,
+                                               double* orientation, double* angular_velocity,
+                                               uint8_t* left);
+
+/* What is constant in a motion, as the functions above find it. */
+typedef struct {
+  symtop_kind kind;
+  symtop_engine engine;
+  double turning_angles[2];
+  symtop_rates rates;
+} symtop_constants;
+
+SYMTOP_API symtop_status symtop_describe_many(const symtop_start* starts, size_t count,
+                                              symtop_constants* constants, size_t* done);
+
+/* ---- Euler angles ---- */
+
+/* States of angles (count, 3) and rates (count, 3), each phi, theta, psi. Angles of any size: whole
+ * turns are taken off exactly. */
+SYMTOP_API symtop_status symtop_from_angles(const double* angles, const double* rates, size_t count,
+                                            double* orientation, double* angular_velocity,
+                                            size_t* done);
+
+/* Angles, 0 <= theta <= pi and the others within pi; phi is 0 on the vertical. */
+SYMTOP_API symtop_status symtop_find_angles(const double* orientation, size_t count,
+                                            double* angles);
+
+/* Rates phi', theta', psi'; on the vertical phi' is 0, and theta' the rate of the axis. */
+SYMTOP_API symtop_status symtop_find_angle_rates(const double* orientation,
+                                                 const double* angular_velocity, size_t count,
+                                                 double* rates);
+
+/* ---- Regular precession ---- */
+
+typedef struct {
+  double Ix, Iz, Mgl; /* as in symtop_start */
+} symtop_top;
+
+/* What is held, with theta', while phi' changes. */
+typedef enum {
+  SYMTOP_SPIN_RATE,     /* psi': the article's comparison */
+  SYMTOP_SPIN_MOMENTUM, /* Iz omega_z: a push on the axle, which cannot change it */
+  SYMTOP_NOTHING        /* by an angular impulse */
+} symtop_hold;
+
+/* Rates phi' at which the tilt is constant, (count, 2): slow and fast, NaN for what there is not.
+ * `spins` are psi', or omega_z if the spin momentum is held. They are the nearest doubles to the
+ * exact rates, but |cos(theta)| <= 2^-52 counts as 0: no double is exactly pi/2. */
+SYMTOP_API symtop_status symtop_find_regular_rates(const symtop_top* tops, const double* thetas,
+                                                   const double* spins, size_t count,
+                                                   symtop_hold hold, double* rates);
+
+/* Ix theta''/sin(theta) in N m, as the sum of its parts for an observer who precesses with the top:
+ * gravity, Coriolis and centrifugal torque about the line of nodes; and sin(theta): (count, 4). */
+SYMTOP_API symtop_status symtop_find_tilt_torques(const symtop_top* tops, const double* thetas,
+                                                  const double* phi_dots, const double* psi_dots,
+                                                  size_t count, double* torques);
+
+/* theta'' in rad/s^2 at the tilt of a start, for `count` rates phi'. */
+SYMTOP_API symtop_status symtop_find_tilt_accelerations(const symtop_start* start, symtop_hold hold,
+                                                        const double* phi_dots, size_t count,
+                                                        double* theta_ddots);
+
+/* ---- Kicks ---- */
+
+typedef enum {
+  SYMTOP_NEW_RATE,       /* amount: the new phi' in rad/s */
+  SYMTOP_CHANGE_OF_RATE, /* amount: what is added to phi' */
+  SYMTOP_FACTOR_OF_RATE, /* amount: what phi' is multiplied by */
+  SYMTOP_IMPULSE         /* amount: an angular impulse (count, 3) in the world frame, N m s */
+} symtop_kick_kind;
+
+/* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). */
+SYMTOP_API symtop_status symtop_kick(const symtop_top* tops, const double* orientation,
+                                     const double* angular_velocity, symtop_kick_kind kind,
+                                     symtop_hold hold, const double* amounts, size_t count,
+                                     double* kicked, size_t* done);
+
+/* ---- Verdicts ---- */
+
+typedef enum { SYMTOP_TOP, SYMTOP_AXIS } symtop_subject; /* the axis alone if Mgl < 0 */
+typedef enum { SYMTOP_RISES, SYMTOP_FALLS, SYMTOP_STAYS } symtop_direction;
+typedef enum { SYMTOP_RULE_SAYS_NOTHING, SYMTOP_RULE_HOLDS, SYMTOP_RULE_FAILS } symtop_rule;
+
+/* Place of a rate among the regular ones. */
+typedef enum {
+  SYMTOP_NO_REGULAR_RATE,
+  SYMTOP_AT_THE_ONLY_RATE,
+  SYMTOP_ABOVE_THE_ONLY_RATE,
+  SYMTOP_BELOW_THE_ONLY_RATE,
+  SYMTOP_AT_THE_SLOW_RATE,
+  SYMTOP_AT_THE_FAST_RATE,
+  SYMTOP_BETWEEN_THE_RATES,
+  SYMTOP_OUTSIDE_THE_RATES
+} symtop_place_kind;
+
+typedef struct {
+  symtop_place_kind kind;
+  double rate;
+  double regular_rates[2]; /* NaN for what there is not */
+} symtop_place;
+
+typedef enum {
+  SYMTOP_HURRIED,    /* by a factor above 1: the rule holds if theta'' is lower with the kick */
+  SYMTOP_DELAYED,    /* by a factor below 1: it holds if theta'' is higher */
+  SYMTOP_IF_HURRIED, /* the same of a kick that is only considered */
+  SYMTOP_IF_DELAYED,
+  SYMTOP_ANGULAR_IMPULSE, /* in these cases it says nothing */
+  SYMTOP_NO_PRECESSION,   /* phi' = 0 */
+  SYMTOP_UNCHANGED,       /* the factor is 1 */
+  SYMTOP_REVERSED,        /* the factor is negative */
+  SYMTOP_NO_EFFECT,       /* theta'' is the same with the kick as without it */
+  SYMTOP_VERTICAL_UNDEFINED, /* the axis passes the vertical */
+  SYMTOP_VERTICAL_STABLE,    /* it rests there, and stays near it */
+  SYMTOP_VERTICAL_UNSTABLE
+} symtop_reason_kind;
+
+/* Why Perry's rule holds, fails or says nothing. On the vertical the numbers are NaN. */
+typedef struct {
+  symtop_reason_kind kind;
+  symtop_rule rule;
+  double before, after;                   /* phi' without the kick and with it */
+  double theta_ddot_without, theta_ddot; /* theta'' in rad/s^2 */
+  symtop_place place;                     /* of phi' with a kick, or of phi' now if it is considered */
+} symtop_reason;
+
+typedef struct {
+  double rate;          /* mean phi' in rad/s; NaN if undefined */
+  double turns;         /* precession in a nutation */
+  double fast_top_rate; /* Mgl/p_psi; NaN if p_psi = 0 */
+  int is_fast;          /* 1 if that is meant for this top: p_psi^2 > 4 Ix |Mgl|, Mgl not 0 */
+  int spin_reverses;
+} symtop_average;
+
+typedef enum { SYMTOP_AS_HIGH, SYMTOP_HIGHER, SYMTOP_LOWER } symtop_lift_kind;
+
+typedef struct {
+  symtop_lift_kind kind;
+  double amount; /* rad */
+} symtop_lift;
+
+/* Facts after a kick that are contrary to the direction in which theta'' changed. */
+typedef enum {
+  SYMTOP_FACT_RISES = 1,
+  SYMTOP_FACT_FALLS = 2,
+  SYMTOP_FACT_HIGHEST_HIGHER = 4,
+  SYMTOP_FACT_HIGHEST_LOWER = 8,
+  SYMTOP_FACT_LOWEST_HIGHER = 16,
+  SYMTOP_FACT_LOWEST_LOWER = 32
+} symtop_fact;
+
+typedef struct {
+  symtop_subject subject;
+  symtop_direction direction; /* of the axis from the start on, or from the kick on */
+  double turning_angles[2];   /* under gravity alone */
+  symtop_kind motion;
+  symtop_reason reason;
+  symtop_average average; /* NaN for a driven motion */
+  double factor;          /* of phi'; NaN for an angular impulse and on the vertical */
+  /* after a kick, compared with none: */
+  symtop_lift highest, lowest;
+  unsigned contrary_facts; /* the sum of symtop_fact */
+} symtop_verdict;
+
+/* What follows from each start under gravity alone, and Perry's rule for multiplying phi' by a
+ * factor there. */
+SYMTOP_API symtop_status symtop_judge(const symtop_start* starts, const double* factors,
+                                      size_t count, symtop_hold hold, symtop_verdict* verdicts,
+                                      size_t* done);
+
+/* What a kick changed that led from one start to another of the same orientation. */
+SYMTOP_API symtop_status symtop_judge_kick(const symtop_start* before, const symtop_start* after,
+                                           symtop_hold hold, symtop_verdict* verdict);
 
 #ifdef __cplusplus
 }

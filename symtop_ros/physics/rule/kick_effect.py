@@ -1,40 +1,39 @@
 """The consequences of a kick: what it changed, and Perry's rule for it, as a record."""
 
+import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
-from symtop_ros.physics.exact.kind import Kind
-from symtop_ros.physics.kicks import Hold, validate_hold
+from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, pack_start
+from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.door import KINDS, Kind
+from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.rule.perry import (
+    DIRECTIONS,
+    SUBJECTS,
     Direction,
     Reason,
     Rule,
     Subject,
-    explain_change,
-    find_change,
+    read_reason,
 )
-from symtop_ros.physics.rule.verdict import (
-    Average,
-    explain_vertical,
-    find_average,
-    find_direction,
-)
+from symtop_ros.physics.rule.verdict import Average, read_average
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import validate_one
 from symtop_ros.wording import write
 
-# Turning angles that differ by less are reported as equal: next to a pole, or where two roots of
-# the cubic nearly meet, an angle is the square root of a quantity that is known to EPS.
-SAME_ANGLE = 1e-7  # rad
+LiftKind = Literal["unchanged", "higher", "lower"]
 Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
+LIFTS: tuple[LiftKind, ...] = get_args(LiftKind)  # in the order of `symtop_lift_kind`
+FACTS: tuple[Fact, ...] = get_args(Fact)  # the bits of `symtop_fact`
 
 
 @dataclass(frozen=True, slots=True)
 class Lift:
     """Rise of a turning point by a kick: what became higher or lower, and by how much (rad)."""
 
-    kind: Literal["higher", "lower", "unchanged"]
+    kind: LiftKind
     amount: float
 
 
@@ -132,57 +131,29 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
     validate_one(motion, "motion")
-    top, after = motion.top, motion.start
-    if hold is not None:
-        hold = validate_hold(hold)
-    direction = find_direction(top, after)
-    if before.is_vertical:
-        factor, reason = None, explain_vertical(top, after)
-    else:
-        tilt, was, now, factor = find_change(top, before, after, hold)
-        reason = explain_change(tilt, was, now, factor, is_done=True)
-    highest, lowest = _compare(Motion(top, before).turning_angles, motion.turning_angles)
+    held = len(HOLDS) if hold is None else HOLDS.index(validate_hold(hold))
+    alone = pack_start(motion.top, before, NO_FRICTION, NO_TORQUE)
+    found = door.judge_kick(alone, motion.packed_start, held)
+    reason, (low, high) = read_reason(found), found.turning_angles
     return KickVerdict(
         axis="vertical" if before.is_vertical else "tilted",
         hold=hold,
-        factor=factor,
+        factor=None if math.isnan(found.factor) else found.factor,
         before=reason.before,
         after=reason.after,
-        motion=motion.kind,
-        subject=reason.subject,
-        direction=direction,
-        turning_angles=motion.turning_angles,
+        motion=KINDS[found.motion],
+        subject=SUBJECTS[found.subject],
+        direction=DIRECTIONS[found.direction],
+        turning_angles=(low, high),
         driven=motion.is_driven,
         reason=reason,
-        highest=highest,
-        lowest=lowest,
-        contradiction=_find_contradiction(reason, direction, highest, lowest),
-        average=None if motion.is_driven else find_average(motion),
+        highest=Lift(LIFTS[found.highest.kind], found.highest.amount),
+        lowest=Lift(LIFTS[found.lowest.kind], found.lowest.amount),
+        contradiction=_read_contradiction(found.contrary_facts, reason),
+        average=read_average(found.average),
     )
 
 
-def _compare(before: tuple[float, float], after: tuple[float, float]) -> list[Lift]:
-    """Return the rise of the highest and of the lowest point, where rounding does not hide it."""
-    lifts = []
-    for was, now in zip(before, after, strict=True):
-        change = was - now if abs(was - now) > SAME_ANGLE else 0.0
-        kind: Literal["higher", "lower"] = "higher" if change > 0 else "lower"
-        lifts.append(Lift(kind if change else "unchanged", abs(change)))
-    return lifts
-
-
-def _find_contradiction(
-    reason: Reason, direction: Direction, highest: Lift, lowest: Lift
-) -> Contradiction | None:
-    """Return the facts that are contrary to the direction in which theta'' changed."""
-    if reason.rule is None:
-        return None
-    is_raised = (reason.rule == "holds") == (reason.kind == "hurried")
-    facts: list[Fact] = []
-    if direction == ("falls" if is_raised else "rises"):
-        facts.append(direction)
-    if highest.kind == ("lower" if is_raised else "higher"):
-        facts.append("highest_lower" if is_raised else "highest_higher")
-    if lowest.kind == ("lower" if is_raised else "higher"):
-        facts.append("lowest_lower" if is_raised else "lowest_higher")
-    return Contradiction(reason.rule, reason.subject, tuple(facts)) if facts else None
+def _read_contradiction(bits: int, reason: Reason) -> Contradiction | None:
+    facts = tuple(fact for place, fact in enumerate(FACTS) if bits >> place & 1)
+    return Contradiction(reason.rule, reason.subject, facts) if facts and reason.rule else None

@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.kicks import Hold, validate_hold
-from symtop_ros.physics.precession import TiltQuadratic
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
+    EPS,
+    START_ROUNDING,
     ignore_underflow,
     validate_array,
     validate_number,
@@ -111,7 +112,7 @@ def compare_hurried(
         kicked_psi_dot = psi_dot - (factor - 1) * phi_dot * u
     before = find_other_turning_angle(top, theta, phi_dot, psi_dot)
     after = find_other_turning_angle(top, theta, factor * phi_dot, kicked_psi_dot)
-    change = TiltQuadratic.of(top, u, spin, hold).change(phi_dot, factor * phi_dot)
+    change = _find_change(top, u, spin, phi_dot, factor, hold)
     applies = (phi_dot != 0) & (np.sin(theta) != 0) & (0 <= factor != 1) & (change != 0)
     holds = applies & (change * math.copysign(1.0, factor - 1) < 0)
     return HurryEffect(
@@ -122,12 +123,25 @@ def compare_hurried(
     )
 
 
+def _find_change(top: Top, u: Real, spin: Real, phi_dot: Real, factor: float, hold: Hold) -> Real:
+    """Return the change of Ix theta''/sin(theta) by the kick, in N m; 0 if it is rounding.
+
+    It is that of a p^2 - b p + Mgl (`kernel/rule/regular.hpp`): the change of p times a slope.
+    """
+    cosine = np.where(np.abs(u) <= EPS, 0.0, u)
+    a = (top.Ix if hold == "spin_momentum" else top.Ix - top.Iz) * cosine
+    b, total = top.Iz * spin, phi_dot + factor * phi_dot
+    slope = a * total - b
+    is_rounding = np.abs(slope) <= START_ROUNDING * (np.abs(a * total) + np.abs(b))
+    return np.where(is_rounding, 0.0, (factor - 1) * phi_dot * slope)
+
+
 def find_other_turning_angle(top: Top, theta: Real, phi_dot: Real, psi_dot: Real) -> Real:
     """Return the angle (...), in rad, at which theta' vanishes again after theta' = 0 at theta.
 
     f(s) = s (f1 + f2 s + f3 s^2). The angle belongs to the root of the quadratic that is nearest to
-    s = 0 on the side where f is positive, the side of the sign of f1. As in `solve_quadratic`, the
-    roots are q/f3 and f1/q, and neither is formed by a subtraction that cancels.
+    s = 0 on the side where f is positive, the side of the sign of f1. The roots
+    are q/f3 and f1/q (Numerical Recipes, section 5.6): neither is a difference that cancels.
     """
     u, sine_squared = np.cos(theta), np.sin(theta) ** 2
     # In this unit of time, a power of two, no product of rates overflows.

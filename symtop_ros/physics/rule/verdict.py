@@ -3,30 +3,28 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.kicks import Hold, validate_hold
-from symtop_ros.physics.motion import Motion
-from symtop_ros.physics.precession import stack_rates
+from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
+from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
 from symtop_ros.physics.rule.perry import (
+    DIRECTIONS,
+    SUBJECTS,
+    VERTICAL,
     Direction,
     Reason,
     Subject,
-    TiltAcceleration,
-    VerticalCase,
-    explain_change,
-    find_precession,
-    name_subject,
+    read_reason,
 )
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
-    START_ROUNDING,
     fit_shapes,
     refuse,
     validate_array,
@@ -196,94 +194,65 @@ def perrys_rule(
     hold = validate_hold(hold)
     if top.shape or state.orientation.ndim > 1 or np.ndim(factor):
         return _judge_each(top, state, validate_array("factor", factor), hold)
-    return _judge(top, state, validate_number("factor", factor), hold)
+    factor = validate_number("factor", factor)
+    found = _judge(top, state, np.array([factor]), (), hold)
+    return _read(door.VerdictRecord.from_buffer(found))
+
+
+def _judge(
+    top: Top, state: State, factors: Real, shape: tuple[int, ...], hold: Hold
+) -> NDArray[Any]:
+    """Return the kernel's verdicts (n,) on tops and states of a shape, and on factors (n,)."""
+    starts = list_starts(top, state, NO_FRICTION, NO_TORQUE, shape)
+    verdicts, status = door.judge(starts, factors, HOLDS.index(hold))
+    if status == door.BAD_KICK:
+        condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
+        raise refuse("factor", condition, float(factors[len(verdicts)]))
+    door.demand(status)
+    return verdicts
+
+
+def _read(found: door.VerdictRecord) -> Verdict:
+    reason = read_reason(found)
+    low, high = found.turning_angles
+    return Verdict(
+        subject=SUBJECTS[found.subject],
+        direction=DIRECTIONS[found.direction],
+        turning_angles=(low, high),
+        regular_rates=reason.place.regular_rates if reason.place else (),
+        rule_holds=None if reason.rule is None else reason.rule == "holds",
+        reason=reason,
+        average=read_average(found.average),
+    )
+
+
+def read_average(found: door.AverageRecord) -> Average | None:
+    """Return mean precession and its approximation; None if the mean is undefined."""
+    if not math.isfinite(found.turns):
+        return None
+    speed: Literal["fast", "slow"] = "fast" if found.is_fast else "slow"
+    reverses = bool(found.spin_reverses)
+    return Average(found.rate, found.turns, speed, found.fast_top_rate, reverses)
 
 
 def _judge_each(top: Top, state: State, factors: Real, hold: Hold) -> Verdicts:
     """Return the verdicts on tops, states and factors that are broadcast together."""
     shapes = top.shape, state.orientation.shape[:-1], factors.shape
     shape = fit_shapes("top, state and factor", *shapes)
-    moments = [np.broadcast_to(each, shape) for each in top.moments]
-    q, omega = (np.broadcast_to(part, (*shape, part.shape[-1])) for part in state.parts)
-    factors = np.broadcast_to(factors, shape)
-    verdicts = [
-        _judge(
-            Top(*(float(each[n]) for each in moments)),
-            State(q[n], omega[n]),
-            float(factors[n]),
-            hold,
-        )
-        for n in np.ndindex(shape)
-    ]
-    angles = np.array([verdict.turning_angles for verdict in verdicts]).reshape(-1, 2).T
-    low, high = angles.reshape(2, *shape)
-    holds = [verdict.rule_holds for verdict in verdicts]
+    spread = np.array(np.broadcast_to(factors, shape)).reshape(-1)
+    found = _judge(top, state, spread, shape, hold)
+
+    def collect(values: Any) -> Any:
+        return np.ascontiguousarray(values).reshape(shape)
+
+    reasons, angles = found["reason"], found["turning_angles"]
+    rates = np.where(
+        (reasons["kind"] < VERTICAL)[:, None], reasons["place"]["regular_rates"], np.nan
+    )
     return Verdicts(
-        direction=np.array([verdict.direction for verdict in verdicts], np.str_).reshape(shape),
-        turning_angles=(low, high),
-        regular_rates=stack_rates([verdict.regular_rates for verdict in verdicts], shape),
-        rule_applies=np.array([each is not None for each in holds], np.bool_).reshape(shape),
-        rule_holds=np.array([each is True for each in holds], np.bool_).reshape(shape),
+        direction=collect(np.array(DIRECTIONS)[found["direction"]]),
+        turning_angles=(collect(angles[:, 0]), collect(angles[:, 1])),
+        regular_rates=(collect(rates[:, 0]), collect(rates[:, 1])),
+        rule_applies=collect(reasons["rule"] != 0),
+        rule_holds=collect(reasons["rule"] == 1),
     )
-
-
-def _judge(top: Top, state: State, factor: float, hold: Hold) -> Verdict:
-    motion = Motion(top, state)
-    rates: tuple[float, ...] = ()
-    if state.is_vertical:
-        reason = explain_vertical(top, state)
-    else:
-        rate, tilt = find_precession(state), TiltAcceleration.of(top, state, hold)
-        if abs(factor * rate) > LARGEST_ANGULAR_VELOCITY:
-            condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-            raise refuse("factor", condition, factor)
-        reason = explain_change(tilt, rate, factor * rate, factor, is_done=False)
-        rates = tilt.quadratic.roots
-    return Verdict(
-        subject=reason.subject,
-        direction=find_direction(top, state),
-        turning_angles=motion.turning_angles,
-        regular_rates=rates,
-        rule_holds=None if reason.rule is None else reason.rule == "holds",
-        reason=reason,
-        average=find_average(motion),
-    )
-
-
-def find_average(motion: Motion) -> Average | None:
-    """Return mean precession and its approximation; None if the mean is undefined."""
-    turns = motion.precession_per_nutation
-    if not math.isfinite(turns):
-        return None
-    top, omega_z = motion.top, float(motion.start.angular_velocity[2])
-    # The approximation is for p_psi^2 >> 4 Ix |Mgl|; below that number it is not even a guess.
-    fast = top.Mgl and abs(omega_z) > 2 * math.sqrt(top.Ix) * math.sqrt(abs(top.Mgl)) / top.Iz
-    return Average(
-        motion.mean_precession_rate,
-        turns,
-        "fast" if fast else "slow",
-        motion.fast_top_precession_rate,
-        motion.spin_reverses,
-    )
-
-
-def find_direction(top: Top, state: State) -> Direction:
-    """Return the direction of the axis from a state on."""
-    moving = float(np.hypot(*state.angular_velocity[:2]))
-    if state.is_vertical:  # a moving axis leaves the upper pole downwards, the lower one upwards
-        upright = state.vertical[2] > 0
-        return "stays" if moving == 0 else "falls" if upright else "rises"
-    change = float(state.euler_rates.theta)
-    if abs(change) <= START_ROUNDING * float(abs(state.angular_velocity).max()):
-        change = TiltAcceleration.of(top, state, "spin_rate").at(state.euler_rates.phi)
-    if change == 0:
-        return "stays"
-    return "rises" if change < 0 else "falls"
-
-
-def explain_vertical(top: Top, state: State) -> Reason:
-    """Return why the rule says nothing about an axis on the vertical."""
-    kind: VerticalCase = "stable" if top.sleeping_is_stable(state) else "unstable"
-    if any(state.angular_velocity[:2]):
-        kind = "undefined"
-    return Reason(kind, None, name_subject(top.Mgl))

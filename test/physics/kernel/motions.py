@@ -3,15 +3,14 @@
 import struct
 from fractions import Fraction
 from functools import cache
-from typing import get_args
 
 import numpy as np
 from physics.driven_families import FAMILIES as DRIVEN_FAMILIES
 from physics.driven_families import DrivenCase
 from physics.tops import FAMILIES, random_case
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, accelerated
-from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics.kernel.door import KINDS
 
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
 TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
@@ -49,7 +48,7 @@ class Sample:
     def expect(self):
         """Return what the program writes, as doubles."""
         motion, rates = self.motion, self.motion._rates
-        kind = get_args(Kind).index(motion.kind)
+        kind = KINDS.index(motion.kind)
         constants = [kind, *motion.turning_angles, *map(float, rates)]
         one_by_one = [motion.at(float(t)) for t in self.times]
         states = [*one_by_one, motion.at(self.times), motion.at(self.clock)]
@@ -110,10 +109,9 @@ def normalize(numbers):
 def list_many():
     """About two thousand samples, as bytes for a program and as what it writes."""
     samples = list_samples(range(210), range(34))
-    assert len(samples) >= (2000 if accelerated else 1500)
+    assert len(samples) >= 2000
     return encode(samples), expect(samples)
 
 
 def list_samples(gravity, driven):
-    """Python alone has other bits for driven motions: they are compared with the kernel's."""
-    return [*list_gravity(gravity), *(list_driven(driven) if accelerated else ())]
+    return [*list_gravity(gravity), *list_driven(driven)]

@@ -3,14 +3,13 @@
 import base64
 import subprocess
 from pathlib import Path
-from typing import get_args
 
 import numpy as np
 import pytest
 from browser import running_browser
 from physics.kernel.motions import encode, expect, list_many, list_samples, normalize
 
-from symtop_ros.physics.exact.kind import Kind
+from symtop_ros.physics.kernel.door import KINDS
 from workshop.kernel_wasm import DIGEST, FUNCTIONS, MODULE, SOURCES, digest_sources
 
 ROOT = Path(__file__).parents[3]
@@ -42,7 +41,7 @@ def to_text(data):
 
 
 def compare(page, samples, expected):
-    arguments = [list(get_args(Kind)), to_text(MODULE.read_bytes()), to_text(samples)]
+    arguments = [list(KINDS), to_text(MODULE.read_bytes()), to_text(samples)]
     result = page.evaluate(
         "([kinds, module, samples]) => print_motions(Kernel, kinds, module, samples)", arguments
     )
@@ -59,7 +58,7 @@ def test_the_module_has_every_function_of_the_header():
     for name in FUNCTIONS:
         assert f"symtop_{name}(" in header
         assert f"symtop_{name}".encode() in MODULE.read_bytes()
-    assert header.count("(symtop_motion* motion") + header.count("(const symtop_start* s") == 10
+    assert header.count("\nSYMTOP_API ") == len(FUNCTIONS)
 
 
 def test_two_thousand_motions_have_the_bits_of_python(page):

@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 from physics.refusals import refused
-from physics.tops import distance, seeds
+from physics.tops import seeds
 
 from symtop_ros.physics import Friction, Motion, State, Top
 
@@ -55,14 +55,3 @@ def test_weak_motions_are_finite_and_have_norm_one(seed):
         state = Motion(*arguments).at(rng.choice([1e-3, 1.0, 30.0]))
         assert np.isfinite(state.angular_velocity).all(), arguments
         assert abs(np.linalg.norm(state.orientation) - 1) < 1e-15, arguments
-
-
-@pytest.mark.parametrize("seed", seeds(2, 20))
-def test_weak_motions_are_those_of_python_alone(seed):
-    rng = random.Random(seed)
-    for _ in range(CASES // 2):
-        arguments, t = random_motion(rng), rng.choice([1e-3, 1.0])
-        kernel, alone = (Motion(*arguments, pure=pure).at(t) for pure in (False, True))
-        assert distance(kernel, alone) < 1e-15, arguments  # both within some eps
-        size = np.abs(alone.angular_velocity).max() or 1.0
-        assert np.abs(kernel.angular_velocity - alone.angular_velocity).max() <= 1e-14 * size

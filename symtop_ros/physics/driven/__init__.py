@@ -1,1 +1,0 @@
-"""Motion with friction or an applied torque, as Taylor series. Imported by `Motion` alone."""

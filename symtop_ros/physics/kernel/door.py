@@ -1,0 +1,532 @@
+"""The compiled kernel: the functions of symtop.h, by ctypes.
+
+This is the one place of Python that knows the library. Every function is declared with its types:
+an undeclared one would take a buffer by value, and end the process. Buffers belong to a call, so
+that threads may use one motion together. The library is loaded when it is first needed.
+"""
+
+import ctypes
+import hashlib
+import sys
+from ctypes import POINTER, Structure, byref, c_double, c_int, c_int64, c_size_t, c_uint8, c_uint
+from functools import cache
+from pathlib import Path
+from struct import Struct
+from types import SimpleNamespace
+from typing import Any, ClassVar, Literal, NamedTuple, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.arrays import Real
+from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, refuse
+
+FOLDER = Path(__file__).parent
+FILE = FOLDER / f"libsymtop{ {'win32': '.dll', 'darwin': '.dylib'}.get(sys.platform, '.so') }"
+SOURCES = (".cpp", ".hpp", ".h")
+AGAIN = "install symtop_ros again, from a checkout by `pip install --editable .`"
+
+# Names in the order in which symtop.h has them.
+Kind = Literal[
+    "regular",
+    "unidirectional",
+    "cusps",
+    "looping",
+    "through the pole",
+    "asymptotic",
+    "sleeping",
+    "driven",
+]
+Engine = Literal["closed form", "free", "taylor"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
+ENGINES: tuple[Engine, ...] = get_args(Engine)
+# Statuses of `symtop_status`.
+OK, NO_MEMORY, BAD_ANGULAR_VELOCITY, TOO_FAR, TOO_FAST, MORE_STEPS = 0, 1, 4, 8, 9, 11
+TOO_STIFF, BAD_ARITHMETIC, BAD_KICK, VERTICAL = 10, 12, 14, 15
+START = 15  # numbers of `symtop_start`
+STATE = 7  # of an orientation and an angular velocity
+
+BLOCK = 256  # elements of a call that takes up to 0.1 ms for each
+
+Numbers = POINTER(c_double)
+State, Pair = c_double * STATE, c_double * 2
+
+
+class Clock(Structure):
+    """`symtop_clock`."""
+
+    _fields_: ClassVar = [("factor", c_double), ("elapsed", c_double * 4)]
+
+
+class RatesRecord(Structure):
+    """`symtop_rates`."""
+
+    _fields_: ClassVar = [
+        ("nutation_period", c_double),
+        ("mean_precession_rate", c_double),
+        ("mean_spin_rate", c_double),
+        ("precession_per_nutation", c_double),
+        ("spin_reverses", c_int),
+    ]
+
+
+class PlaceRecord(Structure):
+    """`symtop_place`."""
+
+    _fields_: ClassVar = [("kind", c_int), ("rate", c_double), ("regular_rates", Pair)]
+
+
+class ReasonRecord(Structure):
+    """`symtop_reason`."""
+
+    _fields_: ClassVar = [
+        ("kind", c_int),
+        ("rule", c_int),
+        ("before", c_double),
+        ("after", c_double),
+        ("theta_ddot_without", c_double),
+        ("theta_ddot", c_double),
+        ("place", PlaceRecord),
+    ]
+
+
+class AverageRecord(Structure):
+    """`symtop_average`."""
+
+    _fields_: ClassVar = [
+        ("rate", c_double),
+        ("turns", c_double),
+        ("fast_top_rate", c_double),
+        ("is_fast", c_int),
+        ("spin_reverses", c_int),
+    ]
+
+
+class LiftRecord(Structure):
+    """`symtop_lift`."""
+
+    _fields_: ClassVar = [("kind", c_int), ("amount", c_double)]
+
+
+class VerdictRecord(Structure):
+    """`symtop_verdict`."""
+
+    _fields_: ClassVar = [
+        ("subject", c_int),
+        ("direction", c_int),
+        ("turning_angles", Pair),
+        ("motion", c_int),
+        ("reason", ReasonRecord),
+        ("average", AverageRecord),
+        ("factor", c_double),
+        ("highest", LiftRecord),
+        ("lowest", LiftRecord),
+        ("contrary_facts", c_uint),
+    ]
+
+
+class Rates(NamedTuple):
+    """What is the same in every nutation."""
+
+    nutation_period: float  # s; infinite if theta does not return
+    mean_precession_rate: float  # rad/s; nan where the axis meets the vertical
+    mean_spin_rate: float
+    precession_per_nutation: float  # turns
+    spin_reverses: bool
+
+
+_unpack_start, _unpack_state = Struct(f"{START}d").unpack, Struct(f"{STATE}d").unpack
+_unpack_rates = Struct("4di4x").unpack
+
+
+class ConstantsRecord(Structure):
+    """`symtop_constants`."""
+
+    _fields_: ClassVar = [
+        ("kind", c_int),
+        ("engine", c_int),
+        ("turning_angles", Pair),
+        ("rates", RatesRecord),
+    ]
+
+
+CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of arrays
+# In the order of the header: start, clock, rates, constants, top, place, ...
+SIZES = (
+    *(8 * START, ctypes.sizeof(Clock), ctypes.sizeof(RatesRecord), CONSTANTS.itemsize, 8 * 3),
+    *(ctypes.sizeof(each) for each in (PlaceRecord, ReasonRecord, AverageRecord, LiftRecord)),
+    VERDICTS.itemsize,
+)
+
+_VERDICT = POINTER(VerdictRecord)
+_HANDLE, _BYTES, _SIZE = ctypes.c_void_p, ctypes.c_char_p, c_size_t
+_DONE = POINTER(c_size_t)
+# Arguments of each function, without `symtop_`. Those that begin with "*" release Python's lock.
+_FUNCTIONS: dict[str, tuple[Any, ...]] = {
+    "new": (_BYTES, POINTER(_HANDLE)),
+    "make": (_BYTES,),
+    "read": (_HANDLE, POINTER(State)),
+    "find_kind": (_HANDLE,),
+    "find_engine": (_HANDLE,),
+    "find_turning_angles": (_HANDLE, POINTER(Pair)),
+    "find_rates": (_HANDLE, POINTER(RatesRecord)),
+    "find_nutation_rate": (_HANDLE, POINTER(Pair)),
+    "find_farthest_time": (_HANDLE, POINTER(c_double)),
+    "*states": (_HANDLE, _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
+    "*states_of_clock": (
+        *(_HANDLE, POINTER(Clock), _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
+    ),
+    "*reach": (_HANDLE, c_double, c_double, Numbers),
+    "*states_of_many": (_BYTES, _SIZE, _BYTES, _SIZE, Numbers, Numbers, POINTER(c_uint8)),
+    "*describe_many": (_BYTES, _SIZE, POINTER(c_uint8), _DONE),
+    "*from_angles": (_BYTES, _BYTES, _SIZE, Numbers, Numbers, _DONE),
+    "*find_angles": (_BYTES, _SIZE, Numbers),
+    "*find_angle_rates": (_BYTES, _BYTES, _SIZE, Numbers),
+    "*find_regular_rates": (_BYTES, _BYTES, _BYTES, _SIZE, c_int, Numbers),
+    "*find_tilt_torques": (_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, Numbers),
+    "*find_tilt_accelerations": (_BYTES, c_int, _BYTES, _SIZE, Numbers),
+    "*kick": (_BYTES, _BYTES, _BYTES, c_int, c_int, _BYTES, _SIZE, Numbers, _DONE),
+    "*judge": (_BYTES, _BYTES, _SIZE, c_int, _VERDICT, _DONE),
+    "*judge_kick": (_BYTES, _BYTES, c_int, _VERDICT),
+}
+
+
+class Door(SimpleNamespace):
+    """The functions of the library, without the prefix of their names."""
+
+    def __init__(self, path: Path) -> None:
+        released, locked = _load(path)
+        for name, arguments in _FUNCTIONS.items():
+            library = released if name.startswith("*") else locked
+            # By index: a function object that belongs to this door alone.
+            function = library[f"symtop_{name.lstrip('*')}"]
+            function.argtypes = arguments
+            function.restype = _HANDLE if name == "make" else c_int
+            setattr(self, name.lstrip("*"), function)
+        self.free = locked["symtop_free"]
+        self.free.argtypes, self.free.restype = (_HANDLE,), None
+        for name in ("describe_status", "version"):
+            function = locked[f"symtop_{name}"]
+            function.argtypes = (c_int,) if name == "describe_status" else ()
+            function.restype = ctypes.c_char_p
+            setattr(self, name, function)
+
+
+def _load(path: Path) -> tuple[ctypes.CDLL, ctypes.PyDLL]:
+    """Return the library twice: calls of the first release the interpreter's lock.
+
+    Raises
+    ------
+    ImportError
+        If it is missing, or was built from other sources.
+    """
+    expected, built_of = f"symtop {digest_sources()}".encode(), b""
+    sizes: tuple[int, ...] = ()
+    try:
+        library = ctypes.CDLL(str(path))
+        built_of = (ctypes.c_char * len(expected)).in_dll(library, "symtop_digest").value
+        sizes = tuple((ctypes.c_uint32 * len(SIZES)).in_dll(library, "symtop_sizes"))
+    except OSError:
+        raise ImportError(f"the compiled kernel {path.name} cannot be loaded: {AGAIN}") from None
+    except ValueError:  # it has no such variables
+        pass
+    if built_of != expected or sizes != SIZES:
+        raise ImportError(f"the compiled kernel is of another version: {AGAIN}")
+    return library, ctypes.PyDLL(str(path))
+
+
+def digest_sources() -> str:
+    """Return the digest of the kernel's sources, as build_kernel.py finds it."""
+    digest = hashlib.sha256()
+    for path in sorted(each for each in FOLDER.rglob("*") if each.suffix in SOURCES):
+        digest.update(f"{path.relative_to(FOLDER).as_posix()}\0".encode() + path.read_bytes())
+    return digest.hexdigest()[:32]
+
+
+@cache
+def open_door() -> Door:
+    """Return the functions of the library, which is loaded at the first call."""
+    return Door(FILE)
+
+
+def refuse_status(status: int) -> Exception:
+    """Return the exception for a status, with its sentence."""
+    if status == NO_MEMORY:
+        return MemoryError()
+    sentence = open_door().describe_status(status).decode()
+    return (FloatingPointError if status == BAD_ARITHMETIC else ValueError)(sentence)
+
+
+def demand(status: int) -> None:
+    """Raise the exception for a status other than OK."""
+    if status != OK:
+        raise refuse_status(status)
+
+
+def read_from(array: NDArray[Any], code: str = "d") -> bytes:
+    """Return the numbers of an array, which may be read-only or have gaps."""
+    if array.dtype.char != code:
+        raise ValueError(f"array must have numbers of type {code!r}, got {array.dtype}")
+    return array.tobytes()
+
+
+def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
+    """Return the buffer of an array that a function writes `count` numbers to.
+
+    ctypes refuses one that is read-only or not contiguous; it does not look at type and size.
+    """
+    if array.dtype.char != code or array.size != count:
+        raise ValueError(
+            f"array must have {count} numbers {code!r}, got {array.size}, {array.dtype}"
+        )
+    return (c_double if code == "d" else c_uint8).from_buffer(array)
+
+
+class KernelMotion:
+    """A motion in the library, which is freed with this object."""
+
+    __slots__ = ("_door", "_handle", "_start")
+
+    def __init__(self, start: bytes) -> None:
+        """Make the motion of the 15 numbers of `symtop_start`."""
+        self._handle: int | None = None
+        self._start, self._door = start, open_door()
+        if len(start) != 8 * START:
+            raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
+        self._handle = self._door.make(start)
+        if not self._handle:
+            raise refuse_status(self._door.new(start, byref(ctypes.c_void_p())) or NO_MEMORY)
+
+    def __del__(self) -> None:
+        if self._handle:
+            self._door.free(self._handle)
+
+    def __reduce__(self) -> Any:
+        """Copy and pickle a motion by its start: copies share no integration."""
+        return KernelMotion, (self._start,)
+
+    @property
+    def decay(self) -> float:
+        """The fastest rate in 1/s at which friction slows the top."""
+        Ix, Iz, *_, axial, transverse, _, _, _ = _unpack_start(self._start)
+        return max(transverse / Ix, axial / Iz)
+
+    def at(self, t: float) -> tuple[float, ...] | None:
+        """Return quaternion and angular velocity at a time in s; None if it is too far."""
+        state = State(t)
+        status = self._door.read(self._handle, state)
+        if status == OK:
+            return _unpack_state(state)
+        if status == TOO_FAR:
+            return None
+        raise refuse_status(status)
+
+    def fill(self, times: Real, orientation: Real, omega: Real, steps: float) -> tuple[int, int]:
+        """Write the states at times (n,) in s; return how many were written, and the status."""
+        count, done = times.size, c_size_t()
+        if not count:  # ctypes takes no empty array
+            return 0, OK
+        status = self._door.states(
+            self._handle,
+            read_from(times),
+            count,
+            steps,
+            write_to(orientation, 4 * count),
+            write_to(omega, 3 * count),
+            done,
+        )
+        return done.value, status
+
+    def fill_stamps(
+        self,
+        stamps: NDArray[np.int64],
+        clock: tuple[float, tuple[float, ...]],
+        orientation: Real,
+        omega: Real,
+        steps: float,
+    ) -> tuple[int, int]:
+        """Write the states at stamps (n,) in ns of a clock, its factor and elapsed time."""
+        count, done, (factor, elapsed) = stamps.size, c_size_t(), clock
+        if not count:
+            return 0, OK
+        status = self._door.states_of_clock(
+            self._handle,
+            Clock(factor, elapsed),
+            read_from(stamps, "l"),
+            count,
+            steps,
+            write_to(orientation, 4 * count),
+            write_to(omega, 3 * count),
+            done,
+        )
+        return done.value, status
+
+    def reach(self, t: float, steps: float) -> tuple[float, int]:
+        """Integrate towards a time in s; return the time reached, and the status."""
+        reached = c_double()
+        status = self._door.reach(self._handle, t, steps, reached)
+        return reached.value, status
+
+    @property
+    def kind(self) -> Kind:
+        """Name of the motion."""
+        return KINDS[self._door.find_kind(self._handle)]
+
+    @property
+    def engine(self) -> Engine:
+        """Method of solution."""
+        return ENGINES[self._door.find_engine(self._handle)]
+
+    @property
+    def turning_angles(self) -> tuple[float, float]:
+        """Smallest and largest theta in rad."""
+        angles = Pair()
+        self._door.find_turning_angles(self._handle, angles)
+        return angles[0], angles[1]
+
+    @property
+    def rates(self) -> "Rates":
+        """Nutation period, mean rates, and whether the spin reverses."""
+        found = RatesRecord()
+        self._door.find_rates(self._handle, found)
+        period, precession, spin, turns, reverses = _unpack_rates(found)
+        return Rates(period, precession, spin, turns, bool(reverses))
+
+    @property
+    def farthest_time(self) -> float:
+        """1e15 turns of the fastest phase in s: there are no states from there on."""
+        farthest = c_double()
+        self._door.find_farthest_time(self._handle, farthest)
+        return farthest.value
+
+    @property
+    def nutation_rate(self) -> tuple[float, float]:
+        """2 pi over the nutation period in rad/s, as a sum of two doubles."""
+        rate = Pair()
+        self._door.find_nutation_rate(self._handle, rate)
+        return rate[0], rate[1]
+
+
+def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: Any) -> None:
+    """Write the states of motions (n, 15) at times (m,) into (n, m, 4) and (n, m, 3).
+
+    `left` (n, m) of bytes becomes 0 for a state that is written, and 1 for others.
+    """
+    count, each = len(starts), times.size
+    if count and each:
+        states = write_to(orientation, 4 * count * each), write_to(omega, 3 * count * each)
+        flags = write_to(left, count * each, "B")
+        door = open_door()
+        demand(
+            door.states_of_many(read_from(starts), count, read_from(times), each, *states, flags)
+        )
+
+
+def describe_many(starts: Real) -> NDArray[Any]:
+    """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
+    found, done = np.empty(len(starts), CONSTANTS), c_size_t()
+    if len(starts):
+        room = c_uint8.from_buffer(found)
+        demand(open_door().describe_many(read_from(starts), len(starts), room, done))
+    return found
+
+
+def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
+    """Return orientations (..., 4) and angular velocities (..., 3) of angles and rates (..., 3)."""
+    orientation, omega = np.empty((*angles.shape[:-1], 4)), np.empty(angles.shape)
+    count, done = omega.size // 3, c_size_t()
+    if count:
+        to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
+        status = open_door().from_angles(read_from(angles), read_from(rates), count, *to, done)
+        if status == BAD_ANGULAR_VELOCITY:
+            largest = float(np.abs(omega.reshape(-1, 3)[done.value]).max())
+            raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
+        demand(status)
+    return orientation, omega
+
+
+def find_angles(orientation: Real) -> Real:
+    """Return Euler angles (..., 3) of unit quaternions (..., 4)."""
+    found = np.empty((*orientation.shape[:-1], 3))
+    if found.size:
+        count = found.size // 3
+        demand(open_door().find_angles(read_from(orientation), count, write_to(found, found.size)))
+    return found
+
+
+def find_angle_rates(orientation: Real, omega: Real) -> Real:
+    """Return rates of the Euler angles (..., 3) of states (..., 4) and (..., 3)."""
+    found = np.empty(omega.shape)
+    if found.size:
+        state, count = (read_from(orientation), read_from(omega)), found.size // 3
+        demand(open_door().find_angle_rates(*state, count, write_to(found, found.size)))
+    return found
+
+
+def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real:
+    """Return slow and fast rates (n, 2) of tops (n, 3), nan for a rate that there is not."""
+    found = np.empty((len(tops), 2))
+    for part in _list_blocks(len(tops)):
+        given = read_from(tops[part]), read_from(thetas[part]), read_from(spins[part])
+        room = found[part]
+        demand(open_door().find_regular_rates(*given, len(room), hold, write_to(room, room.size)))
+    return found
+
+
+def find_tilt_torques(tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real) -> Real:
+    """Return the parts of Ix theta''/sin(theta) and sin(theta), (n, 4), of tops (n, 3)."""
+    found = np.empty((len(tops), 4))
+    if len(tops):
+        given = map(read_from, (tops, thetas, phi_dots, psi_dots))
+        demand(open_door().find_tilt_torques(*given, len(tops), write_to(found, found.size)))
+    return found
+
+
+def find_tilt_accelerations(start: bytes, hold: int, phi_dots: Real) -> Real:
+    """Return theta'' (n,) of a start at precession rates (n,)."""
+    found = np.empty(len(phi_dots))
+    if len(found):
+        to = write_to(found, len(found))
+        door = open_door()
+        demand(door.find_tilt_accelerations(start, hold, read_from(phi_dots), len(found), to))
+    return found
+
+
+def kick(
+    tops: Real, orientation: Real, omega: Real, kind: int, hold: int, amounts: Real
+) -> tuple[Real, int, int]:
+    """Return angular velocities (n, 3) after kicks, how many are done, and the status."""
+    kicked, done, count = np.empty(omega.shape), c_size_t(), omega.size // 3
+    if not count:
+        return kicked, 0, OK
+    state = read_from(tops), read_from(orientation), read_from(omega)
+    to = write_to(kicked, 3 * count)
+    status = open_door().kick(*state, kind, hold, read_from(amounts), count, to, done)
+    return kicked, done.value, status
+
+
+def judge(starts: Real, factors: Real, hold: int) -> tuple[NDArray[Any], int]:
+    """Return the verdicts on starts (n, 15), as records (n,) of `VERDICTS`, and the status.
+
+    If the status is not OK, the verdicts end before the start that it is about.
+    """
+    verdicts, done = np.empty(len(starts), VERDICTS), c_size_t()
+    for part in _list_blocks(len(starts)):
+        room = VerdictRecord.from_buffer(verdicts[part])
+        given = read_from(starts[part]), read_from(factors[part]), part.stop - part.start
+        status = open_door().judge(*given, hold, room, done)
+        if status != OK:
+            return verdicts[: part.start + done.value], status
+    return verdicts, OK
+
+
+def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
+    """Return the verdict on the kick that leads from one start to another."""
+    verdict = VerdictRecord()
+    demand(open_door().judge_kick(before, after, hold, verdict))
+    return verdict
+
+
+def _list_blocks(count: int) -> list[slice]:
+    """Return the parts of arrays that take some ms: Python sees signals between two calls."""
+    return [slice(first, min(first + BLOCK, count)) for first in range(0, count, BLOCK)]

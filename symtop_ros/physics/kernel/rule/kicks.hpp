@@ -1,0 +1,59 @@
+// Kicks: instantaneous changes of the angular velocity at fixed attitude.
+//
+// If phi' changes by delta with theta' and psi' held, the angular velocity changes by delta z' (z'
+// is the world's vertical). If theta' and the axial momentum are held, only the part of this across
+// the axis is added. Neither divides by sin(theta), except to find the present phi'.
+#pragma once
+
+#include "../symtop.h"
+#include "attitude.hpp"
+
+namespace symtop {
+
+// Adds a change of phi'. A push on the axle cannot change the axial momentum Iz omega_z.
+inline void change_precession(const Vertical& g, double change, symtop_hold hold,
+                              double omega[3]) {
+  omega[0] += change * g.x, omega[1] += change * g.y;
+  omega[2] += hold == SYMTOP_SPIN_MOMENTUM ? 0.0 : change * g.z;
+}
+
+// The components in the body frame of a vector of the world: q* v q.
+inline void turn_to_body(const double q[4], const double v[3], double turned[3]) {
+  const double w = -q[0], x = q[1], y = q[2], z = q[3], a = v[0], b = v[1], c = v[2];
+  const double t = 2 * (y * c - z * b), u = 2 * (z * a - x * c), s = 2 * (x * b - y * a);
+  turned[0] = a + w * t + (y * s - z * u);
+  turned[1] = b + w * u + (z * t - x * s);
+  turned[2] = c + w * s + (x * u - y * t);
+}
+
+// Adds what an angular impulse in the world frame, N m s, changes.
+inline void add_impulse(const symtop_top& top, const double q[4], const double impulse[3],
+                        double omega[3]) {
+  double J[3];
+  turn_to_body(q, impulse, J);
+  omega[0] += J[0] / top.Ix, omega[1] += J[1] / top.Ix, omega[2] += J[2] / top.Iz;
+}
+
+// The new precession rate that a kick asks for, given the present one.
+inline double find_new_rate(symtop_kick_kind kind, double amount, double now) {
+  if (kind == SYMTOP_CHANGE_OF_RATE) return now + amount;
+  return kind == SYMTOP_FACTOR_OF_RATE ? amount * now : amount;
+}
+
+// The angular velocity after a kick; false if the axis is vertical, where phi' is undefined.
+inline bool kick(const symtop_top& top, const double q[4], symtop_kick_kind kind, symtop_hold hold,
+                 const double* amount, double omega[3]) {
+  if (kind == SYMTOP_IMPULSE) {
+    add_impulse(top, q, amount, omega);
+  } else {
+    const Vertical g(q);
+    if (g.is_of_vertical_axis()) return false;
+    double rates[3];
+    find_angle_rates(q, omega, rates);
+    change_precession(g, find_new_rate(kind, *amount, rates[0]) - rates[0], hold, omega);
+  }
+  flush_tiny(omega, 3);
+  return true;
+}
+
+}  // namespace symtop

@@ -1,0 +1,110 @@
+// theta'' as a function of phi' at the tilt of a state, and the place of a rate among the regular
+// ones.
+#pragma once
+
+#include "regular.hpp"
+
+namespace symtop {
+
+// Of a sum of two products, relative to its terms.
+const double SUM_ROUNDING = 4 * EPS;
+// cos(theta) of a quaternion: four squares, each rounded, and its norm.
+const double STATE_ROUNDING = 8 * EPS;
+
+// A start, with the vertical of its normalised orientation.
+struct Instant {
+  const symtop_start& start;
+  symtop_top top;
+  Vertical vertical;
+
+  explicit Instant(const symtop_start& s)
+      : start(s), top{s.Ix, s.Iz, s.Mgl}, vertical(find_vertical(s.orientation)) {}
+
+  double find_largest_rate() const {
+    const double* omega = start.angular_velocity;
+    return std::fmax(std::fmax(std::fabs(omega[0]), std::fabs(omega[1])), std::fabs(omega[2]));
+  }
+
+ private:
+  static Vertical find_vertical(const double given[4]) {
+    const Start unit = normalize(Start{1.0, 1.0, 0.0, given[0], given[1], given[2], given[3], 0.0,
+                                       0.0, 0.0});
+    const double q[4] = {unit.w, unit.x, unit.y, unit.z};
+    return Vertical(q);
+  }
+};
+
+struct SpinAndPrecession {
+  double phi_dot, psi_dot;
+};
+
+// phi' and psi', the nearest doubles to those of the doubles of a start. Next to the vertical phi'
+// is a quotient of small differences: with the rounding of doubles it has half of its digits there,
+// and a large factor can take the kicked rate to a place where the others decide.
+inline SpinAndPrecession find_exact_rates(const symtop_start& s) {
+  const double* q = s.orientation;
+  const Precise w(q[0]), x(q[1]), y(q[2]), z(q[3]);
+  const Precise wx(s.angular_velocity[0]), wy(s.angular_velocity[1]), wz(s.angular_velocity[2]);
+  const Precise upper = w * w + z * z, lower = x * x + y * y;
+  const Precise along_x = wx * (x * z - w * y), along_y = wy * (y * z + w * x);
+  const Precise along = along_x + along_y;
+  // phi' is exactly 0 if it vanishes up to rounding of its two terms.
+  if (size(along) <= Precise(SUM_ROUNDING) * (size(along_x) + size(along_y)))
+    return {0.0, wz.to_double()};
+  const Precise norm = upper + lower;  // 1 but for the rounding of the quaternion
+  const Precise phi_dot = along / upper / lower * norm.scale(-1);
+  return {phi_dot.to_double(), (wz - phi_dot * (upper - lower) / norm).to_double()};
+}
+
+class TiltAcceleration {
+ public:
+  // `hold` decides what is held while phi' varies.
+  TiltAcceleration(const Instant& now, symtop_hold hold)
+      : quadratic(now.top, find_cosine(now), find_spin(now, hold), hold),
+        sine_per_moment_(now.vertical.find_sine() / now.top.Ix) {}
+
+  const TiltQuadratic quadratic;
+
+  // theta'' in rad/s^2; exactly 0 if it vanishes up to rounding.
+  double at(double phi_dot) const {
+    if (quadratic.is_balanced(phi_dot)) return 0.0;
+    return (Precise(sine_per_moment_) * quadratic.at(phi_dot)).to_double();
+  }
+
+  symtop_place place(double phi_dot) const {
+    symtop_place place = {SYMTOP_NO_REGULAR_RATE, phi_dot, {NAN, NAN}};
+    quadratic.find_roots(place.regular_rates);
+    place.kind = find_place(phi_dot, place.regular_rates);
+    return place;
+  }
+
+ private:
+  double sine_per_moment_;
+
+  // A state has cos(theta) and psi' to some EPS of 1 and of its rates. What is smaller is zero: else
+  // a horizontal axis without spin would rise or fall by the chance of its rounding.
+  static double find_cosine(const Instant& now) {
+    return std::fabs(now.vertical.z) <= STATE_ROUNDING ? 0.0 : now.vertical.z;
+  }
+  static double find_spin(const Instant& now, symtop_hold hold) {
+    const double spin = hold == SYMTOP_SPIN_MOMENTUM ? now.start.angular_velocity[2]
+                                                     : find_exact_rates(now.start).psi_dot;
+    return std::fabs(spin) <= STATE_ROUNDING * now.find_largest_rate() ? 0.0 : spin;
+  }
+
+  symtop_place_kind find_place(double rate, const double roots[2]) const {
+    const double slow = roots[0], fast = roots[1];
+    if (std::isnan(slow)) return SYMTOP_NO_REGULAR_RATE;
+    if (quadratic.is_balanced(rate)) {
+      if (std::isnan(fast)) return SYMTOP_AT_THE_ONLY_RATE;
+      const bool is_slow = std::fabs(slow - rate) <= std::fabs(fast - rate);
+      return is_slow ? SYMTOP_AT_THE_SLOW_RATE : SYMTOP_AT_THE_FAST_RATE;
+    }
+    if (std::isnan(fast)) return rate > slow ? SYMTOP_ABOVE_THE_ONLY_RATE
+                                             : SYMTOP_BELOW_THE_ONLY_RATE;
+    const bool is_between = std::fmin(slow, fast) < rate && rate < std::fmax(slow, fast);
+    return is_between ? SYMTOP_BETWEEN_THE_RATES : SYMTOP_OUTSIDE_THE_RATES;
+  }
+};
+
+}  // namespace symtop

@@ -1,0 +1,195 @@
+// What follows from a start or a kick: direction, turning angles, averages and Perry's rule, "hurry
+// on the precession, and the body rises in opposition to gravity".
+//
+// One definition of the rule serves a start, a kick and a map. The kicked top is compared with the
+// same top not kicked. Hurried (a factor above 1), the rule holds if theta'' is lower with the kick;
+// delayed (0 to 1), if it is higher. It says nothing if phi' = 0, if the factor is 1 or negative,
+// about an angular impulse, if theta'' is the same with the kick as without it, and on the vertical,
+// where phi' is undefined. At a root of regular precession theta'' is 0 without the kick, so the
+// hurried axis rises if and only if the rule holds: the article's case.
+#pragma once
+
+#include "../gravity.hpp"
+#include "tilt.hpp"
+
+namespace symtop {
+
+// Turning angles that differ by less count as equal: next to a pole, or where two roots of the cubic
+// nearly meet, an angle is the square root of a quantity that is known to EPS (section 2).
+const double SAME_ANGLE = 1e-7;  // rad
+
+// Direction of the axis from a state on: by theta', or by theta'' if theta' vanishes up to rounding.
+inline symtop_direction find_direction(const Instant& now) {
+  const double* omega = now.start.angular_velocity;
+  const Vertical& g = now.vertical;
+  if (g.is_of_vertical_axis()) {
+    // A moving axis leaves the upper pole downwards, and the lower one upwards.
+    if (omega[0] == 0 && omega[1] == 0) return SYMTOP_STAYS;
+    return g.z > 0 ? SYMTOP_FALLS : SYMTOP_RISES;
+  }
+  const double sine = g.find_sine();
+  double change = (omega[0] * g.y - omega[1] * g.x) / sine;
+  if (std::fabs(change) <= START_ROUNDING * now.find_largest_rate()) {
+    const double phi_dot = (omega[0] * g.x + omega[1] * g.y) / sine / sine;
+    change = TiltAcceleration(now, SYMTOP_SPIN_RATE).at(phi_dot);
+  }
+  return change == 0 ? SYMTOP_STAYS : change < 0 ? SYMTOP_RISES : SYMTOP_FALLS;
+}
+
+// True if an axis at rest on the vertical stays near it after a small kick: p_psi^2 >= 4 Ix |Mgl|
+// for a centre of mass above the pivot (Goldstein, section 5.7), and always below it.
+inline bool is_sleeping_stable(const Instant& now) {
+  const double weight = now.vertical.z > 0 ? now.top.Mgl : -now.top.Mgl;
+  if (weight <= 0) return true;
+  // Roots, not squares: those would overflow. The critical spin itself is stable, whichever way its
+  // double is rounded.
+  const double least = 2 * std::sqrt(now.top.Ix) * std::sqrt(weight);
+  return std::fabs(now.top.Iz * now.start.angular_velocity[2]) >= (1 - 8 * EPS) * least;
+}
+
+inline symtop_reason explain_vertical(const Instant& now) {
+  const double* omega = now.start.angular_velocity;
+  const bool is_moving = omega[0] != 0 || omega[1] != 0;
+  const symtop_reason_kind kind = is_moving               ? SYMTOP_VERTICAL_UNDEFINED
+                                  : is_sleeping_stable(now) ? SYMTOP_VERTICAL_STABLE
+                                                            : SYMTOP_VERTICAL_UNSTABLE;
+  return {kind, SYMTOP_RULE_SAYS_NOTHING, NAN, NAN, NAN, NAN,
+          {SYMTOP_NO_REGULAR_RATE, NAN, {NAN, NAN}}};
+}
+
+// A change of phi' by a factor (NaN for an angular impulse): done by a kick, or only considered.
+struct PrecessionChange {
+  double before, after, factor;
+  bool is_done;
+
+  // The reason why the rule says nothing; that of a change if it says something.
+  symtop_reason_kind find_kind(bool has_effect) const {
+    if (std::isnan(factor)) return SYMTOP_ANGULAR_IMPULSE;
+    if (before == 0) return SYMTOP_NO_PRECESSION;
+    if (factor == 1) return SYMTOP_UNCHANGED;
+    if (factor < 0) return SYMTOP_REVERSED;
+    if (!has_effect) return SYMTOP_NO_EFFECT;
+    if (factor > 1) return is_done ? SYMTOP_HURRIED : SYMTOP_IF_HURRIED;
+    return is_done ? SYMTOP_DELAYED : SYMTOP_IF_DELAYED;
+  }
+};
+
+inline bool says_something(symtop_reason_kind kind) { return kind <= SYMTOP_IF_DELAYED; }
+
+inline symtop_reason explain_change(const TiltAcceleration& tilt, const PrecessionChange& by) {
+  const int change = tilt.quadratic.change(by.before, by.after).sign;  // that of theta''
+  const symtop_reason_kind kind = by.find_kind(change != 0);
+  const symtop_rule rule = !says_something(kind)                ? SYMTOP_RULE_SAYS_NOTHING
+                           : (change < 0) == (by.factor > 1) ? SYMTOP_RULE_HOLDS
+                                                               : SYMTOP_RULE_FAILS;
+  return {kind, rule, by.before, by.after, tilt.at(by.before), tilt.at(by.after),
+          tilt.place(by.is_done ? by.after : by.before)};
+}
+
+// The kick that leads from one state to another of the same attitude. It has rounded the angular
+// velocity: a rate or a change of this size is no rate and no change, as its sign would decide the
+// verdict by chance.
+inline PrecessionChange find_change(const Instant& before, const Instant& after, symtop_hold hold) {
+  const double was = find_exact_rates(before.start).phi_dot;
+  double now = find_exact_rates(after.start).phi_dot;
+  const double* omega = before.start.angular_velocity;
+  const double across = find_modulus({omega[0], omega[1]});
+  const double rounding = 8 * EPS * across / before.vertical.find_sine();
+  if (std::fabs(now - was) <= rounding)
+    now = was;
+  else if (std::fabs(now) <= rounding)
+    now = 0.0;
+  const double factor = hold == SYMTOP_NOTHING ? NAN : was != 0 ? now / was : 1.0;
+  return {was, now, factor, true};
+}
+
+inline symtop_average find_average(const symtop_start& s, GravityMotion& motion) {
+  const Rates rates = motion.find_rates();
+  const double p_psi = s.Iz * s.angular_velocity[2];
+  // Mgl/p_psi is meant for p_psi^2 >> 4 Ix |Mgl|; below that number it is not even a guess.
+  const double least = 2 * std::sqrt(s.Ix) * std::sqrt(std::fabs(s.Mgl)) / s.Iz;
+  return {rates.mean_precession_rate, rates.precession_per_nutation,
+          p_psi != 0 ? s.Mgl / p_psi : NAN,
+          s.Mgl != 0 && std::fabs(s.angular_velocity[2]) > least, rates.spin_reverses};
+}
+
+inline symtop_average leave_average() { return {NAN, NAN, NAN, 0, 0}; }
+
+// Direction, turning angles and averages of what follows from a start.
+inline symtop_verdict describe_course(const Instant& now, GravityMotion& motion) {
+  symtop_verdict verdict = {};
+  verdict.subject = now.top.Mgl < 0 ? SYMTOP_AXIS : SYMTOP_TOP;
+  verdict.direction = find_direction(now);
+  motion.find_turning_angles(verdict.turning_angles);
+  verdict.motion = static_cast<symtop_kind>(motion.find_kind());
+  return verdict;
+}
+
+// The verdict on a start, and on a kick by a factor that is only considered; false if that would
+// lead to a rate beyond the largest.
+inline bool judge(const symtop_start& s, GravityMotion& motion, double factor, symtop_hold hold,
+                  symtop_verdict& verdict) {
+  const Instant now(s);
+  const bool is_vertical = now.vertical.is_of_vertical_axis();
+  const double rate = is_vertical ? 0.0 : find_exact_rates(s).phi_dot, after = factor * rate;
+  if (!(std::fabs(after) <= LARGEST)) return false;
+  verdict = describe_course(now, motion);
+  verdict.average = find_average(s, motion);
+  verdict.factor = factor;
+  verdict.reason = is_vertical ? explain_vertical(now)
+                               : explain_change(TiltAcceleration(now, hold),
+                                                {rate, after, factor, false});
+  return true;
+}
+
+// How much higher a turning point is than it would be without the kick.
+inline symtop_lift find_lift(double was, double now) {
+  const double change = std::fabs(was - now) > SAME_ANGLE ? was - now : 0.0;
+  return {change == 0 ? SYMTOP_AS_HIGH : change > 0 ? SYMTOP_HIGHER : SYMTOP_LOWER,
+          std::fabs(change)};
+}
+
+// Facts after a kick that are contrary to the direction in which theta'' changed.
+inline unsigned find_contrary_facts(const symtop_verdict& v) {
+  if (v.reason.rule == SYMTOP_RULE_SAYS_NOTHING) return 0;
+  const bool is_raised =
+      (v.reason.rule == SYMTOP_RULE_HOLDS) == (v.reason.kind == SYMTOP_HURRIED);
+  const symtop_lift_kind contrary = is_raised ? SYMTOP_LOWER : SYMTOP_HIGHER;
+  unsigned facts = 0;
+  if (v.direction == (is_raised ? SYMTOP_FALLS : SYMTOP_RISES))
+    facts |= is_raised ? SYMTOP_FACT_FALLS : SYMTOP_FACT_RISES;
+  if (v.highest.kind == contrary)
+    facts |= is_raised ? SYMTOP_FACT_HIGHEST_LOWER : SYMTOP_FACT_HIGHEST_HIGHER;
+  if (v.lowest.kind == contrary)
+    facts |= is_raised ? SYMTOP_FACT_LOWEST_LOWER : SYMTOP_FACT_LOWEST_HIGHER;
+  return facts;
+}
+
+// The verdict on a kick that was made; the motions are those without it and with it.
+inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start& after,
+                                 GravityMotion& without, GravityMotion& with, bool is_driven,
+                                 symtop_hold hold) {
+  const Instant was(before), now(after);
+  symtop_verdict verdict = describe_course(now, with);
+  verdict.average = is_driven ? leave_average() : find_average(after, with);
+  if (is_driven) verdict.motion = SYMTOP_DRIVEN;
+  verdict.factor = NAN;
+  if (was.vertical.is_of_vertical_axis()) {
+    verdict.reason = explain_vertical(now);
+  } else {
+    // After an angular impulse psi' is another: theta'' is compared at the spin that it left.
+    const TiltAcceleration tilt(hold == SYMTOP_NOTHING ? now : was,
+                                hold == SYMTOP_NOTHING ? SYMTOP_SPIN_RATE : hold);
+    const PrecessionChange change = find_change(was, now, hold);
+    verdict.reason = explain_change(tilt, change);
+    verdict.factor = change.factor;
+  }
+  double angles[2];
+  without.find_turning_angles(angles);
+  verdict.highest = find_lift(angles[0], verdict.turning_angles[0]);
+  verdict.lowest = find_lift(angles[1], verdict.turning_angles[1]);
+  verdict.contrary_facts = find_contrary_facts(verdict);
+  return verdict;
+}
+
+}  // namespace symtop

@@ -1,0 +1,76 @@
+"""States of a motion at many times, in blocks: Python sees signals, such as Ctrl-C, between two."""
+
+import numpy as np
+
+from symtop_ros.arrays import Real
+from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.door import KernelMotion
+from symtop_ros.physics.times import ExactTimes, to_rough_seconds
+from symtop_ros.physics.values import refuse
+
+STATES, STEPS = 2**16, 256.0  # in one call of the kernel, some ms
+MOST_DECAYS = 1e5  # decay times on the way to a time, some seconds; of kernel/driven/motion.hpp
+
+
+def fill_states(motion: KernelMotion, times: Real | ExactTimes, q: Real, omega: Real) -> None:
+    """Write the states at times (n,) into (n, 4) and (n, 3).
+
+    Raises
+    ------
+    ValueError
+        If a state cannot be computed; the reason names the time.
+    """
+    if motion.engine != "taylor":
+        _fill_in_order(motion, times, q, omega)
+        return
+    # A driven motion takes least time if the times lead away from the start, on either side.
+    seconds = to_rough_seconds(times)
+    order = np.argsort(np.abs(seconds), kind="stable")
+    for side in (seconds >= 0, seconds < 0):
+        places = order[side[order]]
+        parts = np.empty((len(places), 4)), np.empty((len(places), 3))
+        _fill_in_order(motion, times[places], *parts)
+        q[places], omega[places] = parts
+
+
+def _fill_in_order(motion: KernelMotion, times: Real | ExactTimes, q: Real, omega: Real) -> None:
+    first = 0
+    while first < len(q):
+        part = slice(first, first + STATES)
+        written, status = _fill_part(motion, times[part], q[part], omega[part])
+        first += written
+        if status not in (door.OK, door.MORE_STEPS):
+            raise _refuse_time(motion, float(to_rough_seconds(times)[first]), status)
+
+
+def _fill_part(
+    motion: KernelMotion, times: Real | ExactTimes, q: Real, omega: Real
+) -> tuple[int, int]:
+    """Write the states at times (n,) in one call; return how many, and the kernel's status."""
+    if isinstance(times, ExactTimes):
+        return motion.fill_stamps(np.asarray(times.nanoseconds), times.clock, q, omega, STEPS)
+    return motion.fill(times, q, omega, STEPS)
+
+
+def reach(motion: KernelMotion, t: float, steps: float) -> float:
+    """Integrate towards a time in a limited number of steps, or to where it is too fast."""
+    while True:
+        reached, status = motion.reach(t, min(steps, STEPS))
+        steps -= STEPS
+        if status == door.TOO_FAST or reached == t or steps <= 0:
+            return reached
+
+
+def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
+    """Return the error for a time at which there is no state."""
+    if status == door.TOO_FAR:
+        return refuse("t", f"within {motion.farthest_time:.3g} s of the start (1e15 turns)", t)
+    if status not in (door.TOO_FAST, door.TOO_STIFF):
+        return door.refuse_status(status)
+    end, why = abs(reach(motion, t, 0)), "the motion then becomes too fast"
+    if status == door.TOO_STIFF:
+        # After some decay times the top creeps, but explicit series cannot take longer steps.
+        decay = 1 / motion.decay
+        end += MOST_DECAYS * decay
+        why = f"friction stops the top in {decay:.3g} s, and every such time takes a step"
+    return refuse("t", f"within {end:.3g} s of the start ({why})", t)
