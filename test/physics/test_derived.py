@@ -9,7 +9,9 @@ from physics.tops import ARTICLE, EPS, exact_euler, exact_parts, turn
 
 from symtop_ros.physics import State
 
-PROMISED = 5 * EPS  # docs/accuracy.md
+# docs/accuracy.md. A rotation is two cross products: their roundings give 7.2 eps at most, and a
+# quaternion whose norm is off by d gives 2 d.
+PROMISED, TURNED = 5 * EPS, 8 * EPS
 COUNT = 1000  # states of each kind
 
 
@@ -70,9 +72,11 @@ def test_angular_momentum_and_torque_keep_their_digits(near):
             momentum = turn(q, [Ix * wx, Ix * wy, Iz * wz])
             axis = turn(q, [mpf(0), mpf(0), Mgl])
             torque = [-axis[1], axis[0], mpf(0)]
+            off = abs(mp.norm([mpf(part) for part in state.orientation.tolist()]) - 1)
             for found, value in (
                 (ARTICLE.angular_momentum(state), momentum),
                 (ARTICLE.gravity_torque(state), torque),
             ):
                 parts = zip(value, found.tolist(), strict=True)
-                assert mp.norm([a - b for a, b in parts]) <= PROMISED * mp.norm(value)
+                error = mp.norm([a - b for a, b in parts])
+                assert error <= (TURNED + 2 * off) * mp.norm(value)
