@@ -23,6 +23,7 @@ class Findings:
     foreign: int  # events of another version or engine, which are not computed
     versions: list[str]  # other versions that reported events
     damage: list[str]  # in the files, apart from what reading them has found
+    first: int  # number of the first event; 1 unless the log begins later than the run
     missing: list[str]  # events and samples that are missing, or there twice
 
     @property
@@ -42,6 +43,7 @@ def check_run(log: TopLog) -> Findings:
         sum(not events.is_own(each) for each in given),
         events.list_other_versions(given),
         _find_damage(log.file),
+        given[0].number if given else 0,
         [*_list_missing(log, given, deviations), *_describe_gaps(log, given, grid)],
     )
 

@@ -135,6 +135,8 @@ def _check(log: TopLog) -> int:
     print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
     if found.mismatches:
         print("events or what is said of the motion DO NOT agree with what is computed")
+    if found.first > 1:
+        print(f"the log begins with event {found.first} of the run")
     if found.foreign:
         by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
         print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")

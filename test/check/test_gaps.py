@@ -66,6 +66,13 @@ def test_a_beginning_that_is_missing_is_said_with_its_samples(tmp_path, capsys):
     assert error == f"top_replay: the beginning is missing: {text}\n"
 
 
+def test_a_log_that_begins_in_the_middle_of_a_run_is_whole_and_says_so(tmp_path, capsys):
+    run = Run()
+    del run.messages[: run.places("events")[1]]
+    assert module.main([str(run.write(tmp_path)), "--check"]) == 0
+    assert "\nthe log begins with event 2 of the run\n" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("counted", [20, 19])
 def test_samples_that_the_node_has_counted_as_missed_are_no_error(memory, counted):
     lost = memory.places("/top/orientation")[30:50]
