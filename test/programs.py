@@ -37,6 +37,19 @@ def execute(
     return subprocess.run([*map(str, words)], check=check, timeout=timeout, **options)
 
 
+def find_fault(program: str) -> str:
+    """Return why a compiler cannot be used, "" if it can.
+
+    It may be found and not start: rustup without a toolchain has a rustc.
+    """
+    try:
+        done = execute([program, "--version"])
+    except OSError:
+        return f"no {program}"
+    reason = done.stderr.partition("\n")[0]
+    return f"{program} --version: {reason}" if done.returncode else ""
+
+
 def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[str]:
     """Run a program to its end."""
     return execute(command(name, *arguments), env=environment(domain))

@@ -17,7 +17,7 @@ from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
 from node.listener import Listener
 from node.running_top import RunningTop
-from programs import PATIENT, execute, run, running_node
+from programs import PATIENT, execute, find_fault, run, running_node
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from simulation.test_run_file import make_run
 
@@ -90,8 +90,8 @@ def testset(tmp_path, monkeypatch):
 
 def write_block(language, source, program):
     """Write the program of docs/truth.md in a language; return the output that the page shows."""
-    if not shutil.which(program):
-        pytest.skip(f"no {program} here")
+    if fault := find_fault(program):
+        pytest.skip(fault)
     ((code, output),) = blocks(ROOT / "docs/truth.md", language)
     source.write_text(code)
     return output

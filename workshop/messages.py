@@ -3,7 +3,8 @@
 The tests get their ROS 2 from PyPI, where tf2_msgs and simulation_interfaces are missing. What
 `test/interfaces/PACKAGE` lists, fields and types only, is generated and compiled with the
 generators, headers and libraries of the wheels. The folder messages/PACKAGE of the environment then
-has the Python package, and its lib the libraries, for PYTHONPATH and LD_LIBRARY_PATH.
+has the Python package, and its lib the libraries, for PYTHONPATH and LD_LIBRARY_PATH. A folder
+PACKAGE-VERSION has what is different in another version, which is built too.
 """
 
 from __future__ import annotations
@@ -54,13 +55,20 @@ def main() -> int:
     return 0
 
 
-def build(package: str, folder: Path) -> None:
+def list_interfaces(name: str) -> dict[Path, Path]:
+    """Return the folder of each interface of a package, or of PACKAGE-VERSION, by its name."""
+    folders = dict.fromkeys([INTERFACES / name.partition("-")[0], INTERFACES / name])
+    return {path.relative_to(folder): folder for folder in folders for path in folder.glob("*/*.*")}
+
+
+def build(name: str, folder: Path) -> None:
     """Generate the sources and compile them."""
     os.environ["AMENT_PREFIX_PATH"] = str(PREFIX)
     (folder / "lib").mkdir(parents=True)
-    files = [f"{folder / 'idl'}:{each}" for each in convert(package, folder / "idl")]
-    for module, name, kind in GENERATORS:
-        getattr(importlib.import_module(f"{module}.cli"), name)(kind).generate(
+    package = name.partition("-")[0]
+    files = [f"{folder / 'idl'}:{each}" for each in convert(name, folder / "idl")]
+    for module, generator, kind in GENERATORS:
+        getattr(importlib.import_module(f"{module}.cli"), generator)(kind).generate(
             package_name=package,
             interface_files=files,
             include_paths=[str(PREFIX / "share")],
@@ -70,23 +78,23 @@ def build(package: str, folder: Path) -> None:
     (folder / package / "__init__.py").touch()
     # each needs those before it
     needed: list[str] = []
-    for name, sources in list_libraries(package, folder).items():
-        compile_library(folder, folder / "lib" / f"lib{package}__rosidl_{name}.so", sources, needed)
-        needed.append(f"{package}__rosidl_{name}")
+    for library, sources in list_libraries(package, folder).items():
+        target = folder / "lib" / f"lib{package}__rosidl_{library}.so"
+        compile_library(folder, target, sources, needed)
+        needed.append(f"{package}__rosidl_{library}")
     for kind in KINDS:
         target = folder / package / f"{package}_s__rosidl_{kind}{SUFFIX}"
         source = folder / package / f"_{package}_s.ep.rosidl_{kind}.c"
         compile_library(folder, target, [source], needed)
 
 
-def convert(package: str, folder: Path) -> Iterator[Path]:
+def convert(name: str, folder: Path) -> Iterator[Path]:
     """Write the IDL of every interface; yield its path in the folder."""
-    (source,) = INTERFACES.glob(package)
-    for path in sorted(source.glob("*/*.*")):
-        kind, name = path.parent.name, path.relative_to(source)
+    for path, source in sorted(list_interfaces(name).items()):
+        kind = path.parent.name
         (folder / kind).mkdir(parents=True, exist_ok=True)
-        CONVERTERS[kind](source, package, name, folder / kind)
-        yield name.with_suffix(".idl")
+        CONVERTERS[kind](source, name.partition("-")[0], path, folder / kind)
+        yield path.with_suffix(".idl")
 
 
 def list_libraries(package: str, folder: Path) -> dict[str, list[Path]]:

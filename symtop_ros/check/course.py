@@ -20,9 +20,12 @@ MAX_SEGMENTS = 100  # that are in memory
 
 
 class Course:
-    """The events of a run in the order of the log."""
+    """The events of a run in the order of the log.
 
-    def __init__(self, events: Sequence[Event]) -> None:
+    If some could not be read, it is not known how long the last one holds.
+    """
+
+    def __init__(self, events: Sequence[Event], all_readable: bool = True) -> None:
         self._events = events
         # Kept, because a driven motion is integrated from its start.
         self.segment = lru_cache(MAX_SEGMENTS)(self._find_segment)
@@ -33,7 +36,7 @@ class Course:
         self._present = set(numbers)
         # True for an event after which others are missing: what holds then is known in part.
         gaps = [bool(self._find_missing(*pair)) for pair in pairwise(numbers)]
-        self.has_gap = np.array([*gaps, False][: len(numbers)], dtype=np.bool_)
+        self.has_gap = np.array([*gaps, not all_readable][: len(numbers)], dtype=np.bool_)
         # True if no stamp is repeated, so that the stamps alone decide.
         self.is_ordered = bool((self._begins[1:] >= self._ends[:-1]).all())
         self.is_ordered &= bool((self._begins <= self._ends).all())
@@ -41,7 +44,7 @@ class Course:
     def list_missing(self) -> list[str]:
         """Describe the events that are missing between others, with the stamps around them."""
         found = []
-        for place in np.flatnonzero(self.has_gap).tolist():
+        for place in np.flatnonzero(self.has_gap[:-1]).tolist():
             before, after = self._events[place], self._events[place + 1]
             missing = self._find_missing(before.number, after.number)
             first, last = missing[0], missing[-1]
@@ -51,6 +54,29 @@ class Course:
                 "follow from what is missing are not judged"
             )
         return found
+
+    def list_repeated(self, allowed: int) -> list[str]:
+        """Describe the events that are repeated.
+
+        Each file of a run but the first may begin with the last event of the one before: `allowed`
+        are the files that may.
+        """
+        keys = [(event.number, event.stamp) for event in self._events]
+        allowed = min(allowed, sum(before == after for before, after in pairwise(keys)))
+        repeated = len(keys) - len(set(keys)) - allowed
+        return [f"{repeated} events are repeated"] if repeated > 0 else []
+
+    def list_unknown(self) -> Iterator[tuple[int, int]]:
+        """Yield the stretches of stamps (ns) in which events are missing."""
+        for place in np.flatnonzero(self.has_gap).tolist():
+            end = self._begins[place + 1] if place + 1 < len(self._begins) else MAX_STAMP
+            yield int(self._begins[place]), int(end)
+
+    def count_holding(self, stamps: Stamps) -> NDArray[np.intp]:
+        """Return the number of events that can hold at each stamp, if none is missing."""
+        ends = np.sort(np.maximum(self._begins, self._ends))
+        begun = np.searchsorted(np.sort(self._begins), stamps, side="right")
+        return np.asarray(begun - np.searchsorted(ends, stamps, side="right"))
 
     def _find_missing(self, before: int, after: int) -> list[int]:
         """Return numbers between those of two events that no event has; the ends of many."""

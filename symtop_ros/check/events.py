@@ -36,6 +36,7 @@ from symtop_ros.simulation.changes.outcomes import (
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
+from symtop_ros.simulation.validation import one_line
 
 NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
@@ -46,6 +47,12 @@ MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse
 def is_of_this_version(event: Event) -> bool:
     """Return True if the version that reported an event has the wording of this one."""
     return event.values.get("version") == __version__
+
+
+def list_other_versions(events: Sequence[Event]) -> list[str]:
+    """Return the versions, other than this one, that reported events."""
+    names = {event.values.get("version", "") or "an unknown version" for event in events}
+    return sorted(one_line(name, 20) for name in names - {__version__})
 
 
 def is_own(event: Event) -> bool:
@@ -95,6 +102,11 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator
     got = {**event.values, "name": event.name, "message": event.verdict}
     if event.name not in FOLLOW:
         yield Mismatch(EVENTS.name, event.stamp, "name", ", ".join(FOLLOW), event.name)
+        return
+    try:
+        event.outcome()
+    except ValueError as error:
+        yield Mismatch(EVENTS.name, event.stamp, "outcome", "readable", str(error))
         return
     try:
         expected = _compute(previous.segment() if previous else None, event, budget)

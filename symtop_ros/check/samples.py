@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.check.course import Course
+from symtop_ros.check.gaps import Grid
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
@@ -20,9 +21,9 @@ from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
 from symtop_ros.simulation.validation import one_line
 
 # Under gravity alone a state has the same bits on every machine, and so has what follows from it by
-# products and sums: no difference is accepted there. Euler's angles and the noise of the sensor
-# take functions whose last place depends on the version of NumPy and SciPy, and driven motions have
-# other bits with the compiled kernel than without. The largest difference seen was 12 eps; the
+# products, sums and the arc tangent of this package: no difference is accepted there. The noise of
+# the sensor takes a function whose last place depends on the version of SciPy, and driven motions
+# have other bits with the compiled kernel than without. The largest difference seen was 12 eps; the
 # bound leaves a factor of five.
 BOUND = 64 * float(np.finfo(float).eps)
 # Another version differs in many samples. A difference in fewer than this share is damage, however
@@ -75,9 +76,9 @@ def _largest(numbers: Real) -> float:
 class LogCheck:
     """The samples of a log, compared with what its events say."""
 
-    def __init__(self, events: Sequence[Event]) -> None:
+    def __init__(self, events: Sequence[Event], all_readable: bool = True) -> None:
         self.deviations: dict[str, Deviation] = {}
-        self._course, self._budget = Course(events), StepBudget(SPARE_STEPS)
+        self._course, self._budget = Course(events, all_readable), StepBudget(SPARE_STEPS)
 
     def add(self, name: str, columns: Columns, places: NDArray[np.intp]) -> None:
         """Compare samples of a topic; `places` (n,) are the numbers of events before them."""
@@ -133,8 +134,10 @@ class LogCheck:
         deviation.add(difference, scale, _is_exact(name, segment))
 
 
-def check_log(log: TopLog) -> dict[str, Deviation]:
+def check_log(log: TopLog, grid: Grid | None = None) -> dict[str, Deviation]:
     """Return the deviation of each topic in a log, by its name in `simulation.topics`.
+
+    A grid is given the stamps of all samples.
 
     Raises
     ------
@@ -149,21 +152,22 @@ def check_log(log: TopLog) -> dict[str, Deviation]:
             f"format of events must be {FORMAT} for a check, got {WITHOUT_FIELDS}: symtop_ros "
             f"{version} has recorded {log.file.path} and checks it"
         )
-    check, seen = LogCheck(events), 0
+    check, seen = LogCheck(events, log.has_readable_events), 0
     for batch in log.batches():
         begins = [place for place, _ in batch.events]
         for name, columns in batch.columns.items():
             places = seen + np.searchsorted(begins, columns.places, side="right")
             with np.errstate(all="ignore"):
                 check.add(name, columns, places)
+            if grid:
+                grid.add(name, columns.stamps)
         seen += len(begins)
     return check.deviations
 
 
 def _is_exact(name: str, segment: Segment) -> bool:
     """Return True if samples have the same bits on every machine."""
-    topic = STATE_TOPICS.get(name)
-    return bool(topic and not topic.angles and not segment.motion.is_driven)
+    return name in STATE_TOPICS and not segment.motion.is_driven
 
 
 def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]:
@@ -176,13 +180,13 @@ def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]
     for place in topic.format.quantities.values():
         scale[:, place] = np.abs(computed[:, place]).max(initial=0.0)
     if topic.angles:
-        place = topic.format.quantities[topic.angles]
-        # -pi and pi are the same angle
-        turns = np.abs(difference[:, place] - 2 * np.pi)
-        difference[:, place] = np.minimum(difference[:, place], turns)
         with np.errstate(divide="ignore"):  # on the vertical phi and psi are undefined
             scale = np.maximum(scale, 1.0) / np.abs(np.sin(computed[:, 1:2]))
     if segment.motion.is_driven:
+        if topic.angles:  # -pi and pi are the same angle
+            place = topic.format.quantities[topic.angles]
+            turns = np.abs(difference[:, place] - 2 * np.pi)
+            difference[:, place] = np.minimum(difference[:, place], turns)
         # A difference in the last place of a rate grows with the phase of the motion.
         rate = np.abs(samples.state.angular_velocity).max(axis=-1)
         phase = rate * np.abs(segment.time_at(columns.stamps))

@@ -20,7 +20,7 @@ from symtop_ros.physics import Top
 from symtop_ros.session.diagnostics import balance_status, motion_status
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import Event, decode_events
 from symtop_ros.simulation.sensor import Rig, find_body
 from symtop_ros.simulation.topics import DIAGNOSTICS, EVENTS, TF_STATIC, choose_description
 from symtop_ros.wire.diagnostics import Status, decode_statuses
@@ -39,9 +39,9 @@ ROUNDING = ("energy.balance", "angular_momentum.balance")
 class TextCheck:
     """The messages of one node that are neither events nor samples."""
 
-    def __init__(self, node: str, events: Sequence[Event]) -> None:
+    def __init__(self, node: str, events: Sequence[Event], all_readable: bool = True) -> None:
         self._node, self._events = node, events
-        self._course, self._budget = Course(events), StepBudget(SPARE_STEPS)
+        self._course, self._budget = Course(events, all_readable), StepBudget(SPARE_STEPS)
         self._names = {
             choose_description(node).resolve(node): self._judge_description,
             TF_STATIC.resolve(node): self._judge_frames,
@@ -50,8 +50,10 @@ class TextCheck:
         self._kinds = list(dict.fromkeys(map(_kind, events)))
         numbers = [event.number for event in events]
         # Of a run with an event that is missing, the top of a description may not be known.
-        self._is_whole = all(map(is_of_this_version, events)) and all(
-            after <= before + 1 for before, after in pairwise(numbers)
+        self._is_whole = (
+            all_readable
+            and all(map(is_of_this_version, events))
+            and all(after <= before + 1 for before, after in pairwise(numbers))
         )
 
     def judge(self, name: str, message: Message, place: int) -> Iterator[Mismatch]:
@@ -132,15 +134,23 @@ def _texts(status: Status) -> dict[str, str]:
     return {**kept, "message": status.message, "level": str(status.level)}
 
 
+def _count_events(data: bytes) -> int:
+    """Return how many events of a message can be read: the others are not among those of a log."""
+    try:
+        return len(decode_events(data))
+    except ValueError:
+        return 0
+
+
 def find_mismatches(log: TopLog, events: Sequence[Event]) -> Iterator[Mismatch]:
     """Yield what is wrong in the texts of a log that has been read."""
     if not events or log.node is None:
         return
-    check, place = TextCheck(log.node, events), 0
+    check, place = TextCheck(log.node, events, log.has_readable_events), 0
     own = EVENTS.resolve(log.node)
     for messages in log.file.chunks():
         for message in messages:
             channel = log.file.channels.get(message.channel_id)
             name = channel.topic if channel else ""
-            place += name == own
+            place += _count_events(message.data) if name == own else 0
             yield from check.judge(name, message, place)

@@ -7,7 +7,7 @@ begins with the current latched messages, so that it can be read alone.
 import threading
 import time
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -45,6 +45,8 @@ class Recorder:
         self._file: LogFile | None = None  # the last file that was opened
         self._thread: threading.Thread | None = None
         self._ending = threading.Event()
+        # returns the samples that were missed, which no message shows
+        self.count_missed: Callable[[], int] = lambda: 0
         self.dropped = 0  # messages that did not fit into the queue since the recording began
         self.failure = ""  # reason why the last recording ended by itself; empty if it did not
 
@@ -148,7 +150,7 @@ class Recorder:
         return True
 
     def _counts(self) -> dict[str, str]:
-        return {"dropped": str(self.dropped)}
+        return {"dropped": str(self.dropped), "missed": str(self.count_missed())}
 
     def _fill(self, file: "LogFile", latched: dict[int, bytes]) -> bool:
         """Write one file; return True if the recording ends, False if a new file is due."""

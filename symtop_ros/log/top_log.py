@@ -50,10 +50,15 @@ class TopLog:
         """Yield the events of the run in the order of the log."""
         if self.node is None:
             self.node = self._find_node()
-        reader = BatchReader()
         for messages in self.file.chunks():
-            batch = reader.read([each for each in self._select(messages) if each[0] == EVENTS.name])
+            chosen = [each for each in self._select(messages) if each[0] == EVENTS.name]
+            batch = self._reader.read(chosen)
             yield from (event for _, event in batch.events)
+
+    @property
+    def has_readable_events(self) -> bool:
+        """True if no event was found to be unreadable so far."""
+        return EVENTS.name not in self._reader.unreadable
 
     @property
     def problems(self) -> list[str]:

@@ -21,7 +21,7 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 
-from symtop_ros.node.services import refuse_unknown_types
+from symtop_ros.node.services import refuse_too_many, refuse_unknown_types
 from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.validation import RefusedError, reject
@@ -136,6 +136,12 @@ def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
         return response
 
     def set_each(request: Any, response: Any) -> Any:
+        try:
+            refuse_too_many(request.parameters)
+        except RefusedError as refusal:
+            refused = SetParametersResult(successful=False, reason=str(refusal))
+            response.results = [refused] * len(request.parameters)
+            return response
         response.results = [
             _set(node, [each], handler, SetParameters) for each in request.parameters
         ]
@@ -171,6 +177,7 @@ def _set(
     node: Node, parameters: Sequence[ParameterMessage], handler: Handler, service: Any
 ) -> SetParametersResult:
     try:
+        refuse_too_many(parameters)
         refuse_unknown_types(parameters)
         changes = [_convert(each) for each in parameters if not _is_kept(node, each)]
     except RefusedError as refusal:

@@ -1,6 +1,6 @@
 """Translation between ROS services and the requests of a simulation."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -12,6 +12,7 @@ from std_srvs.srv import SetBool, Trigger
 from symtop_ros.session.services import ServiceKind
 from symtop_ros.simulation.validation import RefusedError, reject, show
 
+MAX_COUNT = 1000  # parameters of a request; a file with all of them has a tenth
 VALUE_FIELDS = (
     *("bool_value", "integer_value", "double_value", "string_value"),
     *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
@@ -33,9 +34,9 @@ def fill_response(response: Any, granted: bool, answer: str) -> Any:
     return response
 
 
-def read_values(parameters: Iterable[ParameterMessage]) -> dict[str, Any]:
+def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
     """Return the values of a request by name."""
-    parameters = tuple(parameters)
+    refuse_too_many(parameters)
     refuse_unknown_types(parameters)
     values: dict[str, Any] = {}
     for parameter in parameters:
@@ -57,6 +58,12 @@ def _read_value(message: ParameterValue) -> Any:
         return parameter_value_to_python(message)
     given = [value for name in VALUE_FIELDS if (value := getattr(message, name))]
     return given[0] if len(given) == 1 else None
+
+
+def refuse_too_many(parameters: Sequence[ParameterMessage]) -> None:
+    """Refuse a request so long that reading it would delay samples."""
+    if len(parameters) > MAX_COUNT:
+        raise reject("a request", f"of at most {MAX_COUNT} parameters", len(parameters))
 
 
 def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:

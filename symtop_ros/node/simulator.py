@@ -3,9 +3,11 @@
 It is offered where the package simulation_interfaces is installed, under the names that Gazebo
 gives it. One step is a period of publish_rate; a reset goes back to the parameters `initial.*`, in
 the state and not in the time, which a clock shares with others.
+
+Versions of the package differ. Those before 2.1 (Humble, Jazzy, Kilted) have no flags in
+SetEntityState for what is to be set, and some no code for an invalid pose.
 """
 
-import re
 from collections.abc import Callable, Generator
 from typing import Any, cast
 
@@ -28,6 +30,7 @@ from simulation_interfaces.srv import (
 
 from symtop_ros import __version__
 from symtop_ros.arrays import Real
+from symtop_ros.node.expression import ExpressionError, search
 from symtop_ros.physics import State, angular_acceleration
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.segment import Segment
@@ -52,14 +55,15 @@ STOPPED, PLAYING, PAUSED = (
     SimulationState.STATE_PLAYING,
     SimulationState.STATE_PAUSED,
 )
-SCOPES = (
-    ResetSimulation.Request.SCOPE_DEFAULT,
-    ResetSimulation.Request.SCOPE_STATE,
+ALL, TIME, STATE, SPAWNED = (
     ResetSimulation.Request.SCOPE_ALL,
+    ResetSimulation.Request.SCOPE_TIME,
+    ResetSimulation.Request.SCOPE_STATE,
+    ResetSimulation.Request.SCOPE_SPAWNED,
 )
+TIME_IS_KEPT = "the state was reset; the time is not set back, as other programs share its clock"
 UNSUPPORTED, FAILED = Result.RESULT_FEATURE_UNSUPPORTED, Result.RESULT_OPERATION_FAILED
-
-
+INVALID_POSE: int = getattr(SetEntityState.Response, "INVALID_POSE", FAILED)
 AT_REST = (0.0, 0.0, 0.0)
 
 
@@ -109,12 +113,14 @@ class Simulator:
         """Remove the action, which the node does not remove itself."""
         self._steps.destroy()
 
-    def _handler(self, name: str, act: Callable[[Any, Any], None]) -> Any:
+    def _handler(self, name: str, act: Callable[[Any, Any], str | None]) -> Any:
+        """Return the handler of a service; `act` returns what is to be said of a success."""
+
         def handle(request: Any, response: Any) -> Any:
             result = Result(result=Result.RESULT_OK)
             with self._simulation.turn(f"~/{name}") as turn:
                 try:
-                    act(request, response)
+                    result.error_message = act(request, response) or ""
                 except RefusedError as refusal:
                     code = refusal.code if isinstance(refusal, ResultError) else FAILED
                     result = Result(result=code, error_message=str(refusal))
@@ -170,12 +176,14 @@ class Simulator:
     def _begin_again(self) -> None:
         self._demand("set_initial_conditions", {})
 
-    def _reset(self, request: Any, _: Any) -> None:
-        if request.scope not in SCOPES:
-            raise ResultError(
-                UNSUPPORTED, reject("scope", "0, 2 or 255: the time is not set back", request.scope)
-            )
+    def _reset(self, request: Any, _: Any) -> str:
+        """Reset the state, for each scope that includes it; nothing is ever spawned."""
+        scope = request.scope or ALL
+        if not scope & STATE or (scope != ALL and scope & ~(TIME | STATE | SPAWNED)):
+            condition = f"one that includes the state ({STATE}), 0 or {ALL}"
+            raise ResultError(UNSUPPORTED, reject("scope", condition, request.scope))
         self._begin_again()
+        return TIME_IS_KEPT if scope & TIME else ""
 
     def _step(self, request: Any, _: Any) -> None:
         if not request.steps:
@@ -224,9 +232,10 @@ class Simulator:
         if filters.categories or filters.tags.tags or filters.bounds.type != Bounds.TYPE_EMPTY:
             raise ResultError(UNSUPPORTED, reject("filters", "a filter of names only", "others"))
         try:
-            is_found = re.search(filters.filter, self._name)
-        except re.error:
-            raise reject("filter", "a regular expression", filters.filter) from None
+            is_found = search(filters.filter, self._name)
+        except ExpressionError as error:
+            condition = f"a POSIX extended regular expression ({error})"
+            raise reject("filter", condition, filters.filter) from None
         response.entities = [self._name] if is_found else []
 
     def _check_name(self, entity: str) -> None:
@@ -248,18 +257,18 @@ class Simulator:
     def _set_entity_state(self, request: Any, _: Any) -> None:
         self._check_name(request.entity)
         given, world = request.state, self._simulation.settings.world_frame
-        if request.set_acceleration:
+        # Without flags pose and twist are set, and the acceleration is ignored, as in Gazebo.
+        if getattr(request, "set_acceleration", False):
             raise ResultError(
                 UNSUPPORTED, reject("set_acceleration", "false: it follows from the torque", True)
             )
+        sets_pose, sets_twist = (getattr(request, name, True) for name in ("set_pose", "set_twist"))
         if given.header.frame_id not in ("", world):
             raise reject("header.frame_id", f"'{world}'", given.header.frame_id)
         now = self._simulation.state
-        attitude = _read_pose(given.pose) if request.set_pose else now
-        omega = now.to_world(now.angular_velocity)
-        if request.set_twist:
-            omega = _read_twist(given.twist)
-        if request.set_pose or request.set_twist:
+        attitude = _read_pose(given.pose) if sets_pose else now
+        omega = _read_twist(given.twist) if sets_twist else now.to_world(now.angular_velocity)
+        if sets_pose or sets_twist:
             w, x, y, z = attitude.orientation.tolist()
             body = attitude.to_body(omega).tolist()
             values = {"orientation": [x, y, z, w], "angular_velocity": body}
@@ -273,15 +282,14 @@ def _to_message(vector: Any) -> Vector3:
 
 def _read_pose(pose: Any) -> State:
     """Return a state of rest with the orientation of a top, which turns about the pivot."""
-    code = SetEntityState.Response.INVALID_POSE
     position = (pose.position.x, pose.position.y, pose.position.z)
     if position != AT_REST:
-        raise ResultError(code, reject("position", "0 (the pivot is fixed)", position))
+        raise ResultError(INVALID_POSE, reject("position", "0 (the pivot is fixed)", position))
     q = pose.orientation
     try:
         return State((q.w, q.x, q.y, q.z), AT_REST)
     except ValueError as error:
-        raise ResultError(code, RefusedError(str(error))) from None
+        raise ResultError(INVALID_POSE, RefusedError(str(error))) from None
 
 
 def _read_twist(twist: Any) -> Real:

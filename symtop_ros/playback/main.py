@@ -135,8 +135,11 @@ def _check(log: TopLog) -> int:
     print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
     if found.mismatches:
         print("events or what is said of the motion DO NOT agree with what is computed")
+    if found.first > 1:
+        print(f"the log begins with event {found.first} of the run")
     if found.foreign:
-        print(f"{found.foreign} events are of another version or engine: only it can compute them")
+        by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
+        print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")
     is_whole = not (log.damage or found.damage or found.missing)
     if found.samples_agree and not is_whole:
         print("the log is damaged or incomplete")

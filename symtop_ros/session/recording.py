@@ -81,6 +81,7 @@ class Recording:
             **{f"parameter.{name}": str(value) for name, value in values.items()},
             "clock.host": datetime.now(timezone.utc).isoformat(),
             "clock.node": str(self._simulation.now),
+            "missed": str(self._simulation.ticker.missed),
             **self._environment,
         }
 

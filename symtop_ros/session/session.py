@@ -37,6 +37,7 @@ class Session:
         self._recorder = Recorder(settings.record)
         self._outputs = Outputs(settings, host, self._recorder, name)
         self.simulation = Simulation(settings, clock, self._outputs, host)
+        self._recorder.count_missed = lambda: self.simulation.ticker.missed
         start = self.simulation.timeline.verdict
         verdict = self.simulation.report("start", start, {"scene": scene})
         metadata = {"scene": scene, **environment}

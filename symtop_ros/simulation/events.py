@@ -200,14 +200,16 @@ def start_event(motion: Motion, rig: Rig = NO_RIG) -> Event:
 
 
 def decode_events(data: bytes) -> list[Event]:
-    """Decode the events of a DiagnosticArray."""
+    """Decode the events of a DiagnosticArray: their motions and states, of any version.
+
+    Outcomes are words of the version that reported them, and are read by its check.
+    """
     events = [
         Event(status.stamp, status.name.removeprefix(PREFIX), status.message, status.values)
         for status in decode_statuses(data)
     ]
     for event in events:
         event.segment()
-        event.outcome()
         event.state()
         event.state_before()
     return events

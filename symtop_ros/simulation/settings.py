@@ -31,6 +31,7 @@ MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
 MAX_PRIORITY = 99  # of SCHED_FIFO
 FOLDER, MAX_PATH = "the name of a folder (printable characters)", 4096  # characters
+MAX_LIST = 1000  # characters of a list that is given as text
 MAX_FRAME = 200  # characters of a frame name, which stands in every message
 
 
@@ -64,7 +65,7 @@ def _moment(default: float, description: str, unit: str, low: float) -> Paramete
 def _read_list(text: str) -> Any:
     """Return the list of a text such as [0, 0, 0.1], which is no list to ROS; else the text."""
     try:
-        found = json.loads(text)
+        found = json.loads(text) if len(text) <= MAX_LIST else text
     except (ValueError, RecursionError):
         return text
     return found if isinstance(found, list) else text
@@ -82,11 +83,10 @@ def _vector(description: str, size: int, limit: float, unit: str) -> Parameter:
 
 def _printable(condition: str, max_length: int, name: str, value: Any) -> str:
     """Return text that can stand in a message or a path."""
-    if not (isinstance(value, str) and value.strip() and value.isprintable()) or (
-        len(value) > max_length
-    ):
+    is_short = isinstance(value, str) and len(value) <= max_length
+    if not (is_short and value.strip() and value.isprintable()):
         raise reject(name, condition, value)
-    return value
+    return str(value)
 
 
 def _frame(default: str, description: str) -> Parameter:

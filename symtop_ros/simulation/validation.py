@@ -5,7 +5,8 @@ Every refusal reads "NAME must be CONDITION, got VALUE", in one printable line.
 
 import math
 import re
-from collections.abc import Collection, Mapping
+from array import array
+from collections.abc import Collection, Mapping, Sequence, Sized
 from typing import Any
 
 MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
@@ -26,8 +27,10 @@ def reject(name: str, condition: str, got: object) -> RefusedError:
 
 
 def show(value: object) -> str:
-    """Return a value as text of at most `MAX_SHOWN` characters."""
-    start = value[:MAX_SHOWN] if isinstance(value, list | tuple | str) else value
+    """Return a value as text of at most `MAX_SHOWN` characters, however long the value is."""
+    start: Any = value
+    if isinstance(value, Sequence | array):
+        start = value[:MAX_SHOWN]
     text = repr(start)
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 3]}..."
 
@@ -67,13 +70,11 @@ def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[f
 
     `unit` may name the frame as well: "N m, world frame".
     """
-    try:
-        parts = () if isinstance(value, str | bytes) else tuple(value)
-    except TypeError:
-        parts = ()
-    if len(parts) != size:
-        got = len(parts) if parts else show(value)
-        raise RefusedError(f"{name} must have {size} elements ({unit}), got {got}")
+    is_text = isinstance(value, str | bytes)
+    count = 0 if is_text or not isinstance(value, Sized) else len(value)
+    if count != size:
+        raise RefusedError(f"{name} must have {size} elements ({unit}), got {count or show(value)}")
+    parts = tuple(value)
     try:
         return tuple(number(name, part, unit, -limit, limit) for part in parts)
     except RefusedError:

@@ -46,6 +46,7 @@ def write_log(folder: Path, **changes: object) -> Path:
     clock.now += 5_000_000_000
     session.simulation.end_jump(True)
     advance(session, clock, 0.05)
+    session.keep_up()
     session.close()
     (path,) = folder.glob("*.mcap")
     return path

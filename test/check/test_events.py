@@ -41,7 +41,6 @@ def found(before, event):
     """The mismatches of one event, or the reason why it cannot be read."""
     try:
         event.segment()
-        event.outcome()
         return list(find_mismatches([*before, event]))
     except ValueError as error:  # as in `decode_events`
         return [error]

@@ -1,11 +1,19 @@
 """A whole check: what is missing is named, and nothing is judged by it."""
 
+import random
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 from check.run_log import Memory
 from python_runs import run_python
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.playback.main import _check, main
+from symtop_ros.simulation.events import decode_events
+from symtop_ros.simulation.topics import SAMPLE_TOPICS
+from symtop_ros.wire.diagnostics import decode_statuses, encode_statuses
 
 
 @pytest.fixture
@@ -57,3 +65,63 @@ def test_a_wrong_sample_before_the_gap_of_another_event_is_found(memory):
     data = memory.messages[place].data
     memory.messages[place].data = data[:-8] + bytes(8)
     assert not check_run(TopLog(memory)).samples_agree
+
+
+def test_a_log_of_an_earlier_version_opens_and_its_samples_agree(capsys):
+    # Recorded by 0.3.0: every kind of event, a sensor, friction and an applied torque.
+    assert main([str(Path(__file__).with_name("run_0.3.0.mcap")), "--check"]) == 0
+    *rows, agree, words = capsys.readouterr().out.splitlines()
+    assert len(rows) == len(SAMPLE_TOPICS)
+    assert all(row.endswith(" 38 samples, largest difference 0") for row in rows)
+    assert agree == "the samples agree with the events"
+    assert words == "15 events are of symtop_ros 0.3.0: their words and verdicts are not judged"
+
+
+def test_words_of_another_version_are_read_and_not_judged_and_its_samples_are():
+    memory = Memory.read(Path(__file__).with_name("run_0.3.0.mcap"))
+    place = memory.places("/top/events")[2]
+    (status,) = decode_statuses(memory.messages[place].data)
+    values = {"outcome.kind": "a new word"}
+    memory.messages[place].data = encode(status._replace(message="another sentence"), values)
+    assert _check(TopLog(memory)) == 0
+    sample = memory.messages[memory.places("/top/orientation")[9]]
+    sample.data = sample.data[:-1] + bytes([sample.data[-1] ^ 1])
+    assert _check(TopLog(memory)) == 1
+
+
+PLACES = [
+    pytest.param(k, marks=() if k in (0, 3, -1) else pytest.mark.long) for k in range(-1, 13)
+]  # of the events
+
+
+@pytest.mark.parametrize("number", PLACES)
+def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, number, capsys):
+    place = memory.places("/top/events")[number]
+    message = memory.messages[place]
+    (status,) = decode_statuses(message.data)
+    rng = random.Random(number)
+    spoiled = [encode(status, {key: spoil(rng, text)}) for key, text in status.values.items()]
+    unreadable = [data for data in spoiled if not is_readable(data)]
+    assert len(unreadable) > 10
+    for data in (unreadable[0], unreadable[-1]):
+        memory.messages[place] = replace(message, data=data)
+        assert _check(TopLog(memory)) == 1
+        assert "top_replay: events: " in capsys.readouterr().err
+
+
+def spoil(rng, text):
+    """A text with another letter at one place."""
+    place = rng.randrange(max(1, len(text)))
+    return f"{text[:place]}x{text[place + 1 :]}"
+
+
+def encode(status, changes):
+    changed = status._replace(values={**status.values, **changes})
+    return encode_statuses(status.stamp, "world", [changed])
+
+
+def is_readable(data):
+    try:
+        return bool(decode_events(data))
+    except ValueError:
+        return False

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from log_files import ARTICLE, CUSPS
-from programs import execute
+from programs import execute, find_fault
 
 from symtop_ros.physics import Motion
 
@@ -16,7 +16,16 @@ ROOT = Path(__file__).parents[2]
 TRUTH = (ROOT / "docs/truth.md").read_text()
 
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
-needs_rust = pytest.mark.skipif(not shutil.which("rustc"), reason="no rustc")
+needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("rustc"))
+
+
+def test_rustup_without_a_toolchain_is_no_compiler_and_its_reason_is_shown(tmp_path, monkeypatch):
+    rustc = tmp_path / "rustc"
+    rustc.write_text("#!/bin/sh\necho 'error: no default is configured' >&2\nexit 1\n")
+    rustc.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+    assert find_fault("rustc") == "rustc --version: error: no default is configured"
+    assert find_fault("no_such_compiler") == "no no_such_compiler"
 
 
 def run_block(name, folder):

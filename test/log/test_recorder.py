@@ -55,7 +55,10 @@ def test_all_messages_are_in_the_file_in_order(tmp_path):
     assert [(stamp, data) for _, stamp, data in contents(path)] == given
     assert recorder.dropped == 0
     file = read_whole(path)
-    assert file.metadata == {"symtop_ros": {"scene": "x"}, "symtop_ros.end": {"dropped": "0"}}
+    assert file.metadata == {
+        "symtop_ros": {"scene": "x"},
+        "symtop_ros.end": {"dropped": "0", "missed": "0"},
+    }
     assert file.problems == []
 
 

@@ -13,8 +13,8 @@ BUILT = Path(sys.prefix, "messages")
 
 
 def find_messages(package: str) -> Path | None:
-    """Return the folder of a package that was built; None if it is installed."""
-    if importlib.util.find_spec(package):
+    """Return the folder of a package, or PACKAGE-VERSION, that was built; None: it is installed."""
+    if "-" not in package and importlib.util.find_spec(package):
         return None
     folder = BUILT / package
     if not folder.is_dir():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import os
 import sys
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from documents import commands, names, rows
 from geometry_msgs.msg import QuaternionStamped
 from node.built_messages import find_messages
 from node.running_top import stamp_of
+from programs import execute
 from rclpy.action import ActionClient
 from rosgraph_msgs.msg import Clock
 
@@ -24,12 +26,14 @@ PERIOD = 5 * MS  # ns, at the 200 Hz of the scenes
 UNSUPPORTED, OK, NOT_FOUND, FAILED = 0, 1, 2, 4
 ALREADY, INVALID_POSE = 101, 101
 STOPPED, PLAYING, PAUSED, QUITTING = 0, 1, 2, 3
+# Variable for the version of the messages: a process has one.
+VERSION, WITHOUT_FLAGS = "SIMULATION_INTERFACES", "simulation_interfaces-1.0.0"
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _messages():
     """Make the messages importable for the tests of this module."""
-    folder = find_messages("simulation_interfaces")
+    folder = find_messages(os.environ.get(VERSION, "simulation_interfaces"))
     with pytest.MonkeyPatch.context() as patch:
         if folder:
             patch.syspath_prepend(folder)
@@ -176,32 +180,56 @@ def test_steps_are_periods_to_the_nanosecond(start_top):
     assert refused.error_message.startswith("duration must be ")
 
 
-def test_a_reset_goes_back_to_the_parameters_and_leaves_the_time(client):
+def test_a_reset_goes_back_to_the_parameters_and_says_that_the_time_does_not(client):
     run = client.run
     start = run.top.simulation.segment.motion.start
     assert client.set_entity(**twist({"angular": {"z": 5.0}})).result == OK
     before = run.top.simulation.stamp
-    for scope in (0, 2, 255):
-        assert client.reset(scope).result == OK
+    kept = "the state was reset; the time is not set back, as other programs share its clock"
+    for scope, said in ((0, kept), (2, ""), (3, kept), (6, ""), (7, kept), (255, kept)):
+        done = client.reset(scope)
+        assert (done.result, done.error_message) == (OK, said)
         again = run.top.simulation.segment.motion.start
         assert np.array_equal(again.orientation, start.orientation)
         assert np.array_equal(again.angular_velocity, start.angular_velocity)
     assert run.top.simulation.stamp >= before
     assert client.state() == PLAYING
-    refused = client.reset(1)
+
+
+@pytest.mark.parametrize("scope", [1, 4, 5, 8, 10, 254])
+def test_a_reset_without_the_state_or_of_something_unknown_is_refused(client, scope):
+    refused = client.reset(scope)
     assert refused.result == UNSUPPORTED
-    assert refused.error_message == "scope must be 0, 2 or 255: the time is not set back, got 1"
+    condition = "one that includes the state (2), 0 or 255"
+    assert refused.error_message == f"scope must be {condition}, got {scope}"
 
 
 def test_entities_are_filtered_by_name(client):
     assert client.entities().entities == ["top"]
     assert client.entities(filter="^t.p$").entities == ["top"]
-    assert client.entities(filter="robot").entities == []
+    assert client.entities(filter="[[:upper:]]").entities == []
     refused = client.entities(filter="(")
     assert (refused.result.result, refused.entities) == (FAILED, [])
-    assert refused.result.error_message == "filter must be a regular expression, got '('"
+    condition = "a POSIX extended regular expression (a ( is not closed)"
+    assert refused.result.error_message == f"filter must be {condition}, got '('"
     assert client.entities(tags={"tags": ["a"]}).result.result == UNSUPPORTED
     assert client.entities(bounds={"type": 3}).result.result == UNSUPPORTED
+
+
+def test_a_filter_that_no_backtracking_ends_is_answered(client):
+    answer = client.entities(filter=".?" * 900 + "z")
+    assert (answer.result.result, answer.entities) == (OK, [])
+    assert client.entities(filter=".?" * 900 + "p").entities == ["top"]
+
+
+def test_messages_without_flags_set_pose_and_twist():
+    """Those before 2.1, which Humble, Jazzy and Kilted have; in a process of their own."""
+    find_messages(WITHOUT_FLAGS)
+    tests = Path(__file__).with_name("simulator_without_flags.py")
+    words = [sys.executable, "-m", "pytest", "-q", tests]
+    done = execute(words, env={**os.environ, VERSION: WITHOUT_FLAGS}, timeout=120)
+    assert done.returncode == 0, done.stdout
+    assert " skipped" not in done.stdout
 
 
 def test_the_state_of_the_top_is_that_of_the_topics(client):
