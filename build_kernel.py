@@ -7,9 +7,7 @@ ctypes, so it needs no header of Python, and one serves every version.
 
 import hashlib
 import os
-import re
 import shlex
-import shutil
 import subprocess
 import sys
 from functools import cache
@@ -32,8 +30,8 @@ OPTIONS = (
 ZIG = "ziglang==0.15.2"  # pinned: another Zig is another compiler
 TRIAL = "#include <mutex>\nint main() {}\n"
 NO_COMPILER = (
-    "symtop_ros needs a C++ compiler: install g++ or clang (Debian and Ubuntu: apt install g++), or "
-    f"{ZIG.partition('==')[0]} from PyPI, or name one by CXX"
+    "symtop_ros needs a C++ compiler: install g++ or clang (Debian and Ubuntu: apt install g++), "
+    f"or {ZIG.partition('==')[0]} from PyPI, or name one by CXX"
 )
 
 
@@ -41,9 +39,10 @@ def _works(compiler: list[str]) -> bool:
     """Return True if a compiler runs and has the headers of C++: a g++ may be there without."""
     command = [*compiler, "-std=c++17", "-fsyntax-only", "-x", "c++", "-"]
     try:
-        return not subprocess.run(command, input=TRIAL, text=True, capture_output=True).returncode
+        done = subprocess.run(command, input=TRIAL, text=True, capture_output=True, check=False)
     except OSError:
         return False
+    return done.returncode == 0
 
 
 @cache

@@ -12,10 +12,11 @@ have 57.
 
 from decimal import Decimal, localcontext
 
-from symtop_ros.physics import State, Top
 from symtop_ros.physics.exact.nutation import Nutation, find_roots
 from symtop_ros.physics.exact.precise import PRECISE
 from symtop_ros.physics.exact.quotients import compute_mean_rates, find_zeros
+
+from symtop_ros.physics import State, Top
 
 TRIED, ENOUGH = (16, 28, 38, 50, 57), 120
 TURNS = (1e3, 1e9, 1e15, 1e29)

@@ -9,10 +9,11 @@ rounding, or zero, where the true rate is in proportion to the weight.
 
 from decimal import Decimal, localcontext
 
-from design.digits import find_rates
-from symtop_ros.physics import State, Top
 from symtop_ros.physics.exact.mean_rates import KEPT, add_means
 from symtop_ros.physics.exact.precise import PRECISE
+
+from design.digits import find_rates
+from symtop_ros.physics import State, Top
 
 WEIGHTS = (1e-3, 1e-12, 1e-24, 1e-30, 1e-36, 1e-48, 1e-60)  # J
 START = State.from_euler(theta=1.0, theta_dot=0.3, phi_dot=2.0)

@@ -21,7 +21,6 @@ from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.distribution import use_profile
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import accelerated, describe_engine
 from symtop_ros.playback import viewer
 from symtop_ros.playback.replay import replay
 from symtop_ros.programs import INTERRUPTED
@@ -97,8 +96,6 @@ def _run(domain: int) -> Path:
     """
     space = f"/demo_{secrets.token_hex(4)}"
     _say(f"starting top_node with the scene {SCENE!r} in the ROS domain {domain} ...")
-    if not accelerated:
-        _say(f"states are computed by {describe_engine()}")
     options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "-r", f"__ns:={space}"]
     command = [sys.executable, "-c", NODE, "--ros-args", *options, "--log-level", "warn"]
     node = None

@@ -17,8 +17,6 @@ from symtop_ros.physics import (
     Friction,
     State,
     Top,
-    accelerated,
-    describe_engine,
     kick_verdict,
 )
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
@@ -40,7 +38,6 @@ from symtop_ros.simulation.validation import one_line
 
 NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
-ENGINE = ("computed_by",)  # nothing else in a log says which
 MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 
 
@@ -53,16 +50,6 @@ def list_other_versions(events: Sequence[Event]) -> list[str]:
     """Return the versions, other than this one, that reported events."""
     names = {event.values.get("version", "") or "an unknown version" for event in events}
     return sorted(one_line(name, 20) for name in names - {__version__})
-
-
-def is_own(event: Event) -> bool:
-    """Return True if an event can be computed here to the last letter.
-
-    The last bits of driven motions differ between the kernel and Python, and those of Python depend
-    on the linear algebra that NumPy has for a processor.
-    """
-    has_kernel = accelerated and event.values.get("computed_by") == describe_engine()
-    return is_of_this_version(event) and (has_kernel or not event.segment().motion.is_driven)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +77,11 @@ def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:
     """Yield the fields of events that are not as computed."""
     budget = StepBudget(SPARE_STEPS)
     for previous, event in pairwise([None, *events]):
-        if event is None or not is_own(event):
+        if event is None or not is_of_this_version(event):
             continue
         follows = previous is not None and previous.number == event.number - 1
-        known = previous if follows and previous is not None and is_own(previous) else None
+        is_known = follows and previous is not None and is_of_this_version(previous)
+        known = previous if is_known else None
         yield from _judge(known, event, budget)
 
 
@@ -133,7 +121,7 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
     found = Event.of(
         event.stamp, event.name, outcome, request, state, following, frame, event.number
     )
-    own = ENGINE if before else (*BEFORE, *ENGINE)
+    own = () if before else BEFORE
     given = {name: event.values[name] for name in own if name in event.values}
     return replace(found, values={**found.values, **given})
 

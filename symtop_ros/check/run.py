@@ -20,7 +20,7 @@ class Findings:
 
     deviations: dict[str, Deviation]  # of the samples, by their topics
     mismatches: list[Mismatch]  # in events, descriptions and diagnostics
-    foreign: int  # events of another version or engine, which are not computed
+    foreign: int  # events of another version, which are not computed
     versions: list[str]  # other versions that reported events
     damage: list[str]  # in the files, apart from what reading them has found
     first: int  # number of the first event; 1 unless the log begins later than the run
@@ -40,7 +40,7 @@ def check_run(log: TopLog) -> Findings:
     return Findings(
         deviations,
         [*events.find_mismatches(given), *texts.find_mismatches(log, given)],
-        sum(not events.is_own(each) for each in given),
+        sum(not events.is_of_this_version(each) for each in given),
         events.list_other_versions(given),
         _find_damage(log.file),
         given[0].number if given else 0,

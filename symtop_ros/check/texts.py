@@ -13,7 +13,7 @@ import numpy as np
 from mcap.records import Message
 
 from symtop_ros.check.course import Course
-from symtop_ros.check.events import Mismatch, compare_fields, is_of_this_version, is_own
+from symtop_ros.check.events import Mismatch, compare_fields, is_of_this_version
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top
@@ -110,7 +110,8 @@ class TextCheck:
         for number in owners:
             segment = self._course.segment(number)
             stamps = np.array([status.stamp])
-            if not is_own(self._events[number]) or not self._budget.reach_stamps(segment, stamps):
+            is_own = is_of_this_version(self._events[number])
+            if not is_own or not self._budget.reach_stamps(segment, stamps):
                 return
             right = STATUSES[kind](segment, status.stamp)
             found.append(list(compare_fields(name, status.stamp, _texts(right), _texts(status))))

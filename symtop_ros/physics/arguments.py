@@ -1,4 +1,4 @@
-"""The arguments of one motion or of many: tops, starts, frictions and torques, broadcast together."""
+"""Arguments of one motion or of many: tops, starts, frictions and torques, broadcast together."""
 
 import math
 from struct import Struct

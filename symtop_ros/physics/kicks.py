@@ -3,7 +3,6 @@
 The formulas are in the kernel (`kernel/rule/kicks.hpp`).
 """
 
-import math
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -131,7 +130,7 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
     """Return states after kicks of one kind; tops, states and amounts are broadcast together."""
     given = np.asarray(amounts, np.float64)
     axes = given.ndim - (kind == IMPULSE)
-    parts = (tops, *state.parts, given)
+    parts: tuple[Real, ...] = (tops, *state.parts, given)
     if axes or tops.ndim > 1 or state.orientation.ndim > 1:
         parts = _spread(parts, axes)
     kicked, done, status = door.kick(*parts[:3], kind, HOLDS.index(hold), parts[3])

@@ -120,8 +120,8 @@ class Motion(Setting):
         ----------
         t : float, array_like (...) or ExactTimes
             Time since the start in s, of either sign, up to 1e15 turns of the fastest phase, or
-            exact times in ns. A driven motion takes exact times in extended precision, and costs about 0.04 ms for
-            each radian of nutation on the way: a minute for a time of six hours. Ctrl-C ends it.
+            exact times in ns. A driven motion costs about 0.04 ms for each radian of nutation on
+            the way: a minute for a time of six hours. Ctrl-C ends it.
 
         Returns
         -------

@@ -168,19 +168,22 @@ class Motions(Setting):
     @property
     def engine(self) -> NDArray[np.str_]:
         """Methods of solution, as in `Motion.engine`."""
-        return np.array(ENGINES)[self._constants["engine"]].reshape(self.shape)
+        names: NDArray[np.str_] = np.array(ENGINES)[self._constants["engine"]]
+        return names.reshape(self.shape)
 
     @cached_property
     def _constants(self) -> NDArray[Any]:
         return describe_starts(self._starts)
 
-    def _find_rates(self, name: str) -> Any:
-        return np.ascontiguousarray(self._constants["rates"][name]).reshape(self.shape)
+    def _find_rates(self, name: str) -> Real:
+        rates: Real = np.ascontiguousarray(self._constants["rates"][name], np.float64)
+        return rates.reshape(self.shape)
 
     @property
     def kind(self) -> NDArray[np.str_]:
         """Names of the motions, as in `Motion.kind`."""
-        return np.array(KINDS)[self._constants["kind"]].reshape(self.shape)
+        names: NDArray[np.str_] = np.array(KINDS)[self._constants["kind"]]
+        return names.reshape(self.shape)
 
     @property
     def nutation_period(self) -> Real:

@@ -19,6 +19,7 @@ spin momentum    Ix cos(theta)           p_psi = Iz omega_z
 At the same state both give the same theta''.
 """
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -76,10 +77,10 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     """
     given = {"theta": theta, "psi_dot": psi_dot}
     theta, psi_dot = validate_together(given, ("rad", "rad/s"))
-    shape, columns = _spread_tops(top, theta, psi_dot)
-    rates = door.find_regular_rates(*columns, hold=0)
+    shape, (tops, thetas, spins) = _spread_tops(top, theta, psi_dot)
+    rates = door.find_regular_rates(tops, thetas, spins, hold=0)
     if not shape:
-        return tuple(rate for rate in rates[0].tolist() if rate == rate)  # nan: there is none
+        return tuple(rate for rate in rates[0].tolist() if not math.isnan(rate))
     slow, fast = (np.ascontiguousarray(rates[:, k]).reshape(shape) for k in range(2))
     return slow, fast
 

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real
 from symtop_ros.physics.values import ignore_underflow, refuse, validate_number
 
 SECOND = 10**9  # ns

@@ -4,7 +4,8 @@ import math
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
-from symtop_ros.physics import Motion, State, Top, balance, describe_engine, perrys_rule
+from symtop_ros.physics import Motion, State, Top, balance, perrys_rule
+from symtop_ros.physics.kernel.door import find_version
 from symtop_ros.simulation.block import CATCH_UP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
@@ -66,7 +67,7 @@ def _pace_status(simulation: Simulation) -> Status:
         "missed": ticker.missed,
         "real_time_factor": asked,
         "real_time_factor.achieved": achieved,
-        "states_computed_by": describe_engine(),
+        "kernel_version": find_version(),
     }
     level = WARN if kept < asked or ticker.missed >= CATCH_UP * ticker.rate else OK
     message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"

@@ -9,11 +9,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from symtop_ros.arrays import Stamps
-from symtop_ros.physics import Motion, accelerated
+from symtop_ros.physics import Motion
 from symtop_ros.simulation.segment import Segment
 
 # Steps of the integration in one call, about 1 ms: requests wait no longer for the lock.
-STEPS_AT_ONCE = 100 if accelerated else 15
+STEPS_AT_ONCE = 100
 STEPS_OF_A_CHECK = 1500  # steps between two estimates of the steps that remain
 # For a log, which may be hostile: it could ask for a motion that takes years to integrate.
 FREE_STEPS = 1500  # for the samples of one event in a batch: about a tenth of a second

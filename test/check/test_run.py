@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from check.run_log import Memory
-from python_runs import run_python
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
@@ -34,16 +33,6 @@ def test_a_whole_run_has_nothing_missing(memory):
     findings = check_run(TopLog(memory))
     assert findings.samples_agree
     assert (findings.missing, findings.mismatches, findings.damage) == ([], [], [])
-
-
-def test_python_alone_checks_the_log_of_a_kernel_but_for_events_of_driven_motions(path):
-    program = (
-        "import sys; from pathlib import Path; from symtop_ros.log.reader import McapFile; "
-        "from symtop_ros.log.top_log import TopLog; from symtop_ros.check.run import check_run; "
-        "found = check_run(TopLog(McapFile(Path(sys.argv[1])))); "
-        "assert found.foreign > 0; sys.exit(str(found.mismatches + found.damage))"
-    )
-    assert run_python(program, path, SYMTOP_PURE="1").stderr == "[]\n"
 
 
 @pytest.mark.parametrize("lost", [(3,), (4, 5, 6), (9,), (12, 13)])

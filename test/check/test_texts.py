@@ -12,7 +12,6 @@ from symtop_ros import __version__
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.texts import find_mismatches
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import accelerated
 from symtop_ros.wire.diagnostics import decode_statuses
 from symtop_ros.wire.layout import Reader
 
@@ -71,7 +70,6 @@ def test_an_altered_number_of_a_fixed_frame_is_found(changed):
         assert swap(changed, place, data[:-1] + bytes([data[-1] ^ 1]))
 
 
-@pytest.mark.skipif(not accelerated, reason="driven motions of Python are not judged")
 @pytest.mark.parametrize("seed", seeds(1, 5))
 def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(changed, seed):
     rng = random.Random(seed)
@@ -100,7 +98,6 @@ def test_a_message_that_cannot_be_read_is_named(changed):
     assert (found.topic, found.field, found.expected) == ("/diagnostics", "message", "readable")
 
 
-@pytest.mark.skipif(not accelerated, reason="driven motions of Python are not judged")
 def test_diagnostics_name_the_topic_the_time_and_the_field(changed):
     place = changed.places("/diagnostics")[-1]
     message = changed.messages[place]

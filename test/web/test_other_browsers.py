@@ -8,10 +8,10 @@ import pytest
 from other_browsers import running_firefox, running_webkit, until
 from physics.kernel.motions import encode, expect, normalize
 from physics.kernel.test_wasm import KERNEL, SCRIPT, list_samples
+from symtop_ros.physics.exact.kind import Kind
 from web.opened import find_time, read_motion
 
 from symtop_ros.physics import Motion, Top, hurry, kick_verdict
-from symtop_ros.physics.exact.kind import Kind
 from symtop_ros.wording import write
 from workshop.kernel_wasm import MODULE
 

@@ -7,7 +7,7 @@ from workshop.speed.ahead import FRICTION, list_ahead
 from workshop.speed.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
 from workshop.speed.footprint import format_footprint
 from workshop.speed.many import format_many
-from workshop.speed.peers import ALONE, CLOSED_FORM, TAYLOR
+from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.publish import format_list, format_table, format_tables
 from workshop.speed.reference import EPS, ReferenceMotion
 from workshop.speed.sweep import Curve
@@ -15,7 +15,6 @@ from workshop.speed.sweep import Curve
 LEVELS = (1e-6, 1e-9, 1e-12)
 SUMMARY = (
     CLOSED_FORM,
-    CLOSED_FORM + ALONE,
     "heyoka, quaternion",
     "heyoka, Euler angles, two constants",
     "CyRK DOP853, Euler angles",
@@ -47,7 +46,6 @@ class Environment:
     versions: dict[str, str]  # versions of Python and of every package that was measured
     missing: list[str]  # peers that are not installed
     limit: float  # seconds that one run of a peer could take
-    engine: str = "Python"  # what computed the package's states
 
 
 def format_document(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
@@ -87,7 +85,7 @@ def _format_environment(environment: Environment) -> str:
     versions = ", ".join(f"{name} {version}" for name, version in environment.versions.items())
     lines = [
         f"Command: `{environment.command}`.",
-        f"Machine: {environment.machine}; states are computed by {environment.engine}.",
+        f"Machine: {environment.machine}.",
         f"Versions: {versions}.",
     ]
     if environment.missing:

@@ -10,9 +10,9 @@ from timeit import repeat
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, State, Top, accelerated
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.testset.score import measure_angles
-from workshop.speed.peers import ALONE, CLOSED_FORM
+from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.peers.peer import Task
 from workshop.speed.publish import format_table
 from workshop.speed.reference import integrate
@@ -64,9 +64,7 @@ Program = Callable[[Motions, float], Real]  # the orientations (n, 4) at a time 
 
 def find_programs() -> list[tuple[str, Program]]:
     """Return the programs that can be measured, by name."""
-    programs: list[tuple[str, Program]] = [(CLOSED_FORM, partial(compute, False))]
-    if accelerated:
-        programs.append((CLOSED_FORM + ALONE, partial(compute, True)))
+    programs: list[tuple[str, Program]] = [(CLOSED_FORM, compute)]
     if find_spec("heyoka"):
         from workshop.speed.peers.heyoka_peer import prepare_batches
 
@@ -76,9 +74,9 @@ def find_programs() -> list[tuple[str, Program]]:
     return programs
 
 
-def compute(pure: bool, motions: Motions, t: float) -> Real:
+def compute(motions: Motions, t: float) -> Real:
     """Return the orientations from the package."""
-    return Motion(motions.top, motions.start, pure=pure).at(t).orientation
+    return Motion(motions.top, motions.start).at(t).orientation
 
 
 @cache

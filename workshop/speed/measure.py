@@ -6,7 +6,6 @@ from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from symtop_ros.physics import describe_engine
 from workshop.pictures.pack import pack
 from workshop.speed.benchmarks import Results, Scope, list_steps
 from workshop.speed.document import (
@@ -30,9 +29,7 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
     """Write report.md, report.json and the plots; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     peers, missing = find_peers()
-    environment = Environment(
-        command, find_machine(), _find_versions(), missing, scope.limit, describe_engine()
-    )
+    environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
     results = Results()
     for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
         work()

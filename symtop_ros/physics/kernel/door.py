@@ -8,7 +8,7 @@ that threads may use one motion together. The library is loaded when it is first
 import ctypes
 import hashlib
 import sys
-from ctypes import POINTER, Structure, byref, c_double, c_int, c_int64, c_size_t, c_uint8, c_uint
+from ctypes import POINTER, Structure, byref, c_double, c_int, c_size_t, c_uint, c_uint8
 from functools import cache
 from pathlib import Path
 from struct import Struct
@@ -263,6 +263,11 @@ def demand(status: int) -> None:
         raise refuse_status(status)
 
 
+def _lend(array: Any, kind: Any) -> Any:
+    """Return the buffer of an array; NumPy's types do not say that it has one."""
+    return kind.from_buffer(array)
+
+
 def read_from(array: NDArray[Any], code: str = "d") -> bytes:
     """Return the numbers of an array, which may be read-only or have gaps."""
     if array.dtype.char != code:
@@ -279,7 +284,7 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
         raise ValueError(
             f"array must have {count} numbers {code!r}, got {array.size}, {array.dtype}"
         )
-    return (c_double if code == "d" else c_uint8).from_buffer(array)
+    return _lend(array, c_double if code == "d" else c_uint8)
 
 
 class KernelMotion:
@@ -309,7 +314,7 @@ class KernelMotion:
     def decay(self) -> float:
         """The fastest rate in 1/s at which friction slows the top."""
         Ix, Iz, *_, axial, transverse, _, _, _ = _unpack_start(self._start)
-        return max(transverse / Ix, axial / Iz)
+        return float(max(transverse / Ix, axial / Iz))
 
     def at(self, t: float) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at a time in s; None if it is too far."""
@@ -370,12 +375,14 @@ class KernelMotion:
     @property
     def kind(self) -> Kind:
         """Name of the motion."""
-        return KINDS[self._door.find_kind(self._handle)]
+        number: int = self._door.find_kind(self._handle)
+        return KINDS[number]
 
     @property
     def engine(self) -> Engine:
         """Method of solution."""
-        return ENGINES[self._door.find_engine(self._handle)]
+        number: int = self._door.find_engine(self._handle)
+        return ENGINES[number]
 
     @property
     def turning_angles(self) -> tuple[float, float]:
@@ -426,7 +433,7 @@ def describe_many(starts: Real) -> NDArray[Any]:
     """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
     found, done = np.empty(len(starts), CONSTANTS), c_size_t()
     if len(starts):
-        room = c_uint8.from_buffer(found)
+        room = _lend(found, c_uint8)
         demand(open_door().describe_many(read_from(starts), len(starts), room, done))
     return found
 
@@ -512,7 +519,7 @@ def judge(starts: Real, factors: Real, hold: int) -> tuple[NDArray[Any], int]:
     """
     verdicts, done = np.empty(len(starts), VERDICTS), c_size_t()
     for part in _list_blocks(len(starts)):
-        room = VerdictRecord.from_buffer(verdicts[part])
+        room = _lend(verdicts[part], VerdictRecord)
         given = read_from(starts[part]), read_from(factors[part]), part.stop - part.start
         status = open_door().judge(*given, hold, room, done)
         if status != OK:
@@ -525,6 +532,11 @@ def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
     verdict = VerdictRecord()
     demand(open_door().judge_kick(before, after, hold, verdict))
     return verdict
+
+
+def find_version() -> str:
+    """Return the version of the compiled kernel."""
+    return str(open_door().version().decode())
 
 
 def _list_blocks(count: int) -> list[slice]:

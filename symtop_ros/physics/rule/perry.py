@@ -26,6 +26,7 @@ fails, and the reverse. The answer to a kick says so. The formulas are in the ke
 (`kernel/rule/tilt.hpp` and `verdict.hpp`).
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -108,8 +109,7 @@ class Reason:
 
 def read_place(place: PlaceRecord) -> Place:
     """Return the place of a rate from the kernel's record."""
-    # nan: there is no such rate
-    rates = tuple(rate for rate in place.regular_rates if rate == rate)  # noqa: PLR0124
+    rates = tuple(rate for rate in place.regular_rates if not math.isnan(rate))
     return Place(PLACES[place.kind], place.rate, rates)
 
 

@@ -195,7 +195,7 @@ def perrys_rule(
     if top.shape or state.orientation.ndim > 1 or np.ndim(factor):
         return _judge_each(top, state, validate_array("factor", factor), hold)
     factor = validate_number("factor", factor)
-    found = _judge(top, state, np.array([factor]), (), hold)
+    found: Any = _judge(top, state, np.array([factor]), (), hold)
     return _read(door.VerdictRecord.from_buffer(found))
 
 

@@ -1,14 +1,12 @@
 """The integrators that are measured: the package's own engines here, peers in a file each."""
 
-from functools import partial
 from importlib import import_module
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, accelerated
+from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import Arrays, Peer, Solution, Task, spread_times
 
 CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"
-ALONE = ", Python alone"  # follows these names where there is a kernel to do without
 OPTIONAL = {  # package, and the file here that needs it
     "heyoka": "heyoka_peer",
     "CyRK": "cyrk_peer",
@@ -20,12 +18,12 @@ OPTIONAL = {  # package, and the file here that needs it
 }
 
 
-def prepare(task: Task, _: float, pure: bool = False) -> Solution:
+def prepare(task: Task, _: float) -> Solution:
     """Return a solution that sets the motion up at each call: that is part of its cost."""
-    arrays = prepare_arrays(task, pure)
+    arrays = prepare_arrays(task)
 
     def reach(t: float) -> Real:
-        return _find_motion(task, pure).at(t).orientation
+        return _find_motion(task).at(t).orientation
 
     def record(t: float) -> tuple[Real, Real]:
         times = spread_times(t)
@@ -34,28 +32,23 @@ def prepare(task: Task, _: float, pure: bool = False) -> Solution:
     return Solution(reach, record)
 
 
-def prepare_arrays(task: Task, pure: bool = False) -> Arrays:
+def prepare_arrays(task: Task) -> Arrays:
     """Return a function for the orientations at many times."""
 
     def compute(times: Real) -> Real:
-        return _find_motion(task, pure).at(times).orientation
+        return _find_motion(task).at(times).orientation
 
     return compute
 
 
-def _find_motion(task: Task, pure: bool) -> Motion:
-    return Motion(task.top, task.start, task.friction, task.torque, pure=pure)
+def _find_motion(task: Task) -> Motion:
+    return Motion(task.top, task.start, task.friction, task.torque)
 
 
-def _list_own(ending: str, pure: bool) -> list[Peer]:
-    solve, arrays = partial(prepare, pure=pure), partial(prepare_arrays, pure=pure)
-    return [
-        Peer(CLOSED_FORM + ending, (0.0,), solve, prepare_arrays=arrays, quick="every motion"),
-        Peer(TAYLOR + ending, (0.0,), solve, friction="only", quick="every motion"),
-    ]
-
-
-OWN = _list_own("", pure=False) + (_list_own(ALONE, pure=True) if accelerated else [])
+OWN = [
+    Peer(CLOSED_FORM, (0.0,), prepare, prepare_arrays=prepare_arrays, quick="every motion"),
+    Peer(TAYLOR, (0.0,), prepare, friction="only", quick="every motion"),
+]
 
 
 def find_peers() -> tuple[list[Peer], list[str]]:

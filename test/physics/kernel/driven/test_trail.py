@@ -31,8 +31,8 @@ def test_a_state_is_the_same_bit_for_bit_among_any_number_of_others(count):
         assert alone == together[k]
 
 
-# Backwards the spin grows, and the steps become shorter: of the 512 points that are kept every other
-# one is dropped twice in 45 s, and four times in 75 s.
+# Backwards the spin grows, and the steps become shorter: of the 512 points that are kept every
+# other one is dropped twice in 45 s, and four times in 75 s.
 @pytest.mark.parametrize("end", [75.0, -45.0, pytest.param(-75.0, marks=pytest.mark.long)])
 def test_one_can_come_back_from_anywhere(end):
     motion, early = Motion(ARTICLE, CUSPS, FRICTION), 0.321 if end > 0 else -0.321
