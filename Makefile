@@ -2,7 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 # What is compiled at the installation.
-SOURCES := setup.py $(wildcard symtop_ros/physics/kernel/*.?pp symtop_ros/physics/kernel/*/*.hpp)
+SOURCES := setup.py build_kernel.py $(wildcard symtop_ros/physics/kernel/*.* symtop_ros/physics/kernel/*/*.hpp)
 NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
@@ -21,7 +21,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean FORCE
+.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -139,14 +139,14 @@ kernel-wasm: $(VENV)/zig/done  ## the kernel in WebAssembly, symtop_ros/web/kern
 clean:  ## remove the environment and all that was built; logs/ and report/ stay
 	rm -rf $(VENV) site build dist install log *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find symtop_ros test workshop examples docs -name __pycache__ -prune -exec rm -rf {} +
-	find symtop_ros -name '*.so' -delete
+	find symtop_ros -name 'libsymtop.*' -delete
 
-$(VENV)/ros: $(SOURCES) $(VENV)/compiler
+$(VENV)/ros: $(SOURCES) $(VENV)/bin/activate
 	@echo "Setting up .venv: ROS 2, NumPy, SciPy and Rerun (about 1 GB, once) ..."
 	$(INSTALL) '.[ros,playback]'
 	@touch $@
 
-$(VENV)/panel: $(SOURCES) $(VENV)/compiler
+$(VENV)/panel: $(SOURCES) $(VENV)/bin/activate
 	@echo "Setting up .venv: NumPy, SciPy and this package (about 200 MB, once) ..."
 	$(INSTALL) . --no-compile
 	@touch $@
@@ -215,12 +215,6 @@ $(VENV)/zig/done: $(VENV)/bin/activate
 	@$(TICK) $(BIN)/python -m venv --clear $(VENV)/zig
 	@$(TICK) $(VENV)/zig/bin/python -m pip install 'ziglang==0.15.2' 'setuptools>=70.1'
 	@touch $@
-
-# What the kernel needs, as far as it is installed: a compiler and Python's headers. When that
-# changes, the package is installed again.
-$(VENV)/compiler: $(VENV)/bin/activate FORCE
-	@{ command -v $(CXX); ls "$$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("include"))')/Python.h"; } \
-	  > $@.new 2> /dev/null; { cmp -s $@.new $@ && rm $@.new; } || mv $@.new $@
 
 # The last file that venv writes: without it an environment is incomplete, and made again.
 $(VENV)/bin/activate:

@@ -4,7 +4,7 @@
 
 A wheel for each processor is built from the checkout, with Zig as a compiler that brings the
 headers and the libraries of an old C library: it runs on every Linux of the last years, and on any
-Python from 3.11 on (abi3). Only the standard library is needed here.
+Python from 3.11 on. Only the standard library is needed here.
 """
 
 import os
@@ -18,8 +18,7 @@ from tempfile import TemporaryDirectory
 ROOT = Path(__file__).resolve().parents[1]
 GLIBC = (2, 28)  # of Debian 10 and of the platform manylinux_2_28
 PROCESSORS = ("x86_64", "aarch64")
-KERNEL = "symtop_ros/physics/kernel/_kernel.abi3.so"
-
+KERNEL = "symtop_ros/physics/kernel/libsymtop.so"
 
 # Of a checkout: an environment, and what an earlier build left, which may be of other files.
 LEFT_OUT = shutil.ignore_patterns(".*", "build", "install", "*.egg-info", "*.so", "__pycache__")
@@ -37,24 +36,18 @@ def build(source: Path, processor: str, folder: Path) -> Path:
         env=os.environ | compilers(processor),
         check=True,
     )
-    (wheel,) = folder.glob(f"symtop_ros-*-cp311-abi3-{platform}.whl")
+    (wheel,) = folder.glob(f"symtop_ros-*-py3-none-{platform}.whl")
     if KERNEL not in zipfile.ZipFile(wheel).namelist():
         raise SystemExit(f"{wheel.name} has no kernel: the compiler said why")
     return wheel
 
 
 def compilers(processor: str) -> dict[str, str]:
-    """Return the variables by which setuptools finds Zig; it compiles C++ by CC as well."""
+    """Return the variables by which build_kernel.py finds Zig."""
     target = f"{processor}-linux-gnu.{GLIBC[0]}.{GLIBC[1]}"
     compiler = f"{sys.executable} -m ziglang c++ -target {target}"
-    shared = f"{compiler} -shared -s"  # no symbols: a tenth of the size
-    return {
-        **dict.fromkeys(("CC", "CXX"), compiler),
-        **dict.fromkeys(("LDSHARED", "LDCXXSHARED"), shared),
-        # options for the linker or the compiler of this machine's Python are not for Zig
-        **dict.fromkeys(("CFLAGS", "LDFLAGS"), ""),
-        "_PYTHON_HOST_PLATFORM": f"linux-{processor}",
-    }
+    # No symbols: a tenth of the size. Options for the compiler of this machine are not for Zig.
+    return {"CXX": compiler, "CXXFLAGS": "-s", **dict.fromkeys(("CPPFLAGS", "LDFLAGS"), "")}
 
 
 def main() -> None:
