@@ -205,6 +205,22 @@ class Motion(Setting):
             raise refuse("steps", ">= 0", steps)
         return states.reach(self._kernel, t, steps)
 
+    @cached_property
+    def farthest_time(self) -> float:
+        """Time in s at which the fastest phase has made 1e15 turns: later states are refused.
+
+        It is infinite with friction or an applied torque.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> 1e13 < motion.farthest_time < 1e14
+        True
+        """
+        return self._kernel.farthest_time
+
     @ignore_underflow
     def jacobian(self, t: ArrayLike) -> Real:
         """Return the derivatives of the state by the top and the start.

@@ -4,6 +4,7 @@ A `StepBudget` limits the steps that are taken for one request or one log. A `Co
 the CPU time of a run, and says how fast the motion can be followed.
 """
 
+import math
 import time
 from collections.abc import Callable
 from typing import NamedTuple
@@ -55,6 +56,8 @@ class StepBudget:
         """Integrate the motion of samples at stamps (ns) that a node has published."""
         free = FREE_STEPS + STEPS_PER_SAMPLE * len(stamps)
         ends = stamps.min(), stamps.max()
+        if ends[1] > segment.last_stamp:
+            return False
         return all(self.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
 
 
@@ -71,11 +74,13 @@ class ComputeBudget:
     def __init__(self, stamp: int, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
         self.spent = 0.0  # work so far in s
-        # set by the last call if the motion becomes too fast for doubles: its last time in s
+        # set by the last call if the motion has no further states: its last time in s
         self.end: float | None = None
         self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
         self._prepared = stamp  # ns: end of the last stretch
         self._stretch: tuple[Segment, int] | None = None
+        self._segment: Segment | None = None  # that of the last stamp with a state
+        self._last_stamp = math.inf
         self._progress, self._spent_before = 0.0, 0.0  # s of the motion and of work, of the stretch
 
     def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> bool:
@@ -86,7 +91,11 @@ class ComputeBudget:
         self.shortfall = self.end = None
         if not segment.motion.is_driven:
             self._prepared, self._stretch = stamp, None
-            return True
+            if segment is not self._segment:
+                self._segment, self._last_stamp = segment, segment.last_stamp
+            if stamp > self._last_stamp:
+                self.end = float(segment.time_at(int(self._last_stamp)))
+            return self.end is None
         end = segment.time_at(stamp)
         if self._stretch != (segment, stamp):
             self._stretch = segment, stamp

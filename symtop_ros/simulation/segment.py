@@ -58,6 +58,16 @@ class Segment:
         """Return the last stamp (ns) up to a time of the motion (s), for the factor 1."""
         return self.stamp + math.floor(to_nanoseconds(time) - self.elapsed)
 
+    @property
+    def last_stamp(self) -> float:
+        """The last stamp (ns) with a state; infinite if there is none."""
+        farthest = self.motion.farthest_time
+        if not self.running or math.isinf(farthest):
+            return math.inf
+        # within the rounding of the kernel's own comparison
+        left = to_nanoseconds(farthest * (1 - 2**-40)) - self.elapsed
+        return self.stamp + math.floor(left / Fraction(self.factor))
+
     def time_at(self, stamp: Any) -> Any:
         """Return the time of the motion (s) at a stamp (ns) or an array of stamps, rounded."""
         return self.times_at(stamp).seconds

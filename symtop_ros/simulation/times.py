@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from symtop_ros.simulation.simulation import Simulation
 
 CALLS = 20  # of 1 ms for a request; the lock is held meanwhile
+WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
 JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
 
 
@@ -90,7 +91,7 @@ class Time:
 
 def warn_of_end(run: "Simulation", change: Change) -> None:
     """Pause a motion that cannot continue."""
-    run.host.warn(f"the motion becomes too fast for doubles: {run.apply(change)}")
+    run.host.warn(f"the motion has no state any further ({WHY_IT_ENDS}): {run.apply(change)}")
 
 
 class RunClock:

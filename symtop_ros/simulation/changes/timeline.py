@@ -32,6 +32,7 @@ from symtop_ros.simulation.validation import reject, vector
 from symtop_ros.wire.layout import NANOSECONDS
 
 Request = Mapping[str, Any]
+DAY = 86400.0  # s
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class Timeline:
         rig = settings.rig(stamp)
         # With publish_clock the clock has this factor.
         factor = 1.0 if settings.publish_clock else settings.real_time_factor
-        segment = Segment.begin(motion, stamp, factor, rig)
+        segment = _demand_a_day(Segment.begin(motion, stamp, factor, rig))
         return cls(settings, segment, motion.start, _describe_origin("start", stamp), stamp)
 
     @property
@@ -71,7 +72,7 @@ class Timeline:
         if values is not None:
             start = initial_state(self.settings.top, self.settings.initial, values)
             name = "start"
-        segment = self.segment.restart(start, stamp)
+        segment = _demand_a_day(self.segment.restart(start, stamp))
         verdict = partial(Start.of, segment.motion)
         return self._follow(name, stamp, values or {}, verdict, start=start, segment=segment)
 
@@ -79,7 +80,7 @@ class Timeline:
         """Kick by named values; see `plan_kick`."""
         before = self.segment.state_at(stamp)
         motion, hold = plan_kick(self.segment.motion, before, values)
-        segment = self.segment.replace_motion(motion, stamp)
+        segment = _demand_a_day(self.segment.replace_motion(motion, stamp))
         verdict = partial(kick_verdict, motion, before, hold)
         return self._follow("kick", stamp, values, verdict, before, segment=segment)
 
@@ -99,6 +100,8 @@ class Timeline:
     def step(self, stamp: int, duration: float) -> "Change":
         """Advance a paused motion by a duration in s."""
         segment = self.segment.step(duration, stamp)
+        if segment.begin_time >= segment.motion.farthest_time:
+            raise reject("duration", "within 1e15 turns of the motion", duration)
         outcome = Step("stepped", segment.begin_time)
         return self._follow("step", stamp, {"duration": duration}, outcome, segment=segment)
 
@@ -174,6 +177,8 @@ class Timeline:
             segment = segment.change(stamp, settings.top, settings.friction)
         if settings.real_time_factor != old.real_time_factor and not settings.publish_clock:
             segment = segment.set_factor(settings.real_time_factor, stamp)
+        if segment is not self.segment:
+            _demand_a_day(segment)
         if settings.publish_rate != old.publish_rate:
             segment = replace(segment, rig=settings.rig(self.switched_on))
         outcome = Parameters(tuple(Setting(name, str(value)) for name, value in changes.items()))
@@ -227,6 +232,15 @@ class Change:
             self.following.settings.top_frame,
             number,
         )
+
+
+def _demand_a_day(segment: Segment) -> Segment:
+    """Refuse a motion that is so fast that it has no states after a day of the clock."""
+    left = (segment.motion.farthest_time - segment.begin_time) / segment.factor
+    if left < DAY:
+        condition = "so slow that it stays within 1e15 turns for a day at this real-time factor"
+        raise reject("motion", condition, f"{left:.3g} s")
+    return segment
 
 
 def _describe_origin(name: str, stamp: int) -> str:

@@ -57,6 +57,13 @@ static void check(symtop_status status, size_t written) {
   exit(1);
 }
 
+/* The count is read after the call. */
+#define CHECK(call, written)             \
+  do {                                   \
+    const symtop_status found_ = (call); \
+    check(found_, written);              \
+  } while (0)
+
 static void call_all(symtop_motion* motion, int oddness) {
   double times[TIMES], orientation[4 * TIMES], omega[3 * TIMES], angles[2], reached, torque[3];
   int64_t stamps[TIMES];
@@ -71,18 +78,53 @@ static void call_all(symtop_motion* motion, int oddness) {
   clock.factor = draw_number(1.0, oddness);
   for (int k = 0; k < 4; k++) clock.elapsed[k] = draw() % 2 ? 0.0 : draw_number(1e9, oddness);
   for (int k = 0; k < 3; k++) torque[k] = draw_number(1.0, oddness);
-  check(symtop_states(motion, times, TIMES, 40, orientation, omega, &written), written);
-  check(symtop_states_of_clock(motion, &clock, stamps, TIMES, 40, orientation, omega, &written),
+  CHECK(symtop_states(motion, times, TIMES, 40, orientation, omega, &written), written);
+  CHECK(symtop_states_of_clock(motion, &clock, stamps, TIMES, 40, orientation, omega, &written),
         written);
-  check(symtop_reach(motion, times[0], 40, &reached), 0);
-  check(symtop_state(motion, reached, orientation, omega), 0);
-  check(symtop_continue(motion, reached, torque, &continued), 0);
+  CHECK(symtop_reach(motion, times[0], 40, &reached), 0);
+  CHECK(symtop_state(motion, reached, orientation, omega), 0);
+  CHECK(symtop_continue(motion, reached, torque, &continued), 0);
   if (continued)
-    check(symtop_states(continued, times, TIMES, 40, orientation, omega, &written), written);
+    CHECK(symtop_states(continued, times, TIMES, 40, orientation, omega, &written), written);
   symtop_free(continued);
   if ((unsigned)symtop_find_kind(motion) > SYMTOP_DRIVEN) exit(1);
+  if ((unsigned)symtop_find_engine(motion) > SYMTOP_TAYLOR) exit(1);
+  symtop_find_nutation_rate(motion, angles);
+  symtop_find_farthest_time(motion, &reached);
   symtop_find_turning_angles(motion, angles);
   symtop_find_rates(motion, &rates);
+}
+
+/* What is known of a start: the same numbers go to every function, refused by some of them. */
+static void ask_of_start(const symtop_start* start, int oddness) {
+  const symtop_top top = {start->Ix, start->Iz, start->Mgl};
+  const symtop_hold hold = (symtop_hold)(draw() % 3);
+  double angles[3], rates[3], q[4], omega[3], kicked[3], found[4], amounts[3], time = 1.0;
+  size_t done;
+  uint8_t left;
+  symtop_start after = *start;
+  symtop_verdict verdict;
+  symtop_constants constants;
+  for (int k = 0; k < 3; k++) {
+    angles[k] = draw_number(10.0, oddness), rates[k] = draw_number(100.0, oddness);
+    amounts[k] = draw_number(2.0, oddness);
+  }
+  CHECK(symtop_from_angles(angles, rates, 1, q, omega, &done), done);
+  CHECK(symtop_find_angles(start->orientation, 1, angles), 0);
+  CHECK(symtop_find_angle_rates(start->orientation, start->angular_velocity, 1, rates), 0);
+  CHECK(symtop_find_regular_rates(&top, amounts, rates, 1, hold, found), 0);
+  CHECK(symtop_find_tilt_torques(&top, amounts, rates, rates + 1, 1, found), 0);
+  CHECK(symtop_find_tilt_accelerations(start, hold, rates, 3, found), 0);
+  CHECK(symtop_kick(&top, start->orientation, start->angular_velocity,
+                    (symtop_kick_kind)(draw() % 4), hold, amounts, 1, kicked, &done), done);
+  CHECK(symtop_judge(start, amounts, 1, hold, &verdict, &done), done);
+  memcpy(after.angular_velocity, kicked, sizeof kicked);
+  CHECK(symtop_judge_kick(start, &after, hold, &verdict), 0);
+  CHECK(symtop_describe_many(start, 1, &constants, &done), done);
+  if (symtop_describe_many(start, 0, NULL, &done) || done) exit(1);
+  after = *start;
+  memset(after.friction, 0, sizeof after.friction), memset(after.torque, 0, sizeof after.torque);
+  CHECK(symtop_states_of_many(&after, 1, &time, 1, q, omega, &left), left);
 }
 
 /* Arguments: the first seed, and the number of motions. Prints how many were made. */
@@ -96,7 +138,8 @@ int main(int count, char** words) {
     state = (uint64_t)seed * 0x9e3779b97f4a7c15u | 1;
     for (int i = 0; i < 8; i++) draw();
     draw_start(&start, oddness);
-    check(symtop_new(&start, &motion), 0);
+    ask_of_start(&start, oddness);
+    CHECK(symtop_new(&start, &motion), 0);
     if (!motion) continue;
     made++;
     call_all(motion, oddness);

@@ -10,13 +10,16 @@ from physics.driven_families import DrivenCase
 from physics.tops import FAMILIES, random_case
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.door import KINDS
+from symtop_ros.physics.kicks import FACTOR_OF_RATE
 
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
 TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
 STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64)
 ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
+FACTOR = np.array([1.4])
 
 
 class Sample:
@@ -50,6 +53,7 @@ class Sample:
         motion, rates = self.motion, self.motion._rates
         kind = KINDS.index(motion.kind)
         constants = [kind, *motion.turning_angles, *map(float, rates)]
+        verdicts = list_verdicts(motion)
         one_by_one = [motion.at(float(t)) for t in self.times]
         states = [*one_by_one, motion.at(self.times), motion.at(self.clock)]
         if self.torque is not None:
@@ -57,7 +61,36 @@ class Sample:
             pushed = Motion(motion.top, motion.at(t), motion.friction, self.torque)
             states.append(pushed.at(t))
         rows = [np.concatenate([np.atleast_2d(each) for each in s.parts], axis=1) for s in states]
-        return np.concatenate([constants, np.concatenate(rows).ravel()])
+        return np.concatenate([constants, *verdicts, np.concatenate(rows).ravel()])
+
+
+def list_verdicts(motion):
+    """Yield the start from its angles, its regular rates, kicks and verdicts, by both holds."""
+    start = np.frombuffer(motion.packed_start)
+    top, q, omega = start[:3], start[3:7], start[7:10]
+    angles, rates = door.find_angles(q), door.find_angle_rates(q, omega)
+    yield from (angles, rates, *door.from_angles(angles, rates))
+    for hold in range(2):
+        one = top[None], angles[1:2], rates[2:3]
+        yield door.find_regular_rates(*one, hold)[0]
+        kicked, _, status = door.kick(top, q, omega, FACTOR_OF_RATE, hold, FACTOR)
+        if status == door.VERTICAL:
+            continue
+        yield kicked
+        (verdict,), _ = door.judge(start[None], FACTOR, hold)
+        after = np.concatenate([start[:7], kicked, start[10:]])
+        answer = door.judge_kick(start.tobytes(), after.tobytes(), hold)
+        for each in (verdict, np.frombuffer(answer, door.VERDICTS)[0]):
+            yield np.array(list(flatten(each.item())), float)
+
+
+def flatten(numbers):
+    """Yield the numbers of a record of records, in their order."""
+    for each in numbers:
+        if isinstance(each, tuple | list | np.ndarray):
+            yield from flatten(each)
+        else:
+            yield each
 
 
 def list_gravity(seeds):

@@ -93,6 +93,43 @@ static void print_continued(symtop_motion* motion) {
   symtop_free(continued);
 }
 
+static void print_verdict(const symtop_verdict* v) {
+  const symtop_reason* r = &v->reason;
+  const double numbers[] = {
+      v->subject, v->direction, v->turning_angles[0], v->turning_angles[1], v->motion,
+      r->kind, r->rule, r->before, r->after, r->theta_ddot_without, r->theta_ddot,
+      r->place.kind, r->place.rate, r->place.regular_rates[0], r->place.regular_rates[1],
+      v->average.rate, v->average.turns, v->average.fast_top_rate, v->average.is_fast,
+      v->average.spin_reverses, v->factor, v->highest.kind, v->highest.amount, v->lowest.kind,
+      v->lowest.amount, v->contrary_facts};
+  write_all(numbers, sizeof numbers / sizeof numbers[0]);
+}
+
+/* The start from its angles, its regular rates and verdicts by both holds, and on a kick. */
+static void print_verdicts(const symtop_start* start) {
+  const symtop_top top = {start->Ix, start->Iz, start->Mgl};
+  const double factor = 1.4;
+  double angles[3], rates[3], q[4], omega[3], found[2];
+  size_t done;
+  demand(symtop_find_angles(start->orientation, 1, angles));
+  demand(symtop_find_angle_rates(start->orientation, start->angular_velocity, 1, rates));
+  demand(symtop_from_angles(angles, rates, 1, q, omega, &done));
+  write_all(angles, 3), write_all(rates, 3), write_states(q, omega, 1);
+  for (int hold = SYMTOP_SPIN_RATE; hold <= SYMTOP_SPIN_MOMENTUM; hold++) {
+    symtop_start after = *start;
+    symtop_verdict verdicts[2] = {0};
+    demand(symtop_find_regular_rates(&top, angles + 1, rates + 2, 1, (symtop_hold)hold, found));
+    write_all(found, 2);
+    if (symtop_kick(&top, start->orientation, start->angular_velocity, SYMTOP_FACTOR_OF_RATE,
+                    (symtop_hold)hold, &factor, 1, after.angular_velocity, &done) == SYMTOP_VERTICAL)
+      continue;
+    write_all(after.angular_velocity, 3);
+    demand(symtop_judge(start, &factor, 1, (symtop_hold)hold, verdicts, &done));
+    demand(symtop_judge_kick(start, &after, (symtop_hold)hold, verdicts + 1));
+    for (int k = 0; k < 2; k++) print_verdict(verdicts + k);
+  }
+}
+
 int main(void) {
   for (size_t count = read_count(); count > 0; count--) {
     symtop_start start;
@@ -100,6 +137,7 @@ int main(void) {
     read_all(&start, sizeof start / sizeof(double));
     demand(symtop_new(&start, &motion));
     print_constants(motion);
+    print_verdicts(&start);
     print_states(motion);
     print_states_of_clock(motion);
     if (read_count()) print_continued(motion);

@@ -1,5 +1,6 @@
 """symtop.h from C: the bits of Python, on this processor and another, whatever a caller passes."""
 
+import platform
 import re
 import shutil
 import subprocess
@@ -26,10 +27,10 @@ def kernel(tmp_path_factory):
     return compile_kernel(tmp_path_factory.mktemp("kernel"))
 
 
-def compile_kernel(folder, *options):
+def compile_kernel(folder, *options, **keywords):
     target = folder / "symtop.o"
     command = ["g++", "-std=c++17", *OPTIONS, *STRICT, *options, "-c", KERNEL / "symtop.cpp"]
-    subprocess.run([*command, "-o", target], check=True)
+    subprocess.run([*command, "-o", target], check=True, **keywords)
     return target
 
 
@@ -66,6 +67,73 @@ def test_whatever_is_passed_is_refused_or_answered(tmp_path, kernel):
     output = subprocess.check_output([program, "1", "3000"], text=True, timeout=100)
     made = int(re.fullmatch(r"(\d+) of 3000 motions made\n", output)[1])
     assert 300 < made < 2700  # many of both kinds
+
+
+UNSOUND = {  # what the kernel's promises cannot bear, and a compiler may be asked for
+    "order": ["-fassociative-math", "-fno-signed-zeros", "-fno-trapping-math"],
+    "fused": ["-mfma", "-ffp-contract=fast"],
+    "reciprocal": ["-freciprocal-math"],
+    "finite": ["-ffinite-math-only"],
+    "zeros": ["-fno-signed-zeros"],
+}
+BAD_ARITHMETIC = 12
+
+
+@needs_compiler
+@pytest.mark.parametrize("option", ["-ffast-math", "-Ofast"])
+def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
+    with pytest.raises(subprocess.CalledProcessError) as failure:
+        compile_kernel(tmp_path, option, stderr=subprocess.PIPE, text=True)
+    assert "symtop must be compiled without fast-math" in failure.value.stderr
+
+
+LONG = pytest.mark.long
+FIRST_OF_UNSOUND = [pytest.param(name, marks=() if name == "order" else LONG) for name in UNSOUND]
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", FIRST_OF_UNSOUND)
+def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name):
+    kernel = compile_kernel(tmp_path, *UNSOUND[name])
+    if name == "fused" and "fma" not in Path("/proc/cpuinfo").read_text():
+        pytest.skip("this processor has no fused operations")
+    assert run_sound(tmp_path, kernel, "usual") == {BAD_ARITHMETIC}
+
+
+@LONG
+@needs_compiler
+def test_options_of_fast_math_before_those_of_the_kernel_change_no_bit(tmp_path):
+    # as setup.py orders them: what CXXFLAGS says, then its own
+    kernel = compile_kernel(tmp_path, "-ffast-math", "-fno-fast-math", "-ffp-contract=off")
+    compare([build("print_motions.c", tmp_path, kernel)], *list_many())
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    "state", ["usual", "upward", "downward", "towards zero", "flushed", "zeros"]
+)
+def test_a_thread_that_rounds_otherwise_gets_a_status_and_no_state(tmp_path, kernel, state):
+    if state in ("flushed", "zeros") and platform.machine() != "x86_64":
+        pytest.skip("set by a register of x86")
+    assert run_sound(tmp_path, kernel, state) == {0 if state == "usual" else BAD_ARITHMETIC}
+
+
+def run_sound(folder, kernel, state):
+    """The statuses of all functions in a thread that rounds otherwise, if they wrote nothing."""
+    program = build("sound.c", folder, kernel, "-frounding-math", "-lm")
+    printed = subprocess.check_output([program, state], text=True, timeout=60)
+    return set(map(int, printed.split()))
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    "processor",
+    ["x86-64-v4", *(pytest.param(name, marks=LONG) for name in ("skylake-avx512", "native"))],
+)
+def test_the_kernel_compiles_for_one_kind_of_processor(tmp_path, processor):
+    if platform.machine() != "x86_64":
+        pytest.skip("names of x86 processors")
+    compile_kernel(tmp_path, "-O1", f"-march={processor}")
 
 
 @pytest.mark.long
