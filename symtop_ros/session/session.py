@@ -70,6 +70,8 @@ class Session:
         """Return the settings with changed values; raise RefusedError if they do not fit."""
         settings = Settings.from_values({**self.simulation.settings.values, **changes})
         initial_state(settings.top, settings.initial, {})  # may have no such root
+        # the motion that follows may be too fast
+        self.simulation.timeline.change_settings(settings, self.simulation.stamp)
         return settings
 
     def apply_settings(self, changes: Mapping[str, Any]) -> None:
