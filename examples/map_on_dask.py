@@ -22,7 +22,7 @@ import numpy as np
 from distributed import Client, LocalCluster, as_completed
 from numpy.typing import NDArray
 
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Motions, State, Top
 
 TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 TILTS = (0.05, 1.5)  # rad, from the first row to the last
@@ -41,7 +41,7 @@ def compute_rows(first: int, last: int, size: int, seconds: float) -> Tilts:
     """
     theta = np.linspace(*TILTS, size)[first:last, np.newaxis]
     spin = np.linspace(*SPINS, size)
-    motions = Motion(TOP, State.from_euler(theta=theta, psi_dot=spin))
+    motions = Motions(TOP, State.from_euler(theta=theta, psi_dot=spin))
     return np.asarray(motions.at(seconds).euler_angles.theta, dtype=np.float32)
 
 

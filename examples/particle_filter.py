@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Motion, Motions, State, Top
 
 rng = np.random.default_rng(7)
 times = np.arange(1, 21) / 10
@@ -11,7 +11,7 @@ seen = truth.at(times).euler_angles.theta + 0.01 * rng.normal(size=times.size)
 
 count = 5000
 weight, spin = rng.uniform(0.05, 0.09, count), rng.uniform(150.0, 250.0, count)
-guesses = Motion(Top(0.000228, 0.0000572, weight), State.from_euler(theta=0.5, psi_dot=spin))
+guesses = Motions(Top(0.000228, 0.0000572, weight), State.from_euler(theta=0.5, psi_dot=spin))
 theta = guesses.at(times).euler_angles.theta
 chi_squared = (((theta - seen) / 0.01) ** 2).sum(axis=1)
 likelihood = np.exp(-0.5 * (chi_squared - chi_squared.min()))

@@ -15,6 +15,7 @@ from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import fit_shapes, refuse, validate_array, validate_vector
 
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
+TORQUE_UNIT = "N m, world frame"
 # States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 # To set up a motion takes the time of some hundred states.
 STATES, STATES_OF_SETUP = 2**16, 200
@@ -28,8 +29,8 @@ def validate_torque(torque: Any) -> Any:
     if torque is NO_TORQUE:
         return NO_TORQUE
     if np.ndim(torque) <= 1:
-        return validate_vector("torque", torque, "N m, world frame")
-    return validate_array("torque", torque, 3, "N m, world frame")
+        return validate_vector("torque", torque, TORQUE_UNIT)
+    return validate_array("torque", torque, 3, TORQUE_UNIT)
 
 
 def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:
@@ -55,14 +56,11 @@ def validate_types(top: Any, start: Any, friction: Any) -> None:
             raise refuse(name, f"a {kind.__name__}", repr(given))
 
 
-def wrap_states(
-    orientation: Real, angular_velocity: Real, shape: tuple[int, ...], time_axes: int
-) -> State:
-    """Return the states of arrays (n, 4) and (n, 3), in a shape that ends in that of the times."""
+def wrap_states(orientation: Real, angular_velocity: Real, shape: tuple[int, ...]) -> State:
+    """Return the states of arrays (n, 4) and (n, 3), in a shape."""
     for array in (orientation, angular_velocity):
         array.flags.writeable = False  # so that it cannot be written to as `base` of a view
-    parts = orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3)
-    return State.wrap(*parts, time_axes)
+    return State.wrap(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
 
 
 def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple[int, ...]:
@@ -76,68 +74,6 @@ def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple
         return ()  # the common case, and NumPy needs 10 us for the question
     shapes = top.shape, start.orientation.shape[:-1], friction.shape, np.shape(torque)[:-1]
     return fit_shapes("top, start, friction and torque", *shapes)
-
-
-class Setting:
-    """The arguments of one motion or of many, and the torques that belong to them."""
-
-    def __init__(
-        self, top: Top, start: State, friction: Friction, torque: Any, shape: tuple[int, ...]
-    ) -> None:
-        self.top, self.start, self.friction = top, start, friction
-        self.applied_torque: Any = torque
-        self.shape = shape
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Copy and pickle a motion by its arguments: copies share no integrator."""
-        return type(self), (self.top, self.start, self.friction, self.applied_torque)
-
-    def __repr__(self) -> str:
-        """Return the call that makes the motion; without friction and torque, if none acts."""
-        parts = [self.top, self.start]
-        if self.is_driven:
-            parts += [self.friction, self.applied_torque]
-        return f"{type(self).__name__}({', '.join(map(repr, parts))})"
-
-    @property
-    def is_driven(self) -> bool:
-        """True if friction or an applied torque acts: there is no closed form, only series."""
-        torque = self.applied_torque
-        return bool(self.friction) or (any(torque) if type(torque) is tuple else bool(torque.any()))
-
-    def total_torque(self, state: State) -> Real:
-        """Return the torque of gravity, friction and the applied torque about the pivot.
-
-        Parameters
-        ----------
-        state : State
-            One state or many.
-
-        Returns
-        -------
-        ndarray (..., 3)
-            In the world frame, in N m.
-        """
-        torque = self.top.gravity_torque(state)
-        return torque + self.added_torque(state) if self.is_driven else torque
-
-    def added_torque(self, state: State) -> Real:
-        """Return the torque of friction and the applied torque, without gravity.
-
-        Parameters
-        ----------
-        state : State
-            One state or many.
-
-        Returns
-        -------
-        ndarray (..., 3)
-            In the world frame, in N m.
-        """
-        torque = np.asarray(self.applied_torque)
-        axes = (1,) * state.time_axes if torque.ndim > 1 else ()
-        torque = torque.reshape(*torque.shape[:-1], *axes, 3)
-        return np.asarray(state.to_world(self.friction.torque(state)) + torque)
 
 
 def pack_start(top: Top, start: State, friction: Friction, torque: Vector) -> bytes:
@@ -165,8 +101,10 @@ def list_starts(
 
 def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
     """Return the arguments of one motion, from its 15 numbers."""
-    moments, q, omega, friction, (x, y, z), _ = (part.tolist() for part in np.split(row, STARTS))
-    return Top(*moments), State(q, omega), Friction(*friction), (x, y, z)
+    Ix, Iz, Mgl, *_, axial, transverse, x, y, z = row.tolist()
+    start = State.of_given(row[3:7].copy(), row[7:10].copy())
+    friction = Friction(axial, transverse) if axial or transverse else NO_FRICTION
+    return Top(Ix, Iz, Mgl), start, friction, (x, y, z)
 
 
 def fill_states(starts: Real, times: Real, orientation: Real, omega: Real) -> NDArray[np.bool_]:

@@ -133,15 +133,16 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
     parts: tuple[Real, ...] = (tops, *state.parts, given)
     if axes or tops.ndim > 1 or state.orientation.ndim > 1:
         parts = _spread(parts, axes)
-    kicked, done, status = door.kick(*parts[:3], kind, HOLDS.index(hold), parts[3])
+    rows, orientation, omega, given = parts
+    kicked, done, status = door.kick(rows, orientation, omega, kind, HOLDS.index(hold), given)
     if status == door.OK:
-        return State.wrap(parts[1], kicked, state.time_axes)
+        return State.wrap(orientation, kicked)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
     if status == door.VERTICAL:
         raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))
     if status == door.BAD_KICK:
         condition = f"so small that rates stay within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-        amount = parts[3].reshape(len(flat[0]), -1)[done]
+        amount = given.reshape(len(flat[0]), -1)[done]
         raise refuse(name, condition, float(np.abs(amount).max()))
     raise door.refuse_status(status)
 

@@ -1,8 +1,9 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
+from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,11 +12,9 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
-    Setting,
-    find_shape,
+    TORQUE_UNIT,
     pack_start,
     validate_times,
-    validate_torque,
     validate_types,
     wrap_states,
 )
@@ -26,17 +25,23 @@ from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, Rates
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import ignore_underflow, refuse, validate_array, validate_number
+from symtop_ros.physics.values import (
+    ignore_underflow,
+    refuse,
+    validate_array,
+    validate_number,
+    validate_vector,
+)
 
 
-class Motion(Setting):
+class Motion:
     """The motion of a top from a state.
 
     Without friction and applied torque it is exact at any time. With them it is integrated; turning
     angles, nutation period and mean rates are then those of the motion that would follow from the
     start under gravity alone.
 
-    If an argument is an array, `Motion(...)` returns `Motions`: many motions at once.
+    `Motions` has many motions at once.
 
     Parameters
     ----------
@@ -56,8 +61,6 @@ class Motion(Setting):
     friction : Friction
     applied_torque : (float, float, float)
         In the world frame, in N m.
-    shape : tuple of int
-        ().
 
     Raises
     ------
@@ -77,21 +80,13 @@ class Motion(Setting):
     (3, 4)
     """
 
-    def __new__(
-        cls,
-        top: Top,
-        start: State,
-        friction: Friction = NO_FRICTION,
-        torque: ArrayLike = NO_TORQUE,
-    ) -> Any:
-        """Return the motion, or many if an argument is an array."""
-        validate_types(top, start, friction)
-        if find_shape(top, start, friction, validate_torque(torque)):
-            # Many motions are made of single ones, so their module imports this one.
-            from symtop_ros.physics.motions import Motions  # noqa: PLC0415
+    # Makes many motions; it goes with 0.5, and `__new__` with it.
+    make_many: ClassVar[Callable[..., Any]]
 
-            return Motions(top, start, friction, torque)
-        return object.__new__(cls)
+    def __new__(cls, *arguments: Any, **named: Any) -> "Motion":
+        """Return the motion; for arrays warn, and return `Motions`."""
+        many: Motion | None = cls.make_many(*arguments, **named)
+        return object.__new__(cls) if many is None else many
 
     def __init__(
         self,
@@ -100,9 +95,58 @@ class Motion(Setting):
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
     ) -> None:
-        super().__init__(top, start, friction, validate_torque(torque), ())
+        validate_types(top, start, friction)
+        self.top, self.start, self.friction = top, start, friction
+        self.applied_torque = validate_vector("torque", torque, TORQUE_UNIT)
         self.packed_start = pack_start(top, start, friction, self.applied_torque)
         self._kernel = KernelMotion(self.packed_start)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle a motion by its arguments: copies share no integration."""
+        return Motion, (self.top, self.start, self.friction, self.applied_torque)
+
+    def __repr__(self) -> str:
+        """Return the call that makes the motion; without friction and torque, if none acts."""
+        parts: list[Any] = [self.top, self.start]
+        if self.is_driven:
+            parts += [self.friction, self.applied_torque]
+        return f"Motion({', '.join(map(repr, parts))})"
+
+    @property
+    def is_driven(self) -> bool:
+        """True if friction or an applied torque acts: there is no closed form, only series."""
+        return bool(self.friction) or any(self.applied_torque)
+
+    def total_torque(self, state: State) -> Real:
+        """Return the torque of gravity, friction and the applied torque about the pivot.
+
+        Parameters
+        ----------
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In the world frame, in N m.
+        """
+        torque = self.top.gravity_torque(state)
+        return torque + self.added_torque(state) if self.is_driven else torque
+
+    def added_torque(self, state: State) -> Real:
+        """Return the torque of friction and the applied torque, without gravity.
+
+        Parameters
+        ----------
+        state : State
+            One state or many.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            In the world frame, in N m.
+        """
+        return np.asarray(state.to_world(self.friction.torque(state)) + self.applied_torque)
 
     @property
     def engine(self) -> Engine:
@@ -148,7 +192,7 @@ class Motion(Setting):
         count = math.prod(times.shape)
         orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
         self.fill(times, orientation, angular_velocity)
-        return wrap_states(orientation, angular_velocity, times.shape, len(times.shape))
+        return wrap_states(orientation, angular_velocity, times.shape)
 
     def _compute_one(self, time: float) -> State:
         numbers = None if self.is_driven else self._kernel.at(time)

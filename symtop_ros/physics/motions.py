@@ -1,7 +1,8 @@
-"""Many motions at once, with the interface of one."""
+"""Many motions at once: of many tops, or from many states."""
 
 import math
-from collections.abc import Callable
+import warnings
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -12,7 +13,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
-    Setting,
+    STARTS,
     describe_starts,
     fill_states,
     find_shape,
@@ -28,22 +29,25 @@ from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.values import refuse, validate_array
 
 
-class Motions(Setting):
+class Motions:
     """The motions of many tops, or from many states.
 
     Tops, starts, frictions and torques are one or many each; they are broadcast together. States
     have the shape of the motions, followed by that of the times, and properties have the shape of
-    the motions. Each motion is the same, bit for bit, as alone. The states of motions
-    under gravity alone are computed in one call, the others one motion after the other.
+    the motions. Each motion is the same, bit for bit, as alone. The states of motions under gravity
+    alone are computed in one call, the others one motion after the other.
+
+    ``len(motions)`` and ``motions[0]`` count along the first axis, as for arrays.
 
     Parameters
     ----------
     top : Top
         One top, or many of shape (...).
     start : State
-        The state at t = 0, or many of shape (...).
+        The state at t = 0, or many of shape (...), such as those that other motions have reached.
     friction : Friction
         One friction, or many of shape (...).
     torque : array_like (..., 3)
@@ -68,11 +72,13 @@ class Motions(Setting):
     --------
     Two tops from one start, at three times:
 
-    >>> from symtop_ros.physics import Motion, State, Top
+    >>> from symtop_ros.physics import Motions, State, Top
     >>> tops = Top(Ix=0.000228, Iz=0.0000572, Mgl=[0.068, 0.07])
-    >>> motions = Motion(tops, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> motions = Motions(tops, State.from_euler(theta=0.5, psi_dot=200.0))
     >>> motions.at([0.0, 10.0, 1e6]).orientation.shape, motions.kind.tolist()
     ((2, 3, 4), ['cusps', 'cusps'])
+    >>> len(motions), motions[1].top
+    (2, Top(Ix=0.000228, Iz=5.72e-05, Mgl=0.07))
     """
 
     def __init__(
@@ -83,15 +89,38 @@ class Motions(Setting):
         torque: ArrayLike = NO_TORQUE,
     ) -> None:
         validate_types(top, start, friction)
-        torque = validate_torque(torque)
-        shape = find_shape(top, start, friction, torque)
-        super().__init__(top, start, friction, torque, shape)
+        self.top, self.start, self.friction = top, start, friction
+        self.applied_torque = validate_torque(torque)
+        self.shape = find_shape(top, start, friction, self.applied_torque)
         self._made: dict[int, Motion] = {}
 
-    @property
-    def members(self) -> list[Motion]:
-        """The motions one by one, in the order of a flat array."""
-        return [self._find_member(n) for n in range(math.prod(self.shape))]
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle motions by their arguments: copies share no integration."""
+        return Motions, (self.top, self.start, self.friction, self.applied_torque)
+
+    def __repr__(self) -> str:
+        """Return the number of motions, as their arrays would fill pages."""
+        return f"<Motions of shape {self.shape}>"
+
+    def __len__(self) -> int:
+        """Return the number of motions along the first axis."""
+        if not self.shape:
+            raise TypeError("one motion has no length")
+        return self.shape[0]
+
+    def __getitem__(self, place: Any) -> "Motion | Motions":
+        """Return one motion, or some, as NumPy's indexing does."""
+        numbers = np.arange(math.prod(self.shape)).reshape(self.shape)[place]
+        if not np.ndim(numbers):
+            return self._find_member(int(numbers))
+        moments, q, omega, friction, torque, _ = np.split(self._starts[numbers], STARTS, axis=-1)
+        columns = [np.moveaxis(part, -1, 0) for part in (moments, friction)]
+        start = State.of_given(np.array(q), np.array(omega))
+        return Motions(Top(*columns[0]), start, Friction(*columns[1]), torque)
+
+    def __iter__(self) -> Iterator["Motion | Motions"]:
+        """Iterate along the first axis."""
+        return (self[n] for n in range(len(self)))
 
     def _find_member(self, n: int) -> Motion:
         # Kept, because the pieces of an integration are.
@@ -101,15 +130,16 @@ class Motions(Setting):
 
     @cached_property
     def _starts(self) -> Real:
-        return list_starts(self.top, self.start, self.friction, self.applied_torque, self.shape)
+        arguments = self.top, self.start, self.friction, self.applied_torque
+        return list_starts(*arguments, self.shape)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
-        """Return the states at one time, or at many.
+        """Return the states at one time, or at many; the times are the same for all motions.
 
         Parameters
         ----------
         t : float, array_like (m, ...) or ExactTimes
-            Times, as in `Motion.at`; the same for all motions.
+            Times, as in `Motion.at`.
 
         Returns
         -------
@@ -130,19 +160,72 @@ class Motions(Setting):
         if not isinstance(flat, ExactTimes):
             left = fill_states(self._starts, flat, orientation, omega)
         for n in np.flatnonzero(left.any(axis=1)).tolist():
-            self._fill_member(n, flat, left[n], (orientation[n], omega[n]))
-        return wrap_states(orientation, omega, (*self.shape, *shape), len(shape))
+            self._find_member(n).fill(flat, orientation[n], omega[n])
+        return wrap_states(orientation, omega, (*self.shape, *shape))
 
-    def _fill_member(
-        self, n: int, times: Real | ExactTimes, left: NDArray[np.bool_], target: tuple[Real, Real]
-    ) -> None:
-        """Write the states of one motion at the times that are left."""
-        member, (orientation, omega) = self._find_member(n), target
-        if left.all():
-            member.fill(times, orientation, omega)
-            return
-        states = member.at(times[left])
-        orientation[left], omega[left] = states.orientation, states.angular_velocity
+    def at_each(self, times: ArrayLike) -> State:
+        """Return the states of each motion at its own times.
+
+        Parameters
+        ----------
+        times : array_like (..., m, ...)
+            Times in s; the first axes are those of the motions.
+
+        Returns
+        -------
+        State
+            orientation (..., m, ..., 4) and angular_velocity (..., m, ..., 3).
+
+        Raises
+        ------
+        ValueError
+            If the times do not begin with the shape of the motions, or a motion has no state.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motions, State, Top
+        >>> motions = Motions(Top(1.0, 1.0, [1.0, 2.0]), State.from_euler(theta=1.0, psi_dot=3.0))
+        >>> motions.at_each(motions.nutation_period).euler_angles.theta.round(9).tolist()
+        [1.0, 1.0]
+        """
+        t = validate_array("times", times, unit="s")
+        if t.shape[: len(self.shape)] != self.shape:
+            condition = f"an array whose shape begins with that of the motions, {self.shape}"
+            raise refuse("times", condition, f"shape {t.shape}")
+        rows = t.reshape(math.prod(self.shape), -1)
+        orientation, omega = np.empty((*rows.shape, 4)), np.empty((*rows.shape, 3))
+        for n, row in enumerate(rows):
+            self._find_member(n).fill(row, orientation[n], omega[n])
+        return wrap_states(orientation, omega, t.shape)
+
+    def table(self, times: ArrayLike) -> dict[str, Any]:
+        """Return the states at times as named columns, one row for each motion and time.
+
+        Parameters
+        ----------
+        times : array_like (m,)
+            Times in s, the same for all n motions.
+
+        Returns
+        -------
+        dict of str to ndarray (n m,)
+            motion, the number of the motion in a flat array; the others as in `State.table`.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motions, State, Top
+        >>> motions = Motions(Top(1.0, 1.0, [1.0, 2.0]), State.from_euler(theta=1.0, psi_dot=3.0))
+        >>> motions.table([0.0, 0.5])["motion"].tolist()
+        [0, 0, 1, 1]
+        """
+        t = validate_array("times", times, unit="s")
+        if t.ndim != 1:
+            raise refuse("times", "of shape (m,)", f"shape {t.shape}")
+        count, states = math.prod(self.shape), self.at(t)
+        orientation, omega = (np.array(part) for part in states.parts)
+        flat = wrap_states(orientation, omega, (count * len(t),))
+        numbers = np.repeat(np.arange(count), len(t))
+        return {"motion": numbers, **flat.table(np.tile(t, count))}
 
     def jacobian(self, t: ArrayLike) -> Real:
         """Return the derivatives of each motion's state, as `Motion.jacobian` does.
@@ -157,13 +240,62 @@ class Motions(Setting):
         ndarray (..., 6, 9)
             In the shape of the motions, followed by that of the times.
         """
-        found = np.array([motion.jacobian(t) for motion in self.members])
+        members = map(self._find_member, range(math.prod(self.shape)))
+        found = np.array([motion.jacobian(t) for motion in members])
         return found.reshape(*self.shape, *np.shape(t), 6, 9)
 
-    def _collect(self, ask: Callable[[Motion], Any], dtype: Any = np.float64) -> Any:
-        """Return what each motion answers, in the shape of the motions."""
-        answers = np.array([ask(member) for member in self.members], dtype)
-        return answers.reshape(self.shape)
+    def _spread(self, states: State) -> Top:
+        """Return the tops in the shape of states of these motions."""
+        shape = states.orientation.shape[:-1]
+        if shape[: len(self.shape)] != self.shape:
+            condition = f"states of these motions, of a shape that begins with {self.shape}"
+            raise refuse("states", condition, f"shape {shape}")
+        return self.top.spread(self.shape, shape)
+
+    def energy(self, states: State) -> Real:
+        """Return the kinetic and potential energy of states of these motions, (..., m, ...), in J.
+
+        Parameters
+        ----------
+        states : State
+            What `at` or `at_each` returns.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motions, State, Top
+        >>> motions = Motions(Top(1.0, 1.0, [1.0, 2.0]), State.from_euler(theta=1.0))
+        >>> motions.energy(motions.at([0.0, 1.0, 2.0])).round(9).tolist()
+        [[0.540302306, 0.540302306, 0.540302306], [1.080604612, 1.080604612, 1.080604612]]
+        """
+        return np.asarray(self._spread(states).energy(states))
+
+    def axial_momentum(self, states: State) -> Real:
+        """Return L_z = p_psi of states of these motions, (..., m, ...), in N m s."""
+        return np.asarray(self._spread(states).axial_momentum(states))
+
+    def vertical_momentum(self, states: State) -> Real:
+        """Return L_z' = p_phi of states of these motions, (..., m, ...), in N m s."""
+        return np.asarray(self._spread(states).vertical_momentum(states))
+
+    def angular_momentum(self, states: State) -> Real:
+        """Return the angular momentum in the world frame, (..., m, ..., 3), in N m s."""
+        return self._spread(states).angular_momentum(states)
+
+    def gravity_torque(self, states: State) -> Real:
+        """Return the torque of gravity in the world frame, (..., m, ..., 3), in N m."""
+        return self._spread(states).gravity_torque(states)
+
+    def total_torque(self, states: State) -> Real:
+        """Return the torque of gravity, friction and the applied torque, (..., m, ..., 3), in N m.
+
+        It is in the world frame, about the pivot.
+        """
+        gravity, shape = self.gravity_torque(states), states.orientation.shape[:-1]
+        friction = self.friction.spread(self.shape, shape)
+        applied = np.broadcast_to(self.applied_torque, (*self.shape, 3))
+        axes = (1,) * (len(shape) - len(self.shape))
+        added = states.to_world(friction.torque(states)) + applied.reshape(*self.shape, *axes, 3)
+        return np.asarray(gravity + added)
 
     @property
     def engine(self) -> NDArray[np.str_]:
@@ -224,9 +356,33 @@ class Motions(Setting):
     @property
     def fast_top_precession_rate(self) -> Real:
         """Mgl/p_psi in rad/s, as in `Motion.fast_top_precession_rate`."""
-        return np.asarray(self._collect(lambda motion: motion.fast_top_precession_rate))
+        Iz, Mgl, omega_z = self._starts[:, [1, 2, 9]].T
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
+            p_psi = Iz * omega_z
+            rates: Real = np.where(p_psi == 0, np.nan, Mgl / p_psi)
+        return rates.reshape(self.shape)
 
     @property
     def fast_top_nutation_rate(self) -> Real:
         """|p_psi|/Ix in rad/s."""
-        return np.asarray(self._collect(lambda motion: motion.fast_top_nutation_rate))
+        Ix, Iz, omega_z = self._starts[:, [0, 1, 9]].T
+        with np.errstate(under="ignore"):
+            return np.asarray(np.abs(Iz * omega_z / Ix).reshape(self.shape))
+
+
+def _make_many(
+    top: Any,
+    start: Any,
+    friction: Any = NO_FRICTION,
+    torque: Any = NO_TORQUE,
+) -> Motions | None:
+    """Return `Motions` with a warning if an argument is an array; None for one motion."""
+    validate_types(top, start, friction)
+    if not find_shape(top, start, friction, validate_torque(torque)):
+        return None
+    text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
+    warnings.warn(text, DeprecationWarning, stacklevel=3)
+    return Motions(top, start, friction, torque)
+
+
+Motion.make_many = staticmethod(_make_many)  # this line and `Motion.__new__` go with 0.5

@@ -73,9 +73,6 @@ class State:
     given_orientation : ndarray (..., 4)
         The orientation before it is normalised. A motion starts from these doubles, normalised with
         50 digits: the rounding of `orientation` would be an error that grows with time.
-    time_axes : int
-        Number of last axes (...) that are times of a motion. Tops, frictions and torques are
-        broadcast with the axes before them.
 
     Raises
     ------
@@ -94,7 +91,6 @@ class State:
     orientation: Real
     angular_velocity: Real
     given_orientation: Real  # not normalised: a motion normalises it with 50 digits
-    time_axes: int = 0
 
     def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None:
         q = _flush_tiny(validate_array("orientation", orientation, 4))
@@ -113,7 +109,6 @@ class State:
         cls,
         orientation: Real,
         angular_velocity: Real,
-        time_axes: int = 0,
         given: Real | None = None,
     ) -> "State":
         """Return the state of arrays that are known to be valid, without copying them.
@@ -126,18 +121,27 @@ class State:
             Finite quaternions of norm 1 to rounding; they are not normalised.
         angular_velocity : ndarray (..., 3)
             Finite angular velocities of the same leading shape, in rad/s.
-        time_axes : int
-            Number of last axes that are times.
         given : ndarray (..., 4), optional
             The orientation before it was normalised.
         """
         state = object.__new__(cls)
-        state._set(
-            orientation if given is None else given, orientation, angular_velocity, time_axes
-        )
+        state._set(orientation if given is None else given, orientation, angular_velocity)
         return state
 
-    def _set(self, given: Real, orientation: Real, omega: Real, time_axes: int = 0) -> None:
+    @classmethod
+    def of_given(cls, given: Real, angular_velocity: Real) -> "State":
+        """Return the state of orientations that are valid but for their norm, and of their rates.
+
+        Parameters
+        ----------
+        given : ndarray (..., 4)
+            Finite quaternions of norm 1 within 1e-3.
+        angular_velocity : ndarray (..., 3)
+            Finite angular velocities of the same leading shape, in rad/s.
+        """
+        return cls.wrap(_normalize(given), angular_velocity, given)
+
+    def _set(self, given: Real, orientation: Real, omega: Real) -> None:
         orientation.setflags(write=False)
         omega.setflags(write=False)
         if given is not orientation:
@@ -147,13 +151,12 @@ class State:
             given_orientation=given,
             orientation=orientation,
             angular_velocity=omega,
-            time_axes=time_axes,
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a state by its arrays, which are read-only in the copy, too."""
         given, (q, omega) = self.given_orientation, self.parts
-        return State.wrap, (q.copy(), omega.copy(), self.time_axes, given.copy())
+        return State.wrap, (q.copy(), omega.copy(), given.copy())
 
     def __repr__(self) -> str:
         """Return the call that makes one state; of many, their shape."""
@@ -212,7 +215,7 @@ class State:
         if table.ndim > 1:
             table = np.moveaxis(table, 0, -1)
         q, omega = door.from_angles(table[..., :3], table[..., 3:])
-        return cls.wrap(_normalize(q), omega, given=q)
+        return cls.of_given(q, omega)
 
     @cached_property
     @ignore_underflow
@@ -403,28 +406,7 @@ class State:
         has_gap = any(each is Ellipsis for each in places)
         where = (*places, slice(None)) if has_gap else (*places, ..., slice(None))
         orientation, omega = (part[where] for part in self.parts)
-        return State.wrap(orientation, omega, self._count_time_axes(places))
-
-    def _count_time_axes(self, places: tuple[Any, ...]) -> int:
-        """Return how many axes of times indexing leaves.
-
-        A whole number takes its axis away, and arrays make theirs one. If it has axes of motions
-        and of times, it counts as one of motions.
-        """
-        taken = [_count_axes(each) for each in places]
-        motions = self.orientation.ndim - 1 - self.time_axes
-        left, axis, arrays = self.time_axes, 0, set()
-        for place, count in zip(places, taken, strict=True):
-            if place is Ellipsis:
-                axis += motions + self.time_axes - sum(taken)
-                continue
-            of_times = max(0, axis + count - max(axis, motions))
-            if not isinstance(place, slice):
-                left -= of_times
-            if not isinstance(place, slice | int | np.integer) and place is not None:
-                arrays.add(of_times == count)
-            axis += count
-        return left + (arrays == {True})
+        return State.wrap(orientation, omega)
 
     def __len__(self) -> int:
         """Return the number of states along the first axis."""
@@ -447,14 +429,6 @@ class State:
         )
 
     __hash__ = None  # type: ignore[assignment]
-
-
-def _count_axes(place: Any) -> int:
-    """Return how many axes a part of an index takes."""
-    if place is None or place is Ellipsis:
-        return 0
-    array = np.asarray(place) if not isinstance(place, slice) else None
-    return array.ndim if array is not None and array.dtype == np.bool_ else 1
 
 
 def _flush_tiny(array: Real) -> Real:

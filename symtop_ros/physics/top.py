@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,6 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_MOMENT,
     SMALLEST_MOMENT,
-    fit_shapes,
     ignore_underflow,
     refuse,
     to_float,
@@ -35,6 +34,17 @@ class _Numbers:
     def shape(self) -> tuple[int, ...]:
         """() for one, (...) for many."""
         return getattr(self._given[0], "shape", ())
+
+    def spread(self, motions: tuple[int, ...], states: tuple[int, ...]) -> Self:
+        """Return the same numbers in the shape of states at times of motions of a shape."""
+        if not self.shape:
+            return self
+        found, times = object.__new__(type(self)), (1,) * (len(states) - len(motions))
+        names: tuple[str, ...] = type(self).__slots__
+        for name, value in zip(names, self._given, strict=True):
+            column = np.broadcast_to(value, motions).reshape(*motions, *times)
+            object.__setattr__(found, name, np.broadcast_to(column, states))
+        return found
 
     def __eq__(self, other: object) -> bool:
         """Compare all numbers."""
@@ -189,19 +199,17 @@ def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
 
 def validate_one(given: Any, name: str = "top") -> None:
     """Refuse many tops, or many motions, where one is wanted."""
-    if given.shape:
-        raise refuse(name, f"one {name}", f"{name}s of shape {given.shape}")
+    if shape := getattr(given, "shape", ()):
+        raise refuse(name, f"one {name}", f"{name}s of shape {shape}")
 
 
 def match(value: Any, state: State) -> Any:
-    """Return a number of each top, (...), with axes added for the times of its states."""
-    if isinstance(value, float):
-        return value
-    array = np.reshape(value, np.shape(value) + (1,) * state.time_axes)
+    """Return a number of one top, or the numbers of tops that have the shape of their states."""
     states = state.angular_velocity.shape[:-1]
-    listed = f"{np.shape(value)} and {states}, of which the last {state.time_axes} are times"
-    fit_shapes("top and state", array.shape, states, listed=listed)
-    return array
+    if not isinstance(value, float) and np.shape(value) != states:
+        condition = "one of each for each other (`Motions.energy` and its like take many times)"
+        raise refuse("top and state", condition, f"shapes {np.shape(value)} and {states}")
+    return value
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS, within
 
-from symtop_ros.physics import Friction, Motion, State, Top, perrys_rule
+from symtop_ros.physics import Friction, Motion, Motions, State, Top, perrys_rule
 
 
 @pytest.mark.parametrize("t", [1e7, -1e7])
@@ -19,8 +19,8 @@ def test_an_integration_that_takes_hours_is_interrupted(t):
 TILTS = np.arange(1, 200_001) / 2**17
 LONG = {  # each takes some seconds
     "states": lambda: Motion(ARTICLE, CUSPS).at(np.zeros(10_000_000)),
-    "motions": lambda: Motion(Top(1.0, 1.0, 1.0), State.from_euler(theta=TILTS)).at(np.zeros(99)),
-    "kinds": lambda: Motion(Top(1.0, 1.0, 1.0), State.from_euler(theta=TILTS)).kind,
+    "motions": lambda: Motions(Top(1.0, 1.0, 1.0), State.from_euler(theta=TILTS)).at(np.zeros(99)),
+    "kinds": lambda: Motions(Top(1.0, 1.0, 1.0), State.from_euler(theta=TILTS)).kind,
     "verdicts": lambda: perrys_rule(ARTICLE, State.from_euler(theta=TILTS, phi_dot=1.0)),
 }
 

@@ -48,7 +48,7 @@ def assert_each_is_alone(motion, singles, times):
 @pytest.mark.parametrize("times", [TIMES, 2.5, ExactTimes(np.array([0, 10**9 + 1]))])
 def test_each_state_is_that_of_the_motion_alone(times):
     tops, starts = many(50)
-    motion = Motion(*stack(tops, starts))
+    motion = Motions(*stack(tops, starts))
     assert motion.at(times).orientation.shape[0] == 50
     assert_each_is_alone(motion, list(map(Motion, tops, starts)), times)
 
@@ -56,7 +56,7 @@ def test_each_state_is_that_of_the_motion_alone(times):
 @pytest.mark.parametrize("name", PROPERTIES)
 def test_each_property_is_that_of_the_motion_alone(name):
     tops, starts = many(50)
-    found = getattr(Motion(*stack(tops, starts)), name)
+    found = getattr(Motions(*stack(tops, starts)), name)
     singles = [getattr(Motion(*each), name) for each in zip(tops, starts, strict=True)]
     if isinstance(found, tuple):
         found = np.stack(found, axis=1)
@@ -66,7 +66,7 @@ def test_each_property_is_that_of_the_motion_alone(name):
 def test_tops_starts_frictions_and_torques_are_broadcast():
     tops = Top(0.000228, 0.0000572, [[0.06], [0.07]])
     frictions = Friction(axial=[1e-6, 2e-6, 0.0])
-    motion = Motion(tops, CUSPS, frictions, torque=np.zeros((1, 1, 3)))
+    motion = Motions(tops, CUSPS, frictions, torque=np.zeros((1, 1, 3)))
     assert motion.shape == (2, 3)
     assert motion.at([0.1, 0.2]).orientation.shape == (2, 3, 2, 4)
     singles = [
@@ -79,53 +79,73 @@ def test_tops_starts_frictions_and_torques_are_broadcast():
         assert state.tolist() == single.at(0.3).orientation.tolist()
 
 
-def test_energies_of_broadcast_motions_belong_to_their_tops():
-    # three tops and three by one starts: the tops are those of the last axis
-    Ix, Mgl = [1.0, 1.5, 2.0], [1.0, -2.0, 3.0]
-    tops = Top(Ix, 1.0, Mgl)
+QUANTITIES = (
+    *("energy", "axial_momentum", "vertical_momentum", "angular_momentum", "gravity_torque"),
+    "total_torque",
+)
+
+
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_quantities_of_broadcast_motions_belong_to_their_tops(name):
+    # three tops and three by one starts: the tops are those of the last axis, and there are as
+    # many times as motions, so that a wrong axis would not be noticed by its length
+    tops = Top([1.0, 1.5, 2.0], 1.0, [1.0, -2.0, 3.0])
     starts = State(np.tile([0.8, 0.6, 0, 0], (3, 1, 1)), np.zeros((3, 1, 3)))
-    motions = Motion(
-        tops, starts, Friction([0.0, 0.1, 0.2]), torque=[[0, 0, 1], [0, 1, 0], [1, 0, 0]]
-    )
-    states = motions.at([0.0, 0.5])
-    names = "energy", "axial_momentum", "vertical_momentum", "angular_momentum", "gravity_torque"
-    for name in names:
-        found = getattr(tops, name)(states)
-        for row, n in np.ndindex(3, 3):
-            top = Top(Ix[n], 1.0, Mgl[n])
-            assert np.array_equal(found[row, n], getattr(top, name)(states[row, n]))
-    for n, member in enumerate(motions.members):
-        row, column = divmod(n, 3)
-        alone = member.at([0.0, 0.5])
-        assert np.array_equal(motions.total_torque(states)[row, column], member.total_torque(alone))
+    torque = [[0, 0, 1], [0, 1, 0], [1, 0, 0]]
+    motions = Motions(tops, starts, Friction([0.0, 0.1, 0.2]), torque)
+    times = [0.0, 0.5, 1.0]
+    found = getattr(motions, name)(motions.at(times))
+    for row, column in np.ndindex(3, 3):
+        member = motions[row, column]
+        owner = member if name == "total_torque" else member.top
+        assert np.array_equal(found[row, column], getattr(owner, name)(member.at(times)))
 
 
-def test_indexing_keeps_times_apart_from_motions():
+def test_tops_with_states_of_another_shape_are_refused():
     tops = Top(1.0, 1.0, [1.0, 2.0])
-    states = Motion(tops, CUSPS).at(np.linspace(0, 1, 6).reshape(2, 3))
-    mask = np.array([[True, False, True], [False, False, True]])
-    for place, axes in (
-        (0, 2),
-        (slice(None), 2),
-        ((0, 1), 1),
-        ((0, 1, 2), 0),
-        ((..., 0), 1),
-        ((0, ...), 2),
-        (None, 2),
-        (np.array([1, 0]), 2),
-        ((slice(None), np.array([1, 0])), 2),
-        ((slice(None), mask), 1),
-        ((np.array([True, False]), 0), 1),
-    ):
-        assert states[place].time_axes == axes
-    assert np.array_equal(tops.energy(states[:, 0]), tops.energy(states)[:, 0])
-    assert np.array_equal(tops.energy(states[:, 0, 1]), tops.energy(states)[:, 0, 1])
+    states = Motions(tops, CUSPS).at([0.0, 1.0])  # as many times as motions
+    with refused("top and state", "one of each for each other"):
+        tops.energy(states)
+
+
+def test_motions_are_indexed_and_counted_as_arrays():
+    motions = Motions(Top(0.000228, 0.0000572, np.arange(1, 7).reshape(2, 3) / 64), CUSPS)
+    assert (len(motions), len(motions[1]), motions[:, 1:].shape) == (2, 3, (2, 2))
+    assert motions[1, 2].top == Top(0.000228, 0.0000572, 6 / 64)
+    assert motions[1, 2].at(0.7) == motions.at(0.7)[1, 2] == motions[:, 1:].at(0.7)[1, 1]
+    assert [motion.top.Mgl for row in motions for motion in row] == [n / 64 for n in range(1, 7)]
+    with pytest.raises(IndexError):
+        motions[2]
+
+
+def test_each_motion_has_states_at_its_own_times():
+    motions = Motions(Top(0.000228, 0.0000572, [0.06, 0.07]), CUSPS, Friction([0.0, 1e-6]))
+    times = np.array([[0.5, -1.0, 0.0], [0.25, 3.0, 1.0]])
+    states = motions.at_each(times)
+    for n, motion in enumerate(motions):
+        assert states[n] == motion.at(times[n])
+    with refused("times", "an array whose shape begins with that of the motions, (2,)"):
+        motions.at_each([0.0, 1.0, 2.0])
+
+
+def test_states_that_motions_have_reached_are_starts_of_others():
+    tops = Top(0.000228, 0.0000572, [0.06, 0.07])
+    reached = Motions(tops, CUSPS).at(1.0)
+    again = Motions(tops, reached)
+    assert again.at(0.0) == reached
+    assert again[1].at(0.5) == Motion(Top(0.000228, 0.0000572, 0.07), reached[1]).at(0.5)
+
+
+def test_a_motion_of_arrays_warns_and_is_many():
+    with pytest.warns(DeprecationWarning, match=r"Motion\(\.\.\.\) of arrays is Motions"):
+        found = Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)
+    assert isinstance(found, Motions)
+    assert found.at(0.5) == Motions(Top(1.0, 1.0, [1.0, 2.0]), CUSPS).at(0.5)
 
 
 def test_each_motion_of_many_has_its_own_engine_and_one_motion_alone_can_be_reached():
     tops = Top(1.0, 1.0, [1.0, 0.0, 1.0])
-    motions = Motion(tops, CUSPS, Friction([0.0, 0.0, 0.1]))
-    assert isinstance(motions, Motions)
+    motions = Motions(tops, CUSPS, Friction([0.0, 0.0, 0.1]))
     assert motions.engine.tolist() == ["closed form", "free", "taylor"]
     assert not hasattr(motions, "reach")
 
@@ -133,7 +153,7 @@ def test_each_motion_of_many_has_its_own_engine_and_one_motion_alone_can_be_reac
 def test_a_time_too_far_for_one_of_many_is_refused():
     tops = Top(0.000228, 0.0000572, [0.068, 0.07])
     with refused("t", NOT_TOO_LATE):
-        Motion(tops, CUSPS).at([0.1, 1e17])
+        Motions(tops, CUSPS).at([0.1, 1e17])
 
 
 def test_the_effect_of_hurrying_takes_many_tops():
@@ -155,6 +175,6 @@ def test_one_top_compares_and_hashes_by_its_numbers():
 
 
 def test_an_empty_array_of_motions_has_empty_states():
-    motion = Motion(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
+    motion = Motions(ARTICLE, State(np.empty((0, 4)), np.empty((0, 3))))
     assert motion.at([1.0, 2.0]).orientation.shape == (0, 2, 4)
     assert [angles.shape for angles in motion.turning_angles] == [(0,), (0,)]

@@ -24,6 +24,7 @@ from symtop_ros.physics import (
     ExactTimes,
     Friction,
     Motion,
+    Motions,
     State,
     Top,
     apply_impulse,
@@ -42,7 +43,7 @@ from symtop_ros.physics import (
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 MOTION, POTENTIAL = Motion(ARTICLE, CUSPS), EffectivePotential.of(ARTICLE, CUSPS)
-MANY = Motion(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
+MANY = Motions(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
 BODY = {"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81}
 FIT = "of shapes that fit together"
 EULER = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
@@ -81,7 +82,11 @@ TOPS = [
     (partial(Top, 1.0, [1.0, 3.0], 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2"),
     (partial(Top, [1.0, 2.0], [1.0] * 3, 1.0), "Ix and Iz", FIT),
     (partial(Top, 1.0, 1.0, [1.0, NAN]), "Mgl", f"{FINITE_ARRAY} (J)"),
-    (partial(Top(1.0, 1.0, [1.0] * 3).energy, MANY.at(REST)), "top and state", FIT, "(3,) and (2,"),
+    (
+        partial(Top(1.0, 1.0, [1.0] * 3).energy, MANY.at(REST)),
+        "top and state",
+        "one of each for each other",
+    ),
     (partial(MANY.top.sleeping_is_stable, CUSPS), "top", "one top", "tops of shape (2,)"),
     (partial(EffectivePotential.of, MANY.top, CUSPS), "top", "one top", "tops of shape (2,)"),
     (partial(Friction, -1), "friction.axial", ">= 0 N m s", "-1"),

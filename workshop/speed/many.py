@@ -9,8 +9,9 @@ from timeit import repeat
 
 import numpy as np
 
+from symtop_ros import physics
 from symtop_ros.arrays import Real
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import State, Top
 from symtop_ros.testset.score import measure_angles
 from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.peers.peer import Task
@@ -76,7 +77,7 @@ def find_programs() -> list[tuple[str, Program]]:
 
 def compute(motions: Motions, t: float) -> Real:
     """Return the orientations from the package."""
-    return Motion(motions.top, motions.start).at(t).orientation
+    return physics.Motions(motions.top, motions.start).at(t).orientation
 
 
 @cache

@@ -5,7 +5,7 @@ import pytest
 from physics.derivatives.differences import FEW_DIGITS, differentiate, find_errors
 from physics.tops import ARTICLE, CUSPS, seeds
 
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics import Friction, Motion, Motions, State, Top
 
 # Promised are 1e-8; measured below are 2e-13 in the first nutations.
 CLOSE = 1e-12
@@ -128,7 +128,7 @@ def test_shapes_follow_those_of_times_and_motions():
     assert motion.jacobian(1.0).shape == (6, 9)
     assert motion.jacobian(np.ones((2, 3))).shape == (2, 3, 6, 9)
     assert motion.jacobian([]).shape == (0, 6, 9)
-    many = Motion(Top(ARTICLE.Ix, ARTICLE.Iz, np.array([0.06, ARTICLE.Mgl])), CUSPS)
+    many = Motions(Top(ARTICLE.Ix, ARTICLE.Iz, np.array([0.06, ARTICLE.Mgl])), CUSPS)
     found = many.jacobian([0.5, 1.0])
     assert found.shape == (2, 2, 6, 9)
     assert found[1].tolist() == motion.jacobian([0.5, 1.0]).tolist()
