@@ -26,7 +26,12 @@ SOME = ("test/wire", "test/check", "test/playback/view", "test/web/test_page_siz
 ALL = pytest.param(("--collect-only", "test"), marks=pytest.mark.long, id="all")
 
 
-@pytest.mark.skipif(not NUMPY1.exists(), reason="no environment of Ubuntu 24.04")
+needs_ubuntu = pytest.mark.skipif(
+    not NUMPY1.exists(), reason="no environment as on Ubuntu 24.04: make test-nodes"
+)
+
+
+@needs_ubuntu
 @pytest.mark.parametrize("words", [pytest.param(SOME, id="some"), ALL])
 def test_what_can_run_is_run_and_the_rest_is_skipped_with_its_reason(words, tmp_path):
     (tmp_path / "hide.py").write_text(HIDE)
@@ -51,6 +56,7 @@ def test_what_can_run_is_run_and_the_rest_is_skipped_with_its_reason(words, tmp_
         assert int(suite.get("tests")) - int(suite.get("skipped")) > 30
 
 
+@needs_ubuntu
 def test_a_module_that_is_missing_by_mistake_is_an_error(tmp_path):
     (tmp_path / "test_it.py").write_text("import no_such_module\n")
     done = execute([NUMPY1, "-m", "pytest", f"--rootdir={ROOT}", tmp_path], cwd=ROOT)
