@@ -178,9 +178,9 @@ $(VENV)/docs: setup.py $(VENV)/ros
 	@touch $@
 
 $(NUMPY1)/test: setup.py $(VENV)/bin/activate
-	@echo "Setting up $(NUMPY1): ROS 2 Jazzy and NumPy 1.26 (about 300 MB, once) ..."
+	@echo "Setting up $(NUMPY1): ROS 2 Jazzy, NumPy 1.26 and pytest 7.4 (about 300 MB, once) ..."
 	@$(TICK) $(BIN)/python -m venv --clear $(NUMPY1)
-	@$(TICK) $(NUMPY1)/bin/python -m pip install --editable '.[jazzy]' 'numpy<2' $(TOOLS)
+	@$(TICK) $(NUMPY1)/bin/python -m pip install --editable '.[jazzy]' 'numpy<2' 'pytest==7.4.4' $(TOOLS)
 	@touch $@
 
 $(KILTED)/test: setup.py $(VENV)/bin/activate

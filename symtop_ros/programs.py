@@ -2,9 +2,11 @@
 
 import gc
 import importlib
+import io
 import os
 import signal
 import sys
+import warnings
 from typing import Any, NoReturn
 
 # Statuses of programs that a signal has ended, as shells have them: SIGINT, and SIGPIPE, which says
@@ -82,12 +84,14 @@ def _leave(status: int) -> NoReturn:
 
 
 def run(name: str, module: str, interruptible: bool = False) -> int:
-    """Run a program. A signal before or after it ends the process without a traceback.
+    """Run a program. A signal before it ends the process without a traceback.
 
     Both signals raise KeyboardInterrupt in an interruptible program, so that it removes incomplete
-    files and ends what it has started. The other programs handle signals themselves.
+    files and ends what it has started. The other programs handle signals themselves. At the end
+    the status is known, and a second signal does not change it.
     """
     _set_signals(signal.SIG_DFL)
+    _spare_the_user()
     try:
         main = importlib.import_module(module).main
         if interruptible:
@@ -104,7 +108,19 @@ def run(name: str, module: str, interruptible: bool = False) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
     finally:
-        _set_signals(signal.SIG_DFL)
+        _set_signals(signal.SIG_IGN)
+
+
+def _spare_the_user() -> None:
+    """Let no deprecation in a dependency and no terminal without Unicode end a program.
+
+    With PYTHONWARNINGS=error the former are exceptions. What a terminal has no letter for is
+    escaped.
+    """
+    warnings.filterwarnings("ignore", category=DeprecationWarning, module=r"(?!symtop_ros\b)")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _set_signals(handler: Any) -> None:

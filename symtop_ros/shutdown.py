@@ -45,11 +45,12 @@ def describe_failure(error: Exception) -> str:
 
 
 @contextmanager
-def ros_context(arguments: list[str]) -> Iterator[Callable[[], None]]:
+def ros_context(arguments: list[str], is_last: bool = False) -> Iterator[Callable[[], None]]:
     """Initialise ROS on entry, and shut it down on exit.
 
     Yields a function `listen`. Signals are only noted until it is called, because a node that is
-    being created when ROS shuts down fails in many ways.
+    being created when ROS shuts down fails in many ways. If the process ends afterwards
+    (`is_last`), a second signal is ignored: it would end the process with another status.
     """
     noted: list[int] = []
 
@@ -80,7 +81,8 @@ def ros_context(arguments: list[str]) -> Iterator[Callable[[], None]]:
     finally:
         uninstall_signal_handlers()
         for number, handler in before.items():
-            signal.signal(number, handler)
+            ends_it = is_last and handler == signal.SIG_DFL
+            signal.signal(number, signal.SIG_IGN if ends_it else handler)
 
 
 def run_with_ros(
@@ -95,7 +97,7 @@ def run_with_ros(
     arguments = sys.argv if args is None else [parser.prog, *args]
     try:
         options = parser.parse_args(remove_ros_args(arguments)[1:])
-        with ros_context(arguments) as listen:
+        with ros_context(arguments, is_last=args is None) as listen:
             return run(options, listen)
     except ExternalShutdownException:
         return 0

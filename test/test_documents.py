@@ -11,7 +11,19 @@ from pathlib import Path
 import pytest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
-from documents import LINK, PAGES, PATH, ROOT, anchors, blocks, commands, names, rows, same
+from documents import (
+    LINK,
+    PAGES,
+    PATH,
+    ROOT,
+    anchors,
+    blocks,
+    commands,
+    names,
+    rows,
+    same,
+    same_output,
+)
 from geometry_msgs.msg import WrenchStamped
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
@@ -74,7 +86,7 @@ def test_the_python_of_a_page_prints_what_the_page_shows(page):
     for code, output in blocks(page, "python"):
         with contextlib.redirect_stdout(io.StringIO()) as printed:
             exec(code, variables)
-        assert same(printed.getvalue(), output), printed.getvalue()
+        assert same_output(code, printed.getvalue(), output), printed.getvalue()
 
 
 @pytest.fixture

@@ -30,7 +30,7 @@ def main(args: list[str] | None = None) -> int:
     try:
         options = _parser().parse_args(remove_ros_args(arguments)[1:])
         values = parse_values(vars(options).get("values", ()))
-        with ros_context(arguments) as listen:
+        with ros_context(arguments, is_last=args is None) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
             with closing(Connection(node, options.node, options.timeout)) as top:
                 listen()

@@ -63,7 +63,9 @@ def _read_value(message: ParameterValue) -> Any:
 def refuse_too_many(parameters: Sequence[ParameterMessage]) -> None:
     """Refuse a request so long that reading it would delay samples."""
     if len(parameters) > MAX_COUNT:
-        raise reject("a request", f"of at most {MAX_COUNT} parameters", len(parameters))
+        raise RefusedError(
+            f"a request must have at most {MAX_COUNT} parameters, got {len(parameters)}"
+        )
 
 
 def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:

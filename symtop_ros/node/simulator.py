@@ -262,7 +262,8 @@ class Simulator:
             raise ResultError(
                 UNSUPPORTED, reject("set_acceleration", "false: it follows from the torque", True)
             )
-        sets_pose, sets_twist = (getattr(request, name, True) for name in ("set_pose", "set_twist"))
+        sets_pose = getattr(request, "set_pose", True)
+        sets_twist = getattr(request, "set_twist", True)
         if given.header.frame_id not in ("", world):
             raise reject("header.frame_id", f"'{world}'", given.header.frame_id)
         now = self._simulation.state

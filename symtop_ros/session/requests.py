@@ -11,7 +11,7 @@ from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.validation import RefusedError, number, reject, validate_names
 
 MAX_STEP = 1e9  # s of the motion
-STEPS_OF_A_REQUEST = 6_000  # integration steps; the lock is held for up to 0.5 s
+STEPS_OF_A_REQUEST = 1_000  # integration steps; samples wait for up to 0.1 s
 
 Values = Mapping[str, Any]
 

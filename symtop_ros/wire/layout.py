@@ -51,9 +51,17 @@ Part = Stamp | Text | Count | Doubles
 
 
 class Layout:
-    """Offsets of the stamp and of the doubles in a message, and its constant bytes."""
+    """Offsets of the stamp and of the doubles in a message, and its constant bytes.
+
+    Raises
+    ------
+    ValueError
+        If the parts do not have one stamp: it would be written over the header, or lost.
+    """
 
     def __init__(self, *parts: Part) -> None:
+        if (count := sum(isinstance(part, Stamp) for part in parts)) != 1:
+            raise ValueError(f"a layout must have one Stamp, got {count}")
         self._template, self._constant = bytearray(), bytearray()
         self._stamp = 0  # offset of the stamp
         self._blocks: list[tuple[int, int]] = []  # offset and number of consecutive doubles

@@ -1,9 +1,10 @@
 """The log of a run with all kinds of events, written once."""
 
 import pytest
-from check.run_log import write_log
 
 
 @pytest.fixture(scope="session")
 def path(tmp_path_factory):
+    from check.run_log import write_log  # it needs mcap
+
     return write_log(tmp_path_factory.mktemp("run"))

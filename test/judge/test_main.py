@@ -1,12 +1,14 @@
 """`top_judge` as its users call it."""
 
 import json
+import os
 import sqlite3
 from hashlib import sha256
 
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from programs import command, execute
 from python_runs import run_without
 from scipy.spatial.transform import Rotation
 from testset.test_scorers import make_table, write
@@ -182,3 +184,11 @@ def test_all_problems_are_copied_into_folders_of_their_own(tmp_path):
     assert main(["--testset", "all", "-o", str(tmp_path)]) == 0
     assert {path.name for path in tmp_path.iterdir()} == set(score.read_problems())
     assert all((path / f"{path.name}.json").exists() for path in tmp_path.iterdir())
+
+
+def test_a_terminal_without_unicode_gets_the_test_set_with_escapes():
+    words = command("top_judge", "--testset")
+    done = execute(words, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.isascii()
+    assert "\\xfc" in done.stdout

@@ -48,6 +48,7 @@ def test_the_resources_of_a_process_are_measured():
 
 @pytest.mark.parametrize("name", ["stress", "soak", "node_cost"])
 def test_a_load_program_explains_itself(name):
+    pytest.importorskip("matplotlib")
     result = execute(processes.script(name, "--help"), check=True)
     assert f"usage: {name}.py" in result.stdout
     assert "--seconds" in result.stdout

@@ -14,9 +14,10 @@ BUILT = Path(sys.prefix, "messages")
 
 def find_messages(package: str) -> Path | None:
     """Return the folder of a package, or PACKAGE-VERSION, that was built; None: it is installed."""
-    if "-" not in package and importlib.util.find_spec(package):
-        return None
     folder = BUILT / package
+    installed = "-" not in package and importlib.util.find_spec(package)
+    if installed and not str(installed.origin).startswith(str(folder)):
+        return None
     if not folder.is_dir():
         pytest.skip(f"{package} is not built: python workshop/messages.py")
     return folder

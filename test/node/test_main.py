@@ -2,6 +2,7 @@
 
 import signal
 import sys
+import time
 
 import pytest
 from programs import PATIENT, command, environment, execute, run, running, set_parameters
@@ -57,6 +58,28 @@ def test_a_signal_while_it_starts_ends_it_cleanly(ending):
     assert node.returncode == 0
     assert "Traceback" not in rest
     assert "top_node:" not in rest
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_signals_again_and_again_do_not_change_the_status(ending):
+    with running(command("top_node", *set_parameters()[:1]), DOMAIN) as node:
+        while "states are computed" not in node.stderr.readline():
+            assert node.poll() is None
+        while node.poll() is None:
+            node.send_signal(ending)
+            time.sleep(0.005)
+        _, rest = node.communicate(timeout=60)
+    assert (node.returncode, rest) == (0, "")
+
+
+def test_a_deprecation_in_a_dependency_ends_no_node(monkeypatch):
+    monkeypatch.setenv("PYTHONWARNINGS", "error")
+    with running(command("top_node", *set_parameters()[:1]), DOMAIN) as node:
+        lines = iter(node.stderr.readline, "")
+        assert any("states are computed" in line for line in lines)
+        node.send_signal(signal.SIGINT)
+        node.communicate(timeout=60)
+    assert node.returncode == 0
 
 
 WITHOUT_MCAP = (

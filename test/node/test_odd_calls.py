@@ -139,6 +139,13 @@ def test_a_million_numbers_are_refused_in_one_sentence(run):
 
 
 @pytest.mark.parametrize("service", list(NAMES))
+def test_more_parameters_than_any_file_has_are_refused(run, service):
+    messages = [Parameter(name="top.Ix", value=ParameterValue(type=3, double_value=1.0))] * 1001
+    reason = "a request must have at most 1000 parameters, got 1001"
+    assert set(run.ask(service, messages)) == {(False, reason)}
+
+
+@pytest.mark.parametrize("service", list(NAMES))
 def test_a_type_that_ros_does_not_have_is_refused(run, service):
     before = run.top.simulation.segment.motion
     message = Parameter(name="top.Ix", value=ParameterValue(type=77))

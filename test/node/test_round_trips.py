@@ -103,6 +103,7 @@ def test_a_reset_starts_from_initial_conditions_that_were_set_later(start_top):
 
 @pytest.mark.wording
 def test_the_answers_of_a_recording_name_an_absolute_path(start_top, tmp_path, monkeypatch):
+    pytest.importorskip("mcap")
     monkeypatch.chdir(tmp_path)
     run = start_top()
     granted, answer = run.switch("record", True)

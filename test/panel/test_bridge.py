@@ -171,6 +171,7 @@ def test_a_torque_reaches_the_node_and_ends(node, page):
 
 
 def test_a_recording_is_known_to_the_page(node, page, tmp_path, monkeypatch):
+    pytest.importorskip("mcap")
     _, bridge = node
     monkeypatch.chdir(tmp_path)
     granted, answer = ask(bridge, "record", True)

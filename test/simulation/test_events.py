@@ -1,12 +1,15 @@
+import inspect
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
 
-from symtop_ros.physics import Friction, Motion
+from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor import Imu, Rig
 
 CLOSED = Motion(ARTICLE, CUSPS)
 INTEGRATED = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))
@@ -26,6 +29,52 @@ def test_a_segment_comes_back_from_its_event_bit_for_bit(motion, latest, running
     assert (again.factor, again.running) == (0.7, running)
     for later in (0, 1, 10**9, latest):
         assert again.state_at(BEGIN + later) == segment.state_at(BEGIN + later)
+
+
+# A value for each number of a motion, other than its default: a new one must be added here, and
+# comes back only if it is in the event.
+NUMBERS = {
+    Top: {"Ix": 2.3e-4, "Iz": 6e-5, "Mgl": 0.07},
+    State: {"orientation": (0.8, 0.0, 0.6, 0.0), "angular_velocity": (1.0, 2.0, 150.0)},
+    Friction: {"axial": 1.3e-6, "transverse": 2.3e-6},
+    Imu: {
+        "position": (0.1, 0.2, 0.3),
+        "orientation": (0.6, 0.0, 0.8, 0.0),
+        "gyroscope_noise_density": 1e-4,
+        "gyroscope_random_walk": 2e-4,
+        "accelerometer_noise_density": 3e-4,
+        "accelerometer_random_walk": 4e-4,
+        "seed": 5,
+        "rate": 300.0,
+        "begin": 6,
+    },
+}
+ENGINES = {"pure"}  # parameters that choose how a motion is computed
+
+
+def make(kind, **given):
+    """A record with a value for each of its parameters."""
+    values = {**NUMBERS.get(kind, {}), **given}
+    assert set(inspect.signature(kind).parameters) - ENGINES == set(values), kind
+    return kind(**values)
+
+
+def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
+    parts = {"top": make(Top), "start": make(State), "friction": make(Friction)}
+    motion = make(Motion, **parts, torque=(1e-5, 2e-5, 3e-5))
+    rig = make(Rig, gravity=9.7, imu=make(Imu))
+    fields = {"stamp": BEGIN, "elapsed": Fraction(7, 4), "factor": 0.7, "running": False}
+    segment = make(Segment, motion=motion, **fields, rig=rig)
+    again = event_of(segment).segment()
+    assert {name: getattr(again, name) for name in fields} == fields
+    assert again.rig == rig
+    assert again.motion.applied_torque == motion.applied_torque
+    for name, part in parts.items():
+        for number in NUMBERS[type(part)]:
+            values = (
+                np.asarray(getattr(getattr(each.motion, name), number)) for each in (segment, again)
+            )
+            assert np.array_equal(*values), (name, number)
 
 
 def test_an_event_without_a_value_says_which():

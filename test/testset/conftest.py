@@ -2,12 +2,12 @@
 
 import pytest
 
-from symtop_ros.judge.main import main
-
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
     """Return the folder of the whole set."""
+    from symtop_ros.judge.main import main  # it needs mcap
+
     path = tmp_path_factory.mktemp("set")
     assert main(["--testset", "-o", str(path)]) == 0
     return path

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import pytest
-from browser import running_browser
 from web.modules import load_kernel, open_tab
 from web.opened import Opened
 
@@ -14,6 +13,8 @@ SCRIPT = Path(__file__).with_name("judge_cases.js").read_text()
 
 @pytest.fixture(scope="session")
 def browser():
+    from browser import running_browser  # it needs Playwright
+
     with running_browser() as running:
         yield running
 

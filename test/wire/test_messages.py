@@ -130,3 +130,11 @@ def test_doubles_are_aligned_to_eight_from_the_end_of_the_header():
     packed = layout.encode(0, [1.0])
     assert len(packed) == 4 + 24 + 8
     assert packed[28:] == np.float64(1.0).tobytes()
+
+
+@pytest.mark.parametrize(
+    ("parts", "count"), [([Doubles(1)], 0), ([Stamp(), Doubles(1), Stamp()], 2)]
+)
+def test_a_layout_without_one_stamp_is_refused(parts, count):
+    with pytest.raises(ValueError, match=rf"^a layout must have one Stamp, got {count}$"):
+        Layout(*parts)

@@ -94,11 +94,13 @@ def test_a_jump_of_the_clock_ends_the_segment_before_where_it_left(run):
         ("outcome.reason.place.rate", ""),
     ],
 )
-def test_a_field_that_is_not_of_its_type_is_refused(run, name, text):
+def test_a_field_that_is_not_of_its_type_is_refused_and_the_motion_is_read(run, name, text):
     kick = next(event for event in run.sink.events if event.name == "kick")
     values = {**kick.values, name: text}
+    (event,) = decode_events(Event(kick.stamp, "kick", "", values).encode("world"))
+    assert event.segment().motion.start == kick.segment().motion.start
     with pytest.raises(ValueError, match=r"\S"):
-        decode_events(Event(kick.stamp, "kick", "", values).encode("world"))
+        event.outcome()
 
 
 def test_an_event_without_fields_has_its_request_and_no_outcome():
