@@ -11,7 +11,7 @@ import { listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson } from "./controls/lesson.js";
 import { recall } from "./run/memory.js";
-import { dismissRefusals, refuse, showLoss } from "./controls/notices.js";
+import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
 import { inDegrees, shorten } from "./words/quantities.js";
@@ -27,6 +27,9 @@ import { Timeline } from "./controls/timeline.js";
  * A top of the page: it takes messages, and its answers are told.
  * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
  */
+
+const showLedger = guard("the chart of the energies", drawLedger);
+const showKinds = guard("the chart of the kinds of motion", drawKinds);
 
 export class Page {
   /** @param {{node?: string, opening?: string, run?: any}} content of the file */
@@ -148,8 +151,8 @@ export class Page {
     this.showHistory(sentences.history);
     this.fields.show(facts);
     this.lesson?.follow(facts);
-    drawLedger(facts.ledger, facts.energies);
-    drawKinds(facts.body, facts.turning);
+    showLedger(facts.ledger, facts.energies);
+    showKinds(facts.body, facts.turning);
   }
 
   /** @param {number[]} roots rates of regular precession */

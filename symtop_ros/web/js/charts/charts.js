@@ -3,6 +3,7 @@
 
 import { showConstants } from "./constants_table.js";
 import { findAll } from "../controls/document.js";
+import { guard } from "../controls/notices.js";
 import { FreeChart } from "./free_chart.js";
 import { drawRule } from "./rule_chart.js";
 import { drawOneSeries } from "./series_charts.js";
@@ -31,6 +32,8 @@ export class Charts {
       free: (_, { samples }) => free.draw(samples),
       constants: ({ table }, { constants }) => showConstants(table, constants),
     };
+    for (const [name, draw] of Object.entries(this.all))
+      this.all[name] = guard(`the chart ${name}`, draw);
     /** Names of the charts in sight. @type {Set<string>} */
     this.seen = new Set();
     /** Those that are still to be drawn. @type {string[]} */

@@ -30,7 +30,9 @@ const keep = (id, value) => {
  */
 export const keepChoice = (id, changed) => {
   const list = find(id, HTMLSelectElement);
-  list.value = read(id) ?? list.value;
+  const kept = read(id);
+  // A choice of another version of the page may be none of this list.
+  if ([...list.options].some(({ value }) => value === kept)) list.value = kept ?? "";
   list.addEventListener("change", () => {
     keep(id, list.value);
     changed();

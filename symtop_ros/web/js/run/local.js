@@ -4,9 +4,11 @@ import { holdTorque, perform } from "./acts.js";
 import { NANO } from "../physics/course.js";
 import { chooseWindow, describe } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
+import { nameError } from "./errors.js";
 import { recall, rememberRun } from "./memory.js";
 import { findConstants } from "../physics/potential.js";
 import { Run } from "./run.js";
+import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/kernel.js").Kernel} Kernel */
@@ -85,11 +87,12 @@ export class LocalTop {
 
   /** Advance and draw with every frame from now on. */
   animate() {
-    let before = performance.now();
+    let before = NaN; // the stamp of the first frame may be older than the clock of now
     const step = (/** @type {number} */ now) => {
-      this.advance(now - before, now);
+      requestAnimationFrame(step); // first: an error in this frame does not end the animation
+      const passed = Math.max(now - before, 0) || 0;
       before = now;
-      requestAnimationFrame(step);
+      this.advance(passed, now);
     };
     requestAnimationFrame(step);
   }
@@ -109,10 +112,9 @@ export class LocalTop {
     try {
       this.move(passed);
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
       this.isRunning = false;
       this.tellFacts();
-      this.tell({ refused: error.message });
+      this.tell({ refused: nameError(error) });
     }
   }
 
@@ -120,7 +122,9 @@ export class LocalTop {
   move(passed) {
     const { course, time } = this.run.find(this.time);
     const wanted = this.time + Math.round(passed * this.speed * NANO);
-    this.time = time + course.reach(wanted - time, MOST_STEPS);
+    const reached = time + course.reach(wanted - time, MOST_STEPS);
+    this.run.at(reached); // refused where the kernel computes no state; then the time stays
+    this.time = reached;
     this.end = Math.max(this.end, this.time);
     if (this.course !== course) this.changed();
   }
@@ -156,7 +160,7 @@ export class LocalTop {
 
   /** Go to a time of the run. @param {number} time ns */
   seek(time) {
-    this.time = Math.min(Math.max(time, 0), this.end);
+    this.time = Math.min(Math.max(time, this.run.moments[0].time), this.end);
     this.isRunning = false;
     this.changed();
     this.tellFacts();
@@ -252,23 +256,32 @@ export class LocalTop {
   }
 
   /**
-   * Do what the page asks for; a refusal is told.
+   * Do what the page asks for; a refusal is told, and leaves everything as it was.
    * @param {Message} message
    */
   take(message) {
+    const { time, end, initial, steady, isRunning } = this;
+    const moments = [...this.run.moments];
     try {
       perform(this, message);
+      this.tellFacts();
       this.tell({ granted: true });
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      this.tell({ refused: error.message });
+      Object.assign(this, { time, end, initial, steady, isRunning });
+      this.run.moments = moments;
+      this.changed();
+      this.tell({ refused: nameError(error) });
+      this.tellFacts();
     }
-    this.tellFacts();
   }
 
   /** What run.json holds. */
   get json() {
     return { ...this.run.json, end: this.end / NANO };
+  }
+
+  get csv() {
+    return writeSeries(this.run, this.time);
   }
 
   /** @param {any} run of run.json */
@@ -279,20 +292,5 @@ export class LocalTop {
     this.initial = this.run.moments[0].course.start;
     this.isRunning = false;
     this.changed();
-  }
-
-  /** The series of the run as comma-separated values, 200 in a window. */
-  get csv() {
-    const lines = ["time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"];
-    const { moments } = this.run;
-    moments.forEach(({ time: begin, course }, k) => {
-      const end = moments[k + 1]?.time ?? this.time;
-      const step = Math.max(Math.round((chooseWindow(course.free) / 200) * NANO), 1);
-      for (let time = begin; time < end; time += step) {
-        const { angles, rates } = course.at(time - begin);
-        lines.push([time / NANO, angles.theta, rates.phi, rates.psi].join(","));
-      }
-    });
-    return `${lines.join("\n")}\n`;
   }
 }

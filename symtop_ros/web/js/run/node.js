@@ -3,6 +3,7 @@
 
 import { findTorque, perform } from "./acts.js";
 import { NANO } from "../physics/course.js";
+import { nameError } from "./errors.js";
 import { LocalTop } from "./local.js";
 import { State } from "../physics/state.js";
 
@@ -101,8 +102,7 @@ export class NodeTop extends LocalTop {
       else if (message.act === "torque") this.holdTorque(message.sign);
       else perform(this, message);
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      this.tell({ refused: error.message });
+      this.tell({ refused: nameError(error) });
       return;
     }
     this.send(this.requests);

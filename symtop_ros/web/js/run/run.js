@@ -79,13 +79,14 @@ export class Run {
   }
 
   /**
-   * Add an event; what came after its time is no longer part of the run.
+   * Add an event, not before the first one; what came after its time is no longer part of the run.
    * @param {Kind} kind
-   * @param {number} time ns
+   * @param {number} wanted ns
    * @param {Course} course
    * @param {Asked} asked
    */
-  add(kind, time, course, asked = {}) {
+  add(kind, wanted, course, asked = {}) {
+    const time = Math.max(wanted, this.moments[0]?.time ?? 0);
     const last = this.moments.length && kind !== "start" ? this.find(time) : null;
     const before = last ? this.at(time) : null;
     const ghost = last ? this.findNextGhost(kind, time, course, last) : null;
