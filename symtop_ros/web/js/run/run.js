@@ -38,6 +38,7 @@ import { State } from "../physics/state.js";
  */
 
 const FORMAT = 1;
+const GHOST_STEPS = 3000; // of an integration, for one state of the ghost
 
 export class Run {
   /** @param {Kernel} kernel */
@@ -72,10 +73,13 @@ export class Run {
     return course.at(time - since);
   }
 
-  /** The state of the ghost, or null. @param {number} time ns */
+  /** The state of the ghost; null if there is none, or it is not integrated so far. */
+  /** @param {number} time ns */
   findGhost(time) {
     const { ghost } = this.find(time);
-    return ghost ? ghost.course.at(time - ghost.since) : null;
+    if (!ghost) return null;
+    const passed = time - ghost.since;
+    return ghost.course.reach(passed, GHOST_STEPS) < passed ? null : ghost.course.at(passed);
   }
 
   /**
@@ -103,9 +107,9 @@ export class Run {
    */
   findNextGhost(kind, time, course, last) {
     if (kind === "kick") return { course: last.course, since: last.time };
-    if (!last.ghost) return null;
+    const state = this.findGhost(time);
+    if (!last.ghost || !state) return null;
     const { top, friction, torque } = course;
-    const state = last.ghost.course.at(time - last.ghost.since);
     return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
   }
 
