@@ -14,6 +14,7 @@ from typing import Any
 
 from symtop_ros.simulation.changes.initial import ANGLES, RATES, start_motion
 from symtop_ros.simulation.presets import describe_scenes
+from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import read_lesson
 from symtop_ros.wording.templates import TEMPLATES
@@ -57,11 +58,12 @@ def _write_data(data: Any) -> str:
 
 
 def collect_content() -> dict[str, Any]:
-    """Return what the script reads: the kernel, templates, scenes and the lesson."""
+    """Return what the script reads: the kernel, templates, scenes, fields of a run, lesson."""
     return {
         "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
         "templates": TEMPLATES,
         "scenes": [{**scene._asdict(), **_read_values(scene.name)} for scene in describe_scenes()],
+        "run_fields": TABLE,
         "lesson": [dataclasses.asdict(step) for step in read_lesson()],
     }
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from log_files import Run
 from programs import execute
-from simulation.test_run_file import make_run
+from simulation.page_runs import make_run
 
 from symtop_ros.playback import main as module
 from symtop_ros.simulation.run_file import write_run

@@ -121,7 +121,7 @@ export class Page {
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const { node, run, opening = "" } = this.content;
     const isReloaded = !node && Boolean(recall().run);
-    if (!node && (isCalm || (run && !isReloaded))) this.send({ act: "rest" });
+    if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
     followAddress(opening, isReloaded, lesson.open.bind(lesson), (link) => this.followLink(link));
   }
 

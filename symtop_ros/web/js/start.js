@@ -11,10 +11,11 @@ import { find } from "./controls/document.js";
 import { Writer } from "./words/wording.js";
 
 /**
- * What the file holds: the module in base64, the templates, scenes and the lesson; what it opens as
- * the end of an address does; a run, if one was saved; and the name of a node, if it shows one.
+ * What the file holds: the module in base64, the templates, scenes, the lesson and the fields of a run;
+ * what it opens as the end of an address does; a run, if one was saved; and the name of a node, if it
+ * shows one.
  * @typedef {{kernel: string, templates: {[key: string]: string}, scenes: any[], lesson: any[],
- *   opening?: string, run?: any, node?: string}} Content
+ *   run_fields: import("./run/reader.js").Table, opening?: string, run?: any, node?: string}} Content
  */
 
 /** @param {string} text base64 */

@@ -12,7 +12,7 @@ export const NANO = 1e9; // ns in a second
 const NO_FRICTION = [0, 0];
 /** @type {Vector} */
 const NO_TORQUE = [0, 0, 0];
-export const MOST_STEPS = 200_000; // of an integration, for one state: some seconds
+export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
 
 export class Course {
   /**

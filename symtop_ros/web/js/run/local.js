@@ -1,11 +1,12 @@
 // A top that lives in the page: what the page asks for is done here, and what follows is told.
 
 import { holdTorque, perform } from "./acts.js";
-import { NANO } from "../physics/course.js";
+import { MOST_STEPS, NANO } from "../physics/course.js";
 import { chooseWindow, describe } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
 import { nameError } from "./errors.js";
-import { recall, rememberRun } from "./memory.js";
+import { recall, remember, rememberRun } from "./memory.js";
+import { readRun } from "./reader.js";
 import { findConstants } from "../physics/potential.js";
 import { Run } from "./run.js";
 import { writeSeries } from "./series.js";
@@ -29,7 +30,7 @@ import { State } from "../physics/state.js";
 
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
 const SPEED = 0.1; // of real time: nutation is too fast for the eye
-const MOST_STEPS = 3000; // of an integration, for one frame
+const FRAME_STEPS = 3000; // of an integration, for one frame
 const POINTS = 240; // of trace and charts
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
 const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
@@ -39,7 +40,7 @@ export class LocalTop {
    * @param {Kernel} kernel
    * @param {Writer} writer
    * @param {{scenes: import("./links.js").SceneFile[], lesson: any[],
-   *   layers: {[layer: string]: boolean}, run?: any}} content
+   *   layers: {[layer: string]: boolean}, run_fields: import("./reader.js").Table, run?: any}} content
    */
   constructor(kernel, writer, content) {
     this.kernel = kernel;
@@ -74,13 +75,16 @@ export class LocalTop {
   /** Begin, with a page that is told and a function that draws. */
   open() {
     const { scenes, lesson, layers, run } = this.content;
-    perform(this, { act: "scene", name: "hurry_slow" });
     const { run: last, speed = SPEED, isRunning = false } = recall();
-    if (last ?? run) this.load(last ?? run);
-    this.speed = speed;
-    this.isRunning = isRunning || !(last ?? run);
-    rememberRun(this);
+    perform(this, { act: "scene", name: "hurry_slow" });
     this.tellFacts();
+    const isKept = Boolean(last) && this.take({ act: "load", run: last });
+    if (isKept) Object.assign(this, { speed, isRunning });
+    else {
+      remember({ run: null });
+      if (run) this.take({ act: "load", run });
+    }
+    rememberRun(this);
     this.tell({ hello: { scenes, layers, lesson } });
     this.animate();
   }
@@ -122,7 +126,7 @@ export class LocalTop {
   move(passed) {
     const { course, time } = this.run.find(this.time);
     const wanted = this.time + Math.round(passed * this.speed * NANO);
-    const reached = time + course.reach(wanted - time, MOST_STEPS);
+    const reached = time + course.reach(wanted - time, FRAME_STEPS);
     this.run.at(reached); // refused where the kernel computes no state; then the time stays
     this.time = reached;
     this.end = Math.max(this.end, this.time);
@@ -256,7 +260,8 @@ export class LocalTop {
   }
 
   /**
-   * Do what the page asks for; a refusal is told, and leaves everything as it was.
+   * Do what the page asks for, or tell a refusal and leave everything as it was; returns whether it
+   * is done.
    * @param {Message} message
    */
   take(message) {
@@ -266,29 +271,35 @@ export class LocalTop {
       perform(this, message);
       this.tellFacts();
       this.tell({ granted: true });
+      return true;
     } catch (error) {
       Object.assign(this, { time, end, initial, steady, isRunning });
       this.run.moments = moments;
       this.changed();
       this.tell({ refused: nameError(error) });
       this.tellFacts();
+      return false;
     }
   }
 
   /** What run.json holds. */
   get json() {
-    return { ...this.run.json, end: this.end / NANO };
+    const { format } = this.content.run_fields;
+    return { format, events: this.run.records, end: this.end / NANO };
   }
 
   get csv() {
     return writeSeries(this.run, this.time);
   }
 
-  /** @param {any} run of run.json */
-  load(run) {
-    this.run.load(run);
-    const last = this.run.moments[this.run.moments.length - 1].time;
-    this.time = this.end = Math.max(last, Math.round((run.end ?? 0) * NANO));
+  /** @param {any} json of run.json; one that cannot be read leaves all as it is */
+  load(json) {
+    const { events, end } = readRun(this.content.run_fields, json);
+    this.run.load(events);
+    const { time, course } = this.run.moments[events.length - 1];
+    // What takes too long to integrate is reached later.
+    const passed = Math.max(0, Math.round(end * NANO) - time);
+    this.time = this.end = time + course.reach(passed, MOST_STEPS);
     this.initial = this.run.moments[0].course.start;
     this.isRunning = false;
     this.changed();

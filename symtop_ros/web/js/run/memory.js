@@ -6,7 +6,7 @@
  * Predictions by the number of their step; the step that has started a motion, with its link; the run
  * as in run.json, the speed of its top, and whether it runs.
  * @typedef {{predictions?: {[step: number]: string}, begun?: {step: number, link: string},
- *   run?: any, speed?: number, isRunning?: boolean}} Memory
+ *   run?: any | null, speed?: number, isRunning?: boolean}} Memory
  */
 
 /** @type {Memory} */

@@ -93,7 +93,7 @@ export class NodeTop extends LocalTop {
     this.show(now);
   }
 
-  /** @param {Message} message */
+  /** @param {Message} message @returns {boolean} */
   take(message) {
     this.requests = [];
     try {
@@ -103,9 +103,10 @@ export class NodeTop extends LocalTop {
       else perform(this, message);
     } catch (error) {
       this.tell({ refused: nameError(error) });
-      return;
+      return false;
     }
     this.send(this.requests);
+    return true;
   }
 
   /** @param {number} sign */

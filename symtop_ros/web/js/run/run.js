@@ -4,6 +4,7 @@
 // nothing else has to be kept of it. Times are whole nanoseconds, as those of a node.
 
 import { Course, NANO } from "../physics/course.js";
+import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/kernel.js").Kernel} Kernel */
@@ -37,7 +38,7 @@ import { State } from "../physics/state.js";
  * @typedef {{find: (passed: number) => {state: State, course: Course} | null}} Kept
  */
 
-const FORMAT = 1;
+const LONGEST = 10_000; // ms in which the events of a run must be computed
 const GHOST_STEPS = 3000; // of an integration, for one state of the ghost
 
 export class Run {
@@ -125,33 +126,31 @@ export class Run {
     return { find };
   }
 
-  /** What run.json holds. @returns {{format: number, events: EventRecord[]}} */
-  get json() {
-    const events = this.moments.map(
-      ({ kind, time, asked, course: { top, start, friction, torque } }) => ({
-        kind,
-        time: time / NANO,
-        top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
-        orientation: start.given,
-        angular_velocity: start.omega,
-        friction,
-        torque,
-        ...asked,
-      }),
-    );
-    return { format: FORMAT, events };
+  /** The events as in run.json. @returns {EventRecord[]} */
+  get records() {
+    return this.moments.map(({ kind, time, asked, course: { top, start, friction, torque } }) => ({
+      kind,
+      time: time / NANO,
+      top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
+      orientation: start.given,
+      angular_velocity: start.omega,
+      friction,
+      torque,
+      ...asked,
+    }));
   }
 
-  /**
-   * Take over a run of run.json; one that cannot be read leaves this run as it is.
-   * @param {{format: number, events: EventRecord[]}} json
-   */
-  load({ format, events }) {
-    if (format !== FORMAT || !Array.isArray(events) || !events.length) {
-      throw new RangeError(`a run must have format ${FORMAT} and some events`);
-    }
+  /** Take over other events, if all are computed. @param {EventRecord[]} events */
+  load(events) {
     const read = new Run(this.kernel);
-    for (const event of events) read.append(event);
+    const end = performance.now() + LONGEST;
+    events.forEach((event, place) => {
+      nameEvent(place, () => read.append(event));
+      if (performance.now() > end)
+        throw new RangeError(
+          `a run must be computed in ${LONGEST / 1000} s, got to event ${place}`,
+        );
+    });
     this.moments = read.moments;
   }
 
