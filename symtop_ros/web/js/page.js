@@ -72,7 +72,7 @@ export class Page {
   /**
    * Show a top from now on.
    * @param {Top} top
-   * @param {string} source the page as it was opened
+   * @param {Element} source the page as it was opened
    */
   connect(top, source) {
     this.top = top;

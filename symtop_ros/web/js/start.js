@@ -8,6 +8,7 @@ import { guard, refuse } from "./controls/notices.js";
 import { Page } from "./page.js";
 import { Scene } from "./scene/scene.js";
 import { find } from "./controls/document.js";
+import { copyPage, readData } from "./run/files.js";
 import { Writer } from "./words/wording.js";
 
 /**
@@ -21,11 +22,10 @@ import { Writer } from "./words/wording.js";
 /** @param {string} text base64 */
 const decode = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-/**
- * @param {Content} content
- * @param {string} source the page as it was opened
- */
-export const start = async (content, source) => {
+export const start = async () => {
+  const source = copyPage();
+  /** @type {Content} */
+  const content = { ...readData("top-content"), run: readData("top-run") };
   const page = new Page(content);
   try {
     const kernel = await Kernel.load(decode(content.kernel));
