@@ -2,19 +2,17 @@
 
 import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
-import { chooseWindow, describe } from "../words/facts.js";
+import { chooseWindow, compareConstants, describe } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
-import { findConstants } from "../physics/potential.js";
 import { Run } from "./run.js";
 import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/kernel.js").Kernel} Kernel */
 /** @typedef {import("../words/wording.js").Writer} Writer */
-/** @typedef {import("../physics/state.js").Vector} Vector */
 /** @typedef {import("../physics/course.js").Course} Course */
 /** @typedef {{[name: string]: any}} Message */
 /**
@@ -33,7 +31,6 @@ const SPEED = 0.1; // of real time: nutation is too fast for the eye
 const FRAME_STEPS = 3000; // of an integration, for one frame
 const POINTS = 240; // of trace and charts
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
-const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
 
 export class LocalTop {
   /**
@@ -68,8 +65,6 @@ export class LocalTop {
     this.initial = State.fromEuler({ theta: 0 });
     /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
     this.kept = null;
-    /** The torque of the scene. @type {Vector} */
-    this.steady = [0, 0, 0];
   }
 
   /** Begin, with a page that is told and a function that draws. */
@@ -77,7 +72,6 @@ export class LocalTop {
     const { scenes, lesson, layers, run } = this.content;
     const { run: last, speed = SPEED, isRunning = false } = recall();
     perform(this, { act: "scene", name: "hurry_slow" });
-    this.tellFacts();
     const isKept = Boolean(last) && this.take({ act: "load", run: last });
     if (isKept) Object.assign(this, { speed, isRunning });
     else {
@@ -85,6 +79,7 @@ export class LocalTop {
       if (run) this.take({ act: "load", run });
     }
     rememberRun(this);
+    this.tellFacts();
     this.tell({ hello: { scenes, layers, lesson } });
     this.animate();
   }
@@ -191,6 +186,11 @@ export class LocalTop {
     return this.run.at(this.time);
   }
 
+  /** The torque without that of a button. */
+  get steady() {
+    return this.run.findSteady(this.time);
+  }
+
   /** Times of the last window in ns, for trace and charts: those of a grid, and now. */
   listTimes() {
     const begin = Math.max(this.run.findStart(this.time), this.time - this.window * NANO);
@@ -239,18 +239,8 @@ export class LocalTop {
     const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
       return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
     });
-    const constants = this.compareConstants(states[states.length - 1]);
+    const constants = compareConstants(this.course, states[states.length - 1]);
     this.tell({ samples, series, constants, time: [this.time / NANO, this.end / NANO] });
-  }
-
-  /** Constants of the motion, and how much they have changed since its start. @param {State} state */
-  compareConstants(state) {
-    const { top, start } = this.course;
-    const [now, before] = [findConstants(top, state), findConstants(top, start)];
-    const names = /** @type {(keyof typeof UNITS)[]} */ (Object.keys(UNITS));
-    return Object.fromEntries(
-      names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
-    );
   }
 
   tellFacts() {
@@ -265,7 +255,7 @@ export class LocalTop {
    * @param {Message} message
    */
   take(message) {
-    const { time, end, initial, steady, isRunning } = this;
+    const { time, end, initial, isRunning } = this;
     const moments = [...this.run.moments];
     try {
       perform(this, message);
@@ -273,7 +263,7 @@ export class LocalTop {
       this.tell({ granted: true });
       return true;
     } catch (error) {
-      Object.assign(this, { time, end, initial, steady, isRunning });
+      Object.assign(this, { time, end, initial, isRunning });
       this.run.moments = moments;
       this.changed();
       this.tell({ refused: nameError(error) });

@@ -69,13 +69,18 @@ export class NodeTop extends LocalTop {
       this.run.append(record);
       this.time = this.end = Math.max(this.time, Math.round(record.time * NANO));
       this.orientation = null;
-      if (record.kind !== "torque") this.steady = this.course.torque;
       this.changed();
     }
     this.isRunning = running;
     this.speed = factor;
     if (recording !== undefined) this.isRecording = recording;
     if (TOLD.includes(name)) this.tell({ said });
+  }
+
+  /** The torque without that of a button, which is an event of its own. */
+  get steady() {
+    const { moments } = this.run;
+    return (moments.findLast(({ kind }) => kind !== "torque") ?? moments[0]).course.torque;
   }
 
   /** The published attitude; all else follows from the events. */

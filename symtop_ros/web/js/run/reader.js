@@ -55,7 +55,7 @@ const readVector = (name, { size = 0, limit = 0, unit }, value) => {
 };
 
 /** @param {string} name @param {Field} field @param {any} value */
-const readField = (name, field, value) => {
+export const readField = (name, field, value) => {
   const { words, length, size } = field;
   if (value === undefined && "absent" in field) return field.absent;
   if (size !== undefined) return readVector(name, field, value);

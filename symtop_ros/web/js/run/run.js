@@ -68,6 +68,12 @@ export class Run {
     return this.moments.findLast((each) => each.kind === "start" && each.time <= time)?.time ?? 0;
   }
 
+  /** The torque with which the last start before a time began. @param {number} time ns */
+  findSteady(time) {
+    const start = this.moments.findLast((each) => each.kind === "start" && each.time <= time);
+    return (start ?? this.moments[0]).course.torque;
+  }
+
   /** @param {number} time ns */
   at(time) {
     const { course, time: since } = this.find(time);
