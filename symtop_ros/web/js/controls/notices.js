@@ -39,8 +39,9 @@ export const guard =
     }
   };
 
-/** What is lost, such as a connection, until it is back. @param {string | null} text */
-export const showLoss = (text) => show("lost", text ?? "");
+/** What is lost, the connection or the picture, until it is back. */
+/** @param {string | null} text @param {"lost" | "picture-lost"} id */
+export const showLoss = (text, id = "lost") => show(id, text ?? "");
 
 /**
  * @param {string} id
