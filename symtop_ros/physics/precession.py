@@ -325,7 +325,7 @@ def solve_quadratic(
         a, b, c = Decimal(a), Decimal(b), Decimal(c)
         if a == 0:
             return _keep_finite(float(c / b)) if b else ()
-        half = b / 2
+        half = b / 2 or ZERO  # a spin of -0 is no spin: it changes no order
         discriminant = half * half - a * c
         if discriminant < 0:
             return ()

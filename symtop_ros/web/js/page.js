@@ -103,10 +103,7 @@ export class Page {
     if (hello) this.greet(hello);
     if (facts) this.showFacts(facts);
     if (samples) this.showFrame(message);
-    if (refused) {
-      refuse(refused);
-      this.fields.markRefused();
-    }
+    if (refused) refuse(this.fields.markRefused(refused));
     if (granted) this.fields.grant();
     if (said) refuse(said);
     if (lost !== undefined) showLoss(lost);

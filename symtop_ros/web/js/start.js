@@ -4,6 +4,7 @@ import { LAYERS } from "./scene/colors.js";
 import { Kernel } from "./physics/kernel.js";
 import { LocalTop } from "./run/local.js";
 import { NodeTop } from "./run/node.js";
+import { turnByKeys } from "./controls/keys.js";
 import { guard, refuse, showLoss } from "./controls/notices.js";
 import { Page } from "./page.js";
 import { Scene } from "./scene/scene.js";
@@ -35,6 +36,7 @@ export const start = async () => {
     const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
     Object.assign(window, { symtop });
     const scene = new Scene(find("scene"), top);
+    turnByKeys(scene.camera);
     scene.tellLoss = (text) => showLoss(text, "picture-lost");
     top.tell = guard("the texts", page.receive.bind(page));
     top.draw = guard("the scene", scene.draw.bind(scene));

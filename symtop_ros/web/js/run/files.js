@@ -8,6 +8,22 @@ import { refuse } from "../controls/notices.js";
 const RUN = "top-run"; // element of a page that holds its run
 const KEPT = 10_000; // ms until the browser has begun to save
 
+/** Whether the page is in a sandboxed frame: whether it may save files is not to be seen there. */
+const isSandboxed = () =>
+  window.parent !== window && window.origin === "null" && location.protocol !== "file:";
+
+/**
+ * @param {string} href
+ * @param {string} name
+ */
+const download = (href, name) => {
+  make("a", { href, download: name }).click();
+  if (isSandboxed())
+    refuse(
+      `a frame must allow downloads: if no ${name} was saved, open the page in a tab of its own`,
+    );
+};
+
 /**
  * @param {string} name
  * @param {string} type
@@ -15,13 +31,13 @@ const KEPT = 10_000; // ms until the browser has begun to save
  */
 const save = (name, type, text) => {
   const url = URL.createObjectURL(new Blob([text], { type }));
-  make("a", { href: url, download: name }).click();
+  download(url, name);
   setTimeout(() => URL.revokeObjectURL(url), KEPT);
 };
 
 const savePicture = () => {
   const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("canvas"));
-  make("a", { href: canvas.toDataURL("image/png"), download: "top.png" }).click();
+  download(canvas.toDataURL("image/png"), "top.png");
 };
 
 /** The page as it was opened: nothing has been written into it yet. */
