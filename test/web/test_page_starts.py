@@ -35,6 +35,39 @@ def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
     assert opened.say("refusal") == ""
 
 
+NAMES = ("scene", "precession", "Ix", "Mgl", "axial", "theta", "psi_dot", "orientation", "torque")
+VALUES = (
+    *("", "x", "__proto__", "NaN", "-Infinity", "1e999", "1e-320", "-1e100", "0x10", "1,2,3,4"),
+    *("%00", "%E0%A4%A", "<script>alert(1)</script>", "9" * 5000),
+)
+HOSTILE = [f"#{name}={value}" for name in NAMES for value in VALUES]
+HOSTILE += ["#", "##", "#=", "#&&", "#theta", "#__proto__", "#constructor=1", "#hasOwnProperty=1"]
+HOSTILE += [f"#lesson={value}" for value in VALUES]
+HOSTILE += ["#theta=1&theta=2&theta=x", "#scene=looping&scene=x", "#" + "theta=1&" * 5000]
+# Each answer: how many events an address and then a key have added.
+FOLLOW = """async (addresses) => {
+    const count = () => window.symtop.run().events.length;
+    const answers = [];
+    for (const address of addresses) {
+        const before = count();
+        const isNew = location.hash !== new URL(address, location.href).hash;
+        const followed = new Promise((done) => addEventListener("hashchange", done, {once: true}));
+        location.hash = address;
+        if (isNew) await followed;
+        const after = count();
+        document.dispatchEvent(new KeyboardEvent("keydown", { key: "r" }));
+        answers.push([after - before, count() - after]);
+    }
+    return answers;
+}"""
+
+
+def test_hostile_addresses_end_nothing_and_a_key_is_answered_after_each(opened):
+    answers = opened.tab.evaluate(FOLLOW, HOSTILE)
+    assert {started for started, _ in answers} == {0, 1}
+    assert {answered for _, answered in answers} == {1}
+
+
 def follow(opened, fragment):
     opened.tab.evaluate("(fragment) => { location.hash = fragment; }", fragment)
     opened.tab.wait_for_timeout(0)

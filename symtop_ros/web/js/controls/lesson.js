@@ -62,7 +62,8 @@ export class Lesson {
     });
     addEventListener("popstate", () => {
       const [, number] = location.hash.match(/^#lesson=(\d+)$/) ?? [];
-      if (number && Number(number) !== this.shown) this.show(Number(number), true);
+      const step = this.limit(Number(number));
+      if (number && step !== this.shown) this.show(step, true);
     });
   }
 
@@ -70,10 +71,15 @@ export class Lesson {
     return this.select.selectedIndex + 1;
   }
 
+  /** The number of a step that is there. @param {number} number of an address */
+  limit(number) {
+    return Math.min(Math.max(Math.round(number) || 1, 1), this.steps.length);
+  }
+
   /** Open the tab of the lesson at a step. @param {number} number */
   open(number) {
     find("tab-lesson").click();
-    this.show(Math.min(Math.max(Math.round(number) || 1, 1), this.steps.length));
+    this.show(this.limit(number));
   }
 
   /**
