@@ -59,7 +59,7 @@ def list_hostile_runs():
 def _list_beyond(field):
     """Return values next to the limits of a field, and lists of another length."""
     if "size" in field:
-        return [[2 * field["limit"]] * field["size"], [0] * (field["size"] + 1)]
+        return [[2 * int(field["limit"])] * field["size"], [0] * (field["size"] + 1)]
     return [field["low"] - 1e-9, 2 * field["high"]] if "low" in field else []
 
 
