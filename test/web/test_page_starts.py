@@ -23,7 +23,7 @@ OPEN = """(hash) => new Promise((done) => {
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize("count", [50, pytest.param(500, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [30, pytest.param(500, marks=pytest.mark.long)])
 def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
     opened, rng = open_page(script=UNDRAWN), random.Random(49)
     for address in (HANGING, *(write_address(draw_start(rng)) for _ in range(count))):
