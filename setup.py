@@ -138,6 +138,7 @@ setup(
         NAME: [
             "py.typed",
             "log/definitions.json",
+            "simulation/run_fields.json",
             "web/*.css",
             "web/js/*.js",
             "web/js/*/*.js",

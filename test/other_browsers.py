@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import json
 import os
@@ -79,6 +80,10 @@ class Firefox:
         )
         return unwrap(answer)
 
+    def take_picture(self) -> bytes:
+        """Return the window as PNG."""
+        return base64.b64decode(self.client.screenshot(full=False))
+
     def reload(self) -> None:
         self.client.refresh()
 
@@ -134,6 +139,10 @@ class WebKit:
 
     def reload(self) -> None:
         self.ask("/refresh", {})
+
+    def take_picture(self) -> bytes:
+        """Return the window as PNG."""
+        return base64.b64decode(self.ask("/screenshot", None, "GET"))
 
     def close(self) -> None:
         self.ask("", None, "DELETE")

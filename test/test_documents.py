@@ -31,7 +31,7 @@ from node.listener import Listener
 from node.running_top import RunningTop
 from programs import PATIENT, execute, find_fault, run, running_node
 from rcl_interfaces.msg import Parameter as ParameterMessage
-from simulation.test_run_file import make_run
+from simulation.page_runs import make_run
 
 import workshop.main
 from symtop_ros.client.connection import Connection

@@ -24,7 +24,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.run_file import RunRecorder
 from symtop_ros.simulation.settings import MAX_MOMENT
 from symtop_ros.simulation.topics import STATE_TOPICS
-from symtop_ros.simulation.validation import RefusedError, choice, vector
+from symtop_ros.simulation.validation import RefusedError, choice, to_double, vector
 
 DRAWN = "orientation"  # topic of the samples that are drawn
 PARAMETERS = "set_parameters_atomically"
@@ -263,4 +263,4 @@ def _to_doubles(value: Any) -> Any:
         return {name: _to_doubles(each) for name, each in value.items()}
     if isinstance(value, list):
         return [_to_doubles(each) for each in value]
-    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    return to_double(value) if isinstance(value, int) and not isinstance(value, bool) else value

@@ -24,12 +24,8 @@ ALL_NETWORKS = ("0.0.0.0", "::")  # no addresses that a browser can open
 MAX_REQUEST = 65_536  # bytes
 # Of what is sent and not yet received: a page behind a slow line would see what was seconds ago.
 SENT = 16_384  # bytes
-# Everything is in the file; only a page of a node connects, and only to its own server.
-POLICY = (
-    "default-src data: blob: 'unsafe-inline' 'wasm-unsafe-eval'; base-uri 'none'; "
-    "form-action 'none'; connect-src 'self'"
-)
-NO_FRAME = {"Content-Security-Policy": f"{POLICY}; frame-ancestors 'none'"}
+# In addition to the policy of the page itself, which says what it may run and load.
+NO_FRAME = {"Content-Security-Policy": "connect-src 'self'; frame-ancestors 'none'"}
 PAGE, NEWS, REQUEST = ("/", "/index.html"), "/news", "/request"
 
 

@@ -5,9 +5,10 @@ top is watched leave no trace in it.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,7 @@ from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
 from symtop_ros.simulation.changes.kick import FIELDS, read_kick
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.settings import MAX_MOMENT
 from symtop_ros.simulation.validation import (
-    MAX_RATE,
     RefusedError,
     choice,
     number,
@@ -28,11 +27,13 @@ from symtop_ros.simulation.validation import (
 )
 from symtop_ros.wire.layout import NANOSECONDS
 
-FORMAT = 1
+# The fields of a run, which the reader of the page follows as well. A time is at most 4e6 s: up to
+# there a double in s has its own ns.
+TABLE = json.loads(Path(__file__).with_name("run_fields.json").read_text(encoding="utf-8"))
+FORMAT: int = TABLE["format"]
+KINDS: list[str] = TABLE["event"]["kind"]["words"]
 ACTS = ("start", "kick")
-KINDS = (*ACTS, "change", "torque")
 MAX_BYTES = 100_000_000
-MAX_TIME = 4e6  # s; up to here a double in s has its own ns
 MOTION = ("top", "friction", "applied_torque", "motion.orientation", "motion.angular_velocity")
 
 
@@ -139,8 +140,10 @@ def read_run(path: Path) -> tuple[list[RunEvent], int]:
     given = content.get("events")
     if not isinstance(given, list) or not given:
         raise reject("events", "a list with a start at its beginning", given)
+    if len(given) > TABLE["most"]:
+        raise reject("events", f"a list of at most {TABLE['most']}", len(given))
     events = _read_events(given)
-    end = number("end", content.get("end", events[-1].time / NANOSECONDS), "s", 0.0, MAX_TIME)
+    end = _read_field("end", {**TABLE["end"], "absent": 0.0}, content)
     return events, max(events[-1].time, round(end * NANOSECONDS))
 
 
@@ -148,32 +151,48 @@ def _read_events(given: list[Any]) -> list[RunEvent]:
     events: list[RunEvent] = []
     for place, each in enumerate(given):
         try:
-            event = _read_event(each if isinstance(each, dict) else {})
-            earliest = events[-1].time if events else 0
-            if event.time < earliest or not (events or event.kind == "start"):
-                raise RefusedError("a run must begin with a start and be in the order of time")
+            events.append(_read_event(each if isinstance(each, dict) else {}, events))
         except ValueError as error:  # those of a top and a state too
             raise RefusedError(f"events[{place}]: {one_line(error)}") from None
-        events.append(event)
     return events
 
 
-def _read_event(given: Mapping[str, Any]) -> RunEvent:
-    kind = choice("kind", given.get("kind"), KINDS)
-    time = number("time", given.get("time"), "s", 0.0, MAX_TIME)
-    w, x, y, z = vector("orientation", given.get("orientation"), 4, 2.0, "w, x, y, z")
-    omega = vector("angular_velocity", given.get("angular_velocity"), 3, MAX_RATE, "rad/s")
-    Ix, Iz, Mgl = vector("top", given.get("top"), 3, MAX_MOMENT, "Ix, Iz, Mgl")
-    axial, transverse = vector("friction", given.get("friction", (0, 0)), 2, MAX_MOMENT, "N m s")
-    torque = vector("torque", given.get("torque", (0, 0, 0)), 3, MAX_MOMENT, "N m")
+def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEvent:
+    values = {name: _read_field(name, field, given) for name, field in TABLE["event"].items()}
+    kind, time = values["kind"], round(values["time"] * NANOSECONDS)
+    if not before and kind != "start":
+        raise reject("kind", '"start" for the first event', kind)
+    if before and time < before[-1].time:
+        raise reject("time", "that of the event before it or later", values["time"])
+    act = _read_kick(given.get("act")) if kind == "kick" else {}
+    Ix, Iz, Mgl = values["top"]
     motion = Motion(
         Top(Ix=Ix, Iz=Iz, Mgl=Mgl),
-        State((w, x, y, z), omega),
-        friction=Friction(axial, transverse),
-        torque=torque,
+        State(values["orientation"], values["angular_velocity"]),
+        friction=Friction(*values["friction"]),
+        torque=values["torque"],
     )
-    act = given.get("act") if kind == "kick" else {}
-    if not isinstance(act, dict):
-        raise reject("act", "the fields of a kick", act)
-    validate_names(act, FIELDS)
-    return RunEvent(kind, round(time * NANOSECONDS), motion, act)
+    return RunEvent(kind, time, motion, act)
+
+
+def _read_kick(given: Any) -> Mapping[str, Any]:
+    if not isinstance(given, dict):
+        raise reject("act", "the fields of a kick", given)
+    validate_names(given, TABLE["act"])
+    return {name: _read_field(name, TABLE["act"][name], given) for name in given}
+
+
+def _read_field(name: str, field: Mapping[str, Any], given: Mapping[str, Any]) -> Any:
+    """Return a value that follows the description of its field."""
+    if name not in given and "absent" in field:
+        return field["absent"]
+    value = given.get(name)
+    if "size" in field:
+        return vector(name, value, field["size"], field["limit"], field["unit"])
+    if "words" in field:
+        return choice(name, value, tuple(field["words"]))
+    if "length" in field:
+        if not isinstance(value, str) or len(value) > field["length"]:
+            raise reject(name, f"a text of at most {field['length']} characters", value)
+        return value
+    return number(name, value, field["unit"], field.get("low", -inf), field.get("high", inf))

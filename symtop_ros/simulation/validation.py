@@ -47,17 +47,26 @@ def number(
 ) -> float:
     """Return a finite number within [low, high]; integers and text such as 2e-06 are converted."""
     bounded = math.isfinite(low) or math.isfinite(high)
-    condition = describe_range(low, high, unit) if bounded else f"a finite number ({unit})"
+    plain = f"a finite number ({unit})" if unit else "a finite number"
+    condition = describe_range(low, high, unit) if bounded else plain
     if isinstance(value, str) and NUMBER.fullmatch(value):
         value = float(value)
     if (
         isinstance(value, bool)
         or not isinstance(value, int | float)
         or not low <= value <= high
-        or not math.isfinite(value)
+        or not math.isfinite(double := to_double(value))
     ):
         raise reject(name, condition, value)
-    return float(value)
+    return double
+
+
+def to_double(value: float) -> float:
+    """Return a number as a double; an integer with too many digits is infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def describe_range(low: float, high: float, unit: str) -> str:

@@ -6,6 +6,7 @@ function of one script, which takes what it imports from those before it.
 
 import base64
 import dataclasses
+import hashlib
 import json
 import re
 from collections.abc import Mapping
@@ -14,6 +15,7 @@ from typing import Any
 
 from symtop_ros.simulation.changes.initial import ANGLES, RATES, start_motion
 from symtop_ros.simulation.presets import describe_scenes
+from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import read_lesson
 from symtop_ros.wording.templates import TEMPLATES
@@ -23,10 +25,15 @@ MODULES = FOLDER.resolve() / "js"
 MAIN = MODULES / "start.js"
 STARTS = (*ANGLES, *RATES)
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
+PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
-# Nothing is loaded from anywhere, whatever a saved run holds. A page of a node has its server.
-POLICY = "default-src data: blob: 'unsafe-inline' 'wasm-unsafe-eval'; form-action 'none'"
-NODE_POLICY = f"{POLICY}; connect-src 'self'"
+# Nothing is loaded from anywhere, and no script or style acts but those of the file, by hash. Data
+# are no script: the hashes stay the same in a page that saves itself with a run. A page of a node
+# has its server.
+POLICY = (
+    "default-src 'none'; script-src {script} 'wasm-unsafe-eval'; style-src {style}; "
+    "img-src data: blob:; connect-src {server}; base-uri 'none'; form-action 'none'"
+)
 
 
 def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: str = "") -> str:
@@ -35,33 +42,41 @@ def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: st
     It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), and belong
     to a running node, given by its name.
     """
-    markup, style = (
+    page, style = (
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
-    content = {**collect_content(), "opening": opening, "node": node}
-    parts = [
-        'window.TOP_SOURCE = "<!doctype html>\\n" + document.documentElement.outerHTML;',
-        f"window.TOP_CONTENT = {_write_data(content)};",
-        f"/*RUN*/window.TOP_CONTENT.run = {_write_data(run)};/*END*/",
-        join_modules(),
-    ]
-    policy = NODE_POLICY if node else POLICY
-    head = f'<head>\n<meta http-equiv="Content-Security-Policy" content="{policy}">'
-    markup = markup.replace("<head>", head, 1).replace("/*STYLE*/", style, 1)
-    return markup.replace("/*SCRIPT*/", "\n".join(parts), 1)
+    script = join_modules()
+    policy = POLICY.format(
+        script=_sign(script), style=_sign(style), server="'self'" if node else "'none'"
+    )
+    parts = {
+        "POLICY": policy,
+        "STYLE": style,
+        "CONTENT": _write_data({**collect_content(), "opening": opening, "node": node}),
+        "RUN": _write_data(run),
+        "SCRIPT": script,
+    }
+    return PART.sub(lambda found: parts[found[1]], page)
+
+
+def _sign(text: str) -> str:
+    """Return the source that allows a script or a style with this text."""
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"
 
 
 def _write_data(data: Any) -> str:
-    """Return data for a script: no end of a script is in it."""
+    """Return data for an element of the page: no end of an element is in it."""
     return json.dumps(data).replace("<", "\\u003c")
 
 
 def collect_content() -> dict[str, Any]:
-    """Return what the script reads: the kernel, templates, scenes and the lesson."""
+    """Return what the script reads: the kernel, templates, scenes, fields of a run, lesson."""
     return {
         "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
         "templates": TEMPLATES,
         "scenes": [{**scene._asdict(), **_read_values(scene.name)} for scene in describe_scenes()],
+        "run_fields": TABLE,
         "lesson": [dataclasses.asdict(step) for step in read_lesson()],
     }
 
@@ -86,7 +101,7 @@ def join_modules() -> str:
     ordered: list[Path] = []
     _order(MAIN, ordered)
     functions = [_write_function(path) for path in ordered]
-    start = f"module_{MAIN.stem}.start(window.TOP_CONTENT, window.TOP_SOURCE);"
+    start = f"module_{MAIN.stem}.start();"
     return "\n".join([*functions, start])
 
 

@@ -246,6 +246,20 @@ def test_of_a_long_run_the_last_events_are_kept(node, page):
     other.close()
 
 
+@pytest.mark.parametrize(
+    "request_",
+    [
+        {"service": "kick", "argument": {"precession_rate": 10**400}},
+        {"service": "step", "argument": {"duration": -(10**400)}},
+        {"torque": [10**400, 0, 0]},
+    ],
+)
+def test_a_number_of_400_digits_gets_an_answer(node, request_):
+    answer = node[1].answer(request_)
+    assert not answer["granted"]
+    assert " must be " in answer["answer"]
+
+
 def test_a_missing_node_is_one_message():
     with Listener(DOMAIN) as alone, bridge_to("missing", alone.context) as bridge:
         bridge._connection._timeout = 0.1

@@ -164,6 +164,6 @@ def test_a_screen_is_found(platform, display, expected, monkeypatch):
 
 def test_a_run_in_the_page_ends_no_script():
     page = write_file(run={"format": 1, "events": [{"request": "</script><script>alert(1)"}]})
-    assert page.count("</script>") == 1
-    text = re.search(r"window\.TOP_CONTENT\.run = (.*?);/\*END\*/", page)[1]
+    assert page.count("</script>") == 3
+    text = re.search(r'<script type="application/json" id="top-run">(.*?)</script>', page)[1]
     assert json.loads(text)["events"][0]["request"].startswith("</script>")

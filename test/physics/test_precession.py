@@ -76,3 +76,9 @@ def test_a_start_on_a_root_keeps_its_tilt(which):
 
 def test_a_tilt_may_be_of_many_turns():
     assert len(regular_precession_rates(ARTICLE, theta=1e15, psi_dot=200.0)) == 2
+
+
+def test_a_spin_of_minus_zero_is_no_spin():
+    top = Top(2.28e-4, 5.72e-5, -0.068)
+    found = [regular_precession_rates(top, theta=0.5, psi_dot=spin) for spin in (0.0, -0.0)]
+    assert found[0] == found[1] == (-found[0][1], found[0][1])

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from log_files import Run
 from programs import execute
-from simulation.test_run_file import make_run
+from simulation.page_runs import make_run
 
 from symtop_ros.playback import main as module
 from symtop_ros.simulation.run_file import write_run
@@ -154,7 +154,9 @@ def test_a_log_with_any_flipped_bit_is_status_1_or_agrees_in_every_bit(tmp_path,
 
 def read_page(path):
     """The run in a page."""
-    found = re.search(r"window\.TOP_CONTENT\.run = (.*?);/\*END\*/", path.read_text())
+    found = re.search(
+        r'<script type="application/json" id="top-run">(.*?)</script>', path.read_text()
+    )
     return json.loads(found[1])
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from simulation.test_run_file import KICK, START, make_run, to_json
+from simulation.page_runs import KICK, START, make_run, to_json
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.bag import open_run

@@ -2,36 +2,17 @@
 
 import json
 import math
+import re
 
 import pytest
-from physics.tops import ARTICLE, CUSPS
+from simulation.page_runs import KICK, change, find_refusal, list_hostile_runs, make_run, to_json
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, hurry
 from symtop_ros.simulation.changes.timeline import Timeline
-from symtop_ros.simulation.run_file import RunEvent, RunRecorder, read_run, record_run, write_run
+from symtop_ros.simulation.run_file import RunRecorder, read_run, record_run, write_run
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
 
 SECOND = 1_000_000_000
-START = Motion(ARTICLE, CUSPS)
-KICK = {"precession_rate_factor": 1.4, "hold": "spin_rate"}
-
-
-def make_run():
-    """A start, a kick at an odd nanosecond, and friction with a torque."""
-    kicked = Motion(ARTICLE, hurry(START.at(ExactTimes(1234567891)), 1.4))
-    driven = Motion(
-        ARTICLE, kicked.at(ExactTimes(987654321)), Friction(1e-6, 0.0), (0.0, 0.0, 5e-4)
-    )
-    return [
-        RunEvent("start", 0, START, {}),
-        RunEvent("kick", 1234567891, kicked, KICK),
-        RunEvent("torque", 2222222212, driven, {}),
-    ]
-
-
-def to_json(events):
-    return [event.to_json() for event in events]
 
 
 def test_a_run_is_read_as_it_was_written_to_the_last_bit(tmp_path):
@@ -48,12 +29,6 @@ def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
     assert read_run(path)[1] == 2222222212
 
 
-def change(place, **values):
-    content = json.loads(json.dumps(write_run(make_run(), SECOND)))
-    content["events"][place].update(values)
-    return content
-
-
 @pytest.mark.parametrize(
     ("content", "message"),
     [
@@ -63,10 +38,16 @@ def change(place, **values):
         ({"format": 1, "events": []}, "events must be "),
         ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
         (change(0, kind="kick"), r"events\[0\]: "),
-        (change(0, kind="torque"), "must begin with a start"),
+        (
+            change(0, kind="torque"),
+            r"events\[0\]: kind must be \"start\" for the first event, got ",
+        ),
         (change(1, time=-1.0), r"events\[1\]: time must be "),
         (change(1, time="soon"), r"events\[1\]: time must be "),
-        (change(2, time=1.0), "in the order of time"),
+        (
+            change(2, time=1.0),
+            r"events\[2\]: time must be that of the event before it or later, got 1",
+        ),
         (change(0, orientation=[1, 0, 0]), r"events\[0\]: orientation must have 4 "),
         (change(0, orientation=[2, 0, 0, 0]), r"events\[0\]: .*norm"),
         (change(0, angular_velocity=[math.inf, 0, 0]), r"events\[0\]: angular_velocity must be "),
@@ -81,6 +62,11 @@ def test_a_file_that_is_no_run_is_one_message(content, message, tmp_path):
     path.write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())
     with pytest.raises(RefusedError, match=message):
         read_run(path)
+
+
+@pytest.mark.parametrize(("name", "content"), list_hostile_runs())
+def test_a_field_of_another_kind_is_refused_by_its_name(name, content):
+    assert re.match(rf"events\[1\]: {name} must .*, got .*", find_refusal(content))
 
 
 class Told:
@@ -116,8 +102,8 @@ def test_pauses_steps_and_factors_leave_no_trace_in_the_time_of_a_run():
 def test_of_changes_at_one_instant_the_last_one_holds():
     told = Told()
     settings = Settings.from_scene("cusps", friction__axial=1e-6, steady_torque=[0, 0, 1e-4])
-    for change in told.timeline.change_settings(settings, 2 * SECOND):
-        told.do(change)
+    for each in told.timeline.change_settings(settings, 2 * SECOND):
+        told.do(each)
     assert len(told.events) == 3
     events, _ = record_run(told.events, 2 * SECOND)
     (_, changed) = events

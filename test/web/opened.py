@@ -37,7 +37,7 @@ class Opened:
     def close(self):
         """Close the tab; nothing went wrong in it, and it asked for nothing from elsewhere."""
         self.context.close()
-        assert self.problems == []
+        assert self.problems == [], self.problems[:5]
         assert all(request.startswith(NO_REQUESTS) for request in self.requests)
 
     def wait_for_page(self):

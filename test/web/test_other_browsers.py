@@ -1,14 +1,14 @@
 """The page in Firefox and WebKit: the bits of Python's kernel, and one pass through the page."""
 
 import base64
-from typing import get_args
+import io
 
 import numpy as np
 import pytest
 from other_browsers import running_firefox, running_webkit, until
 from physics.kernel.motions import encode, expect, normalize
 from physics.kernel.test_wasm import KERNEL, SCRIPT, list_samples
-from symtop_ros.physics.exact.kind import Kind
+from PIL import Image
 from web.opened import find_time, read_motion
 
 from symtop_ros.physics import Motion, Top, hurry, kick_verdict
@@ -17,6 +17,17 @@ from workshop.kernel_wasm import MODULE
 
 pytestmark = pytest.mark.long
 
+FONT, SIZE = 40, 100  # px
+# A symbol of the page, large and alone in the upper left corner.
+SHOW = f"""
+const symbol = document.querySelector(given[0]);
+symbol.style.fontSize = "{FONT}px";
+const box = document.createElement("div");
+Object.assign(box.style, {{ position: "fixed", left: 0, top: 0, width: "{SIZE}px", zIndex: 9,
+  height: "{SIZE}px", background: "white", color: "black", padding: "20px" }});
+box.append(symbol);
+document.body.append(box);
+"""
 BROWSERS = {"firefox": running_firefox, "webkit": running_webkit}
 
 
@@ -44,11 +55,28 @@ def test_two_thousand_motions_have_the_bits_of_python(driver, tmp_path):
         """const [kinds, module, samples] = given;
         window.kernel = await Kernel.load(decode(module));
         return await print_motions(Kernel, kinds, module, samples);""",
-        list(get_args(Kind)),
+        list(KINDS),
         to_text(MODULE.read_bytes()),
         to_text(encode(samples)),
     )
     assert normalize(np.frombuffer(base64.b64decode(found))) == expect(samples)
+
+
+def list_gaps(picture):
+    """Return the heights of the blank rows between parts of a symbol, from its highest part on."""
+    rows = np.asarray(Image.open(io.BytesIO(picture)).convert("L"))[:SIZE, :SIZE].min(axis=1) < 128
+    inked = np.flatnonzero(rows)
+    return (np.diff(inked)[np.diff(inked) > 1] - 1).tolist()
+
+
+@pytest.mark.parametrize("field", ["phi_dot", "psi_dot"])
+def test_the_dot_of_a_rate_stands_close_to_its_letter(driver, path, field):
+    driver.open(path.as_uri())
+    until(driver, "document.querySelector('#headline')?.textContent")
+    driver.run(SHOW, f"label[for=field-{field}] math")
+    gaps = list_gaps(driver.take_picture())
+    assert len(gaps) == 1  # the dot is seen
+    assert gaps[0] <= 0.15 * FONT
 
 
 def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):

@@ -85,3 +85,28 @@ def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
     opened.tab.select_option("#scenes", "looping")
     assert opened.say("headline").startswith("The top precesses in loops")
     assert not opened.tab.is_visible("#start-scene")
+
+
+@pytest.mark.parametrize("field", ["phi_dot", "psi_dot"])
+def test_a_rate_that_is_refused_has_the_name_of_its_field(opened, field):
+    label = opened.tab.get_attribute(f"#field-{field}", "aria-label")
+    opened.enter(field, "1e101")
+    assert opened.say("refusal").startswith(f"{label} must be smaller in size, got 1e+101: ")
+    assert opened.tab.get_attribute(f"#field-{field}", "aria-invalid") == "true"
+
+
+def test_the_view_is_turned_and_moved_by_keys_and_the_top_is_not_touched(opened):
+    opened.press("Space")
+
+    def read():
+        """Return the places of the labels, which move with the camera."""
+        labels = opened.tab.locator(".label:visible")
+        return labels.evaluate_all("all => all.map(e => e.style.transform)")
+
+    for key in ("Shift+ArrowLeft", "Shift+ArrowUp", "+", "-"):
+        before = read()
+        opened.press(key)
+        opened.until(lambda before=before: read() != before)
+    assert len(opened.read_events()) == 1
+    opened.press("ArrowLeft")
+    assert len(opened.read_events()) == 2

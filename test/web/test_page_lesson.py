@@ -107,6 +107,19 @@ def test_back_is_the_step_before(open_page):
     assert page.tab.input_value("#prediction") == "it falls"
 
 
+def test_predictions_are_kept_for_the_browser(open_page):
+    page = open_page("#lesson=2")
+    page.tab.fill("#prediction", "it falls")
+    another = page.context.new_page()  # of the same browser
+    another.goto(page.tab.url)
+    another.wait_for_selector("#headline:not(:empty)")
+    assert another.input_value("#prediction") == "it falls"
+    another.evaluate("localStorage.setItem('symtop.predictions', '{')")
+    another.reload()
+    another.wait_for_selector("#headline:not(:empty)")
+    assert another.input_value("#prediction") == ""
+
+
 def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     page = open_page("#lesson=8")
     start, hurry = page.tab.locator("#lesson-acts button").all()[:2]

@@ -36,6 +36,18 @@ def test_a_frame_of_another_site_shows_the_top(browser, path):
     tab.context.close()
 
 
+def test_a_save_that_a_frame_may_not_allow_says_so(browser, path):
+    tab = browser.new_context(offline=True).new_page()
+    tab.set_content("<iframe sandbox='allow-scripts' style='width: 900px; height: 700px'></iframe>")
+    tab.evaluate("(page) => { document.querySelector('iframe').srcdoc = page; }", path.read_text())
+    frame = tab.frame_locator("iframe")
+    frame.locator("#tab-save").click()
+    frame.locator("#save-run").click()
+    said = frame.locator("#refusal").text_content()
+    assert said.startswith("a frame must allow downloads: if no run.json was saved, open the page")
+    tab.context.close()
+
+
 @pytest.mark.parametrize(
     ("missing", "said"),
     [

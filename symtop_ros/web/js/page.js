@@ -11,7 +11,7 @@ import { listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson } from "./controls/lesson.js";
 import { recall } from "./run/memory.js";
-import { dismissRefusals, refuse, showLoss } from "./controls/notices.js";
+import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
 import { inDegrees, shorten } from "./words/quantities.js";
@@ -27,6 +27,9 @@ import { Timeline } from "./controls/timeline.js";
  * A top of the page: it takes messages, and its answers are told.
  * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
  */
+
+const showLedger = guard("the chart of the energies", drawLedger);
+const showKinds = guard("the chart of the kinds of motion", drawKinds);
 
 export class Page {
   /** @param {{node?: string, opening?: string, run?: any}} content of the file */
@@ -69,7 +72,7 @@ export class Page {
   /**
    * Show a top from now on.
    * @param {Top} top
-   * @param {string} source the page as it was opened
+   * @param {Element} source the page as it was opened
    */
   connect(top, source) {
     this.top = top;
@@ -100,10 +103,7 @@ export class Page {
     if (hello) this.greet(hello);
     if (facts) this.showFacts(facts);
     if (samples) this.showFrame(message);
-    if (refused) {
-      refuse(refused);
-      this.fields.markRefused();
-    }
+    if (refused) refuse(this.fields.markRefused(refused));
     if (granted) this.fields.grant();
     if (said) refuse(said);
     if (lost !== undefined) showLoss(lost);
@@ -118,7 +118,7 @@ export class Page {
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const { node, run, opening = "" } = this.content;
     const isReloaded = !node && Boolean(recall().run);
-    if (!node && (isCalm || (run && !isReloaded))) this.send({ act: "rest" });
+    if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
     followAddress(opening, isReloaded, lesson.open.bind(lesson), (link) => this.followLink(link));
   }
 
@@ -148,8 +148,8 @@ export class Page {
     this.showHistory(sentences.history);
     this.fields.show(facts);
     this.lesson?.follow(facts);
-    drawLedger(facts.ledger, facts.energies);
-    drawKinds(facts.body, facts.turning);
+    showLedger(facts.ledger, facts.energies);
+    showKinds(facts.body, facts.turning);
   }
 
   /** @param {number[]} roots rates of regular precession */

@@ -4,27 +4,29 @@ import { LAYERS } from "./scene/colors.js";
 import { Kernel } from "./physics/kernel.js";
 import { LocalTop } from "./run/local.js";
 import { NodeTop } from "./run/node.js";
-import { refuse } from "./controls/notices.js";
+import { turnByKeys } from "./controls/keys.js";
+import { guard, refuse, showLoss } from "./controls/notices.js";
 import { Page } from "./page.js";
 import { Scene } from "./scene/scene.js";
 import { find } from "./controls/document.js";
+import { copyPage, readData } from "./run/files.js";
 import { Writer } from "./words/wording.js";
 
 /**
- * What the file holds: the module in base64, the templates, scenes and the lesson; what it opens as
- * the end of an address does; a run, if one was saved; and the name of a node, if it shows one.
+ * What the file holds: the module in base64, the templates, scenes, the lesson and the fields of a run;
+ * what it opens as the end of an address does; a run, if one was saved; and the name of a node, if it
+ * shows one.
  * @typedef {{kernel: string, templates: {[key: string]: string}, scenes: any[], lesson: any[],
- *   opening?: string, run?: any, node?: string}} Content
+ *   run_fields: import("./run/reader.js").Table, opening?: string, run?: any, node?: string}} Content
  */
 
 /** @param {string} text base64 */
 const decode = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-/**
- * @param {Content} content
- * @param {string} source the page as it was opened
- */
-export const start = async (content, source) => {
+export const start = async () => {
+  const source = copyPage();
+  /** @type {Content} */
+  const content = { ...readData("top-content"), run: readData("top-run") };
   const page = new Page(content);
   try {
     const kernel = await Kernel.load(decode(content.kernel));
@@ -34,9 +36,12 @@ export const start = async (content, source) => {
     const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
     Object.assign(window, { symtop });
     const scene = new Scene(find("scene"), top);
-    top.tell = (message) => page.receive(message);
-    top.draw = (state, states) => scene.draw(state, states);
-    top.begin = () => scene.begin();
+    turnByKeys(scene.camera);
+    scene.tellLoss = (text) => showLoss(text, "picture-lost");
+    top.tell = guard("the texts", page.receive.bind(page));
+    top.draw = guard("the scene", scene.draw.bind(scene));
+    top.begin = guard("the scene", scene.begin.bind(scene));
+    top.advance = guard("the motion", top.advance.bind(top));
     page.connect(top, source);
     top.open();
   } catch (error) {

@@ -1,8 +1,10 @@
 // The charts of the page. Those that are out of sight are not drawn, and the others in turn, one in a
-// frame: drawn together, they would take longer than all else in it.
+// frame: drawn together, they would take longer than all else in it. Texts and tables are always those
+// of now, in sight or not, for a screen reader and a search; a printer gets all charts.
 
 import { showConstants } from "./constants_table.js";
 import { findAll } from "../controls/document.js";
+import { guard } from "../controls/notices.js";
 import { FreeChart } from "./free_chart.js";
 import { drawRule } from "./rule_chart.js";
 import { drawOneSeries } from "./series_charts.js";
@@ -29,8 +31,14 @@ export class Charts {
       phi_dot: (facts, { series }) => drawOneSeries("phi_dot", series, facts),
       psi_dot: (facts, { series }) => drawOneSeries("psi_dot", series, facts),
       free: (_, { samples }) => free.draw(samples),
-      constants: ({ table }, { constants }) => showConstants(table, constants),
     };
+    /** @type {Draw} */
+    this.write = guard("the tables", ({ table }, { samples, constants }) => {
+      showConstants(table, constants);
+      free.write(samples);
+    });
+    for (const [name, draw] of Object.entries(this.all))
+      this.all[name] = guard(`the chart ${name}`, draw);
     /** Names of the charts in sight. @type {Set<string>} */
     this.seen = new Set();
     /** Those that are still to be drawn. @type {string[]} */
@@ -38,6 +46,7 @@ export class Charts {
     this.isComplete = false; // each has been drawn once, and has its height
     const observer = new IntersectionObserver((changes) => changes.forEach(this.follow, this));
     for (const place of findAll("[data-chart]")) observer.observe(place);
+    addEventListener("beforeprint", () => this.drawAll());
   }
 
   /** @param {IntersectionObserverEntry} change */
@@ -55,11 +64,16 @@ export class Charts {
    */
   draw(facts, frame, factor) {
     this.drawOne = (/** @type {string} */ name) => this.all[name]?.(facts, frame, factor);
-    if (!this.isComplete) Object.keys(this.all).forEach(this.drawOne);
+    this.write(facts, frame, factor);
+    if (!this.isComplete) this.drawAll();
     this.isComplete = true;
     if (this.waiting.length) return; // these will be drawn from what is shown now
     this.waiting = [...this.seen];
     this.drawNext();
+  }
+
+  drawAll() {
+    for (const name of Object.keys(this.all)) this.drawOne?.(name);
   }
 
   drawNext() {

@@ -21,22 +21,23 @@ const ROUNDING = 1e-12;
 const writeChange = (value, change) =>
   Math.abs(change) <= ROUNDING * Math.abs(value) ? "constant" : `changed by ${shorten(change, 2)}`;
 
-/**
- * @param {string} name
- * @param {string} text
- */
-const createRow = (name, text) =>
+/** @param {[name: string, text: string]} row */
+const createRow = ([name, text]) =>
   make("tr", {}, make("th", { scope: "row" }, ...typeset(name)), make("td", {}, text));
+
+let shown = ""; // a table that stays as it is can be read, and its text marked
 
 /**
  * @param {string[][]} rates names and texts
  * @param {Constants} constants
  */
 export const showConstants = (rates, constants) => {
-  const rows = Object.entries(constants).map(([name, [value, change, unit]]) =>
-    createRow(NAMES[name], `${shorten(value, 6)} ${unit}, ${writeChange(value, change)}`),
-  );
-  find("constants").replaceChildren(
-    make("tbody", {}, ...rates.map(([name, text]) => createRow(name, text)), ...rows),
-  );
+  const rows = Object.entries(constants).map(([name, [value, change, unit]]) => [
+    NAMES[name],
+    `${shorten(value, 6)} ${unit}, ${writeChange(value, change)}`,
+  ]);
+  const all = /** @type {[string, string][]} */ ([...rates, ...rows]);
+  if (JSON.stringify(all) === shown) return;
+  shown = JSON.stringify(all);
+  find("constants").replaceChildren(make("tbody", {}, ...all.map(createRow)));
 };

@@ -116,25 +116,30 @@ export class FreeChart {
     );
     const own = curves[curves.length - 1].values;
     this.points = own.map(([x, y]) => [frame.x(x), frame.y(y)]);
-    const shown = Math.round(Number(this.place.value) * (samples.length - 1));
     draw(
       "free",
       HEIGHT,
       `${vertical.name} over ${horizontal.name}`,
       `${frame.axes}${paths.join("")}
-      ${drawDot(...this.points[shown], 'fill="var(--theta)"')}
+      ${drawDot(...this.points[this.findShown(samples)], 'fill="var(--theta)"')}
       <text x="${LEFT + 2}" y="18">${nameUnit(vertical)}</text>
       <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">${nameUnit(horizontal)}</text>
       ${writeBelow(frame, listTicks(...range, 4))}`,
     );
-    this.writeValues(own[shown]);
   }
 
-  /** @param {Pair} values */
-  writeValues(values) {
-    const texts = [this.x, this.y].map((list, k) => {
+  /** The number of the sample whose values are shown. @param {Sample[]} samples */
+  findShown(samples) {
+    return Math.round(Number(this.place.value) * (samples.length - 1));
+  }
+
+  /** The values at the dot. @param {Sample[]} samples */
+  write(samples) {
+    const sample = samples[this.findShown(samples)];
+    const texts = [this.x, this.y].map((list) => {
       const quantity = QUANTITIES[list.value];
-      return `${quantity.name} ${shorten(values[k], 5)} ${nameUnit(quantity)}`;
+      const value = measure(quantity, sample, "state");
+      return `${quantity.name} ${shorten(value, 5)} ${nameUnit(quantity)}`;
     });
     write(find("free-values"), texts.join(", "));
     this.place.setAttribute("aria-valuetext", texts.join(", "));

@@ -7,6 +7,7 @@ const SVG = "http://www.w3.org/2000/svg";
 export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
 const [RIGHT, UPPER, LOWER] = [6, 8, 18]; // margins
+const FAR = 1e4; // units; out of the drawing
 
 /** @typedef {[number, number]} Pair */
 /** @typedef {(value: number) => number} Scale */
@@ -41,10 +42,22 @@ export const listTicks = (low, high, count) => {
   const rough = (high - low) / count;
   const size = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((k) => k * size).find((each) => each >= rough * 0.999) ?? rough;
-  const found = [];
-  for (let k = Math.ceil(low / step); k * step <= high; k += 1)
-    found.push(Number((k * step).toPrecision(10)));
-  return found;
+  // Of values far larger than their span some are equal: a loop that counts up to `high` may not end.
+  const first = Math.ceil(low / step);
+  const found = Array.from({ length: count + 2 }, (_, k) => (first + k) * step);
+  const inside = found.filter((value) => value >= low && value <= high);
+  return [...new Set(inside.map((value) => Number(value.toPrecision(10))))];
+};
+
+/**
+ * The place of a value, outside of the drawing if the value is beyond what an axis can show; NaN, a
+ * gap, for a value that is no number.
+ * @param {number} value
+ * @param {number} place
+ */
+const keepNear = (value, place) => {
+  if (Number.isNaN(place)) return Number.isNaN(value) ? NaN : FAR;
+  return Math.min(Math.max(place, -FAR), FAR);
 };
 
 /**
@@ -65,9 +78,9 @@ export const createFrame = (
 ) => {
   const bottom = height - LOWER;
   const x = (/** @type {number} */ value) =>
-    LEFT + ((value - left) / (right - left)) * (WIDE - LEFT - RIGHT);
+    keepNear(value, LEFT + ((value - left) / (right - left)) * (WIDE - LEFT - RIGHT));
   const y = (/** @type {number} */ value) =>
-    bottom - ((value - low) / (high - low)) * (bottom - UPPER);
+    keepNear(value, bottom - ((value - low) / (high - low)) * (bottom - UPPER));
   const ticks = listTicks(shown(Math.min(low, high)), shown(Math.max(low, high)), marks);
   const axes = ticks.map((value) => {
     const place = y(value / (shown(1) || 1));

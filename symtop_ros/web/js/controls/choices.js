@@ -1,9 +1,9 @@
-// Choices that the browser keeps over a reload, where it keeps anything: a frame may have no store.
+// What the browser keeps when the page is closed, where it keeps anything: a frame may have no store.
 
 import { find } from "./document.js";
 
 /** @param {string} id */
-const read = (id) => {
+export const read = (id) => {
   try {
     return localStorage.getItem(`symtop.${id}`);
   } catch {
@@ -15,7 +15,7 @@ const read = (id) => {
  * @param {string} id
  * @param {string} value
  */
-const keep = (id, value) => {
+export const keep = (id, value) => {
   try {
     localStorage.setItem(`symtop.${id}`, value);
   } catch {
@@ -30,7 +30,9 @@ const keep = (id, value) => {
  */
 export const keepChoice = (id, changed) => {
   const list = find(id, HTMLSelectElement);
-  list.value = read(id) ?? list.value;
+  const kept = read(id);
+  // A choice of another version of the page may be none of this list.
+  if ([...list.options].some(({ value }) => value === kept)) list.value = kept ?? "";
   list.addEventListener("change", () => {
     keep(id, list.value);
     changed();

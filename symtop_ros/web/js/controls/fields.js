@@ -9,6 +9,7 @@ import { angleUnit, inDegrees, parseQuantity, shorten } from "../words/quantitie
  * @typedef {object} Field
  * @property {string} label
  * @property {boolean} [isAngle]
+ * @property {boolean} [isRate]
  * @property {boolean} [isPositive]
  * @property {boolean} [isNotNegative]
  * @property {number} [low] of its slider
@@ -27,8 +28,8 @@ const FIELDS = {
     step: 0.05,
   },
   theta: { label: "tilt theta", isAngle: true, low: 0, high: Math.PI, step: 0.01 },
-  psi_dot: { label: "spin rate psi' (rad/s)", low: -400, high: 400, step: 1 },
-  phi_dot: { label: "precession rate phi' (rad/s)", low: -12, high: 12, step: 0.1 },
+  psi_dot: { label: "spin rate psi' (rad/s)", isRate: true, low: -400, high: 400, step: 1 },
+  phi_dot: { label: "precession rate phi' (rad/s)", isRate: true, low: -12, high: 12, step: 0.1 },
   "top.Ix": { label: "Ix, across the axis (kg m\u00b2)", isPositive: true },
   "top.Iz": { label: "Iz, about the axis (kg m\u00b2)", isPositive: true },
   "top.Mgl": { label: "Mgl, moment of gravity (J)" },
@@ -57,6 +58,7 @@ class Entry {
     this.text = make("input", { id, type: "text", autocomplete: "off", "aria-label": label });
     place.append(this.label, this.text);
     this.isTyped = false; // and not yet taken over
+    this.value = NaN; // that was asked for last
     this.followText();
     /** @type {HTMLInputElement | null} */
     this.slider = null;
@@ -208,6 +210,7 @@ export class Fields {
    */
   change(name, value) {
     this.asked = this.entries[name];
+    this.asked.value = value;
     this.asked.text.removeAttribute("aria-invalid");
     if (name === "factor") {
       this.values.factor = value;
@@ -236,9 +239,17 @@ export class Fields {
     this.asked = null;
   }
 
-  /** What was asked for has been refused. */
-  markRefused() {
-    this.asked?.text.setAttribute("aria-invalid", "true");
+  /**
+   * What was asked for has been refused; returns the refusal with the name of the field. The rates
+   * together make the angular velocity.
+   * @param {string} refusal
+   */
+  markRefused(refusal) {
+    if (!this.asked) return refusal;
+    const { field, value, text } = this.asked;
+    text.setAttribute("aria-invalid", "true");
+    if (!field.isRate || !refusal.startsWith("angular_velocity")) return refusal;
+    return `${field.label} must be smaller in size, got ${value}: ${refusal}`;
   }
 
   /** @param {import("../words/facts.js").Facts} facts */

@@ -1,19 +1,40 @@
-// Keys of the page: they act where nothing is typed, and where the browser does not use them.
+// Keys of the page: they act where nothing is typed, and where the browser does not use them. With
+// Shift the arrows turn the view instead of the top.
 
 /** @type {{[key: string]: string}} */
 const ACTS = { h: "hurry", d: "delay", " ": "pause", s: "step", r: "reset" };
 /** @type {{[key: string]: string}} */
 const PUSHES = { ArrowUp: "up", ArrowDown: "down", ArrowRight: "along", ArrowLeft: "back" };
+const TURN = 20; // px of a drag
+/** @type {{[key: string]: [right: number, down: number]}} */
+const TURNS = {
+  ArrowUp: [0, -TURN],
+  ArrowDown: [0, TURN],
+  ArrowRight: [TURN, 0],
+  ArrowLeft: [-TURN, 0],
+};
+/** @type {{[key: string]: number}} */
+const DISTANCES = { "+": 1 / 1.1, "-": 1.1 };
+
+/**
+ * The element that has the focus, or null if it or the browser uses all keys itself.
+ * @param {KeyboardEvent} event
+ */
+const findTarget = (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey) return null;
+  const target = event.target instanceof Element ? event.target : document.body;
+  return target.closest("input[type=text], select, textarea") ? null : target;
+};
 
 /**
  * The act or the push of a key; null if the element that has the focus uses the key itself.
  * @param {KeyboardEvent} event
  */
 const read = (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey) return null;
-  const target = event.target instanceof Element ? event.target : document.body;
-  if (target.closest("input[type=text], select, textarea")) return null;
+  const target = findTarget(event);
+  if (!target) return null;
   const way = PUSHES[event.key];
+  if (way && event.shiftKey) return null;
   if (way) return target.closest("input, [role=tab]") ? null : { way };
   if (event.key === " " && target.closest("button, a, input, summary")) return null;
   const name = ACTS[event.key.toLowerCase()]; // Caps Lock changes nothing
@@ -40,5 +61,18 @@ export const listenToKeys = (act, push) => {
   document.addEventListener("click", (event) => {
     const button = event.target instanceof Element ? event.target.closest("button") : null;
     if (event.detail && button) button.blur();
+  });
+};
+
+/** The view is turned, and moved nearer and away. @param {import("../scene/camera.js").Camera} camera */
+export const turnByKeys = (camera) => {
+  document.addEventListener("keydown", (event) => {
+    if (!findTarget(event)) return;
+    const turn = event.shiftKey ? TURNS[event.key] : undefined;
+    const factor = DISTANCES[event.key];
+    if (turn) camera.turn(...turn);
+    else if (factor) camera.approach(factor);
+    else return;
+    event.preventDefault();
   });
 };

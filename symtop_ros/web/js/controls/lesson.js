@@ -1,6 +1,7 @@
 // The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
 
 import { find, findAll, make, say, write } from "./document.js";
+import { keep, read } from "./choices.js";
 import { recall, remember } from "../run/memory.js";
 
 /**
@@ -12,6 +13,18 @@ import { recall, remember } from "../run/memory.js";
  *   [text: string]: any}} Step
  */
 /** @typedef {(message: {[name: string]: any}) => void} Send */
+
+const PREDICTIONS = "predictions"; // as the browser keeps them
+
+/** What was predicted, by the number of the step. @returns {{[step: number]: string}} */
+const readPredictions = () => {
+  try {
+    const kept = Object.entries(JSON.parse(read(PREDICTIONS) ?? "{}"));
+    return Object.fromEntries(kept.filter(([, text]) => typeof text === "string"));
+  } catch {
+    return {}; // of another version of the page
+  }
+};
 
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
 
@@ -32,9 +45,7 @@ export class Lesson {
     /** @type {HTMLButtonElement[]} */
     this.hurries = [];
     this.isAwaited = false; // the motion that a button has asked for
-    // What was written survives a reload; a step is an entry of the history: Back is the step before.
-    /** @type {{[step: number]: string}} */
-    this.predictions = recall().predictions ?? {};
+    this.predictions = readPredictions();
     this.select.append(
       ...steps.map(({ title }, k) => make("option", { textContent: `${k + 1}. ${title}` })),
     );
@@ -43,7 +54,7 @@ export class Lesson {
 
   listen() {
     this.select.addEventListener("change", () => this.show(this.current));
-    this.field.addEventListener("input", () => this.keep(this.current, this.field.value));
+    this.field.addEventListener("input", () => this.predict(this.current, this.field.value));
     find("step-back").addEventListener("click", (event) => this.go(-1, event));
     find("step-next").addEventListener("click", (event) => this.go(1, event));
     find("tab-lesson").addEventListener("click", () => {
@@ -51,7 +62,8 @@ export class Lesson {
     });
     addEventListener("popstate", () => {
       const [, number] = location.hash.match(/^#lesson=(\d+)$/) ?? [];
-      if (number && Number(number) !== this.shown) this.show(Number(number), true);
+      const step = this.limit(Number(number));
+      if (number && step !== this.shown) this.show(step, true);
     });
   }
 
@@ -59,10 +71,15 @@ export class Lesson {
     return this.select.selectedIndex + 1;
   }
 
+  /** The number of a step that is there. @param {number} number of an address */
+  limit(number) {
+    return Math.min(Math.max(Math.round(number) || 1, 1), this.steps.length);
+  }
+
   /** Open the tab of the lesson at a step. @param {number} number */
   open(number) {
     find("tab-lesson").click();
-    this.show(Math.min(Math.max(Math.round(number) || 1, 1), this.steps.length));
+    this.show(this.limit(number));
   }
 
   /**
@@ -78,11 +95,11 @@ export class Lesson {
   /**
    * @param {number} number
    * @param {string} text
-   * @param {boolean} isNew
    */
-  keep(number, text, isNew = false) {
-    this.predictions[number] = text;
-    remember({ predictions: this.predictions }, `#lesson=${number}`, isNew);
+  predict(number, text) {
+    // Another tab may have written others.
+    this.predictions = { ...this.predictions, ...readPredictions(), [number]: text };
+    keep(PREDICTIONS, JSON.stringify(this.predictions));
   }
 
   /**
@@ -102,7 +119,8 @@ export class Lesson {
     find("step-back", HTMLButtonElement).disabled = number === 1;
     find("step-next", HTMLButtonElement).disabled = number === this.steps.length;
     this.offerActs(step);
-    this.keep(number, this.field.value, isNew);
+    // A step is an entry of the history: Back is the step before.
+    remember({}, `#lesson=${number}`, isNew);
     this.send({ act: "rest" }); // nothing moves before the prediction
   }
 

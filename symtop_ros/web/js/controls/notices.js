@@ -1,5 +1,6 @@
 // What the page says beside the headline: refusals, notices, and what is lost.
 
+import { nameError } from "../run/errors.js";
 import { find, write } from "./document.js";
 
 /**
@@ -16,8 +17,31 @@ export const dismissRefusals = () => {
   });
 };
 
-/** What is lost, such as a connection, until it is back. @param {string | null} text */
-export const showLoss = (text) => show("lost", text ?? "");
+/** Errors that have been shown. @type {Set<string>} */
+const shown = new Set();
+
+/**
+ * A part of the work of every frame: an error costs this part only, and is shown once.
+ * @template {any[]} T
+ * @param {string} name
+ * @param {(...given: T) => void} work
+ * @returns {(...given: T) => void}
+ */
+export const guard =
+  (name, work) =>
+  (...given) => {
+    try {
+      work(...given);
+    } catch (error) {
+      const key = `${name}: ${error}`;
+      if (!shown.has(key)) refuse(`${name}: ${nameError(error)}; the rest of the page works`);
+      shown.add(key);
+    }
+  };
+
+/** What is lost, the connection or the picture, until it is back. */
+/** @param {string | null} text @param {"lost" | "picture-lost"} id */
+export const showLoss = (text, id = "lost") => show(id, text ?? "");
 
 /**
  * @param {string} id

@@ -12,6 +12,7 @@ export const NANO = 1e9; // ns in a second
 const NO_FRICTION = [0, 0];
 /** @type {Vector} */
 const NO_TORQUE = [0, 0, 0];
+export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
 
 export class Course {
   /**
@@ -43,6 +44,10 @@ export class Course {
 
   /** @param {number} passed whole ns since the start */
   at(passed) {
+    if (this.isDriven && this.reach(passed, MOST_STEPS) < passed) {
+      const most = `within ${MOST_STEPS} steps of integration`;
+      throw new RangeError(`a time must be ${most}, got ${passed / NANO} s after its event`);
+    }
     const [w, x, y, z, ...omega] = this.motion.atNanosecond(passed);
     return new State([w, x, y, z], /** @type {Vector} */ (omega));
   }

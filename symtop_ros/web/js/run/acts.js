@@ -94,13 +94,21 @@ export const holdTorque = (top, sign) => {
   top.tellFacts();
 };
 
+/** The present motion, without the torque of a button. @param {LocalTop} top @returns {Beginning} */
+const present = ({ course: { top, friction, start }, steady }) => ({
+  top,
+  friction,
+  start,
+  torque: steady,
+});
+
 /**
  * @param {LocalTop} top
  * @param {Beginning} beginning
  * @param {string} [request]
  */
-const begin = (top, { top: own, friction, start }, request) => {
-  const course = new Course(top.kernel, own, start, friction, top.steady);
+const begin = (top, { top: own, friction, torque, start }, request) => {
+  const course = new Course(top.kernel, own, start, friction, torque);
   top.add("start", course, request === undefined ? {} : { request });
   top.initial = start;
 };
@@ -108,7 +116,7 @@ const begin = (top, { top: own, friction, start }, request) => {
 /** @param {LocalTop} top @param {Message} message */
 const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
   const start = createStart(top.course.top, { theta: Number(theta), phi_dot, psi_dot }, precession);
-  begin(top, { ...top.course, start });
+  begin(top, { ...present(top), start });
 };
 
 /** A start with the rates of now, in another direction of the axis. @type {Act} */
@@ -116,7 +124,7 @@ const tilt = (top, { theta, phi }) => {
   const { psi_dot, phi_dot } = describeStart(top.state);
   const { psi } = top.state.angles;
   begin(top, {
-    ...top.course,
+    ...present(top),
     start: createStart(top.course.top, { theta, phi, psi, phi_dot, psi_dot }),
   });
 };
@@ -124,28 +132,27 @@ const tilt = (top, { theta, phi }) => {
 /** @param {LocalTop} top @param {Message} message */
 const chooseScene = (top, { name }) => {
   const scene = findScene(top.content.scenes, name);
-  top.steady = scene.torque;
   begin(top, readScene(scene), scene.title);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const followLink = (top, { link: { scene: name, ...texts } }) => {
   const scene = name === undefined ? null : findScene(top.content.scenes, name);
-  const beginning = readLink(texts, scene ? readScene(scene) : top.course);
-  if (scene) top.steady = scene.torque;
+  const { event } = top.content.run_fields;
+  const beginning = readLink(texts, scene ? readScene(scene) : present(top), event);
   begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : undefined);
 };
 
 /** @param {LocalTop} top */
 const reset = (top) => {
   const request = top.writer.write("request", { kind: "reset" });
-  begin(top, { ...top.course, start: top.initial }, request);
+  begin(top, { ...present(top), start: top.initial }, request);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const restart = (top, { entry }) => {
-  const { course, asked } = top.run.moments[entry];
-  begin(top, course, asked.request);
+  const { course, asked, time } = top.run.moments[entry];
+  begin(top, { ...course, torque: top.run.findSteady(time) }, asked.request);
 };
 
 /** @param {LocalTop} top @param {Message} message */

@@ -10,7 +10,9 @@
 export const followAddress = (opening, isReloaded, openLesson, start) => {
   const follow = (isNew = true) => {
     const text = location.hash.slice(1) || opening;
-    const { lesson, ...link } = Object.fromEntries(new URLSearchParams(text));
+    // A plus is that of 1e+20, and no space, as it would be in a form.
+    const pairs = new URLSearchParams(text.replaceAll("+", "%2B"));
+    const { lesson, ...link } = Object.fromEntries(pairs);
     if (lesson !== undefined) openLesson(Number(lesson));
     if (isNew && Object.keys(link).length) start(link);
   };

@@ -5,9 +5,24 @@ import { refuse } from "../controls/notices.js";
 
 /** @typedef {{json: object, csv: string}} Saved what a top has to be saved */
 
-// The run in a page: the first place of this form, because data precede the modules.
-const RUN = /\/\*RUN\*\/window\.TOP_CONTENT\.run = (.*?);\/\*END\*\//;
+const RUN = "top-run"; // element of a page that holds its run
 const KEPT = 10_000; // ms until the browser has begun to save
+
+/** Whether the page is in a sandboxed frame: whether it may save files is not to be seen there. */
+const isSandboxed = () =>
+  window.parent !== window && window.origin === "null" && location.protocol !== "file:";
+
+/**
+ * @param {string} href
+ * @param {string} name
+ */
+const download = (href, name) => {
+  make("a", { href, download: name }).click();
+  if (isSandboxed())
+    refuse(
+      `a frame must allow downloads: if no ${name} was saved, open the page in a tab of its own`,
+    );
+};
 
 /**
  * @param {string} name
@@ -16,29 +31,48 @@ const KEPT = 10_000; // ms until the browser has begun to save
  */
 const save = (name, type, text) => {
   const url = URL.createObjectURL(new Blob([text], { type }));
-  make("a", { href: url, download: name }).click();
+  download(url, name);
   setTimeout(() => URL.revokeObjectURL(url), KEPT);
 };
 
 const savePicture = () => {
   const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("canvas"));
-  make("a", { href: canvas.toDataURL("image/png"), download: "top.png" }).click();
+  download(canvas.toDataURL("image/png"), "top.png");
+};
+
+/** The page as it was opened: nothing has been written into it yet. */
+export const copyPage = () => /** @type {Element} */ (document.documentElement.cloneNode(true));
+
+/** The data that an element of the page holds; its text if they cannot be read. @param {string} id */
+export const readData = (id) => {
+  const text = find(id).textContent ?? "";
+  try {
+    return JSON.parse(text);
+  } catch {
+    return text;
+  }
 };
 
 /**
- * The page as it was opened, with the events of a run in it; no end of a script is among them.
- * @param {string} source
+ * A page with a run in it. Data are no script, and no end of an element is among them.
+ * @param {Element} source
  * @param {string} run
  */
-const writePage = (source, run) =>
-  source.replace(
-    RUN,
-    () => `/*RUN*/window.TOP_CONTENT.run = ${run.replaceAll("<", "\\u003c")};/*END*/`,
-  );
+const writePage = (source, run) => {
+  const place = /** @type {Element} */ (source.querySelector(`#${RUN}`));
+  place.textContent = run.replaceAll("<", "\\u003c");
+  return `<!doctype html>\n${source.outerHTML}`;
+};
+
+/** The text of a run: that of a run.json, or that in a page. @param {string} text */
+const findRun = (text) => {
+  if (!text.trimStart().startsWith("<")) return text;
+  return new DOMParser().parseFromString(text, "text/html").getElementById(RUN)?.textContent ?? "";
+};
 
 /**
  * @param {Saved} top
- * @param {string} source the page as it was opened
+ * @param {Element} source the page as it was opened
  */
 export const offerFiles = (top, source) => {
   const writeRun = () => JSON.stringify(top.json);
@@ -60,7 +94,7 @@ const open = async (file, load) => {
   const text = await file.text();
   let run = null;
   try {
-    run = JSON.parse(text.match(RUN)?.[1] ?? text);
+    run = JSON.parse(findRun(text));
   } catch {
     refuse(`${file.name} must be a run.json or a saved page`);
     return;

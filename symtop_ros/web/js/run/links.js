@@ -1,6 +1,7 @@
 // Starts by names and numbers: of a scene, of a link, and by Euler's angles and rates.
 
 import { findRegularRates } from "../physics/precession.js";
+import { readField } from "./reader.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/state.js").Vector} Vector */
@@ -12,13 +13,15 @@ import { State } from "../physics/state.js";
  */
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
- * @typedef {{top: Top, friction: [number, number], start: State,
+ * @typedef {{top: Top, friction: [number, number], torque: Vector, start: State,
  *   initial?: {[name: string]: number}}} Beginning
  */
 
 const ANGLES = ["phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"];
 const TOP_NAMES = /** @type {const} */ (["Ix", "Iz", "Mgl"]);
+const VECTORS = ["orientation", "angular_velocity", "torque"];
 const NAMES = [...TOP_NAMES, "axial", "transverse", ...ANGLES];
+const PRECESSIONS = ["slow", "fast"];
 
 /**
  * A number as a refusal or a request writes it.
@@ -42,12 +45,14 @@ export const findScene = (scenes, name) => {
 export const readScene = ({
   top: [Ix, Iz, Mgl],
   friction,
+  torque,
   orientation,
   angular_velocity,
   initial,
 }) => ({
   top: { Ix, Iz, Mgl },
   friction,
+  torque,
   start: new State(orientation, angular_velocity),
   initial,
 });
@@ -63,7 +68,9 @@ export const createStart = (top, numbers, precession) => {
   if (!(theta >= 0 && theta <= Math.PI))
     throw new RangeError(`theta must be 0 to pi rad, got ${writeShort(theta)}`);
   let rate = phi_dot;
-  if (precession) {
+  if (precession !== undefined) {
+    if (!PRECESSIONS.includes(precession))
+      throw new RangeError(`precession must be slow or fast, got ${precession || "nothing"}`);
     const roots = findRegularRates(top, theta, psi_dot);
     if (!roots.length) throw new RangeError("spin must be such that a regular precession exists");
     rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
@@ -79,17 +86,44 @@ export const describeStart = (state) => {
   return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
 };
 
+/** @param {string} name @param {string | number} text of a link */
+const toNumber = (name, text) => {
+  const value = String(text).trim() ? Number(text) : NaN;
+  if (Number.isFinite(value)) return value;
+  throw new RangeError(`${name} must be a number, got ${text || "nothing"}`);
+};
+
 /** @param {[string, string | number]} pair of a link @returns {[string, number]} */
 const readNumber = ([name, text]) => {
-  if (!NAMES.includes(name)) {
-    throw new RangeError(
-      `name in a link must be one of scene, precession, ${NAMES.join(", ")}, got ${name}`,
-    );
-  }
-  const value = String(text).trim() ? Number(text) : NaN;
-  if (!Number.isFinite(value))
-    throw new RangeError(`${name} must be a number, got ${text || "nothing"}`);
-  return [name, value];
+  if (NAMES.includes(name)) return [name, toNumber(name, text)];
+  const known = ["scene", "precession", ...NAMES, ...VECTORS];
+  throw new RangeError(`name in a link must be one of ${known.join(", ")}, got ${name}`);
+};
+
+/**
+ * The vectors of a link: numbers with commas between them.
+ * @param {{[name: string]: string}} texts
+ * @param {{[name: string]: import("./reader.js").Field}} fields of an event in run.json
+ * @returns {{[name: string]: any}}
+ */
+const readVectors = (texts, fields) => {
+  const names = VECTORS.filter((name) => Object.hasOwn(texts, name));
+  const read = names.map((name) => {
+    const parts = texts[name].split(",").map((part) => toNumber(name, part));
+    return [name, readField(name, fields[name], parts)];
+  });
+  return Object.fromEntries(read);
+};
+
+/**
+ * A start by its exact doubles, as the page writes it into a link.
+ * @param {{[name: string]: any}} vectors
+ * @param {boolean} isNamed by angles or rates as well
+ */
+const readState = ({ orientation, angular_velocity }, isNamed) => {
+  if (orientation && angular_velocity && !isNamed) return new State(orientation, angular_velocity);
+  const names = `with angular_velocity, and without ${ANGLES.join(", ")} and precession`;
+  throw new RangeError(`orientation in a link must be given ${names}`);
 };
 
 /**
@@ -97,18 +131,30 @@ const readNumber = ([name, text]) => {
  * not name from a scene or from the present motion.
  * @param {{[name: string]: string}} texts without the name of a scene
  * @param {Beginning} given
+ * @param {{[name: string]: import("./reader.js").Field}} fields of an event in run.json
  * @returns {Beginning}
  */
-export const readLink = ({ precession, ...texts }, given) => {
-  const numbers = Object.fromEntries(Object.entries(texts).map(readNumber));
+export const readLink = ({ precession, ...texts }, given, fields) => {
+  const vectors = readVectors(texts, fields);
+  const single = Object.entries(texts).filter(([name]) => !VECTORS.includes(name));
+  const numbers = Object.fromEntries(single.map(readNumber));
   const top = { ...given.top };
   for (const each of TOP_NAMES) top[each] = numbers[each] ?? top[each];
   /** @type {[number, number]} */
   const friction = [numbers.axial ?? given.friction[0], numbers.transverse ?? given.friction[1]];
-  const isStart =
-    precession !== undefined || Object.keys(numbers).some((each) => ANGLES.includes(each));
-  const start = isStart
-    ? createStart(top, { ...given.initial, ...numbers }, precession)
-    : given.start;
-  return { top, friction, start };
+  const torque = vectors.torque ?? given.torque;
+  const isNamed = precession !== undefined || ANGLES.some((each) => each in numbers);
+  let { start } = given;
+  if (vectors.orientation || vectors.angular_velocity) start = readState(vectors, isNamed);
+  else if (isNamed) start = createStart(top, { ...given.initial, ...numbers }, precession);
+  return { top, friction, torque, start };
+};
+
+/** The link that starts a motion with the same doubles. @param {Beginning} beginning */
+export const writeLink = ({ top, friction: [axial, transverse], torque, start }) => {
+  const values = { ...top, axial, transverse, torque };
+  const state = { orientation: start.given, angular_velocity: start.omega };
+  return Object.entries({ ...values, ...state })
+    .map(([name, value]) => `${name}=${value}`)
+    .join("&");
 };

@@ -1,17 +1,18 @@
 // A top that lives in the page: what the page asks for is done here, and what follows is told.
 
 import { holdTorque, perform } from "./acts.js";
-import { NANO } from "../physics/course.js";
-import { chooseWindow, describe } from "../words/facts.js";
+import { MOST_STEPS, NANO } from "../physics/course.js";
+import { chooseWindow, compareConstants, describe } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
-import { recall, rememberRun } from "./memory.js";
-import { findConstants } from "../physics/potential.js";
+import { nameError } from "./errors.js";
+import { recall, remember, rememberRun } from "./memory.js";
+import { readRun } from "./reader.js";
 import { Run } from "./run.js";
+import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/kernel.js").Kernel} Kernel */
 /** @typedef {import("../words/wording.js").Writer} Writer */
-/** @typedef {import("../physics/state.js").Vector} Vector */
 /** @typedef {import("../physics/course.js").Course} Course */
 /** @typedef {{[name: string]: any}} Message */
 /**
@@ -27,17 +28,16 @@ import { State } from "../physics/state.js";
 
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
 const SPEED = 0.1; // of real time: nutation is too fast for the eye
-const MOST_STEPS = 3000; // of an integration, for one frame
+const FRAME_STEPS = 3000; // of an integration, for one frame
 const POINTS = 240; // of trace and charts
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
-const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
 
 export class LocalTop {
   /**
    * @param {Kernel} kernel
    * @param {Writer} writer
    * @param {{scenes: import("./links.js").SceneFile[], lesson: any[],
-   *   layers: {[layer: string]: boolean}, run?: any}} content
+   *   layers: {[layer: string]: boolean}, run_fields: import("./reader.js").Table, run?: any}} content
    */
   constructor(kernel, writer, content) {
     this.kernel = kernel;
@@ -65,18 +65,19 @@ export class LocalTop {
     this.initial = State.fromEuler({ theta: 0 });
     /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
     this.kept = null;
-    /** The torque of the scene. @type {Vector} */
-    this.steady = [0, 0, 0];
   }
 
   /** Begin, with a page that is told and a function that draws. */
   open() {
     const { scenes, lesson, layers, run } = this.content;
-    perform(this, { act: "scene", name: "hurry_slow" });
     const { run: last, speed = SPEED, isRunning = false } = recall();
-    if (last ?? run) this.load(last ?? run);
-    this.speed = speed;
-    this.isRunning = isRunning || !(last ?? run);
+    perform(this, { act: "scene", name: "hurry_slow" });
+    const isKept = Boolean(last) && this.take({ act: "load", run: last });
+    if (isKept) Object.assign(this, { speed, isRunning });
+    else {
+      remember({ run: null });
+      if (run) this.take({ act: "load", run });
+    }
     rememberRun(this);
     this.tellFacts();
     this.tell({ hello: { scenes, layers, lesson } });
@@ -85,11 +86,12 @@ export class LocalTop {
 
   /** Advance and draw with every frame from now on. */
   animate() {
-    let before = performance.now();
+    let before = NaN; // the stamp of the first frame may be older than the clock of now
     const step = (/** @type {number} */ now) => {
-      this.advance(now - before, now);
+      requestAnimationFrame(step); // first: an error in this frame does not end the animation
+      const passed = Math.max(now - before, 0) || 0;
       before = now;
-      requestAnimationFrame(step);
+      this.advance(passed, now);
     };
     requestAnimationFrame(step);
   }
@@ -109,10 +111,9 @@ export class LocalTop {
     try {
       this.move(passed);
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
       this.isRunning = false;
       this.tellFacts();
-      this.tell({ refused: error.message });
+      this.tell({ refused: nameError(error) });
     }
   }
 
@@ -120,7 +121,9 @@ export class LocalTop {
   move(passed) {
     const { course, time } = this.run.find(this.time);
     const wanted = this.time + Math.round(passed * this.speed * NANO);
-    this.time = time + course.reach(wanted - time, MOST_STEPS);
+    const reached = time + course.reach(wanted - time, FRAME_STEPS);
+    this.run.at(reached); // refused where the kernel computes no state; then the time stays
+    this.time = reached;
     this.end = Math.max(this.end, this.time);
     if (this.course !== course) this.changed();
   }
@@ -156,7 +159,7 @@ export class LocalTop {
 
   /** Go to a time of the run. @param {number} time ns */
   seek(time) {
-    this.time = Math.min(Math.max(time, 0), this.end);
+    this.time = Math.min(Math.max(time, this.run.moments[0].time), this.end);
     this.isRunning = false;
     this.changed();
     this.tellFacts();
@@ -181,6 +184,11 @@ export class LocalTop {
 
   get state() {
     return this.run.at(this.time);
+  }
+
+  /** The torque without that of a button. */
+  get steady() {
+    return this.run.findSteady(this.time);
   }
 
   /** Times of the last window in ns, for trace and charts: those of a grid, and now. */
@@ -231,18 +239,8 @@ export class LocalTop {
     const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
       return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
     });
-    const constants = this.compareConstants(states[states.length - 1]);
+    const constants = compareConstants(this.course, states[states.length - 1]);
     this.tell({ samples, series, constants, time: [this.time / NANO, this.end / NANO] });
-  }
-
-  /** Constants of the motion, and how much they have changed since its start. @param {State} state */
-  compareConstants(state) {
-    const { top, start } = this.course;
-    const [now, before] = [findConstants(top, state), findConstants(top, start)];
-    const names = /** @type {(keyof typeof UNITS)[]} */ (Object.keys(UNITS));
-    return Object.fromEntries(
-      names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
-    );
   }
 
   tellFacts() {
@@ -252,47 +250,48 @@ export class LocalTop {
   }
 
   /**
-   * Do what the page asks for; a refusal is told.
+   * Do what the page asks for, or tell a refusal and leave everything as it was; returns whether it
+   * is done.
    * @param {Message} message
    */
   take(message) {
+    const { time, end, initial, isRunning } = this;
+    const moments = [...this.run.moments];
     try {
       perform(this, message);
+      this.tellFacts();
       this.tell({ granted: true });
+      return true;
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      this.tell({ refused: error.message });
+      Object.assign(this, { time, end, initial, isRunning });
+      this.run.moments = moments;
+      this.changed();
+      this.tell({ refused: nameError(error) });
+      this.tellFacts();
+      return false;
     }
-    this.tellFacts();
   }
 
   /** What run.json holds. */
   get json() {
-    return { ...this.run.json, end: this.end / NANO };
+    const { format } = this.content.run_fields;
+    return { format, events: this.run.records, end: this.end / NANO };
   }
 
-  /** @param {any} run of run.json */
-  load(run) {
-    this.run.load(run);
-    const last = this.run.moments[this.run.moments.length - 1].time;
-    this.time = this.end = Math.max(last, Math.round((run.end ?? 0) * NANO));
+  get csv() {
+    return writeSeries(this.run, this.time);
+  }
+
+  /** @param {any} json of run.json; one that cannot be read leaves all as it is */
+  load(json) {
+    const { events, end } = readRun(this.content.run_fields, json);
+    this.run.load(events);
+    const { time, course } = this.run.moments[events.length - 1];
+    // What takes too long to integrate is reached later.
+    const passed = Math.max(0, Math.round(end * NANO) - time);
+    this.time = this.end = time + course.reach(passed, MOST_STEPS);
     this.initial = this.run.moments[0].course.start;
     this.isRunning = false;
     this.changed();
-  }
-
-  /** The series of the run as comma-separated values, 200 in a window. */
-  get csv() {
-    const lines = ["time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"];
-    const { moments } = this.run;
-    moments.forEach(({ time: begin, course }, k) => {
-      const end = moments[k + 1]?.time ?? this.time;
-      const step = Math.max(Math.round((chooseWindow(course.free) / 200) * NANO), 1);
-      for (let time = begin; time < end; time += step) {
-        const { angles, rates } = course.at(time - begin);
-        lines.push([time / NANO, angles.theta, rates.phi, rates.psi].join(","));
-      }
-    });
-    return `${lines.join("\n")}\n`;
   }
 }

@@ -1,12 +1,11 @@
-// What a tab keeps over a reload: its entry of the browser's history holds the run and what was
-// written in the lesson. A frame of another site may have no history; then it lasts as long as the
-// page.
+// What a tab keeps over a reload: its entry of the browser's history holds the run. A frame of another
+// site may have no history; then it lasts as long as the page.
 
 /**
- * Predictions by the number of their step; the step that has started a motion, with its link; the run
- * as in run.json, the speed of its top, and whether it runs.
- * @typedef {{predictions?: {[step: number]: string}, begun?: {step: number, link: string},
- *   run?: any, speed?: number, isRunning?: boolean}} Memory
+ * The step of the lesson that has started a motion, with its link; the run as in run.json, the speed of
+ * its top, and whether it runs.
+ * @typedef {{begun?: {step: number, link: string},
+ *   run?: any | null, speed?: number, isRunning?: boolean}} Memory
  */
 
 /** @type {Memory} */

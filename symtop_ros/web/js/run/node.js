@@ -3,6 +3,7 @@
 
 import { findTorque, perform } from "./acts.js";
 import { NANO } from "../physics/course.js";
+import { nameError } from "./errors.js";
 import { LocalTop } from "./local.js";
 import { State } from "../physics/state.js";
 
@@ -68,13 +69,18 @@ export class NodeTop extends LocalTop {
       this.run.append(record);
       this.time = this.end = Math.max(this.time, Math.round(record.time * NANO));
       this.orientation = null;
-      if (record.kind !== "torque") this.steady = this.course.torque;
       this.changed();
     }
     this.isRunning = running;
     this.speed = factor;
     if (recording !== undefined) this.isRecording = recording;
     if (TOLD.includes(name)) this.tell({ said });
+  }
+
+  /** The torque without that of a button, which is an event of its own. */
+  get steady() {
+    const { moments } = this.run;
+    return (moments.findLast(({ kind }) => kind !== "torque") ?? moments[0]).course.torque;
   }
 
   /** The published attitude; all else follows from the events. */
@@ -92,7 +98,7 @@ export class NodeTop extends LocalTop {
     this.show(now);
   }
 
-  /** @param {Message} message */
+  /** @param {Message} message @returns {boolean} */
   take(message) {
     this.requests = [];
     try {
@@ -101,11 +107,11 @@ export class NodeTop extends LocalTop {
       else if (message.act === "torque") this.holdTorque(message.sign);
       else perform(this, message);
     } catch (error) {
-      if (!(error instanceof RangeError)) throw error;
-      this.tell({ refused: error.message });
-      return;
+      this.tell({ refused: nameError(error) });
+      return false;
     }
     this.send(this.requests);
+    return true;
   }
 
   /** @param {number} sign */

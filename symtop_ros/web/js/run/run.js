@@ -4,6 +4,7 @@
 // nothing else has to be kept of it. Times are whole nanoseconds, as those of a node.
 
 import { Course, NANO } from "../physics/course.js";
+import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/kernel.js").Kernel} Kernel */
@@ -37,7 +38,8 @@ import { State } from "../physics/state.js";
  * @typedef {{find: (passed: number) => {state: State, course: Course} | null}} Kept
  */
 
-const FORMAT = 1;
+const LONGEST = 10_000; // ms in which the events of a run must be computed
+const GHOST_STEPS = 3000; // of an integration, for one state of the ghost
 
 export class Run {
   /** @param {Kernel} kernel */
@@ -66,26 +68,36 @@ export class Run {
     return this.moments.findLast((each) => each.kind === "start" && each.time <= time)?.time ?? 0;
   }
 
+  /** The torque with which the last start before a time began. @param {number} time ns */
+  findSteady(time) {
+    const start = this.moments.findLast((each) => each.kind === "start" && each.time <= time);
+    return (start ?? this.moments[0]).course.torque;
+  }
+
   /** @param {number} time ns */
   at(time) {
     const { course, time: since } = this.find(time);
     return course.at(time - since);
   }
 
-  /** The state of the ghost, or null. @param {number} time ns */
+  /** The state of the ghost; null if there is none, or it is not integrated so far. */
+  /** @param {number} time ns */
   findGhost(time) {
     const { ghost } = this.find(time);
-    return ghost ? ghost.course.at(time - ghost.since) : null;
+    if (!ghost) return null;
+    const passed = time - ghost.since;
+    return ghost.course.reach(passed, GHOST_STEPS) < passed ? null : ghost.course.at(passed);
   }
 
   /**
-   * Add an event; what came after its time is no longer part of the run.
+   * Add an event, not before the first one; what came after its time is no longer part of the run.
    * @param {Kind} kind
-   * @param {number} time ns
+   * @param {number} wanted ns
    * @param {Course} course
    * @param {Asked} asked
    */
-  add(kind, time, course, asked = {}) {
+  add(kind, wanted, course, asked = {}) {
+    const time = Math.max(wanted, this.moments[0]?.time ?? 0);
     const last = this.moments.length && kind !== "start" ? this.find(time) : null;
     const before = last ? this.at(time) : null;
     const ghost = last ? this.findNextGhost(kind, time, course, last) : null;
@@ -102,9 +114,9 @@ export class Run {
    */
   findNextGhost(kind, time, course, last) {
     if (kind === "kick") return { course: last.course, since: last.time };
-    if (!last.ghost) return null;
+    const state = this.findGhost(time);
+    if (!last.ghost || !state) return null;
     const { top, friction, torque } = course;
-    const state = last.ghost.course.at(time - last.ghost.since);
     return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
   }
 
@@ -120,33 +132,31 @@ export class Run {
     return { find };
   }
 
-  /** What run.json holds. @returns {{format: number, events: EventRecord[]}} */
-  get json() {
-    const events = this.moments.map(
-      ({ kind, time, asked, course: { top, start, friction, torque } }) => ({
-        kind,
-        time: time / NANO,
-        top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
-        orientation: start.given,
-        angular_velocity: start.omega,
-        friction,
-        torque,
-        ...asked,
-      }),
-    );
-    return { format: FORMAT, events };
+  /** The events as in run.json. @returns {EventRecord[]} */
+  get records() {
+    return this.moments.map(({ kind, time, asked, course: { top, start, friction, torque } }) => ({
+      kind,
+      time: time / NANO,
+      top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
+      orientation: start.given,
+      angular_velocity: start.omega,
+      friction,
+      torque,
+      ...asked,
+    }));
   }
 
-  /**
-   * Take over a run of run.json; one that cannot be read leaves this run as it is.
-   * @param {{format: number, events: EventRecord[]}} json
-   */
-  load({ format, events }) {
-    if (format !== FORMAT || !Array.isArray(events) || !events.length) {
-      throw new RangeError(`a run must have format ${FORMAT} and some events`);
-    }
+  /** Take over other events, if all are computed. @param {EventRecord[]} events */
+  load(events) {
     const read = new Run(this.kernel);
-    for (const event of events) read.append(event);
+    const end = performance.now() + LONGEST;
+    events.forEach((event, place) => {
+      nameEvent(place, () => read.append(event));
+      if (performance.now() > end)
+        throw new RangeError(
+          `a run must be computed in ${LONGEST / 1000} s, got to event ${place}`,
+        );
+    });
     this.moments = read.moments;
   }
 

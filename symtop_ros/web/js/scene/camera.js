@@ -1,4 +1,5 @@
-// The camera: turned by a drag, moved nearer by the wheel or two fingers, by keys with Shift.
+// The camera: turned by a drag or by the arrows with Shift, moved nearer by the wheel, by two fingers,
+// or by + and -.
 
 import {
   add,

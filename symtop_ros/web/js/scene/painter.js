@@ -102,12 +102,20 @@ export class Painter {
     this.canvas = canvas;
     /** @type {Map<WebGLProgram, {[name: string]: WebGLUniformLocation | null}>} */
     this.places = new Map();
-    this.meshes = this.link(MESH_VERTEX, MESH_FRAGMENT);
-    this.lines = this.link(LINE_VERTEX, LINE_FRAGMENT);
-    this.shadows = this.link(MESH_VERTEX, SHADOW_FRAGMENT);
+    this.programs = this.prepare();
+  }
+
+  /** Give the graphics card its programs: at first, and after it has lost everything. */
+  prepare() {
+    const { gl } = this;
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    return {
+      meshes: this.link(MESH_VERTEX, MESH_FRAGMENT),
+      lines: this.link(LINE_VERTEX, LINE_FRAGMENT),
+      shadows: this.link(MESH_VERTEX, SHADOW_FRAGMENT),
+    };
   }
 
   /**
@@ -249,7 +257,7 @@ export class Painter {
    */
   drawMesh(model, pose, opacity = 1, flatness = 0) {
     const { gl } = this;
-    const find = this.use(this.meshes, pose);
+    const find = this.use(this.programs.meshes, pose);
     gl.uniform3fv(find("eye"), /** @type {number[]} */ (this.eye));
     gl.uniform1f(find("opacity"), opacity);
     gl.uniform1f(find("flatness"), flatness);
@@ -268,7 +276,7 @@ export class Painter {
    */
   drawShadow(disc, pose, middle, radius, opacity) {
     const { gl } = this;
-    const find = this.use(this.shadows, pose);
+    const find = this.use(this.programs.shadows, pose);
     gl.uniform3fv(find("middle"), middle);
     gl.uniform1f(find("radius"), radius);
     gl.uniform1f(find("opacity"), opacity);
@@ -287,7 +295,7 @@ export class Painter {
    */
   drawLines({ array, count }, color, width, pose, opacity = 1) {
     const { gl, canvas } = this;
-    const find = this.use(this.lines, pose);
+    const find = this.use(this.programs.lines, pose);
     gl.uniform2f(find("screen"), canvas.width / 2, canvas.height / 2);
     gl.uniform1f(find("width"), (width * (this.ratio ?? 1)) / 2);
     gl.uniform4f(find("color"), ...color, opacity);

@@ -45,7 +45,11 @@ const VIEWS = [
     [0, 0, 0],
   ],
 ];
+const LOST = "the picture is lost: the graphics card was reset. It is drawn again when it is back";
 const STILL = createPose([1, 0, 0, 0]);
+
+/** @param {keyof typeof COLORS} name */
+const paint = (name) => readColor(COLORS[name]);
 
 export class Scene {
   /**
@@ -59,31 +63,63 @@ export class Scene {
     const labels = document.createElement("div");
     place.prepend(canvas, labels);
     this.painter = new Painter(canvas);
+    /** Says that the picture is lost, or null when it is back. @type {(text: string | null) => void} */
+    this.tellLoss = () => {};
     this.camera = new Camera(canvas);
     this.labels = new Labels(labels, this.camera);
     this.top = top;
-    const paint = (/** @type {keyof typeof COLORS} */ name) => readColor(COLORS[name]);
-    this.arrows = Object.fromEntries(
-      ["L", "omega", "torque", "ball", ...Object.keys(DEPTHS)].map((name) => {
-        const { shaft, head } = createArrow(paint(/** @type {keyof typeof COLORS} */ (name)));
-        return [name, { shaft: this.painter.loadMesh(shaft), head: this.painter.loadMesh(head) }];
-      }),
-    );
-    this.stand = this.painter.loadMesh(createStand());
-    this.ball = this.painter.loadMesh(createBall(paint("ball")));
-    this.disc = this.painter.loadMesh(createDisc([0, 0, 0]));
-    this.nodes = this.painter.loadLines([-0.4, 0, 0, 0.4, 0, 0]);
-    this.sphere = this.painter.loadLines([]);
-    this.circles = this.painter.loadLines([]);
-    this.trace = this.painter.loadLines([]);
-    this.body = this.painter.loadMesh([]);
-    this.paint = paint;
     /** @type {{[name: string]: number}} */
     this.scales = {};
-    this.bodyKey = "";
     this.view = -1; // index of `VIEWS`
     this.torqueScale = 1;
+    this.bodyKey = "";
+    this.models = this.loadModels();
     this.grip = new Grip(canvas, this.camera, top);
+    canvas.addEventListener("webglcontextlost", (event) => this.lose(event));
+    canvas.addEventListener("webglcontextrestored", () => this.restore());
+  }
+
+  /** A graphics card may be reset, or be given to another program. @param {Event} event */
+  lose(event) {
+    event.preventDefault(); // the browser gives it back
+    this.labels.begin();
+    this.labels.end();
+    this.tellLoss(LOST);
+  }
+
+  restore() {
+    this.painter.programs = this.painter.prepare();
+    this.models = this.loadModels();
+    this.bodyKey = "";
+    this.begin();
+    this.tellLoss(null);
+  }
+
+  /** Load what is drawn: at first, and after the graphics card has lost everything. */
+  loadModels() {
+    const { painter } = this;
+    const names = /** @type {(keyof typeof COLORS)[]} */ ([
+      "L",
+      "omega",
+      "torque",
+      "ball",
+      ...Object.keys(DEPTHS),
+    ]);
+    const arrows = names.map((name) => {
+      const { shaft, head } = createArrow(paint(name));
+      return [name, { shaft: painter.loadMesh(shaft), head: painter.loadMesh(head) }];
+    });
+    return {
+      arrows: Object.fromEntries(arrows),
+      stand: painter.loadMesh(createStand()),
+      ball: painter.loadMesh(createBall(paint("ball"))),
+      disc: painter.loadMesh(createDisc([0, 0, 0])),
+      nodes: painter.loadLines([-0.4, 0, 0, 0.4, 0, 0]),
+      sphere: painter.loadLines([]),
+      circles: painter.loadLines([]),
+      trace: painter.loadLines([]),
+      body: painter.loadMesh([]),
+    };
   }
 
   /** What holds for a whole motion: the body, circles, the scales of the arrows, the camera. */
@@ -94,11 +130,11 @@ export class Scene {
     } = this;
     const key = JSON.stringify(course.top);
     if (key !== this.bodyKey) {
-      painter.loadMesh(createBody(course.top), this.body);
+      painter.loadMesh(createBody(course.top), this.models.body);
       this.bodyKey = key;
     }
     const angles = course.free.motion.turning_angles;
-    painter.loadLines(angles.flatMap(listParallel), this.circles);
+    painter.loadLines(angles.flatMap(listParallel), this.models.circles);
     for (const [name, vector] of Object.entries(findVectors(this.top.course, state))) {
       const largest = name === "torque" ? Math.abs(course.top.Mgl) : findSize(vector);
       this.scales[name] = largest
@@ -114,8 +150,8 @@ export class Scene {
     if (view !== this.view) {
       this.view = view;
       this.camera.place(...VIEWS[view]);
-      painter.loadLines(listSphere(view > 0), this.sphere);
     }
+    painter.loadLines(listSphere(view > 0), this.models.sphere);
   }
 
   /**
@@ -124,13 +160,14 @@ export class Scene {
    */
   draw(state, states) {
     const { painter, camera, grip } = this;
+    if (painter.gl.isContextLost()) return;
     painter.begin(camera.matrix, camera.eye, camera.size);
     this.labels.begin();
     this.drawBody(grip.preview ?? state);
     this.drawLines(state, states);
     if (!grip.preview) this.drawVectors(state);
     const ghost = this.top.layers.ghost ? this.top.run.findGhost(this.top.time) : null;
-    if (ghost) painter.drawMesh(this.body, createPose(ghost.orientation), GHOST_OPACITY);
+    if (ghost) painter.drawMesh(this.models.body, createPose(ghost.orientation), GHOST_OPACITY);
     this.labels.end();
   }
 
@@ -140,15 +177,15 @@ export class Scene {
     const axis = state.toWorld([0, 0, 1]);
     if (this.view === 0) {
       painter.drawShadow(
-        this.disc,
+        this.models.disc,
         createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]),
         [0.56 * axis[0], 0.56 * axis[1], 0],
         0.6,
         0.3,
       );
-      painter.drawMesh(this.stand, STILL);
+      painter.drawMesh(this.models.stand, STILL);
     }
-    painter.drawMesh(this.body, createPose(state.orientation));
+    painter.drawMesh(this.models.body, createPose(state.orientation));
     if (this.top.layers.handle) this.drawHandle(axis);
   }
 
@@ -170,15 +207,16 @@ export class Scene {
       painter,
       top: { layers },
     } = this;
-    if (layers.sphere) painter.drawLines(this.sphere, this.paint("sphere"), 1, STILL, 0.55);
-    if (layers["turning circles"]) painter.drawLines(this.circles, this.paint("circles"), 2, STILL);
+    if (layers.sphere) painter.drawLines(this.models.sphere, paint("sphere"), 1, STILL, 0.55);
+    if (layers["turning circles"])
+      painter.drawLines(this.models.circles, paint("circles"), 2, STILL);
     const { phi } = state.angles;
     const turned = createPose([Math.cos(phi / 2), 0, 0, Math.sin(phi / 2)]);
-    if (layers["line of nodes"]) painter.drawLines(this.nodes, this.paint("nodes"), 2, turned);
+    if (layers["line of nodes"]) painter.drawLines(this.models.nodes, paint("nodes"), 2, turned);
     if (!layers.trace) return;
     const trace = listPieces(states.map((each) => each.toWorld([0, 0, 1])));
-    painter.loadLines(trace, this.trace);
-    painter.drawLines(this.trace, this.paint("trace"), 3, STILL);
+    painter.loadLines(trace, this.models.trace);
+    painter.drawLines(this.models.trace, paint("trace"), 3, STILL);
   }
 
   /**
@@ -193,7 +231,7 @@ export class Scene {
     const direction = normalize(vector);
     const rotation = turnTo(direction);
     const tip = add(origin, vector);
-    const { shaft, head } = this.arrows[name];
+    const { shaft, head } = this.models.arrows[name];
     const size = Math.min(1, length / 0.15);
     this.painter.drawMesh(
       shaft,
@@ -227,7 +265,7 @@ export class Scene {
 
   /** @param {Vector} axis */
   drawHandle(axis) {
-    this.painter.drawMesh(this.ball, createPose([1, 0, 0, 0], [BALL, BALL, BALL], axis));
+    this.painter.drawMesh(this.models.ball, createPose([1, 0, 0, 0], [BALL, BALL, BALL], axis));
     const { end, isTilting } = this.grip;
     if (end && !isTilting) this.drawArrow("ball", subtract(end, axis), axis, "");
   }

@@ -5,8 +5,8 @@ import { findLedger, findRest } from "../physics/energies.js";
 import { findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
 import { findTurning } from "../physics/kinds.js";
-import { describeStart } from "../run/links.js";
-import { EffectivePotential } from "../physics/potential.js";
+import { describeStart, writeLink } from "../run/links.js";
+import { EffectivePotential, findConstants } from "../physics/potential.js";
 import { findRegularRates } from "../physics/precession.js";
 
 /** @typedef {import("../run/run.js").Run} Run */
@@ -23,6 +23,7 @@ import { findRegularRates } from "../physics/precession.js";
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
+const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** @param {number[]} numbers */
@@ -96,24 +97,18 @@ const listRates = ({ motion }) => {
   return rows;
 };
 
-/** The part of an address that starts the motion of the last event. @param {Course} course */
-const writeLink = ({ top, friction, start }) => {
-  const { phi, theta, psi } = start.angles;
-  const rates = start.rates;
-  const values = {
-    ...top,
-    axial: friction[0],
-    transverse: friction[1],
-    phi,
-    theta,
-    psi,
-    theta_dot: rates.theta,
-    phi_dot: rates.phi,
-    psi_dot: rates.psi,
-  };
-  return Object.entries(values)
-    .map(([name, value]) => `${name}=${Number(value.toPrecision(6))}`)
-    .join("&");
+/**
+ * Constants of the motion, and how much they have changed since its start.
+ * @param {Course} course
+ * @param {State} state
+ * @returns {import("../charts/constants_table.js").Constants}
+ */
+export const compareConstants = ({ top, start }, state) => {
+  const [now, before] = [findConstants(top, state), findConstants(top, start)];
+  const names = /** @type {(keyof typeof UNITS)[]} */ (Object.keys(UNITS));
+  return Object.fromEntries(
+    names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
+  );
 };
 
 /** The record of the ledger, in mJ. @param {Moment} moment */

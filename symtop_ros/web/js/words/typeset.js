@@ -10,7 +10,9 @@ const LETTERS = {
   lambda: "\u03bb",
 };
 const CLOSING = [".", ",", ":", ";", ")"];
-const DOTS = ["", "\u02d9", "\u00a8"]; // of derivatives by time: as many as primes
+// Dots of derivatives by time, as many as primes. Full stops, which stand on their line: WebKit places
+// a line of text over the letter, and the sign \u02d9 would float high in its line.
+const DOTS = ["", ".", ".."];
 const SYMBOL =
   /\b(theta|phi|psi|omega|lambda|p|L|U|u|E|I|Mgl|Ix|Iy|Iz)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?:\^(\d))?(?![\w'])|(rad\/s|kg m|\))\^2/g;
 
@@ -40,7 +42,7 @@ const createSymbol = (letter, index, primes, power) => {
   let symbol = createLetter(base);
   const isAngle = base in LETTERS;
   if (axis) symbol = create("msub", symbol, createLetter(axis));
-  if (primes && isAngle) symbol = create("mover", symbol, create("mo", DOTS[primes.length]));
+  if (primes && isAngle) symbol = create("mover", symbol, create("mtext", DOTS[primes.length]));
   else if (primes) symbol = create("mrow", symbol, create("mo", "\u2032"));
   if (power) symbol = create("msup", symbol, create("mn", power));
   return symbol;

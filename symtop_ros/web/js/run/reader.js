@@ -1,0 +1,145 @@
+// Twin of the reader in simulation/run_file.py: both follow the fields of run_fields.json. A run is
+// understood as a whole before anything of it is used; what is not known of it is dropped.
+
+import { writeNumber } from "../words/numbers.js";
+
+/** @typedef {import("./run.js").EventRecord} EventRecord */
+/**
+ * A field: one of some words, a text of some length, some numbers of limited size, or a number.
+ * Without `absent` a field must be given.
+ * @typedef {{words?: string[], length?: number, size?: number, limit?: number, unit?: string,
+ *   low?: number, high?: number, absent?: any}} Field
+ */
+/**
+ * What run_fields.json holds: the fields of an event, of the act of a kick, and of the run.
+ * @typedef {{format: number, most: number, end: Field, event: {[name: string]: Field},
+ *   act: {[name: string]: Field}}} Table
+ */
+
+const SHOWN = 60; // characters of a value
+const NUMBER = /^[-+]?\d+[eE][-+]?\d+$/; // as Python reads it
+
+/** @param {string} name @param {string} condition @param {any} value */
+const reject = (name, condition, value) => {
+  const text = JSON.stringify(value) ?? "nothing";
+  const shown = text.length > SHOWN ? `${text.slice(0, SHOWN - 3)}...` : text;
+  return new RangeError(`${name} must ${condition}, got ${shown}`);
+};
+
+/** @param {any} value */
+const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
+
+/** @param {any} value @param {number} low @param {number} high */
+const toNumber = (value, low, high) => {
+  const number = typeof value === "string" && NUMBER.test(value) ? Number(value) : value;
+  return Number.isFinite(number) && number >= low && number <= high ? number : NaN;
+};
+
+/** @param {string} name @param {Field} field @param {any} value */
+const readNumber = (name, { unit = "", low = -Infinity, high = Infinity }, value) => {
+  const number = toNumber(value, low, high);
+  if (!Number.isNaN(number)) return number;
+  const range = `${writeNumber(low, "6g")} to ${writeNumber(high, "6g")} ${unit}`.trimEnd();
+  const plain = unit ? `a finite number (${unit})` : "a finite number";
+  throw reject(name, `be ${Number.isFinite(low) ? range : plain}`, value);
+};
+
+/** @param {string} name @param {Field} field @param {any} value */
+const readVector = (name, { size = 0, limit = 0, unit }, value) => {
+  if (!Array.isArray(value)) throw reject(name, `have ${size} elements (${unit})`, value);
+  if (value.length !== size) throw reject(name, `have ${size} elements (${unit})`, value.length);
+  const numbers = value.map((each) => toNumber(each, -limit, limit));
+  if (!numbers.some(Number.isNaN)) return numbers;
+  const range = [-limit, limit].map((each) => writeNumber(each, "6g")).join(" to ");
+  throw reject(name, `be ${size} numbers from ${range} (${unit})`, value);
+};
+
+/** @param {string} name @param {Field} field @param {any} value */
+export const readField = (name, field, value) => {
+  const { words, length, size } = field;
+  if (value === undefined && "absent" in field) return field.absent;
+  if (size !== undefined) return readVector(name, field, value);
+  if (words) {
+    if (words.includes(value)) return value;
+    throw reject(name, `be ${words.map((each) => `"${each}"`).join(" or ")}`, value);
+  }
+  if (length === undefined) return readNumber(name, field, value);
+  if (typeof value === "string" && value.length <= length) return value;
+  throw reject(name, `be a text of at most ${length} characters`, value);
+};
+
+/** @param {{[name: string]: Field}} fields @param {any} given @returns {{[name: string]: any}} */
+const readAct = (fields, given) => {
+  if (!isObject(given)) throw reject("act", "be the fields of a kick", given);
+  const names = Object.keys(fields);
+  const read = Object.entries(given).map(([name, value]) => {
+    if (!names.includes(name)) throw reject("field name", `be one of ${names.join(", ")}`, name);
+    return [name, readField(name, fields[name], value)];
+  });
+  return Object.fromEntries(read);
+};
+
+/**
+ * @param {Table} table
+ * @param {any} given
+ * @param {EventRecord | null} before
+ * @returns {EventRecord}
+ */
+const readEvent = (table, given, before) => {
+  const values = isObject(given) ? given : {};
+  const read = /** @type {any} */ (
+    Object.fromEntries(
+      Object.entries(table.event).map(([name, field]) => [
+        name,
+        readField(name, field, Object.hasOwn(values, name) ? values[name] : undefined),
+      ]),
+    )
+  );
+  if (!before && read.kind !== "start")
+    throw reject("kind", 'be "start" for the first event', read.kind);
+  if (before && read.time < before.time)
+    throw reject("time", "be that of the event before it or later", read.time);
+  const { request, ...event } = read;
+  if (request) event.request = request;
+  if (event.kind !== "kick") return event;
+  const act = readAct(table.act, values.act);
+  // The quantity that a kick leaves unchanged; null for an angular impulse.
+  return { ...event, act, hold: "angular_impulse" in act ? null : (act.hold ?? "spin_rate") };
+};
+
+/**
+ * Do something for an event; a refusal names its place.
+ * @template T
+ * @param {number} place
+ * @param {() => T} work
+ */
+export const nameEvent = (place, work) => {
+  try {
+    return work();
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    throw new RangeError(`events[${place}]: ${error.message}`);
+  }
+};
+
+/**
+ * The events of run.json, and the time in s that the run has reached.
+ * @param {Table} table
+ * @param {any} json
+ */
+export const readRun = (table, json) => {
+  if (!isObject(json) || json.format !== table.format)
+    throw reject("a run", `be one of the page (run.json, format ${table.format})`, json);
+  const given = json.events;
+  if (!Array.isArray(given) || !given.length)
+    throw reject("events", "be a list with a start at its beginning", given);
+  if (given.length > table.most)
+    throw reject("events", `be a list of at most ${table.most}`, given.length);
+  /** @type {EventRecord[]} */
+  const events = [];
+  for (const each of given) {
+    const place = events.length;
+    events.push(nameEvent(place, () => readEvent(table, each, events[place - 1] ?? null)));
+  }
+  return { events, end: readField("end", { ...table.end, absent: 0 }, json.end) };
+};

@@ -1,0 +1,53 @@
+"""The page keeps working: errors of a part, refused acts, and a late or early frame."""
+
+import pytest
+from web.opened import FEW_FRAMES, UNDRAWN
+
+# The stamp of a frame may be older than the clock when its script runs.
+OLD_STAMPS = """
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now() - 300), 50);
+"""
+
+
+def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
+    opened = open_page(script=OLD_STAMPS + UNDRAWN)
+    opened.tab.click("#hurry")
+    opened.wait_for_time(0.01)
+    start, kick = opened.read_events()
+    assert (start["kind"], start["time"], kick["kind"]) == ("start", 0, "kick")
+    assert kick["time"] >= 0
+
+
+def test_an_error_in_a_part_is_shown_once_and_costs_only_this_part(open_page):
+    broken = "WebGL2RenderingContext.prototype.drawArrays = () => { throw new Error('no card'); };"
+    opened = open_page(script=FEW_FRAMES + broken)
+    opened.until(lambda: opened.say("refusal"))
+    assert opened.say("refusal").startswith("the scene: this failed, by a bug in the page: no card")
+    opened.press("h")
+    opened.wait_for_time(0.05)
+    assert opened.say("refusal") == ""
+    assert "higher" in opened.say("headline")
+    assert [each.splitlines()[0] for each in opened.problems] == ["Error: no card"]
+    opened.problems.clear()
+
+
+def test_a_stored_choice_of_another_version_is_dropped(open_page):
+    stored = (
+        "localStorage.setItem('symtop.free-x', 'speed'); localStorage.setItem('symtop.unit', '');"
+    )
+    opened = open_page(script=stored + FEW_FRAMES + UNDRAWN)
+    assert opened.tab.input_value("#free-x") == "theta"
+    assert opened.tab.input_value("#unit") == "rad"
+    opened.wait_for_time(0.02)
+
+
+@pytest.mark.parametrize("rate", ["1e20", "-1e99"])
+def test_a_spin_beyond_what_can_be_computed_waits_and_says_so(opened, rate):
+    opened.enter("psi_dot", rate)
+    opened.until(lambda: opened.say("refusal"))
+    assert opened.say("refusal") == "times must be within 1e15 turns of the start"
+    assert opened.say("pause") == "Run"
+    opened.enter("psi_dot", "200")
+    opened.press("Space")
+    opened.wait_for_time(opened.read_events()[-1]["time"] + 0.01)
+    assert opened.say("refusal") == ""

@@ -1,0 +1,164 @@
+"""The page runs nobody else's code: data stand as data, and its policy allows its own script."""
+
+import contextlib
+import threading
+import time
+
+import pytest
+from simulation.page_runs import change
+
+from symtop_ros.panel.server import LOCAL_HOST, PageServer
+from symtop_ros.web.join import write_file
+
+SITE = "http://top.test/"
+HOSTILE = (
+    ";/*END*/window.pwned = 1;//",
+    "</script><script>window.pwned = 1</script>",
+    "<!--<script>window.pwned = 1",
+    "\\u003c/script\\u003e<img src=x onerror='window.pwned = 1'>",
+)
+# What a page may not do; the answer has what it has done nevertheless, and what was forbidden.
+ATTACK = """async (own) => {
+    const done = [], forbidden = new Set();
+    addEventListener("securitypolicyviolation", (event) => forbidden.add(event.effectiveDirective));
+    const add = (name, values) => {
+        const element = Object.assign(document.createElement(name), values);
+        document.body.append(element);
+        return element;
+    };
+    add("script", { textContent: "window.pwned = 1" });
+    add("div", { innerHTML: "<img src='data:,' onerror='window.pwned = 1'>" });
+    add("div", { innerHTML: "<p style='color: red'></p>" });
+    add("style", { textContent: "p { color: red }" });
+    add("iframe", { src: "data:text/html,x" });
+    add("img", { src: "http://elsewhere.test/x.png" });
+    setTimeout("window.pwned = 1");
+    for (const address of ["http://elsewhere.test/", own]) {
+        try {
+            await fetch(address);
+            done.push(address);
+        } catch {}
+    }
+    await new Promise((wait) => setTimeout(wait, 200));
+    if (window.pwned) done.push("script");
+    return { done, forbidden: [...forbidden].sort() };
+}"""
+FORBIDDEN = ["connect-src", "frame-src", "img-src", "script-src", "script-src-attr"]
+FORBIDDEN += ["script-src-elem", "style-src-attr", "style-src-elem"]
+
+
+class Node:
+    """A node without events."""
+
+    def follow(self):
+        while True:
+            yield {"events": [], "lost": "no node here"}
+            time.sleep(0.1)
+
+    def answer(self, request):
+        return {"granted": True, "answer": ""}
+
+
+@contextlib.contextmanager
+def serving(page, node=None):
+    server = PageServer(LOCAL_HOST, 0, page, node)
+    thread = threading.Thread(target=server.serve_forever)
+    thread.start()
+    try:
+        yield server.url
+    finally:
+        server.shutdown()
+        server.server_close()
+        thread.join()
+
+
+@pytest.fixture
+def tab(browser):
+    context = browser.new_context()
+    yield context.new_page()
+    context.close()
+
+
+def attack(frame, own="http://elsewhere.test/"):
+    answer = frame.evaluate(ATTACK, own)
+    assert answer["forbidden"] == FORBIDDEN
+    return answer["done"]
+
+
+def check(frame):
+    """The page works, and no attack does."""
+    frame.locator("#headline:not(:empty)").wait_for()
+    frame.locator("#hurry").click()
+    assert "than without the kick" in frame.locator("#headline").text_content()
+    assert attack(frame) == []
+
+
+def test_a_hostile_text_is_only_a_text_in_a_saved_page_of_a_saved_page(open_page, tmp_path):
+    page, run = open_page(), change(1)
+    run["events"] = [{**event, "request": text} for event, text in zip_texts(run["events"])]
+    page.drop(run)
+    page.until(lambda: len(page.read_events()) == len(HOSTILE))
+    for _ in range(2):
+        page = open_page(file=page.save("This run as a page", tmp_path))
+        assert [event["request"] for event in page.read_events()] == [*HOSTILE]
+        assert page.tab.evaluate("window.pwned") is None
+    check(page.tab.main_frame)
+    page.problems.clear()  # what was forbidden
+    page.requests.clear()
+
+
+def zip_texts(events):
+    return zip([*events, events[-1]], HOSTILE, strict=True)
+
+
+def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(open_page, tmp_path):
+    page = open_page()
+    page.tab.click("#hurry")
+    events = page.read_events()
+    saved = page.save("This run as a page", tmp_path)
+    other = open_page()
+    other.tab.evaluate(DROP, saved.read_text())
+    other.until(lambda: other.read_events() == events)
+
+
+DROP = """(text) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([text], "top.html"));
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+}"""
+
+
+def test_the_policy_holds_in_a_file(tab, path):
+    tab.goto(path.as_uri())
+    check(tab.main_frame)
+
+
+def test_the_policy_holds_in_a_page_that_is_served(tab):
+    with serving(write_file()) as url:
+        tab.goto(url)
+        check(tab.main_frame)
+
+
+def test_the_policy_of_a_node_allows_its_server_only(tab):
+    with serving(write_file(node="/top"), Node()) as url:
+        tab.goto(url)
+        tab.wait_for_selector("#lost:not([hidden])")
+        assert tab.text_content("#lost") == "no node here"
+        assert attack(tab.main_frame, f"{url}news") == [f"{url}news"]
+
+
+def test_the_policy_holds_in_a_frame_of_the_site(tab):
+    pages = {
+        "docs/library.html": "<!doctype html><iframe src='../top.html#theta=0.6&psi_dot=200' "
+        "width=900 height=700></iframe>",
+        "top.html": write_file(),
+    }
+    tab.route(
+        f"{SITE}**",
+        lambda route: route.fulfill(
+            body=pages[route.request.url.removeprefix(SITE).split("#")[0]],
+            content_type="text/html; charset=utf-8",
+        ),
+    )
+    tab.goto(f"{SITE}docs/library.html")
+    check(tab.frame(url=f"{SITE}top.html*"))

@@ -1,0 +1,100 @@
+"""Runs that the page is given: understood as a whole, or refused by the same words as by Python."""
+
+import json
+
+import pytest
+from simulation.page_runs import change, find_refusal, list_hostile_runs
+from web.opened import FEW_FRAMES, UNDRAWN
+
+from symtop_ros.web.join import write_file
+
+HOSTILE = [content for _, content in list_hostile_runs()]
+BROKEN = [
+    change(0, kind="kick"),
+    change(1, time=-1.0),
+    change(2, time=1.0),
+    {"format": 1, "events": [3]},
+    {"format": 1, "events": []},
+    {"format": 1, "events": "__proto__"},
+    {**change(1), "end": "soon"},
+    {**change(1), "events": change(1)["events"][:1] * 10_001},
+]
+NO_RUN = [[], None, 3, "", {}, {"format": 2, "events": []}, {"__proto__": 1}]
+# The kernel and Python have other words for these.
+NO_MOTION = [
+    change(1, orientation=[0, 0, 0, 0]),
+    change(1, orientation=[1, 1, 1, 1]),
+    change(1, top=[1, 3, 1]),
+    change(1, top=[0, 0, 0]),
+    change(1, friction=[-1, 0]),
+]
+# Each answer: the refusal, whether the events stayed as they were, and how many a key has added.
+REFUSE = """async (runs) => {
+    const read = () => window.symtop.run().events;
+    const refusal = document.getElementById("refusal");
+    const answers = [];
+    for (const text of runs) {
+        const before = JSON.stringify(read());
+        const count = read().length;
+        const dataTransfer = new DataTransfer();
+        dataTransfer.items.add(new File([text], "run.json"));
+        document.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+        while (refusal.hidden) await new Promise((done) => setTimeout(done, 1));
+        const answer = [refusal.dataset.text, JSON.stringify(read()) === before];
+        document.dispatchEvent(new KeyboardEvent("keydown", { key: "r" }));
+        answers.push([...answer, read().length - count]);
+    }
+    return answers;
+}"""
+
+
+def get_condition(refusal):
+    return refusal.split(", got ")[0]
+
+
+def refuse(opened, runs):
+    """Drop runs, and return their refusals; the present run stays, and a key is answered."""
+    answers = opened.tab.evaluate(REFUSE, [json.dumps(run) for run in runs])
+    assert {(is_same, added) for _, is_same, added in answers} == {(True, 1)}
+    return [refusal for refusal, *_ in answers]
+
+
+def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened):
+    known = [*HOSTILE, *BROKEN]
+    refusals = map(get_condition, refuse(opened, known))
+    assert [*refusals] == [get_condition(find_refusal(run)) for run in known]
+    expected = "a run must be one of the page (run.json, format 1)"
+    assert {*map(get_condition, refuse(opened, NO_RUN))} == {expected}
+    for refusal, run in zip(refuse(opened, NO_MOTION), NO_MOTION, strict=True):
+        assert refusal.startswith("events[1]: ")
+        assert find_refusal(run).startswith("events[1]: ")
+
+
+@pytest.mark.parametrize("run", [change(1, kind="__proto__"), change(1, act=None), {"events": 1}])
+def test_a_run_that_cannot_be_read_ends_no_page_that_remembers_or_holds_it(
+    open_page, tmp_path, run
+):
+    remembered = f"history.replaceState({{run: {json.dumps(run)}}}, '');"
+    saved = tmp_path / "saved.html"
+    saved.write_text(write_file(run=run))
+    for opened in (
+        open_page(script=remembered + FEW_FRAMES + UNDRAWN),
+        open_page(file=saved),
+    ):
+        assert " must " in opened.say("refusal")
+        opened.press("h")
+        assert [event["kind"] for event in opened.read_events()] == ["start", "kick"]
+        assert opened.say("refusal") == ""
+    opened.reload()
+    assert [event["kind"] for event in opened.read_events()] == ["start", "kick"]
+
+
+def test_a_run_that_takes_too_long_to_integrate_is_refused_or_reached_later(opened):
+    driven = change(2, torque=[0, 0, 1e-4])
+    driven["end"] = 4e6
+    opened.drop(driven)
+    opened.until(lambda: len(opened.read_events()) == 3)
+    assert driven["events"][2]["time"] < opened.read_run()["end"] < 4e6
+    late = change(2)
+    late["events"].append({**late["events"][2], "time": 4e6})
+    assert refuse(opened, [late])[0].startswith("events[3]: a time must be within 100000 steps")

@@ -1,0 +1,126 @@
+"""Starts by an address: over 300 decades, and by the links that the page writes."""
+
+import random
+
+import pytest
+from simulation.page_runs import change
+from web.odd_tops import draw_start, write_address
+from web.opened import FEW_FRAMES, UNDRAWN
+
+from symtop_ros.simulation.presets import scene_names
+
+LONGEST = 1000  # ms
+# An axis of values far larger than their span: k + 1 is k.
+HANGING = "#Ix=1&Iz=0.5&Mgl=0&theta=0.5&psi_dot=25&precession=fast"
+# The time until what an address starts is shown.
+OPEN = """(hash) => new Promise((done) => {
+    const begin = performance.now();
+    const end = () => done(performance.now() - begin);
+    addEventListener("hashchange", () => requestAnimationFrame(() => requestAnimationFrame(end)),
+        {once: true});
+    location.hash = hash;
+})"""
+
+
+@pytest.mark.realtime
+@pytest.mark.parametrize("count", [30, pytest.param(500, marks=pytest.mark.long)])
+def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
+    opened, rng = open_page(script=UNDRAWN), random.Random(49)
+    for address in (HANGING, *(write_address(draw_start(rng)) for _ in range(count))):
+        times = (opened.tab.evaluate(OPEN, address) for _ in range(2))
+        # another program may have taken the processor from the first of them
+        assert any(time < LONGEST for time in times), address
+        assert opened.problems == [], address
+    opened.press("r")
+    assert opened.say("refusal") == ""
+
+
+NAMES = ("scene", "precession", "Ix", "Mgl", "axial", "theta", "psi_dot", "orientation", "torque")
+VALUES = (
+    *("", "x", "__proto__", "NaN", "-Infinity", "1e999", "1e-320", "-1e100", "0x10", "1,2,3,4"),
+    *("%00", "%E0%A4%A", "<script>alert(1)</script>", "9" * 5000),
+)
+HOSTILE = [f"#{name}={value}" for name in NAMES for value in VALUES]
+HOSTILE += ["#", "##", "#=", "#&&", "#theta", "#__proto__", "#constructor=1", "#hasOwnProperty=1"]
+HOSTILE += [f"#lesson={value}" for value in VALUES]
+HOSTILE += ["#theta=1&theta=2&theta=x", "#scene=looping&scene=x", "#" + "theta=1&" * 5000]
+# Each answer: how many events an address and then a key have added.
+FOLLOW = """async (addresses) => {
+    const count = () => window.symtop.run().events.length;
+    const answers = [];
+    for (const address of addresses) {
+        const before = count();
+        const isNew = location.hash !== new URL(address, location.href).hash;
+        const followed = new Promise((done) => addEventListener("hashchange", done, {once: true}));
+        location.hash = address;
+        if (isNew) await followed;
+        const after = count();
+        document.dispatchEvent(new KeyboardEvent("keydown", { key: "r" }));
+        answers.push([after - before, count() - after]);
+    }
+    return answers;
+}"""
+
+
+def test_hostile_addresses_end_nothing_and_a_key_is_answered_after_each(opened):
+    answers = opened.tab.evaluate(FOLLOW, HOSTILE)
+    assert {started for started, _ in answers} == {0, 1}
+    assert {answered for _, answered in answers} == {1}
+
+
+def follow(opened, fragment):
+    opened.tab.evaluate("(fragment) => { location.hash = fragment; }", fragment)
+    opened.tab.wait_for_timeout(0)
+
+
+def read_link(opened):
+    return opened.tab.input_value("#link").split("#")[1]
+
+
+def get_motion(event):
+    names = ("top", "orientation", "angular_velocity", "friction", "torque")
+    return {name: event[name] for name in names}
+
+
+def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page):
+    runs = [f"scene={name}" for name in scene_names()]
+    other = open_page(script=FEW_FRAMES + UNDRAWN)
+    for fragment in (*runs, write_address(draw_start(random.Random(4)))[1:]):
+        follow(opened, fragment)
+        link, headline = read_link(opened), opened.say("headline")
+        follow(other, link)
+        assert get_motion(other.read_events()[-1]) == get_motion(opened.read_events()[-1])
+        assert other.say("headline") == headline
+        assert read_link(other) == link
+
+
+def test_a_reset_of_a_loaded_run_keeps_its_torque(opened):
+    run = change(0, torque=[0.0, 0.0, 5e-4])
+    run["events"] = run["events"][:1]
+    opened.drop(run)
+    opened.until(lambda: opened.read_events() == run["events"])
+    opened.press("r")
+    assert opened.read_events()[1]["torque"] == [0.0, 0.0, 5e-4]
+
+
+@pytest.mark.parametrize(
+    ("fragment", "refusal"),
+    [
+        ("precession=medium", "precession must be slow or fast, got medium"),
+        ("precession=", "precession must be slow or fast, got nothing"),
+        ("torque=1,2", "torque must have 3 elements (N m), got 2"),
+        ("torque=1,2,soon", "torque must be a number, got soon"),
+        ("orientation=1,0,0,0", "orientation in a link must be given with angular_velocity, and "),
+        ("angular_velocity=1,0,0&theta=1", "orientation in a link must be given with "),
+        ("orientation=1,1,0,0&angular_velocity=0,0,1", "orientation "),
+        ("__proto__=1", "name in a link must be one of scene, precession, Ix, "),
+        ("theta=1e999", "theta must be a number, got 1e999"),
+        ("Ix=1e-300", "Ix, Iz and Mgl must be finite"),
+        ("scene=__proto__", "scene must be one of "),
+    ],
+)
+def test_a_link_that_cannot_be_followed_is_refused(opened, fragment, refusal):
+    events = opened.read_events()
+    follow(opened, fragment)
+    assert opened.say("refusal").startswith(refusal)
+    assert opened.read_events() == events
