@@ -1,9 +1,8 @@
 """The heavy symmetric top: exact motion, constants, regular precession, kicks and Perry's rule.
 
-It needs NumPy only. Everything may import it, by the names that are exported here. A compiled
-kernel makes it faster where it could be built: then `accelerated` is True. Angles are Euler's z-x-z
-(phi, theta, psi), units are SI and rad, an orientation is a unit quaternion (w, x, y, z) from body
-to world.
+It needs NumPy only. Everything may import it, by the names that are exported here. The numbers are
+computed by a kernel in C++ (`kernel`). Angles are Euler's z-x-z (phi, theta, psi), units are SI and
+rad, an orientation is a unit quaternion (w, x, y, z) from body to world.
 
 Examples
 --------

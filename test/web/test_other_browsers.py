@@ -12,6 +12,7 @@ from PIL import Image
 from web.opened import find_time, read_motion
 
 from symtop_ros.physics import Motion, Top, hurry, kick_verdict
+from symtop_ros.physics.kernel.door import KINDS
 from symtop_ros.wording import write
 from workshop.kernel_wasm import MODULE
 
