@@ -43,7 +43,7 @@ def test_a_report_can_be_written_after_each_curve(by):
     pairs = [(CLOSED_FORM, name) for name in names[:-1]] + [(TAYLOR, FRICTION)]
     curves = [curve(*each) for each in [*pairs, *((peer, n) for peer in "ab" for n in names)]]
     curves.sort(key=lambda each: 0 if by == "peer" else names.index(each.motion))
-    where = document.Environment("make report", "a machine", {}, [], 4.0, "the compiled kernel")
+    where = document.Environment("make report", "a machine", {}, [], 4.0)
     for count in range(1, len(curves) + 1):
         checks = dict.fromkeys((CLOSED_FORM, TAYLOR, "a", "b"), 0.0)
         text = document.format_document(Results(checks, curves[:count]), motion, where)
