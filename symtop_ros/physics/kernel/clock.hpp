@@ -1,7 +1,7 @@
-// Exact times of a motion: elapsed + factor * nanoseconds, as times.py has them.
+// Exact times of a motion: elapsed + factor * nanoseconds, as samples are stamped.
 //
 // The phases of a motion are reduced to one turn in integers, so that the time of a sample is never
-// rounded. What Python does with integers of any size is done here with as many limbs as it takes.
+// rounded: as many limbs are used as the numbers have.
 #pragma once
 
 #include "exact/phases.hpp"

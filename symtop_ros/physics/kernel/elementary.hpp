@@ -1,8 +1,9 @@
-// Twin of physics/exact/elementary.py: elementary functions of doubles, pairs and sums of two.
+// Elementary functions of doubles, the same to the last bit on every machine.
 //
 // Sums, products, quotients and square roots of doubles round in the same way on every machine if a
-// compiler does not fuse them (-ffp-contract=off). Everything here is made of those, in the same
-// order as in Python.
+// compiler does not fuse them (-ffp-contract=off, arithmetic.hpp). The elementary functions of the C
+// library do not: their last bit depends on the version and on the processor. Those here are made of
+// sums, products and quotients alone. For the same reason complex numbers are pairs of reals.
 #pragma once
 
 #include "precise.hpp"
@@ -30,6 +31,7 @@ SYMTOP_INLINE auto multiply_by_conjugate(PairOf<R> a, PairOf<Q> b) -> PairOf<dec
 
 inline Pair conjugate(Pair a) { return {a.x, -a.y}; }
 
+// R. L. Smith, Comm. ACM 5 (1962) 435: no square of a component overflows.
 inline Pair divide(Pair a, Pair b) {
   if (std::fabs(b.x) >= std::fabs(b.y)) {
     const double ratio = b.y / b.x, size = b.x + b.y * ratio;
@@ -39,6 +41,7 @@ inline Pair divide(Pair a, Pair b) {
   return {(a.x * ratio + a.y) / size, (a.y * ratio - a.x) / size};
 }
 
+// Not the hypot of the C library, whose last bit depends on the version.
 inline double find_modulus(Pair a) {
   const double x = std::fabs(a.x), y = std::fabs(a.y);
   const double large = x > y ? x : y, small = x > y ? y : x;
@@ -62,6 +65,8 @@ SYMTOP_INLINE PairOf<R> cosine_and_sine_near_0(R x, R rest) {
   return {1.0 - (versine + x * rest), x + (x * series + rest)};
 }
 
+// For |x| up to some thousand turns: quarter turns are subtracted in two parts, of which the product
+// with the first is exact.
 template <class R>
 SYMTOP_INLINE PairOf<R> cosine_and_sine(R x) {
   const R quarters = round_to_integer(x * QUARTERS);
@@ -74,9 +79,9 @@ SYMTOP_INLINE PairOf<R> cosine_and_sine(R x) {
   return {choose(((turns + 1) & 2) != 0, -c, c), choose((turns & 2) != 0, -s, s)};
 }
 
-const double LEAST_EXPONENT = -708.0;
+const double LEAST_EXPONENT = -708.0;  // below, exp(x) is no normal double; it counts as zero
 
-// expand_exponential: a power of two, and p with exp(x) = power (1 + p)
+// A power of two, and p with exp(x) = power (1 + p): exp(x) - 1 needs both apart.
 template <class R>
 SYMTOP_INLINE PairOf<R> expand_exponential(R x) {
   static const double SERIES[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
@@ -117,7 +122,10 @@ const double EIGHTHS_OF_TANGENT[9][2] = {
 };
 const double HALF_PI_HIGH = 0x1.921fb54442d18p+0, HALF_PI_LOW = 0x1.1a62633145c07p-54;
 
-// arc_tangent, of two numbers
+// The angle of the point (x, y) in rad, from -pi to pi, right to 1 EPS of itself. The ratio of the
+// smaller coordinate to the larger one is turned back by the nearest of nine angles, of which the
+// tangents are eighths; the Taylor series of what is left has the sixteenth part of the argument at
+// most (DLMF 4.24.3). Signs of zero are those of atan2.
 inline double arc_tangent(double y, double x) {
   static const double SERIES[] = {-1.0 / 15, 1.0 / 13, -1.0 / 11, 1.0 / 9, -1.0 / 7, 1.0 / 5,
                                   -1.0 / 3};
@@ -137,6 +145,8 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
+// R_F(x, y, 1) in doubles; infinite for x = y = 0, when both have underflowed. The series is that of
+// DLMF 19.36.1 up to the seventh power.
 inline double integrate_rf_in_doubles(double x, double y) {
   if (x == 0 && y == 0) return INFINITY;
   double z = 1.0, mean, dx, dy;
@@ -154,7 +164,9 @@ inline double integrate_rf_in_doubles(double x, double y) {
   return (1 + (-e2 / 10 + e3 / 14 + (high + square * e3 / 16))) / std::sqrt(mean);
 }
 
-// quarter_period of nutation_phase.py
+// The complete elliptic integral K from the complementary modulus sqrt(1 - m): pi/2 divided by the
+// arithmetic-geometric mean of 1 and it (DLMF 19.8.5). In terms of m it would lose its digits towards
+// m = 1. Convergence is quadratic: after a gap of 1e-8 the next mean is right to rounding.
 inline double quarter_period(double modulus) {
   if (modulus == 0) return INFINITY;
   double a = 1.0, b = modulus;

@@ -11,9 +11,12 @@
 
 namespace symtop {
 
-const double WEIGHTLESS = 1e-200;  // of arguments.py
+// Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
+// root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
+const double WEIGHTLESS = 1e-200;
 
-// is_free
+// True if no torque turns the axis: for circular functions instead of elliptic ones. It is not omega_z
+// that counts, but Iz/Ix omega_z: a rod may spin fast.
 inline bool is_free(const Start& s) {
   const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
   if (s.wx == 0 && s.wy == 0 && is_vertical) return true;
@@ -33,7 +36,7 @@ class GravityMotion {
  public:
   explicit GravityMotion(const Start& given) : start_(given) {
     is_turned_over_ = given.Mgl < 0;
-    if (is_turned_over_) {  // the closed form wants Mgl > 0: see motion.py
+    if (is_turned_over_) {  // the closed form wants Mgl > 0: a world turned by pi about x' has it
       start_.w = -given.x, start_.x = given.w, start_.y = -given.z, start_.z = given.y;
       start_.Mgl = -given.Mgl;
     }
@@ -146,7 +149,7 @@ class GravityMotion {
             turns, symtop::spin_reverses(closed_)};
   }
 
-  // FreeMotion's properties
+  // Of a motion without a torque: the means are whole half turns of arg A and arg B about L.
   Rates find_free_rates() const {
     const int upper = free_.upper_turns(), lower = free_.lower_turns();
     const double rate = free_.nutation_rate.to_double();

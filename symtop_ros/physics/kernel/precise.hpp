@@ -1,13 +1,16 @@
-// What precise.py of physics/exact computes with Decimal, in floats of three limbs. They have 57
-// decimal digits, which is more than the 50 of the context PRECISE: see design/digits.py.
+// Numbers of 57 decimal digits, for the constants of a motion, and how they enter doubles.
+//
+// A motion is set up once and evaluated often. Its constants are those of exactly the doubles that
+// were given: no error grows with time, and exponents have no limit. So many digits serve phases of
+// 1e15 turns next to the separatrix (design/digits.py).
 #pragma once
 
 #include "newton.hpp"
 
 namespace symtop {
 
-typedef Float<3> Precise;  // a Decimal of precise.py
-typedef Float<37> Longest;  // a Decimal of 700 digits: see mean_rates.py
+typedef Float<3> Precise;
+typedef Float<37> Longest;  // 700 digits: see exact/mean_rates.hpp
 typedef Float<24> Exact;   // sums of products of five doubles, without rounding: a Fraction
 
 // A share below which the square is lost in rounding, but for some bits.
@@ -24,7 +27,7 @@ inline Precise precise(uint64_t high, uint64_t middle, uint64_t low, int exponen
   return result;
 }
 
-// TWO_PI, PER_TURN of phases.py, and ln(2); a test compares them with those of Python.
+// 2 pi, 1/(2 pi) and ln(2).
 const Precise TWO_PI = precise(0xc90fdaa22168c234, 0xc4c6628b80dc1cd1, 0x29024e088a67cc74, 3);
 const Precise PER_TURN = precise(0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, -2);
 const Precise LN2 = precise(0xb17217f7d1cf79ab, 0xc9e3b39803f2f6af, 0x40f343267298b62d, 0);
@@ -38,7 +41,7 @@ const double DOUBLINGS = 0x1.71547652b82fep+0;
 
 inline double rest_of(const Precise& x, double high) { return (x - Precise(high)).to_double(); }
 
-// split_short
+// A number as a double of 26 bits and the rest: 24 digits together.
 inline void split_short(const Precise& x, double& high, double& low) {
   int exponent;
   const double fraction = std::frexp(x.to_double(), &exponent);
@@ -46,7 +49,7 @@ inline void split_short(const Precise& x, double& high, double& low) {
   low = rest_of(x, high);
 }
 
-// exp(x) of a number x <= 0, as a double: Decimal.exp()
+// exp(x) of a number x <= 0, as a double.
 inline double exponential(const Precise& x) {
   const double doublings = round_to_integer(x.to_double() / 0.6931471805599453);
   if (doublings < -1000) return 0.0;
@@ -61,7 +64,9 @@ inline double exponential(const Precise& x) {
   return sum.scale(static_cast<int>(doublings)).to_double();
 }
 
-// integrate_rf
+// Carlson's symmetric integral R_F(x, y, 1) to 34 digits. Each step of the duplication makes the
+// arguments differ by a quarter of what they did (B. C. Carlson, Numer. Algorithms 10 (1995) 13,
+// algorithm for R_F). The error of the last series is of the order of their sixth power.
 inline Precise integrate_rf(Precise x, Precise y) {
   const Precise one(1.0), third = one / Precise(3.0);
   Precise z = one, mean, dx, dy;

@@ -1,8 +1,18 @@
-// Twin of physics/driven/equations.py, and sums of two doubles.
+// The equations of motion of a driven top, with quadratic derivatives, and double-double numbers.
 //
-// What has extended precision in Python is a sum of two doubles here (32 digits), so that states
-// have the same bits on every machine. They are not the bits of Python, whose extended precision is
-// that of the processor.
+// The spin about the axis is split off. It is counted as an angle, and the rest is integrated in a
+// frame that turns about the axis at about Iz/Ix omega_z instead of omega_z. There friction and weight
+// have the same form as in the body, and the angular velocity of a free top is constant. Steps have to
+// resolve the nutation only, however fast a slender body spins. In this frame every derivative is a
+// polynomial of degree 2:
+//
+// - of the quaternion: q' = q omega/2,
+// - of the angular velocity, by Euler's equations: the directions of the torques are quadratic in q,
+//   and friction is linear in omega.
+//
+// An error of the angular velocity grows with time, therefore rounding must not accumulate in it. The
+// state between two steps, the largest terms of the series and the constants have 32 digits, as sums
+// of two doubles, with the same bits on every machine.
 #pragma once
 
 #include "../elementary.hpp"
@@ -115,7 +125,7 @@ struct DrivenEquations {
     parts[part][place] = parts[part][place] + size;
   }
 
-  // _add_torque: component `component` of axis `axis`, a quadratic form of the quaternion
+  // A torque along component `component` of axis `axis`, a quadratic form of the quaternion.
   void add_torque(int row, int axis, int component, Double2 size) {
     static const int AXES[3][3][4][3] = {
         {{{W, W, 1}, {X, X, 1}, {Y, Y, -1}, {Z, Z, -1}}, {{X, Y, 2}, {W, Z, -2}},

@@ -1,4 +1,4 @@
-// Twin of DrivenMotion in physics/driven/trail.py: trails in both directions of time.
+// The motion with friction or an applied torque: trails in both directions of time from the start.
 #pragma once
 
 #include <memory>

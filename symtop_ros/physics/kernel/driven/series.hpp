@@ -1,4 +1,9 @@
-// Twin of physics/driven/series.py: the Taylor series of a step.
+// The top with friction and an applied torque: Taylor series in time, step after step.
+//
+// The derivatives are polynomials of degree 2 of the variables (equations.hpp), so coefficient k + 1
+// of all variables follows from the products of coefficients 0 to k with those from k to 0. The length
+// of a step follows from the last two coefficients (A. Jorba and M. Zou, A software package for the
+// numerical integration of ODEs, Experimental Mathematics 14 (2005) 99).
 #pragma once
 
 #include "equations.hpp"
@@ -9,10 +14,19 @@ namespace symtop {
 // alone need sums of two doubles. Longer steps want twelve, which take half of the time. See
 // design/extended_terms.py.
 const int DRIVEN_TERMS = 30, EXTENDED_TERMS = 8;
-const double LAST = 1e-19, CLOSER = 8.0, LONGEST = 16.0, LARGEST_TURN = 2.0;
+// Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is left
+// out has the same sign in many steps, while rounding has not.
+const double LAST = 1e-19;
+// The terms of an axis near the vertical may be larger than this by a factor, compared with its tilt:
+// so that steps do not become shorter at ordinary tilts.
+const double CLOSER = 8.0;
+const double LONGEST = 16.0;  // in units of about 1/rate; so the powers of a step stay in range
+// rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum, and
+// rounding with them.
+const double LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
-const int LENGTH_BITS = 10;
-const double LARGEST_SPIN = 1e15;
+const int LENGTH_BITS = 10;  // a length has so few bits that the sum of lengths, the time, is exact
+const double LARGEST_SPIN = 1e15;  // rad of half the spin angle; far beyond, no digit of it is left
 
 // 1/n
 const Double2 INVERSES[EXTENDED_TERMS + 1] = {
@@ -250,7 +264,7 @@ class Stepper {
     return largest;
   }
 
-  // _measure_swing
+  // How far the axis swings from the vertical in a step: its terms count by this size.
   double measure_swing(const int swing[4]) const {
     double size = 0.0;
     for (int order = 0; order < 4; order++)

@@ -1,4 +1,7 @@
-// Twin of physics/driven/trail.py: the steps of an integration, and states at any times.
+// The steps of an integration in one direction of time, and states at any times.
+//
+// The pieces depend on the motion alone, not on earlier requests: a state is the same to the last bit
+// whatever was asked before. Some knots and pieces are kept, so that one can go back.
 #pragma once
 
 #include <cstdlib>
@@ -7,7 +10,8 @@
 
 namespace symtop {
 
-// Fewer than in Python, so that the two arrays are no mappings of their own: for a short motion
+// Knots that are kept over the whole integration (beyond them every other one is dropped), and pieces
+// up to the present one. So few that the two arrays are no mappings of their own: for a short motion
 // that would take as long as all of its steps.
 const int KEPT = 512, RECENT = 16;
 
@@ -32,7 +36,7 @@ class Trail {
     std::free(recent_);
   }
 
-  // Trail.reach; *steps is lowered by those taken, and *is_stuck is set if the motion is too fast
+  // Integrates towards a time; *steps is lowered by those taken, and *is_stuck is set if the motion is too fast
   // to go on.
   double reach(double t, double* steps, bool* is_stuck) {
     go_back(t);

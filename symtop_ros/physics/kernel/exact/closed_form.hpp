@@ -1,11 +1,14 @@
-// Twin of physics/exact/closed_form.py.
+// The motion of the heavy top for Mgl > 0, in closed form and without a singular coordinate
+// (derivation.md, sections 3 to 6).
 //
-// Each header of this folder is the twin of the Python file of its name, with the same formulas in
-// the same order. What is computed here with Precise, in 57 digits, is computed there with Decimal,
-// in 50: where such numbers become doubles they are the same, and all else is doubles in the same
-// order of operations. Where a function has another name, a comment gives that of Python. theta.py
-// has its twin in `compute_series`, the rates of kind.py in ../gravity.hpp. Read the Python first; it says
-// where each formula comes from and why it is written so.
+// The Cayley-Klein parameters A and B have no pole on the vertical, in contrast to Euler's angles,
+// and their phases grow linearly in time except for a periodic part. So nothing is divided by
+// sin(theta), and no error accumulates (Klein & Sommerfeld, The Theory of the Top, chapter VI).
+// u(t) = u1 + (u2 - u1) sn(v)^2 with v = v0 + Omega t (DLMF 22.2); the phase of the nutation is
+// x = pi v/K, 0 at the lower turning point u1 and pi at the upper one.
+//
+// The constants of a motion are computed once, with 57 digits, and evaluated often, in doubles: they
+// are those of exactly the doubles that were given, so that no error grows with time.
 #pragma once
 
 #include "first_instants.hpp"
@@ -18,12 +21,15 @@ struct AttitudeOf {  // a state without omega_z, which is constant
 };
 typedef AttitudeOf<double> Attitude;
 
-// Motion._evaluate
+// The state of A, B and omega_xy, with one step to norm 1. Newton's step would correct A and B by the
+// same factor, and so give a small B the error of A. Least squares correct the larger one more, by
+// |A|^2/(|A|^4 + |B|^4) of the step, and B by |B|^2 over the same; a cubic of |A|^2 = 1 - |B|^2 is
+// near enough. Of equal sizes both take the same, which removes their common error.
 template <class R>
 SYMTOP_INLINE AttitudeOf<R> complete_attitude(const PairOf<R> values[FUNCTIONS],
                                               bool is_turned_over) {
   R w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
-  if (is_turned_over) {
+  if (is_turned_over) {  // the world that was turned by pi about x' is turned back (section 1)
     const R w_before = w, y_before = y;
     w = x, x = -w_before, y = z, z = -y_before;
   }
@@ -34,7 +40,7 @@ SYMTOP_INLINE AttitudeOf<R> complete_attitude(const PairOf<R> values[FUNCTIONS],
           values[OF_OMEGA_XY].y};
 }
 
-// _add
+// The rate of arg A or arg B; zero if rounding is all that it has.
 inline Precise add_rates(const Precise& mean, const Precise& half_c) {
   const Precise rate = mean + half_c;
   return is_lost(rate, half_c) ? Precise() : rate;
@@ -60,19 +66,20 @@ struct ClosedForm {
   Pair factors[FUNCTIONS];
   FirstInstants first_instants;
 
-  // ClosedFormMotion.__init__
   void solve(const Start& given, bool turned_over) {
     start = given, is_turned_over = turned_over;
     nutation = find_nutation<3>(start);
     roots = find_roots(nutation);
     find_zeros(nutation, roots, zeros);
+    // The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that would have no
+    // digits.
     mean = compute_mean_rates(nutation, zeros, root(roots.s32 / roots.s31()), means);
     frequency = root(nutation.beta * roots.s31());
     nutation_rate = frequency * mean;
     half_c = find_turning_rate<3>(start).scale(-1);
   }
 
-  // _phases, _nutation_phase, _series and _factors
+  // Phases, the place in the nutation, series, and constant factors.
   void prepare_states() {
     const Precise rates[FUNCTIONS] = {nutation_rate, add_rates(means[OF_A], half_c),
                                       add_rates(means[OF_B], -half_c)};
@@ -98,7 +105,12 @@ struct ClosedForm {
     first_instants.prepare(start, start_values[OF_A], start_values[OF_B], half_c);
   }
 
-  // _winding
+  // Whole turns of omega_xy in a nutation, compared with conj(A) B. In the frame of the line of nodes
+  // omega_xy is theta' + i sin(theta) phi', which is periodic. conj(A) B has the argument of the line
+  // of nodes in the body. So the mean rates of the two arguments differ by whole turns in a nutation,
+  // one if phi' reverses. With the integer known no third phase is needed, and its rounding cannot
+  // separate omega_xy from the attitude. (The rate of arg omega_xy is -omega - p_psi/(2 Ix) - c: c
+  // cancels.)
   int count_windings() const {
     if (!nutation_rate.sign) return 0;
     const Precise difference = means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - nutation.a.scale(-1);
@@ -113,7 +125,7 @@ struct ClosedForm {
       complementary.compute_values(at, values);
   }
 
-  // _initial_values
+  // A, B and omega_xy at t = 0, and their derivatives without the constant turning by c.
   void find_initial_values(Pair changes[FUNCTIONS]) {
     const Start& s = start;
     const Start unit = normalize(s);
@@ -129,7 +141,7 @@ struct ClosedForm {
                             weight * of_omega_xy.y + spin * s.wx};
   }
 
-  // _factors, with Quotient.find_factor
+  // Constant factors that make A, B and omega_xy right at t = 0 (section 6).
   void find_factors() {
     const Nutation& n = nutation;
     Pair changes[FUNCTIONS], values[FUNCTIONS];
@@ -153,7 +165,9 @@ struct ClosedForm {
     factors[OF_OMEGA_XY] = conjugate(factors[OF_OMEGA_XY]);
   }
 
-  // _find_modulus_of_third_factor
+  // The modulus of the factor of omega_xy, from all places where that is known to all digits: at the
+  // turning points |omega_xy|^2 is beta times the distance of the height alpha/beta. A start where
+  // omega_xy is small would give it with the rounding of that start.
   double find_modulus_of_third_factor(double from_start) const {
     const Nutation& n = nutation;
     const Zero& zero = zeros[OF_OMEGA_XY];
@@ -172,6 +186,10 @@ struct ClosedForm {
     return total / count;
   }
 
+  // start/value. If the function nearly vanishes at the start, both have lost their digits, and the
+  // factor comes from the derivatives instead; value and derivative never vanish together. The square
+  // of a function is in proportion to the distance from its zero: above half of its largest size it
+  // has all its digits (`is_small` is false).
   Pair find_factor(int k, Pair at_start, Pair change, Pair value, double mean,
                    bool is_small) const {
     if (is_small) {
@@ -185,7 +203,7 @@ struct ClosedForm {
     return divide(at_start, value);
   }
 
-  // _evaluate
+  // The three functions from phases, after the first instants.
   template <class R>
   SYMTOP_INLINE void evaluate(R t, const PhaseOf<R> phases[FUNCTIONS],
                               PairOf<R> values[FUNCTIONS]) const {
@@ -208,13 +226,13 @@ struct ClosedForm {
 
   bool is_first(double t) const { return std::fabs(t) <= first_end; }
 
-  // True if a time is too long for a count of ticks: Python serves it.
+  // True if a time is too long for a count of ticks: 1e15 turns.
   bool is_far(double t) const {
     if (t == 0) return false;
     return std::fabs(t) >= (is_first(t) ? first_instants.half_turn.farthest : steps.farthest);
   }
 
-  // ClosedFormMotion.cayley_klein, for a time that is not far
+  // For a time that is not far.
   Attitude at(double t) const {
     if (t == 0) return complete(start_values);
     Pair values[FUNCTIONS];

@@ -1,4 +1,8 @@
-// Twin of physics/exact/first_instants.py: Taylor series about the start.
+// The first instants of a motion, as a Taylor series about the start (derivation.md, section 6).
+//
+// An axis that starts at rest moves slowly at first. Quotients of theta functions are right to
+// rounding of the largest angular velocity of the motion; the first, small angular velocities are
+// differences of large numbers there. The series has them to rounding of themselves.
 #pragma once
 
 #include "complementary_series.hpp"
@@ -6,7 +10,10 @@
 namespace symtop {
 
 const int TERMS = 14;
-const double REACH = 0.1, SLOWEST = 1e-290;
+// The series serves times up to so many radians of the fastest rate: the first term left out is
+// 0.1^14 times a coefficient below 1.
+const double REACH = 0.1;
+const double SLOWEST = 1e-290;  // rad/s; the quotient Mgl/Ix may be zero in doubles
 
 struct Series {
   double real[TERMS + 1], imaginary[TERMS + 1];
@@ -21,7 +28,7 @@ struct Series {
   }
 };
 
-// _convolve
+// The coefficient of t^n in the product of two series.
 inline Pair convolve(const Series& left, const Series& right, int n) {
   double real = 0.0, imaginary = 0.0;
   for (int m = 0; m <= n; m++) {
@@ -33,7 +40,7 @@ inline Pair convolve(const Series& left, const Series& right, int n) {
   return {real, imaginary};
 }
 
-// _convolve_with_conjugate
+// The same of a product with the conjugate of the second series.
 inline Pair convolve_with_conjugate(const Series& left, const Series& right, int n) {
   double real = 0.0, imaginary = 0.0;
   for (int m = 0; m <= n; m++) {
@@ -57,6 +64,8 @@ struct FirstInstants {
   Steps half_turn;
 
   void prepare(const Start& s, Pair A0, Pair B0, const Precise& half_c) {
+    // In this unit of time all rates are below 1: no power of them overflows. It is a power of two, so
+    // that nothing is rounded.
     int exponent;
     std::frexp(find_fastest_rate(s), &exponent);
     unit = std::ldexp(1.0, exponent);
@@ -64,6 +73,8 @@ struct FirstInstants {
     const double beta = 2 * (s.Mgl / s.Ix / unit) / unit;
     A.real[0] = A0.x, A.imaginary[0] = A0.y, B.real[0] = B0.x, B.imaginary[0] = B0.y;
     omega.real[0] = s.wx / unit, omega.imaginary[0] = s.wy / unit;
+    // Euler's equations and q' = q (0, omega)/2 in the frame that does not turn by c: there gravity
+    // alone changes omega_xy. All products are convolutions.
     for (int n = 0; n < TERMS; n++) {
       const Pair over = convolve_with_conjugate(B, omega, n), along = convolve(omega, A, n);
       const Pair weight = convolve_with_conjugate(B, A, n);

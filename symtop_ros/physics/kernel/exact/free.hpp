@@ -1,4 +1,5 @@
-// Twin of physics/exact/free.py: the motion without a torque that turns the axis.
+// The motion without a torque that turns the axis (derivation.md, section 8): Mgl is 0, or the axis
+// rests on the vertical. The body turns about L by |L| t/Ix, and about its axis by c t.
 #pragma once
 
 #include "kind.hpp"
@@ -7,7 +8,8 @@ namespace symtop {
 
 typedef double Triple[3];
 
-// _angle_to_vertical
+// The angle between a direction of the body and the vertical, by its sine and cosine: an arc cosine
+// would lose half the digits of a small one.
 inline double find_angle_to_vertical(const Start& s, const Triple& direction) {
   const double gx = 2 * (s.x * s.z - s.w * s.y), gy = 2 * (s.y * s.z + s.w * s.x);
   const double gz = (s.w * s.w + s.z * s.z) - (s.x * s.x + s.y * s.y);
@@ -49,7 +51,7 @@ struct FreeMotion {
 
   bool is_far(double t) const { return std::fabs(t) >= steps.farthest; }
 
-  // cayley_klein, for a time that is not far
+  // For a time that is not far.
   Attitude at(double t) const {
     Phase phases[FUNCTIONS];
     find_phases(steps, FUNCTIONS, t, phases);
@@ -70,7 +72,7 @@ struct FreeMotion {
     return complete_attitude(values, is_turned_over);
   }
 
-  // turning_angles
+  // The axis moves on a circle of angle `cone` about L, which has the angle `tilt` to the vertical.
   void find_turning_angles(bool from_below, double angles[2]) const {
     const double far = tilt + cone;
     double low = std::fabs(tilt - cone), high = far < 2 * PI - far ? far : 2 * PI - far;
@@ -81,7 +83,7 @@ struct FreeMotion {
     angles[0] = low <= high ? low : high, angles[1] = low <= high ? high : low;
   }
 
-  // _turns: half turns of arg A and arg B in a turn about L
+  // Half turns of arg A and arg B in a turn about L: whether the circle encloses a pole.
   int upper_turns() const { return tilt + cone <= PI ? 1 : -1; }
   int lower_turns() const { return cone >= tilt ? 1 : -1; }
 };

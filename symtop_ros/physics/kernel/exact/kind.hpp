@@ -1,4 +1,7 @@
-// Twin of physics/exact/kind.py: the sign of phi' at the two turning angles.
+// The kind of a motion, by the sign of phi' at the two turning angles of theta.
+//
+// Numbers that differ by rounding of the start alone count as equal: a start that is computed to lie
+// on a root of regular precession is regular, although its doubles miss the root.
 #pragma once
 
 #include "closed_form.hpp"
@@ -9,7 +12,7 @@ enum Kind {
   REGULAR, UNIDIRECTIONAL, CUSPS, LOOPING, THROUGH_THE_POLE, ASYMPTOTIC, SLEEPING, DRIVEN
 };
 
-// Zeros.largest_sine_squared
+// The largest sin^2(theta) of a nutation: 1 if the axis becomes horizontal.
 inline Precise find_largest_sine_squared(const Zero zeros[]) {
   const Zero &A = zeros[OF_A], &B = zeros[OF_B];
   const Precise one(1.0), below = A.from_u1 * B.from_u1, above = A.from_u2 * B.from_u2;
@@ -17,7 +20,9 @@ inline Precise find_largest_sine_squared(const Zero zeros[]) {
   return below > above ? below : above;
 }
 
-// largest_precession
+// A bound on the terms of b - a u = sin^2(theta) phi' during a nutation, in rad/s. A state of the
+// motion is known to rounding of these, not to rounding of the terms at the start: they may all be
+// small there, near a cusp.
 inline Precise find_largest_precession(const ClosedForm& motion) {
   const Nutation& n = motion.nutation;
   const Precise sine_squared = find_largest_sine_squared(motion.zeros);
@@ -25,7 +30,7 @@ inline Precise find_largest_precession(const ClosedForm& motion) {
   return rate * root(sine_squared) + size(n.a) * sine_squared;
 }
 
-// _is_regular
+// True if theta' = theta'' = 0 at the start.
 inline bool is_regular(const Nutation& n) {
   const Precise rounding(START_ROUNDING), sine_squared = n.one_plus_u * n.one_minus_u;
   const Precise centrifugal = n.omega_xy_squared * size(n.u());
@@ -35,7 +40,7 @@ inline bool is_regular(const Nutation& n) {
   return is_still && size(n.u_dot_dot) <= rounding * (size(spin) + centrifugal + gravity);
 }
 
-// classify
+// Of a motion whose axis moves under gravity.
 inline Kind classify(const ClosedForm& motion) {
   const Nutation& n = motion.nutation;
   const Zero &A = motion.zeros[OF_A], &B = motion.zeros[OF_B];
@@ -49,7 +54,7 @@ inline Kind classify(const ClosedForm& motion) {
   return (lower.sign > 0) == (upper.sign > 0) ? UNIDIRECTIONAL : LOOPING;
 }
 
-// classify_free
+// Of a motion without torque, whose axis moves on a circle about L.
 inline Kind classify_free(double tilt_of_momentum, double cone) {
   const double inside = tilt_of_momentum - cone, far = tilt_of_momentum + cone;
   const double rounding = START_ROUNDING * PI;

@@ -1,4 +1,10 @@
-// Twin of physics/exact/mean_rates.py: mean phi' and psi', with as many digits as their terms lose.
+// Mean phi' and psi' of a nutation, with as many digits as their terms lose (derivation.md, section
+// 7).
+//
+// They are sum and difference of the mean rates of arg A and arg B. Under weak gravity these may
+// cancel: a sphere that hardly feels its weight turns about L, and the mean psi' is as small as the
+// weight. Then the constants of the motion are computed again, with 700 digits. No double is so small
+// that more could be lost: what is left is zero.
 #pragma once
 
 #include "closed_form.hpp"
@@ -17,7 +23,7 @@ template <int N>
 struct MeanSums {
   Float<N> precession, spin, largest;
 
-  // _add, of the means of arg A and arg B and the turning rate
+  // Of the means of arg A and arg B, and the turning rate c.
   MeanSums(const Float<N>& a, const Float<N>& b, const Float<N>& c)
       : precession(a + b), spin(a - b + c), largest(size(a)) {
     for (const Float<N>& each : {size(b), size(c)})
@@ -25,7 +31,7 @@ struct MeanSums {
   }
 };
 
-// _compute_terms, with all the digits that may be needed
+// The same with all the digits that may be needed.
 inline MeanSums<37> compute_long_means(const Start& start) {
   const NutationOf<37> n = find_nutation<37>(start);
   const RootsOf<37> roots = find_roots(n);
@@ -40,7 +46,7 @@ struct MeanRates {
   Precise precession, spin;
 };
 
-// add_means. Python tries 110 and 250 digits before it takes 700; here these follow at once.
+// A sum below its share of the largest term is rounding: it is formed again.
 inline MeanRates find_mean_rates(const ClosedForm& motion) {
   const MeanSums<3> sums(motion.means[OF_A], motion.means[OF_B], motion.half_c.scale(1));
   const Precise lost = sums.largest * find_lost_share();

@@ -1,4 +1,33 @@
-// Twin of physics/exact/nutation.py: the cubic of the tilt and its roots.
+// The cubic of the nutation, (du/dt)^2 = f(u) for u = cos(theta), and its roots (derivation.md,
+// section 2).
+//
+// Goldstein (Classical Mechanics, section 5.7) writes
+//
+//   (du/dt)^2 = (1 - u^2)(alpha - beta u) - (b - a u)^2.
+//
+// Expanded in powers of u, as there, the coefficients cancel: for a small tilt the roots are near 1,
+// and their distances from 1, on which everything depends, keep no digit. So the height is measured
+// from the start, s = u - u0. Each coefficient is then a sum of products of the given numbers:
+//
+//   name                 textbook            in terms of the start
+//   a                    a = p_psi/Ix        (Iz/Ix) omega_z, in rad/s
+//   beta                 beta = 2 Mgl/Ix     in rad^2/s^2
+//   one_minus_u          1 - u0              2 |B|^2, with Cayley-Klein parameters A and B
+//   one_plus_u           1 + u0              2 |A|^2
+//   b_minus_au           b - a u0            sin^2(theta) phi', in rad/s
+//   u_dot                du/dt               -sin(theta) theta', in rad/s
+//   omega_xy_squared     alpha - beta u0     theta'^2 + sin^2(theta) phi'^2, in rad^2/s^2
+//   u_dot_dot            d2u/dt2             half of f'(u) at u0, in rad/s^2
+//   b_minus_a            b - a               (p_phi - p_psi)/Ix, in rad/s
+//   b_plus_a             b + a               (p_phi + p_psi)/Ix, in rad/s
+//   b_minus_au_highest   b - a alpha/beta    b - a u where all energy would be potential
+//   alpha_minus_beta     alpha - beta        kinetic energy left upright, in rad^2/s^2
+//
+// On the separatrix b = a and alpha = beta: the axis has just the energy to come to rest upright.
+// Near it these two numbers decide on everything, and all digits of their terms may cancel. A sum
+// that is zero decides on the kind of the motion: regular precession, a cusp, a way through a pole.
+// Of a zero 57 digits leave some 1e-57, another number in each order of operations. In both cases
+// the sums are formed again without any rounding (`sum_exactly`).
 #pragma once
 
 #include "../elementary.hpp"
@@ -12,10 +41,12 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
 };
 
 const double EPS = 0x1p-52;
-const double NORM_ROUNDING = 4 * EPS;   // of state.py
-const double START_ROUNDING = 64 * EPS;  // of values.py
+const double NORM_ROUNDING = 4 * EPS;  // normalising a norm this close to 1 would only add rounding
+// A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A sum
+// below this share of its terms is treated as zero.
+const double START_ROUNDING = 64 * EPS;
 
-// normalize
+// A quaternion that has norm 1 to rounding stays as it is, bit for bit.
 inline Start normalize(Start s) {
   const double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
   if (std::fabs(norm - 1.0) <= NORM_ROUNDING) return s;
@@ -23,7 +54,9 @@ inline Start normalize(Start s) {
   return s;
 }
 
-// c = wz (Ix - Iz)/Ix, by which the body turns about its axis in addition to a nutation's mean
+// c = wz (Ix - Iz)/Ix, by which the body turns about its axis in addition to the means of a nutation
+// (section 1). As p_psi (1/Iz - 1/Ix) it would cancel for a body that is nearly a sphere. It may
+// exceed the means by all their digits, so it is kept apart.
 template <int N>
 inline Float<N> find_turning_rate(const Start& s) {
   const Float<N> Ix(s.Ix);
@@ -40,8 +73,8 @@ struct NutationOf {
 };
 typedef NutationOf<3> Nutation;
 
-// _sum_exactly: each sum times its denominators, so that nothing is divided before the end. With
-// beta = 2 Mgl/Ix and a = Iz wz/Ix.
+// The sums again, in integers: each times its denominators, so that nothing is divided before the
+// end. With beta = 2 Mgl/Ix and a = Iz wz/Ix.
 template <int N>
 inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   typedef Float<N> Rounded;
@@ -62,28 +95,33 @@ inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   nutation.alpha_minus_beta = Rounded(squared * Ix * norm - (Mgl * lower).scale(2)) / product;
 }
 
-const double PER_CANCELLED = 1e10;  // 1/CANCELLED
+// A sum below 1e-10 of its terms has lost 10 of its digits: it is formed exactly instead.
+const double PER_CANCELLED = 1e10;
 
 template <int N>
 inline bool is_cancelled(const Float<N>& sum, const Float<N>& terms) {
   return sum * Float<N>(PER_CANCELLED) <= terms;
 }
 
-const int LOST_BITS = 133;  // LOST_DIGITS
+// Bits, 40 decimal digits, after which a sum has none of its terms' digits, and may be zero.
+const int LOST_BITS = 133;
 
-// is_lost
+// True if a sum is so small, compared with one of its terms, that it may be zero. `power` is that of
+// the sum in `value`: its digits are lost as often.
 template <int N>
 inline bool is_lost(const Float<N>& value, const Float<N>& term, int power = 1) {
   return value.sign && term.sign && value.exponent < term.exponent - power * LOST_BITS;
 }
 
-// Nutation.of
+// The numbers of the table above.
 template <int N>
 inline NutationOf<N> find_nutation(const Start& start) {
   typedef Float<N> P;
   const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
   const P upper = w * w + z * z, lower = x * x + y * y;
+  // The doubles of a quaternion have norm 1 to rounding only. With this factor 1 - u0 and 1 + u0
+  // have the sum 2 exactly, as the cubic assumes.
   const P twice = P(2.0) / (upper + lower), per_Ix = invert(Ix);
   const P gx = twice * (x * z - w * y), gy = twice * (y * z + w * x);
   const P along_x = wx * gx, along_y = wy * gy;
@@ -112,6 +150,9 @@ inline NutationOf<N> find_nutation(const Start& start) {
   return n;
 }
 
+// Roots s1 <= 0 <= s2 <= s3 of f, measured from the start. s21 and s32 are their differences s2 - s1
+// and s3 - s2; below_pole and above_pole are the distances 1 - u2 and u3 - 1 from the upper pole.
+// They are stored because subtraction would lose their digits where roots nearly meet.
 template <int N>
 struct RootsOf {
   Float<N> s1, s2, s3, s21, s32, below_pole, above_pole;
@@ -125,9 +166,10 @@ struct Cubic {
   Float<N> at(const Float<N>& s) const { return ((s + a2) * s + a1) * s + a0; }
 };
 
-const int MOST_STEPS = 60;
+const int MOST_STEPS = 60;  // of Newton's method in doubles; from the bound some 5 are usual
 
-// _estimate_largest_root
+// A number just above the largest root, found in doubles from an upper bound. In doubles that are too
+// coarse or too small the number is wrong; the caller tests it.
 template <int N>
 inline Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
   const double a2 = cubic.a2.to_double(), a1 = cubic.a1.to_double(), a0 = cubic.a0.to_double();
@@ -139,12 +181,16 @@ inline Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
   return std::isfinite(s) ? Float<N>(s * (1 + 32 * EPS)) : Float<N>();
 }
 
-// _find_largest_root
+// The largest root, by Newton's method from an upper bound. The iterates decrease until rounding
+// stops them, or until the next step would be lost in it: the root is apart from the others, so that
+// each step is about the square of the one before. A start at the turning point is the root 0, which
+// relative steps would approach for ever.
 template <int N>
 inline Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
   const Float<N> converged = half_of_digits<N>(9);
   if (!cubic.a0.sign && cubic.a1.sign > 0 && cubic.a2.sign > 0) return Float<N>();
   const Float<N> three(3.0), estimate = estimate_largest_root(cubic, s.to_double());
+  // It is taken if it lies above the root as well.
   if (three * estimate > -cubic.a2 && cubic.at(estimate).sign > 0) s = estimate;
   for (;;) {
     const Float<N> value = cubic.at(s), slope = (three * s + cubic.a2.scale(1)) * s + cubic.a1;
@@ -155,7 +201,13 @@ inline Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
   }
 }
 
-// _distances_from_pole
+// 1 - u2 and u3 - 1, which decide how near the separatrix is. In terms of v = 1 - u the cubic is
+//
+//   f/beta = -v^3 + ... + 2 (alpha - beta - a (b - a)) v/beta - (b - a)^2/beta
+//
+// so that v2 + v3 and v2 v3 follow from two numbers that are known to all digits, and from the root
+// v1 = 1 - u1 that is apart. v2 >= 0 >= v3 makes their difference free of cancellation. From the
+// coefficients of powers of s, gaps below 1e-19 would have no digit left.
 template <int N>
 inline void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1, RootsOf<N>& roots) {
   const Float<N> scale = n.beta * v1, per_scale = invert(scale);
@@ -172,7 +224,7 @@ inline void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1,
   }
 }
 
-// _roots_from_lowest
+// s1 is apart: it is the largest root of the reflected cubic, and u1 >= -1 bounds it.
 template <int N>
 inline RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>& cubic) {
   RootsOf<N> roots;
@@ -180,17 +232,19 @@ inline RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>&
   roots.s1 = -find_largest_root(reflected, n.one_plus_u);
   if (roots.s1.sign > 0) roots.s1 = Float<N>();
   const Float<N> total = -(cubic.a2 + roots.s1);
+  // If s2 and s3 are both small compared with s1, their sum has lost its digits, and the product
+  // comes from a0. From a start at the upper turning point, a0 = 0, it is exactly zero, as s2 is.
   const bool has_digits = total >= -roots.s1 && (cubic.a0.sign || !roots.s1.sign);
   const Float<N> product = has_digits ? cubic.a1 - roots.s1 * total : -cubic.a0 / roots.s1;
   find_distances_from_pole(n, n.one_minus_u - roots.s1, roots);
   roots.s3 = n.one_minus_u + roots.above_pole;
-  roots.s2 = product / roots.s3;
+  roots.s2 = product / roots.s3;  // one_minus_u - below_pole would cancel
   roots.s21 = roots.s2 - roots.s1;
   roots.s32 = roots.below_pole + roots.above_pole;
   return roots;
 }
 
-// _roots_from_highest
+// s3 is apart. Lagrange's bound on the largest root (a0 >= 0 adds nothing to it); u3 >= 1 is another.
 template <int N>
 inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>& cubic) {
   RootsOf<N> roots;
@@ -200,8 +254,10 @@ inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>
   if (bound < n.one_minus_u) bound = n.one_minus_u;
   roots.s3 = find_largest_root(cubic, bound);
   const Float<N> per_s3 = invert(roots.s3), product = cubic.a0 * per_s3;
+  // Not as -(a2 + s3)/2, which would cancel: s3 may be huge.
   const Float<N> half_sum = ((cubic.a1 + product) * per_s3).scale(-1);
   const Float<N> half_gap = root(half_sum * half_sum + product);
+  // Of half_sum + half_gap and half_sum - half_gap one cancels; it comes from the product.
   roots.s2 = half_sum.sign >= 0 ? half_sum + half_gap : product / (half_gap - half_sum);
   if (half_sum.sign < 0)
     roots.s1 = half_sum - half_gap;
@@ -214,12 +270,20 @@ inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>
   return roots;
 }
 
+// The roots of f(s)/beta = s^3 + a2 s^2 + a1 s + a0, with a0 = (du/dt)^2/beta and
+// a1 = 2 (d2u/dt2)/beta at the start. One root is well apart from the other two, on one side of their
+// mean -a2/3. Newton's method finds it from outside, where the cubic is convex and the iteration
+// monotone: it cannot jump to another root. The other two follow from their sum and their product
+// (Vieta). Viete's trigonometric solution would give all three to the absolute error of the largest,
+// which leaves no digit of a small s2.
 template <int N>
 inline RootsOf<N> find_roots(const NutationOf<N>& n) {
   const Float<N> per_beta = invert(n.beta);
   const Cubic<N> cubic = {n.u().scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
                        n.u_dot_dot.scale(1) * per_beta, n.u_dot * n.u_dot * per_beta};
   if (!cubic.a1.sign && !cubic.a0.sign) {
+    // Regular precession: the start is a double root, and f(1) = -(b - a)^2 is the product of the
+    // distances from the pole.
     const Float<N> share = n.b_minus_a / n.one_minus_u;
     RootsOf<N> roots;
     roots.below_pole = n.one_minus_u;

@@ -1,16 +1,26 @@
-// Twin of physics/exact/nutation_phase.py: the phase of the nutation, and where it is near a pole.
+// The place in the nutation: the phase x = pi v/K since a turning point, with v = v0 + Omega t, and
+// the distances from both turning points (derivation.md, sections 3 and 5).
 #pragma once
 
 #include "phases.hpp"
 
 namespace symtop {
 
-const double STRETCHED = 1.5, FARTHEST = 1e6;
-const double PER_NEAR_POLE = 100;  // 1/NEAR_POLE
+// From this ratio K/K' on phases are computed with all digits: they are then stretched.
+const double STRETCHED = 1.5;
+// From this share of |A|^2 or |B|^2 at the far turning point left at the near one, the rounding of a
+// phase counts: theta changes fast compared with itself. It is 1/100.
+const double PER_NEAR_POLE = 100;
+// On the separatrix y grows for ever. Here exp(-y/2) is zero, and the axis is upright to any digit.
+const double FARTHEST = 1e6;
 
+// A phase, and its distances from the turning points, which are multiplied by K/K' for the
+// complementary series. Each is right to rounding of itself, which x alone cannot give.
 template <class R>
 struct LocationOf {
-  R x, below, above, low;
+  R x;           // in [-pi, pi]; 0 is the lower turning point
+  R below, above;  // the distance from the lower one, with the sign of x, and from the upper one
+  R low;         // what is missing in the distance from the nearer one
 };
 typedef LocationOf<double> Location;
 
@@ -23,6 +33,7 @@ struct NutationPhase {
   Location start;
 
   bool is_direct() const { return Kc >= K; }
+  // Time in s in which the functions of the motion change where they change fastest.
   double shortest_change() const { return 0.5 / PI * (K < Kc ? K : Kc) / Omega; }
   Location lower_turning_point() const {
     return {0.0, 0.0, PI * (1.0 > K / Kc ? 1.0 : K / Kc), 0.0};
@@ -31,6 +42,9 @@ struct NutationPhase {
     return {PI, PI * (1.0 > K / Kc ? 1.0 : K / Kc), 0.0, 0.0};
   }
 
+  // The location at a time, from the phase since t = 0 as the sum of two doubles. It is kept as two
+  // doubles until its distance from the nearer turning point is known: near the separatrix this
+  // distance is stretched by K/K', and so would be its rounding.
   template <class R>
   SYMTOP_INLINE LocationOf<R> locate(R t, R high, R low) const {
     if (is_separatrix) {  // no period: the phase is the hyperbolic argument itself
@@ -59,6 +73,9 @@ struct NutationPhase {
     return stretch(x, below, above);
   }
 
+  // The location for the complementary series, from |x| and pi - |x| as two doubles. A quotient is as
+  // small as exp(-y/2) of itself elsewhere, y being the smaller one of the two distances times K/K'.
+  // The rounding of y, half an ulp of up to pi/2 K/K', would be the largest error of a small tilt.
   template <class R>
   SYMTOP_INLINE LocationOf<R> stretch(R x, PairOf<R> below, PairOf<R> above) const {
     const R y = x * ratio, rise = (above.x + above.y) * ratio;
@@ -66,7 +83,8 @@ struct NutationPhase {
     // Only the nearer turning point needs the rest of its product: the other's terms are small.
     const auto is_upper = rise < find_size(y);
     const R high = choose(is_upper, above.x, -below.x), low = choose(is_upper, above.y, -below.y);
-    // find_rest
+    // The rounding of the product, by Dekker's halves of 26 bits (T. J. Dekker, Numer. Math. 18 (1971)
+    // 224): the first part of the ratio has as many, so that products with the halves are exact.
     const R product = (high + low) * ratio, shifted = 134217729.0 * high;
     const R upper = shifted - (shifted - high), lower = high - upper;
     const R rest = ((upper * ratio_high - product) + lower * ratio_high) +
@@ -75,7 +93,9 @@ struct NutationPhase {
   }
 };
 
-// _starting_phase
+// v at t = 0 from the nearer turning point, and which one that is. It is an incomplete elliptic
+// integral (DLMF 19.25.5). From the farther turning point it would be nearly complete, and the small
+// distance from the nearer one would be lost in it. Halfway, at v = K/2, s2/s1 is sqrt(1 - m).
 inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool is_precise,
                                    bool& from_top) {
   const Precise s1 = -roots.s1, &s2 = roots.s2, &s3 = roots.s3;
@@ -98,20 +118,22 @@ inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool i
   return n.u_dot.sign < 0 ? v : -v;
 }
 
+// True if the axis passes so near a pole that the rounding of phases matters.
 inline bool comes_near_a_pole(const Zero zeros[]) {
   const Precise times(PER_NEAR_POLE);
   return zeros[OF_A].from_u1 * times < zeros[OF_A].from_u2 ||
          zeros[OF_B].from_u2 * times < zeros[OF_B].from_u1;
 }
 
-// NutationPhase.__init__ and its cached properties
+// `mean` is the arithmetic-geometric mean of 1 and sqrt(1 - m), and 0 at the separatrix: there K is
+// infinite, and y = x K/K' takes the place of x.
 inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, const Zero zeros[],
                                          const Precise& mean, const Precise& frequency) {
   NutationPhase phase;
   phase.Omega = frequency.to_double() / 2;
   phase.is_separatrix = !mean.sign;
   phase.K = mean.sign ? PI / (2 * mean.to_double()) : INFINITY;
-  const Precise modulus = root(roots.s21 / roots.s31());
+  const Precise modulus = root(roots.s21 / roots.s31());  // sqrt(m): K' from 1 - m would lose it
   phase.Kc = quarter_period(modulus.to_double());
   phase.is_stretched = STRETCHED * phase.Kc < phase.K;
   // All digits where the phase is stretched, or where a pole magnifies its error.

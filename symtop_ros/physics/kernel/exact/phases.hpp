@@ -1,4 +1,8 @@
-// Twin of physics/exact/phases.py: phases that are reduced to one turn in integers.
+// Phases that grow at constant rates, reduced to one turn without error (derivation.md, section 9).
+//
+// They are integers of 64 bits, a turn being 2^64. Their products wrap round after whole turns, which
+// is the reduction itself: it is exact however many turns there are, while the product rate * t in
+// doubles would have an error of EPS times the whole phase (design/phases.py).
 #pragma once
 
 #include "quotients.hpp"
@@ -8,7 +12,10 @@ namespace symtop {
 
 const int STEP_LIMBS = 4;  // 256 bits
 
-struct Steps {  // Phases: up to three phases that grow at constant rates
+// Up to three phases. The fastest one grows by 2^-11 to 2^-10 of a turn in a tick: so a count of
+// ticks in 63 bits reaches 4e15 turns, and the rest of a tick is small enough for a product in
+// doubles.
+struct Steps {
   int exponent = 0;
   double ticks = 1.0, farthest = 0.0;  // per s; s
   uint64_t limbs[FUNCTIONS][STEP_LIMBS] = {};  // of 2^-256 turns in a tick, the lowest first
@@ -42,7 +49,6 @@ inline double truncate_step(const Precise& x, uint64_t limbs[STEP_LIMBS]) {
   return kept.to_double();
 }
 
-// Phases.__init__
 inline Steps find_steps(const Precise* rates, int count) {
   Precise turns[FUNCTIONS];
   double fastest = 0.0;
@@ -69,7 +75,8 @@ struct PhaseOf {
 };
 typedef PhaseOf<double> Phase;
 
-// _Counts.multiply
+// A count of ticks times a step, in units of 2^-64 turns. Of the products of 32 bits only what reaches
+// the first 64 bits is added: the carries left out are at most 3 units, 2^-62 of a turn.
 inline uint64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
   const uint64_t size = count < 0 ? -static_cast<uint64_t>(count) : count;
   const uint64_t whole = limbs[3], upper = limbs[2] >> 32, lower = limbs[2] & 0xffffffff;
@@ -81,7 +88,7 @@ inline uint64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
   return count < 0 ? -turns : turns;
 }
 
-// Phases.at
+// The phases at a time in s that is not far.
 inline void find_phases(const Steps& steps, int number, double t, Phase* phases) {
   const double ticks = t * steps.ticks, counts = round_to_integer(ticks), rest = ticks - counts;
   const int64_t count = static_cast<int64_t>(counts);
@@ -89,7 +96,8 @@ inline void find_phases(const Steps& steps, int number, double t, Phase* phases)
     phases[i] = {multiply_step(steps.limbs[i], count), steps.rest_rates[i] * rest};
 }
 
-// Phase.radians
+// The phase in rad, between -pi and pi up to the rest, as a sum of two doubles: 27 bits of it times
+// the first part of 2 pi, of 26 bits, are exact.
 template <class R>
 SYMTOP_INLINE PairOf<R> find_radians(const PhaseOf<R>& phase) {
   const double TWO_PI_HIGH = 4 * QUARTER_HIGH, TWO_PI_LOW = 4 * QUARTER_LOW;
@@ -103,7 +111,8 @@ SYMTOP_INLINE PairOf<R> find_radians(const PhaseOf<R>& phase) {
   return {high, (coarse - high) + small};
 }
 
-// Phase.unit
+// Cosine and sine: an entry of the table of 512, turned by what is left, of which the series are
+// short. The rests of the entries make them right to half an ulp.
 template <class R>
 SYMTOP_INLINE PairOf<R> find_unit(const PhaseOf<R>& phase) {
   const Integer<R> shifted = phase.turns + (uint64_t(1) << 54);

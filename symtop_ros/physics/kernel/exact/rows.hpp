@@ -1,4 +1,4 @@
-// The table of cosines and sines of phases.py, with the same bits: a test compares them.
+// The table of cosines and sines of phases.hpp. The rests make each entry right to 107 bits.
 #pragma once
 
 namespace symtop {

@@ -1,4 +1,13 @@
-// Twin of physics/exact/spin.py: whether psi' takes both signs in a nutation.
+// Whether psi' takes both signs in a nutation, decided without sampling.
+//
+// With Goldstein's a and b (nutation.hpp) and the constant omega_z
+//
+//   sin^2(theta) psi' = h(u) = omega_z (1 - u^2) - u (b - a u),        u = cos(theta),
+//
+// which is quadratic in u. Its largest and smallest values between the turning points lie at the
+// turning points, or at its vertex if that is between them. A psi' that differs from zero by rounding
+// of the start alone has no sign: a top that is started with psi' = 0 at a turning point does not
+// reverse there.
 #pragma once
 
 #include "kind.hpp"
@@ -18,7 +27,7 @@ struct Range {
   }
   bool has_both_signs(const T& rounding) const { return least < -rounding && rounding < largest; }
 
-  // _find_vertex, and a place for it among the values
+  // The value at the vertex b/bend, if that lies between two heights.
   void add_vertex(const T& spin, const T& a, const T& b, const T& low, const T& high) {
     const T bend = (a - spin) + (a - spin);
     if (!(bend < T(0.0)) && !(T(0.0) < bend)) return;
@@ -27,7 +36,6 @@ struct Range {
   }
 };
 
-// spin_reverses
 inline bool spin_reverses(const ClosedForm& motion) {
   const Nutation& n = motion.nutation;
   const Roots& roots = motion.roots;
@@ -41,7 +49,7 @@ inline bool spin_reverses(const ClosedForm& motion) {
   return values.has_both_signs(Precise(START_ROUNDING) * largest);
 }
 
-// spin_reverses_free
+// Without a torque the axis moves on a circle about L, at an angle `cone` from it.
 inline bool spin_reverses_free(double tilt_of_momentum, double cone, double rate, double omega_z) {
   const Pair low = cosine_and_sine(tilt_of_momentum - cone);
   const Pair far = cosine_and_sine(tilt_of_momentum + cone), half = cosine_and_sine(cone);
