@@ -39,7 +39,7 @@ JUDGE = ("test/judge", "test/imu", "test/check")
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
 ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *WITHOUT_ROS, *WITH_NUMPY1)
-REALTIME = ("test/node", "test/panel", "test/system", "test/load")
+REALTIME = ("test/node", "test/system", "test/load", "test/web")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
 READ_NO_WORDING = ("nodes", "rest", "plain", "judge", "physics", "without-ros")

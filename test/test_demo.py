@@ -138,11 +138,6 @@ def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
     assert listening_in(domain_of(line)) == set()
 
 
-def test_states_of_python_alone_are_reported(tmp_path):
-    with running_demo(tmp_path, SYMTOP_PURE="1") as (process, _):
-        assert "by Python (SYMTOP_PURE is set)" in process.stdout.readline()
-
-
 @pytest.fixture
 def here(tmp_path, monkeypatch, signals_as_before):
     """A folder, and an environment that the demonstration may change."""

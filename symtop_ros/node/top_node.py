@@ -21,7 +21,7 @@ from symtop_ros.node.host import NodeHost
 from symtop_ros.node.pacer import Pacer, use_real_time
 from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
 from symtop_ros.node.services import TYPES, fill_response
-from symtop_ros.physics.kernel.door import find_version
+from symtop_ros.physics import kernel_version
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import PARAMETERS, Settings
@@ -119,7 +119,7 @@ class TopNode(Node):
 
     def _announce_speed(self, settings: Settings) -> None:
         """Report what computes the states, and whether real-time scheduling is granted."""
-        self.get_logger().info(f"states are computed by the kernel, version {find_version()}")
+        self.get_logger().info(f"states are computed by the kernel, version {kernel_version()}")
         priority = settings.scheduling_priority
         if priority and (failure := use_real_time(priority)):
             self.get_logger().warning(failure)

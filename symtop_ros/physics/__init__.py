@@ -21,7 +21,7 @@ from symtop_ros.physics.accelerations import (
 )
 from symtop_ros.physics.balance import Balance, balance
 from symtop_ros.physics.body import Body
-from symtop_ros.physics.kernel.door import Kind
+from symtop_ros.physics.kernel.door import Kind, kernel_version
 from symtop_ros.physics.kicks import (
     HOLDS,
     Hold,
@@ -76,6 +76,7 @@ __all__ = [
     "balance",
     "compare_hurried",
     "hurry",
+    "kernel_version",
     "kick_verdict",
     "perrys_rule",
     "point_acceleration",

@@ -29,6 +29,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
+    are_floats,
     fit_shapes,
     ignore_underflow,
     validate_array,
@@ -87,11 +88,11 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
 
 def _spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
     """Return the shape of all arguments together, the tops (n, 3), and the others (n,)."""
+    if not top.shape and are_floats(columns):
+        return (), [np.array([each]) for each in (top.moments, *columns)]
     shapes = [top.shape, *map(np.shape, columns)]
     listed = f"{top.shape} and {next(filter(None, shapes[1:]), ())}"
     shape = fit_shapes("top and theta", *shapes, listed=listed) if any(shapes) else ()
-    if not shape:
-        return (), [np.array([top.moments]), *(np.array([each], float) for each in columns)]
     flat = [np.array(np.broadcast_to(each, shape)).reshape(-1) for each in (*top.moments, *columns)]
     return shape, [np.stack(flat[:3], axis=-1), *flat[3:]]
 

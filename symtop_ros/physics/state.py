@@ -14,6 +14,7 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
+    are_floats,
     ignore_underflow,
     refuse,
     validate_array,
@@ -25,7 +26,6 @@ NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising wou
 SMALLEST = 1e-100  # the square of anything smaller would underflow
 NAMES = ("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot")
 UNITS = (*("rad",) * 3, *("rad/s",) * 3)
-FLOAT = {float}
 COLUMNS = (
     *("t", "w", "x", "y", "z", "wx", "wy", "wz"),
     *("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"),
@@ -208,8 +208,7 @@ class State:
         <State of shape (3,)>
         """
         values: Any = phi, theta, psi, phi_dot, theta_dot, psi_dot
-        # One state of floats is the common case; their sum is finite unless one of them is not.
-        if set(map(type, values)) != FLOAT or not math.isfinite(sum(values)):
+        if not are_floats(values):
             values = validate_together(dict(zip(NAMES, values, strict=True)), UNITS)
         table = np.array(values)  # (6, ...)
         if table.ndim > 1:

@@ -5,7 +5,7 @@ Every refused argument raises a ValueError of one form: "NAME must be CONDITION,
 
 import math
 import numbers
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
@@ -192,6 +192,11 @@ def ignore_underflow(function: Callable[P, T]) -> Callable[P, T]:
     return compute
 
 
+def are_floats(values: Iterable[Any]) -> bool:
+    """Return True for finite floats, the common case; where the sum overflows, perhaps False."""
+    return all(type(value) is float for value in values) and math.isfinite(sum(values))
+
+
 def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]:
     """Return finite numbers as floats, or, if one of them is an array, as arrays of one shape.
 
@@ -207,6 +212,8 @@ def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]
     ValueError
         If a value is not a finite number, or if the shapes do not fit together.
     """
+    if are_floats(values.values()):
+        return list(values.values())
     named = zip(values.items(), units, strict=True)
     validated = [validate_numbers(name, value, unit) for (name, value), unit in named]
     arrays = [value for value in validated if isinstance(value, np.ndarray)]

@@ -4,8 +4,7 @@ import math
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
-from symtop_ros.physics import Motion, State, Top, balance, perrys_rule
-from symtop_ros.physics.kernel.door import find_version
+from symtop_ros.physics import Motion, State, Top, balance, kernel_version, perrys_rule
 from symtop_ros.simulation.block import CATCH_UP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
@@ -67,7 +66,7 @@ def _pace_status(simulation: Simulation) -> Status:
         "missed": ticker.missed,
         "real_time_factor": asked,
         "real_time_factor.achieved": achieved,
-        "kernel_version": find_version(),
+        "kernel_version": kernel_version(),
     }
     level = WARN if kept < asked or ticker.missed >= CATCH_UP * ticker.rate else OK
     message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"

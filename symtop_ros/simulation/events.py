@@ -11,8 +11,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from symtop_ros import __version__
-from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.physics.kernel.door import find_version
+from symtop_ros.physics import Friction, Motion, State, Top, kernel_version
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor import Rig
@@ -98,7 +97,7 @@ class Event:
             **following.rig.to_values(),
             "kind": motion.kind,
             "engine": motion.engine,
-            "kernel_version": find_version(),
+            "kernel_version": kernel_version(),
             "version": __version__,
         }
         return cls(stamp, name, write(name, outcome) if outcome else "", values)

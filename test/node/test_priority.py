@@ -6,7 +6,7 @@ import pytest
 from geometry_msgs.msg import QuaternionStamped
 
 from symtop_ros.node.pacer import use_real_time
-from symtop_ros.physics.kernel.door import find_version
+from symtop_ros.physics import kernel_version
 
 
 def test_the_thread_gets_the_priority(monkeypatch):
@@ -44,6 +44,6 @@ def test_the_node_runs_with_and_without_the_right(monkeypatch, start_top, capfd,
 
 def test_the_node_says_what_computes_its_states(start_top, capfd):
     top = start_top()
-    line = f"states are computed by the kernel, version {find_version()}"
+    line = f"states are computed by the kernel, version {kernel_version()}"
     top.spin_until(lambda: True)
     assert line in capfd.readouterr().err

@@ -534,7 +534,7 @@ def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
     return verdict
 
 
-def find_version() -> str:
+def kernel_version() -> str:
     """Return the version of the compiled kernel."""
     return str(open_door().version().decode())
 

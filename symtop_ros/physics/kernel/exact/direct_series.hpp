@@ -98,7 +98,7 @@ struct DirectSeries {
 
   template <class R>
   SYMTOP_INLINE void compute_values(const LocationOf<R>& at, PairOf<R> values[FUNCTIONS]) const {
-    // _find_half_angle
+    // The half angle from the nearer end, where its sine has all its digits.
     const R distance = find_size(at.x);
     const auto is_lower = distance < at.above;
     const PairOf<R> near =
@@ -106,7 +106,7 @@ struct DirectSeries {
     const R s = find_sign(at.x) * choose(is_lower, near.y, near.x);
     const R c = choose(is_lower, near.x, near.y);
     const R sine_x = 2 * s * c, cosine_x = (c - s) * (c + s);
-    // _list_versines and _list_sines
+    // sin(n x / 2)^2 and sin(n x) as products: 1 - cos(n x) would cancel next to an end.
     const R one = repeat<R>(1.0);
     R below[5] = {one, s * s}, above[5] = {one, c * c}, sines[4] = {sine_x};
     if (order > 1) {

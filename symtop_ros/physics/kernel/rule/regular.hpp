@@ -56,12 +56,17 @@ inline void write_roots(const Long& a, const Long& b, const Long& c, double root
 // The cosine of a double by its series, to 47 digits of 1. Zero if it is no more than EPS: no double
 // is exactly pi/2, and the axis was meant to be horizontal.
 inline Long find_long_cosine(double theta) {
-  const Long x(take_turns_off(theta)), square = x * x;
-  Long term(1.0), total(1.0);
-  for (int n = 2; std::fabs(term.to_double()) > 1e-52; n += 2) {
-    term = -(term * square * invert(Long(double(n * (n - 1)))));
-    total = total + term;
+  const Long x(take_turns_off(theta)), square = -(x * x);
+  int last = 0;
+  for (double term = 1.0; term > 1e-52; term *= x.to_double() * x.to_double() / (last * (last - 1)))
+    last += 2;
+  // Horner's rule for last! cos(x), of which all coefficients are whole: one division, at the end.
+  Long coefficient(1.0), total(1.0);
+  for (int n = last; n > 0; n -= 2) {
+    coefficient = coefficient * Long(double(n * (n - 1)));
+    total = total * square + coefficient;
   }
+  total = total / coefficient;
   return size(total) <= Long(EPS) ? Long() : total;
 }
 
