@@ -83,9 +83,15 @@ class Motion:
     # Makes many motions; it goes with 0.5, and `__new__` with it.
     make_many: ClassVar[Callable[..., Any]]
 
-    def __new__(cls, *arguments: Any, **named: Any) -> "Motion":
+    def __new__(
+        cls,
+        top: Top,
+        start: State,
+        friction: Friction = NO_FRICTION,
+        torque: ArrayLike = NO_TORQUE,
+    ) -> "Motion":
         """Return the motion; for arrays warn, and return `Motions`."""
-        many: Motion | None = cls.make_many(*arguments, **named)
+        many: Motion | None = cls.make_many(top, start, friction, torque)
         return object.__new__(cls) if many is None else many
 
     def __init__(
