@@ -46,8 +46,14 @@ REPORT = [
     "rerun-sdk>=0.41",
     "tqdm>=4.60",  # progress bars
 ]
+# Motions with any number of digits: symtop_ros.physics.reference.
+REFERENCE = [
+    "mpmath>=1.4",
+    "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
+]
 # Programs that `make report` compares with, if they are installed.
 PEERS = [
+    *REFERENCE,  # errors are measured from it
     "heyoka>=7",
     "cyrk>=0.20",
     "mujoco>=3.3",
@@ -56,11 +62,6 @@ PEERS = [
     "exudyn>=1.13",
     "diffrax>=0.7",
     "ahrs>=0.4",  # attitude filters
-]
-# Motions with any number of digits: symtop_ros.physics.reference.
-REFERENCE = [
-    "mpmath>=1.4",
-    "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
 ]
 TEST = [
     "pytest>=8",

@@ -5,7 +5,7 @@ import math
 
 import pytest
 from mpmath import mp
-from physics.tops import ARTICLE, EPS, Case, attitude_error, error, random_case
+from physics.tops import ARTICLE, EPS, attitude_error, error, random_case
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 from symtop_ros.physics.reference import ClosedForm, Inputs
