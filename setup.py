@@ -46,8 +46,14 @@ REPORT = [
     "rerun-sdk>=0.41",
     "tqdm>=4.60",  # progress bars
 ]
+# Motions with any number of digits: symtop_ros.physics.reference.
+REFERENCE = [
+    "mpmath>=1.4",
+    "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
+]
 # Programs that `make report` compares with, if they are installed.
 PEERS = [
+    *REFERENCE,  # errors are measured from it
     "heyoka>=7",
     "cyrk>=0.20",
     "mujoco>=3.3",
@@ -65,8 +71,7 @@ TEST = [
     "pillow>=10",  # rendered scenes are compared
     "playwright>=1.40",  # drives a browser that is installed
     "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page
-    "mpmath>=1.3",  # reference motions with any number of digits
-    "gmpy2>=2.1",  # mpmath uses it, and takes a quarter less time
+    *REFERENCE,
     "mujoco>=3.3",  # reads the MJCF of the top
     "pin>=3.4",  # reads its URDF
     "ahrs>=0.4",  # filters that are fed with its sensor
@@ -176,6 +181,7 @@ setup(
         "kilted": KILTED,
         "jazzy": JAZZY,
         "playback": PLAYBACK,
+        "reference": REFERENCE,
         "report": REPORT,
         "peers": PEERS,
         "test": TEST,

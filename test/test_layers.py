@@ -14,7 +14,8 @@ TOP = {"__init__", "arrays", "distribution", "figures", "programs", "shutdown"}
 TABLE = {
     # text from records of any kind, so it is below them
     "wording": " | ",
-    "physics": "wording | numpy",
+    # mpmath: only in reference, which nothing imports
+    "physics": "wording | mpmath numpy",
     "wire": " | numpy",
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",

@@ -53,7 +53,7 @@ class DrivenCase:
 
     def solve(self):
         """Return the exact states at the two times."""
-        return list(map(series_of(self.motion).state_at, self.times))
+        return list(map(series_of(self.motion).at, self.times))
 
     def use_random_top(self) -> None:
         draw = self.random

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from symtop_ros.physics import Motion, State, Top
-from workshop.taylor_motion import TaylorMotion
+from symtop_ros.physics.reference import ClosedForm, Inputs, Series
+from workshop.testset.exact import returning_series
 
 FAMILIES = (
     "ordinary",
@@ -47,16 +48,26 @@ class Case:
     has_period: bool = True
 
     @property
-    def series(self) -> TaylorMotion:
-        return TaylorMotion(self.moments, self.orientation, self.omega, self.digits)
+    def inputs(self) -> Inputs:
+        return Inputs.exact(*self.moments, self.orientation, self.omega)
+
+    @property
+    def series(self) -> Series:
+        return returning_series(self.inputs, self.digits)
+
+    @property
+    def period(self) -> float:
+        """Period of theta in s."""
+        return float(ClosedForm(self.inputs, self.digits).period)
 
     @property
     def motion(self) -> Motion:
         return Motion(Top(*self.moments), State(self.orientation, self.omega))
 
-    def times(self, series: TaylorMotion) -> list[float]:
+    @property
+    def times(self) -> list[float]:
         """The times in s."""
-        unit = series.period_in_seconds if self.has_period else 1.0
+        unit = self.period if self.has_period else 1.0
         return [span * unit for span in self.spans]
 
 

@@ -8,7 +8,8 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, EPS, Case, series_of, turn
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
-from workshop.exact_motion import exact_motion
+from symtop_ros.physics.reference import ClosedForm
+from workshop.testset.exact import DIGITS
 
 # Weights of the second derivative by central differences, order 8 (Fornberg 1988, table 1).
 WEIGHTS = ((-205, 72), (8, 5), (-1, 5), (8, 315), (-1, 560))
@@ -35,7 +36,7 @@ def find_error(motion, position):
     )
     h = 2.0 ** round(math.log2(STEP / rate))
     series = series_of(motion)
-    exact = differentiate(lambda t: series.state_at(t)[0], position, h)
+    exact = differentiate(lambda t: series.at(t)[0], position, h)
     ours = state.to_world(point_acceleration(motion, state, position))
     return float(np.abs(ours - exact).max() / (rate**2 * np.linalg.norm(position)) / EPS)
 
@@ -68,10 +69,10 @@ def test_the_acceleration_of_a_point_is_the_second_derivative_of_its_place(drive
 def test_the_force_of_the_pivot_is_newtons_second_law():
     # Along the way of the article's top, with the momentum of the centre of mass from its place.
     body, motion = Body.of(ARTICLE), Motion(ARTICLE, CUSPS)
-    inputs = Case(ARTICLE, CUSPS, 0.0).inputs
+    exact_motion = ClosedForm(Case(ARTICLE, CUSPS, 0.0).inputs, DIGITS)
     for t in (0.0, 0.03, 0.08, 7.0):
         exact = differentiate(
-            lambda h, t=t: exact_motion(inputs, mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21
+            lambda h, t=t: exact_motion.at(mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21
         )
         force = body.pivot_force(motion, motion.at(t))
         expected = body.mass * (np.array(exact) + np.array((0, 0, body.gravity)))

@@ -5,11 +5,11 @@ import math
 
 import pytest
 from mpmath import mp
-from physics.tops import ARTICLE, EPS, Case, attitude_error, error, random_case
+from physics.tops import ARTICLE, EPS, attitude_error, error, random_case
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
-from workshop import exact_motion as reference
-from workshop.exact_motion import exact_motion, perturb
+from symtop_ros.physics.reference import ClosedForm, Inputs
+from workshop.testset.exact import DIGITS, perturb
 
 pytestmark = pytest.mark.untraced
 THIN_DISC = Top(Ix=0.001, Iz=0.0019, Mgl=-0.05)
@@ -37,13 +37,13 @@ def assert_met(top, start, *times):
     is not asked for where an error is below 8 eps in any case.
     """
     motion = Motion(top, start)
+    inputs = Inputs.of(top, start)
+    right = ClosedForm(inputs, DIGITS)
     for t in times:
-        inputs = Case(top, start, t).inputs
-        exact = exact_motion(inputs, t)
+        exact = right.at(t)
         errors = differences(exact, motion.at(t).parts)
         if max(errors) > 8 * EPS:
-            with mp.workdps(reference.DIGITS):
-                moved = [exact_motion(each, t) for each in perturb(inputs)]  # by half an ulp
+            moved = [ClosedForm(each, DIGITS).at(t) for each in perturb(inputs)]  # by half an ulp
             changes = zip(*(differences(exact, each) for each in moved), strict=True)
             for off, parts in zip(errors, changes, strict=True):
                 assert off <= 4 * math.hypot(*parts) + 8 * EPS
@@ -79,20 +79,18 @@ def test_an_axis_pushed_near_the_vertical(top, small, spin):
 @pytest.mark.parametrize("push", [0.0, 1e-15, 1e-9, 1e-6, 1e-3, 1.0, 50.0])
 @pytest.mark.parametrize("spin", [100.0, -300.0, 0.0])
 def test_an_axis_pushed_exactly_from_the_vertical(top, pole, push, spin):
-    if spin or not 0 < push < 1e-6:  # without spin these need more digits, as below
-        assert_met(top, State(pole, (0.3 * push, -push, spin)), 0.3, -1.7)
+    assert_met(top, State(pole, (0.3 * push, -push, spin)), 0.3, -1.7)
 
 
 @pytest.mark.parametrize(
-    ("top", "pole", "push", "t", "digits"),
+    ("top", "pole", "push", "t"),
     [
-        (ARTICLE, UPRIGHT, 1e-15, 0.3, 150),
-        (THIN_DISC, HANGING, 1e-15, 0.3, 150),
-        (ARTICLE, UPRIGHT, 1e-59, 0.1, 300),
+        (ARTICLE, UPRIGHT, 1e-15, 0.3),
+        (THIN_DISC, HANGING, 1e-15, 0.3),
+        (ARTICLE, UPRIGHT, 1e-59, 0.1),  # two roots agree to 120 digits
     ],
 )
-def test_a_pendulum_hardly_pushed_from_where_it_balances(top, pole, push, t, digits, monkeypatch):
-    monkeypatch.setattr(reference, "DIGITS", digits)  # two roots agree to 120 at 1e-59
+def test_a_pendulum_hardly_pushed_from_where_it_balances(top, pole, push, t):
     assert_met(top, State(pole, (0.3 * push, -push, 0.0)), t)
 
 
@@ -240,8 +238,7 @@ def test_a_weight_that_nearly_vanishes(power, sign, spin):
 
 @pytest.mark.parametrize("power", [50, 100, 200, 300])
 @BOTH_SIDES
-def test_a_weight_that_vanishes_for_all_purposes(power, sign, monkeypatch):
-    monkeypatch.setattr(reference, "DIGITS", 4 * power)  # the largest root is near 1/Mgl
+def test_a_weight_that_vanishes_for_all_purposes(power, sign):
     top = Top(0.000228, 5.72e-05, sign * 10.0**-power)
     start = State.from_euler(theta=0.5, theta_dot=1.5, phi_dot=3.0, psi_dot=200.0)
     assert_met(top, start, 0.3)

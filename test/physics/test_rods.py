@@ -6,11 +6,11 @@ import random
 import pytest
 from mpmath import mp, mpf
 from physics.refusals import meet
-from physics.tops import EPS, seeds
+from physics.tops import EPS, largest_rate, seeds
 
 from symtop_ros.physics import Motion, State, Top
-from workshop import exact_motion as reference
-from workshop.exact_motion import Inputs, exact_motion
+from symtop_ros.physics.reference import ClosedForm, Inputs
+from workshop.testset.exact import DIGITS
 
 CASES = 100  # of a seed
 # A promise of docs/accuracy.md; of 10 000 cases the worst has 3.6.
@@ -19,18 +19,12 @@ PROMISED = 5 * EPS
 
 def find_error(top, start, t):
     """The error of omega_xy, relative to the largest |omega_xy| of the motion."""
-    inputs = Inputs.of(*top.moments, *(part.tolist() for part in start.parts))
     motion = Motion(top, start)
     rates = motion.at(t).angular_velocity.tolist()
-    with mp.workdps(reference.DIGITS):
-        _, exact = exact_motion(inputs, t)
+    _, exact = ClosedForm(Inputs.of(top, start), DIGITS).at(t)
+    with mp.workdps(DIGITS):
         missed = mp.hypot(exact[0] - mpf(rates[0]), exact[1] - mpf(rates[1]))
-    # energy: |omega_xy|^2 is largest where the centre of mass is lowest
-    low, high = motion.turning_angles
-    lowest = high if top.Mgl > 0 else low
-    height = float(start.vertical[2]) - math.cos(lowest)
-    squared = float(start.angular_velocity[:2] @ start.angular_velocity[:2])
-    return float(missed) / math.sqrt(squared + 2 * top.Mgl / top.Ix * height)
+    return float(missed) / largest_rate(motion)
 
 
 def random_rod(rng):

@@ -14,8 +14,8 @@ import pytest
 from mpmath import mp, mpf
 
 from symtop_ros.physics import Motion, State, Top
-from workshop.exact_motion import Inputs, exact_motion
-from workshop.taylor_motion import TaylorMotion
+from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
+from workshop.testset.exact import DIGITS, returning_series
 
 EPS = 2.0**-52
 FAMILIES = ("any", "weak gravity", "fast", "critical", "pendulum", "from below")
@@ -35,12 +35,12 @@ class Case:
 
     @property
     def inputs(self) -> Inputs:
-        return Inputs.of(*self.top.moments, *(part.tolist() for part in self.start.parts))
+        return Inputs.of(self.top, self.start)
 
     @property
-    def exact(self):
+    def exact(self) -> ExactState:
         """Orientation and angular velocity to 30 digits or more."""
-        return exact_motion(self.inputs, self.t)
+        return ClosedForm(self.inputs, DIGITS).at(self.t)
 
     @property
     def motion(self) -> Motion:
@@ -116,12 +116,22 @@ def attitude_error(exact, doubles, size: float = 1.0) -> float:
     return min(error(exact, sign * np.asarray(doubles), size) for sign in (1, -1))
 
 
-def series_of(motion: Motion, *digits: int) -> TaylorMotion:
+def series_of(motion: Motion, digits: int = 40) -> Series:
     """The Taylor series of a motion, with its friction and torque."""
-    given = motion.start.given_orientation.tolist(), motion.start.angular_velocity.tolist()
+    inputs = Inputs.of(motion.top, motion.start)
     friction = motion.friction.axial, motion.friction.transverse
-    drive = {"friction": friction, "torque": motion.applied_torque}
-    return TaylorMotion(motion.top.moments, *given, *digits, **drive)
+    if any(friction) or any(motion.applied_torque):
+        return Series(inputs, digits, friction, motion.applied_torque)
+    return returning_series(inputs, digits)
+
+
+def largest_rate(motion: Motion) -> float:
+    """The largest |omega_xy| of a motion under gravity: where the centre of mass is lowest."""
+    top, start = motion.top, motion.start
+    low, high = motion.turning_angles
+    height = float(start.vertical[2]) - math.cos(high if top.Mgl > 0 else low)
+    squared = float(start.angular_velocity[:2] @ start.angular_velocity[:2])
+    return math.sqrt(squared + 2 * top.Mgl / top.Ix * height)
 
 
 def to_state(exact) -> State:

@@ -7,10 +7,10 @@ Inputs and times are doubles, taken as exact. `q` is the orientation (w, x, y, z
 
 import json
 import lzma
-import math
 
 from mpmath import mp
 from physics.taylor_families import FAMILIES, PATH, make_case
+from physics.tops import largest_rate
 
 COUNT = 200
 DIGITS = 25
@@ -18,16 +18,15 @@ DIGITS = 25
 
 def solve(family, seed):
     case = make_case(family, seed)
-    series = case.series
-    times = case.times(series)
-    states = [series.state_at(t) for t in times]
+    series, times = case.series, case.times
+    states = [series.at(t) for t in times]
     return {
         "family": family,
         "moments": case.moments,
         "q0": case.orientation,
         "omega0": case.omega,
-        "period": series.period_in_seconds if case.has_period else None,
-        "largest": series.largest_rate if case.has_period else math.hypot(*case.omega[:2]),
+        "period": case.period if case.has_period else None,
+        "largest": largest_rate(case.motion),
         "t": times,
         "q": [[mp.nstr(c, DIGITS) for c in q] for q, _ in states],
         "omega": [[mp.nstr(c, DIGITS) for c in omega] for _, omega in states],

@@ -1,7 +1,7 @@
 """Every message, decoded from its bytes, is within a few eps of the exact motion at its stamp.
 
 The exact motion starts from the doubles of the last event that changed it, and its time is the
-exact sum of products of nanoseconds and real-time factors. It is computed with 150 digits.
+exact sum of products of nanoseconds and real-time factors. It is computed with 60 digits.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from mpmath import mp, mpf
 from physics.tops import EPS, attitude_error, error, exact_euler, turn
 from simulation.runs import SECOND, ListSink, Run
 
+from symtop_ros.physics.reference import ClosedForm, Inputs
 from symtop_ros.simulation.topics import STATE_TOPICS
-from workshop.exact_motion import Inputs, exact_motion
 
 pytestmark = pytest.mark.untraced
 
@@ -58,7 +58,8 @@ def expect(event, stamp):
     keys = "top", "motion.orientation", "motion.angular_velocity"
     moments, *start = ([float(part) for part in event.values[key].split()] for key in keys)
     with mp.workdps(120):
-        q, omega = exact_motion(Inputs.of(*moments, *start), _exact_seconds(event, stamp))
+        exact = ClosedForm(Inputs.exact(*moments, *start), 60)
+        q, omega = exact.at(_exact_seconds(event, stamp))
         Ix, Iz, Mgl = map(mpf, moments)
         momentum = [Ix * omega[0], Ix * omega[1], Iz * omega[2]]
         x, y, _ = turn(q, (0, 0, Mgl))

@@ -9,8 +9,9 @@ from physics.driven_families import COUNT, list_cases
 from speed.write_reference import DIGITS, TIMES, article, driven_entry, hard_cases
 
 from symtop_ros.physics import Motion, State
-from workshop.exact_motion import Inputs, error_and_limit, exact_motion
+from symtop_ros.physics.reference import ClosedForm, Inputs
 from workshop.speed.reference import EPS, FRICTION, Reference, read_entries
+from workshop.testset.exact import error_and_limit
 
 pytestmark = pytest.mark.untraced
 
@@ -38,8 +39,8 @@ ENTRIES = read_entries()
 
 def exact(data, k):
     names = ("Ix", "Iz", "Mgl", "orientation", "angular_velocity")
-    inputs = Inputs.of(*(data[name] for name in names))
-    return inputs, exact_motion(inputs, data["t"][k])[0]
+    inputs = Inputs.exact(*(data[name] for name in names))
+    return inputs, ClosedForm(inputs).at(data["t"][k])[0]
 
 
 @pytest.mark.parametrize("data", ENTRIES["article"][:9], ids=lambda data: data["name"])

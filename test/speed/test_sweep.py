@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from workshop.speed.peers.peer import Peer, Solution
-from workshop.speed.reference import Reference
+from workshop.speed.reference import Reference, split_orientations
 from workshop.speed.sweep import Curve, Measurement, sweep, sweep_motion
 
 PROBLEM = Reference.read().article[0]
@@ -13,7 +13,7 @@ PROBLEM = Reference.read().article[0]
 def make_peer(errors, seconds):
     """Return a peer with a given error (rad) and given seconds for each setting, from 1 down."""
     settings = [10.0**-k for k in range(len(errors))]
-    high, low = PROBLEM._motion.doubles_at([1.0])
+    high, low = split_orientations(PROBLEM._motion, [1.0])
 
     def prepare(task, setting):
         number = settings.index(setting)

@@ -1,4 +1,4 @@
-"""Write the reference motions of the report to 25 digits, by independent formulas in mpmath.
+"""Write the reference motions of the report to 25 digits, by the reference.
 
 Run it by hand after a change: PYTHONPATH=.:test python test/speed/write_reference.py
 """
@@ -16,10 +16,10 @@ from mpmath import mp
 from physics.driven_families import DrivenCase, list_cases
 
 from symtop_ros.physics import Friction, State, Top, regular_precession_rates
+from symtop_ros.physics.reference import ClosedForm, Inputs, Series
 from workshop.article.motions import RATES, THETA, TOP, start
-from workshop.exact_motion import Inputs, error_and_limit, exact_motion
 from workshop.speed.reference import FILE, FRICTION
-from workshop.taylor_motion import TaylorMotion
+from workshop.testset.exact import error_and_limit
 
 TIMES = [0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6]  # s
 DRIVEN_TIMES = [0.1, 1.0, 10.0]
@@ -83,13 +83,13 @@ def entry(
 ) -> dict[str, Any]:
     """Return the entry of a motion in the file."""
     q, omega = (part.tolist() for part in state.parts)
+    inputs = Inputs.exact(*top.moments, q, omega)
     if friction:
-        coefficients = friction.axial, friction.transverse
-        driven = TaylorMotion(top.moments, q, omega, friction=coefficients)
-        exact, limits = [driven.state_at(t) for t in times], None
+        driven = Series(inputs, 40, (friction.axial, friction.transverse))
+        exact, limits = [driven.at(t) for t in times], None
     else:
-        inputs = Inputs.of(*top.moments, q, omega)
-        exact = [exact_motion(inputs, t) for t in times]
+        motion = ClosedForm(inputs)
+        exact = [motion.at(t) for t in times]
         limits = [error_and_limit(inputs, t, q, omega)[2] for t in times]
     return {
         "name": name,

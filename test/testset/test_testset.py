@@ -15,11 +15,11 @@ from testset.test_scorers import make_table, write
 
 from symtop_ros.models.formats import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
+from symtop_ros.physics.reference import ClosedForm, Inputs, Series
 from symtop_ros.testset.packed import FORCES, STATES, WORLD
 from symtop_ros.testset.score import main, read_problems
 from symtop_ros.testset.tables import TABLES
-from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion
-from workshop.taylor_motion import TaylorMotion
+from workshop.testset.exact import DIGITS, distance
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import COUNT, SETTINGS
 from workshop.testset.write import EPS_32, PACKED, describe, limits, list_all
@@ -28,6 +28,11 @@ PROBLEMS = {name: each.facts for name, each in read_problems().items()}
 # Of SHA256SUMS: the files have these bytes until the data change, and then the set a new version.
 SUMS = "42942dd2997370e905ea0eb8d0f7a11a0273aaab8285fda5096231f9047f84cc"
 BY_SERIES = ("free_disc", "sphere", "pole_unit", "separatrix_spinning")  # slow tops: a second each
+
+
+def read_inputs(facts):
+    keys = "Ix", "Iz", "Mgl", "orientation", "angular_velocity"
+    return Inputs.exact(*(facts[key] for key in keys))
 
 
 def test_there_are_seventy_problems_of_six_levels_at_twenty_times():
@@ -42,8 +47,7 @@ def test_there_are_seventy_problems_of_six_levels_at_twenty_times():
 def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
     facts = PROBLEMS[setting.name]
     k = sum(setting.name.encode()) % COUNT
-    inputs = Inputs.of(*setting.top.moments, facts["orientation"], facts["angular_velocity"])
-    q, omega = exact_motion(inputs, facts["times"][k])
+    q, omega = ClosedForm(read_inputs(facts), DIGITS).at(facts["times"][k])
     for name, rows in list_all(setting, [(q, omega)]).items():
         # the lists of what follows from states begin with the start
         assert rows == [facts[name][place] for place in ((k,) if name in STATES else (0, k + 1))]
@@ -53,8 +57,7 @@ def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
 def test_limits_in_single_precision_are_those_of_larger_roundings(setting):
     facts = PROBLEMS[setting.name]
     k = COUNT - 1
-    q, omega = facts["orientation"], facts["angular_velocity"]
-    exact = exact_motion(Inputs.of(*setting.top.moments, q, omega), facts["times"][k])
+    exact = ClosedForm(read_inputs(facts), DIGITS).at(facts["times"][k])
     found = limits(setting, facts["times"][k], exact, EPS_32)
     # three digits are stored
     stored = [facts[f"{n}_limits_float32"][k] for n in ("orientation", "angular_velocity")]
@@ -131,11 +134,8 @@ def test_the_effect_of_links_in_mujoco_is_made_again(name):
 
 @pytest.mark.parametrize("name", BY_SERIES)
 def test_a_taylor_series_has_the_same_digits(name):
-    (setting,) = [each for each in SETTINGS if each.name == name]
     facts = PROBLEMS[name]
-    series = TaylorMotion(setting.top.moments, facts["orientation"], facts["angular_velocity"], 60)
-    series.reach(facts["times"][5])
-    q, omega = series.state_at(facts["times"][5])
+    q, omega = Series(read_inputs(facts), 60).at(facts["times"][5])
     with mp.workdps(60):
         stored = [mpf(c) for c in facts["orientations"][5]]
         assert distance(q, stored) < mpf(10) ** -29

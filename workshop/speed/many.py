@@ -16,7 +16,7 @@ from symtop_ros.testset.score import measure_angles
 from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.peers.peer import Task
 from workshop.speed.publish import format_table
-from workshop.speed.reference import integrate
+from workshop.speed.reference import integrate, split_orientations
 
 SEED = 1
 COMPARED = 32  # motions of which the errors are taken; the exact ones take 2 s each
@@ -88,7 +88,7 @@ def compute_exact(count: int, t: float) -> tuple[Real, Real]:
     """
     motions = Motions.draw(count)
     tasks = [motions.task(number) for number in range(min(COMPARED, count))]
-    high, low = zip(*(integrate(task).doubles_at([t]) for task in tasks), strict=True)
+    high, low = zip(*(split_orientations(integrate(task), [t]) for task in tasks), strict=True)
     return np.concatenate(high), np.concatenate(low)
 
 

@@ -6,19 +6,21 @@ errors 2 |q - q_exact|, with the sign of q that makes it smaller.
 
 import json
 import lzma
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from mpmath import mp
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Friction, State, Top
+from symtop_ros.physics.reference import Inputs, Series
 from symtop_ros.testset.score import measure_angles, read_problems, split_decimals
 from workshop.speed.peers.peer import NO_FRICTION, NO_TORQUE, Task, initial_values
-from workshop.taylor import TaylorMotion
 
 FILE = Path(__file__).with_name("reference.json.xz")
 FRICTION = Friction(axial=2e-6, transverse=1e-5)  # of the article's top with friction, N m s
@@ -27,11 +29,22 @@ DIGITS = 32  # of an integration
 PARTS = "article", "hard", "driven"
 
 
-def integrate(task: Task) -> TaylorMotion:
+def integrate(task: Task) -> Series:
     """Return the motion of a task by Taylor series, to more than 20 digits."""
     friction = task.friction.axial, task.friction.transverse
     *q, wx, wy, wz = initial_values(task)
-    return TaylorMotion(task.top.moments, q, (wx, wy, wz), DIGITS, friction, task.torque)
+    inputs = Inputs.exact(*task.top.moments, q, (wx, wy, wz))
+    return Series(inputs, DIGITS, friction, task.torque)
+
+
+def split_orientations(series: Series, times: Iterable[float]) -> tuple[Real, Real]:
+    """Return orientations (n, 4) at times in s as sums of two doubles, high and low."""
+    with mp.workdps(DIGITS):
+        exact = [series.at(t).orientation for t in times]
+        high = [[float(each) for each in q] for q in exact]
+        pairs = (zip(q, doubles, strict=True) for q, doubles in zip(exact, high, strict=True))
+        low = [[float(each - double) for each, double in pair] for pair in pairs]
+        return np.array(high), np.array(low)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,11 +84,11 @@ class ReferenceMotion:
         The exact motion comes from a Taylor series. It is computed as far as is asked for, at a
         third of a second for a second of the article's top, and kept.
         """
-        exact = self._motion.doubles_at(np.asarray(times, dtype=float).tolist())
+        exact = split_orientations(self._motion, np.asarray(times, dtype=float).tolist())
         return measure_angles(np.asarray(orientations, dtype=float), *exact)
 
     @cached_property
-    def _motion(self) -> TaylorMotion:
+    def _motion(self) -> Series:
         return integrate(self.task)
 
     def limit(self, t: float) -> float:

@@ -9,8 +9,11 @@ from typing import NamedTuple
 
 from mpmath import mp, mpf
 
-from workshop.exact_motion import DIGITS, Attitude, Vector
+from workshop.testset.exact import DIGITS
 from workshop.testset.problems import Setting
+
+Attitude = tuple[mpf, ...]  # w, x, y, z
+Vector = tuple[mpf, ...]
 
 
 class Forces(NamedTuple):

@@ -1,6 +1,6 @@
 """Write problems.json.xz of symtop_ros/testset: seventy motions to 30 digits.
 
-Each state is computed by the closed form in 150 digits, and again by a Taylor series in 80 digits
+Each state is computed by the closed form in 80 digits, and again by a Taylor series in as many
 that shares no formula with it; a difference in the 33rd digit ends the program. What follows from
 the states is not packed: they get as many digits as the package takes for thirty of it. It takes
 twelve minutes with two processors:
@@ -19,11 +19,11 @@ from typing import Any
 from mpmath import mp, mpf
 
 from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
 from symtop_ros.testset.packed import FORCES, STATES, WORLD, complete
 from symtop_ros.testset.score import FILE, read_problems
 from symtop_ros.testset.tables import LIMITS, format_problems
-from workshop.exact_motion import DIGITS, Inputs, distance, exact_motion, perturb
-from workshop.taylor_motion import TaylorMotion
+from workshop.testset.exact import DIGITS, distance, perturb
 from workshop.testset.forces import find_forces, find_world_state
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import SETTINGS, Setting
@@ -31,29 +31,24 @@ from workshop.testset.problems import SETTINGS, Setting
 PACKED = FILE.with_suffix(".json.xz")
 SHOWN = 30  # digits
 AGREEMENT = mpf(10) ** -33  # of both methods, relative to the largest component
-NOTHING = mpf(10) ** -60  # of the largest component: what 150 digits leave of a zero
+NOTHING = mpf(10) ** -60  # of the largest component: what 80 digits leave of a zero
 EPS, EPS_32 = 2.0**-52, 2.0**-23  # of float64 and float32
-State = tuple[Any, Any]  # orientation and body angular velocity in numbers of mpmath
 
 
-def solve(setting: Setting) -> list[State]:
+def solve(setting: Setting) -> list[ExactState]:
     """States at the times of a problem, by both methods."""
-    q, omega = setting.start.given_orientation.tolist(), setting.start.angular_velocity.tolist()
-    inputs = Inputs.of(*setting.top.moments, q, omega)
-    series = TaylorMotion(setting.top.moments, q, omega, 80)
-    states = []
-    for t in setting.times:
-        exact = exact_motion(inputs, t)
+    inputs = Inputs.of(setting.top, setting.start)
+    motion = ClosedForm(inputs, DIGITS)
+    series = Series(inputs, DIGITS, period=motion.period if setting.has_period else None)
+    states = [motion.at(t) for t in setting.times]
+    for t, exact in zip(setting.times, states, strict=True):
         check(setting, t, exact, series)
-        states.append(exact)
     return states
 
 
-def check(setting: Setting, t: float, exact: State, series: TaylorMotion) -> None:
+def check(setting: Setting, t: float, exact: ExactState, series: Series) -> None:
     """End the program if the Taylor series has another state."""
-    if not setting.has_period:
-        series.reach(t)
-    other = series.state_at(t)
+    other = series.at(t)
     with mp.workdps(DIGITS):
         apart = distance(exact[0], other[0])
         size = mp.norm(exact[1])
@@ -62,12 +57,11 @@ def check(setting: Setting, t: float, exact: State, series: TaylorMotion) -> Non
             sys.exit(f"{setting.name} at {t} s: {mp.nstr(apart, 3)}, {mp.nstr(faster / size, 3)}")
 
 
-def limits(setting: Setting, t: float, exact: State, eps: float = EPS) -> tuple[float, float]:
+def limits(setting: Setting, t: float, exact: ExactState, eps: float = EPS) -> tuple[float, float]:
     """Angle (rad) and rate (rad/s) by which half an ulp of every input changes a state."""
-    q, omega = setting.start.given_orientation.tolist(), setting.start.angular_velocity.tolist()
-    inputs = Inputs.of(*setting.top.moments, q, omega)
+    inputs = Inputs.of(setting.top, setting.start)
+    moved = [ClosedForm(each, DIGITS).at(t) for each in perturb(inputs, eps)]
     with mp.workdps(DIGITS):
-        moved = [exact_motion(each, t) for each in perturb(inputs, eps)]
         angle = mp.norm([4 * mp.asin(distance(exact[0], each[0]) / 2) for each in moved])
         rate = mp.norm([a - b for each in moved for a, b in zip(exact[1], each[1], strict=True)])
         # no state is held more exactly than its own rounding allows
@@ -108,7 +102,7 @@ def describe_inputs(setting: Setting) -> dict[str, Any]:
     }
 
 
-def pack(setting: Setting, states: list[State]) -> dict[str, Any]:
+def pack(setting: Setting, states: list[ExactState]) -> dict[str, Any]:
     """Return the states with the fewest digits that give thirty of all that follows from them."""
     inputs, wanted = describe_inputs(setting), list_all(setting, states)
     for count in range(SHOWN, DIGITS // 2):
@@ -120,7 +114,7 @@ def pack(setting: Setting, states: list[State]) -> dict[str, Any]:
     sys.exit(f"{setting.name}: no number of digits gives thirty of all that follows")
 
 
-def list_all(setting: Setting, states: list[State]) -> dict[str, Any]:
+def list_all(setting: Setting, states: list[ExactState]) -> dict[str, Any]:
     """Return states, forces, and the world's view, the latter two from the start on."""
     moments = [find_start(setting), *states]
     with mp.workdps(DIGITS):
@@ -135,11 +129,11 @@ def list_all(setting: Setting, states: list[State]) -> dict[str, Any]:
     return lists | {"energies": [energy for (energy,) in lists["energies"]]}
 
 
-def find_start(setting: Setting) -> State:
+def find_start(setting: Setting) -> ExactState:
     """The start with a unit quaternion."""
     with mp.workdps(DIGITS):
-        q = [mpf(x) for x in setting.start.given_orientation.tolist()]
-        return [x / mp.norm(q) for x in q], [mpf(x) for x in setting.start.angular_velocity]
+        q, omega = (tuple(map(mpf, part)) for part in Inputs.of(setting.top, setting.start)[3:])
+        return ExactState(tuple(x / mp.norm(q) for x in q), omega)
 
 
 def digits(rows: Any, count: int = SHOWN) -> list[list[str]]:

@@ -8,7 +8,8 @@ import numpy as np
 from mpmath import mp, mpf
 from physics.tops import multiply
 
-from workshop.taylor_motion import TaylorMotion
+from symtop_ros.physics.reference import Inputs, Series
+from workshop.testset.exact import returning_series
 
 DIGITS = 70
 FEW_DIGITS = 34  # enough in the first nutations: derivatives with some 20 digits
@@ -18,12 +19,15 @@ BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 def differentiate(motion, times, returns=True, digits=DIGITS):
     """The Jacobians (n, 6, 9) at times in s > 0; `returns` says that the nutation has a period."""
     friction = motion.friction.axial, motion.friction.transverse
+    driven = any(friction) or any(motion.applied_torque)
 
-    def follow(*arguments):
-        exact = TaylorMotion(*arguments, digits, friction, motion.applied_torque)
-        if not returns:
-            exact.reach(max(times))
-        return [exact.state_at(t) for t in times]
+    def follow(moments, *start):
+        inputs = Inputs.exact(*moments, *start)
+        if driven or not returns:
+            exact = Series(inputs, digits, friction, motion.applied_torque)
+        else:
+            exact = returning_series(inputs, digits)
+        return [exact.at(t) for t in times]
 
     # Of a parameter of size 1: its square is the relative error, as much as rounding leaves.
     step = Fraction(1, 10 ** (digits // 3))

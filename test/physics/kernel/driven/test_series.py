@@ -25,7 +25,7 @@ DRIVES = {
 
 def exact(motion, t):
     """The state at t as doubles, from 30 digits."""
-    return to_state(series_of(motion).state_at(t))
+    return to_state(series_of(motion).at(t))
 
 
 # It changes no bit of a state, and makes a motion under gravity one that is integrated.

@@ -11,7 +11,7 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS, Case, attitude_error, error, exact_euler, random_case, seeds
 
 from symtop_ros.physics import Motion, State, Top
-from workshop.exact_motion import error_and_limit
+from workshop.testset.exact import error_and_limit
 
 pytestmark = pytest.mark.untraced
 FAMILIES = ["any", "weak gravity", "fast", "critical", "pendulum", "from below"]

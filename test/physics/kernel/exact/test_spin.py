@@ -8,7 +8,7 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS, exact_euler, random_case
 
 from symtop_ros.physics import Motion, State, Top
-from workshop.exact_motion import exact_motion
+from symtop_ros.physics.reference import ClosedForm
 
 CASES = [random_case(seed, "any") for seed in range(400)]
 PRECESSING = [
@@ -79,7 +79,8 @@ def test_the_precession_of_a_nutation_is_that_of_the_exact_motion(case):
     # from any time on. The period is a double: its rounding counts with the fastest rate.
     begin = mpf(period) / 7
     with mp.workdps(50):
-        ends = [exact_motion(case.inputs, t) for t in (begin, begin + mpf(period))]
+        exact = ClosedForm(case.inputs)
+        ends = [exact.at(t) for t in (begin, begin + mpf(period))]
         first, last = (exact_euler(*each)[0][0] for each in ends)
         off = (last - first) / (2 * mp.pi) - mpf(turns)
         off = abs(off - mp.nint(off))

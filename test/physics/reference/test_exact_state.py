@@ -1,0 +1,114 @@
+"""The reference: its digits, against stored motions, other means, and itself."""
+
+import ast
+import json
+import lzma
+from pathlib import Path
+
+import pytest
+from mpmath import mp, mpf
+from physics.tops import ARTICLE, CUSPS
+from python_runs import run_python
+
+from symtop_ros.physics import Friction, State, Top, reference
+from symtop_ros.physics.reference import ClosedForm, Inputs, exact_state
+from workshop.testset.exact import distance
+
+pytestmark = pytest.mark.untraced
+PACKED = Path(__file__).parents[1] / "motions.json.xz"
+MOTIONS = json.loads(lzma.decompress(PACKED.read_bytes()))
+SOURCES = sorted(Path(reference.__file__).parent.glob("*.py"))
+
+
+def assert_same(found, q, omega, digits):
+    """Assert a quaternion, and rates relative to their size, to so many digits."""
+    with mp.workdps(2 * digits):
+        q, omega = ([mpf(each) for each in part] for part in (q, omega))
+        rates = zip(found.angular_velocity, omega, strict=True)
+        assert distance(found.orientation, q) < mpf(10) ** -digits
+        assert mp.norm([a - b for a, b in rates]) <= mpf(10) ** -digits * mp.norm(omega)
+
+
+@pytest.mark.parametrize("data", MOTIONS, ids=[data["name"] for data in MOTIONS])
+def test_it_gives_28_digits_of_the_stored_motions(data):
+    top, start = Top(data["Ix"], data["Iz"], data["Mgl"]), State(data["q0"], data["omega_body0"])
+    motion = ClosedForm(Inputs.of(top, start), 60)
+    times = zip(data["t"], data["q"], data["omega_body"], strict=True)
+    for t, q, omega in times:
+        assert_same(motion.at(t), q, omega, 28)
+    assert_same(exact_state(top, start, t, digits=30), q, omega, 28)
+
+
+def test_as_many_digits_as_are_asked_for_agree_with_more():
+    for t in (1.0, 1e20):
+        few, many = (exact_state(ARTICLE, CUSPS, t, digits) for digits in (25, 200))
+        assert_same(few, *many, 25)
+
+
+def test_doubles_are_exact_and_the_orientation_is_normalised_with_all_digits():
+    longer = State(CUSPS.orientation * 1.0001, CUSPS.angular_velocity)
+    q = [mpf(each) for each in longer.given_orientation.tolist()]
+    with mp.workdps(60):
+        unit = [each / mp.norm(q) for each in q]
+    assert_same(exact_state(ARTICLE, longer, 0.0), unit, (0, 0, 200), 50)
+
+
+def test_a_pendulum_that_rises_for_ever_is_the_known_one():
+    # theta'' = sin(theta): from hanging with theta' = -2 it is theta = 4 atan(exp(-t))
+    start = State((0.0, 1.0, 0.0, 0.0), (-2.0, 0.0, 0.0))
+    for t in (0.5, 30.0, -2.0):
+        q, _ = exact_state(Top(1.0, 0.5, 1.0), start, t)
+        with mp.workdps(60):
+            tilt = 2 * mp.atan2(mp.hypot(q[1], q[2]), mp.hypot(q[0], q[3]))
+            assert abs(tilt - 4 * mp.atan(mp.exp(-abs(mpf(t))))) < mpf(10) ** -48
+
+
+def test_friction_alone_slows_the_spin_exponentially():
+    start = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 4.0))
+    found = exact_state(Top(1.0, 0.5, 0.0), start, 3.0, 40, friction=Friction(axial=0.25))
+    with mp.workdps(60):
+        left = mp.exp(mpf(-3) / 2)
+        half = 4 * (1 - left)
+        assert_same(found, (mp.cos(half), 0, 0, mp.sin(half)), (0, 0, 4 * left), 40)
+
+
+def test_a_torque_about_the_vertical_hastens_a_top_that_sleeps():
+    start = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 2.0))
+    found = exact_state(Top(1.0, 0.5, 0.3), start, 3.0, 40, torque=(0.0, 0.0, 0.25))
+    with mp.workdps(60):  # it turns by 2 t + t^2/4
+        half = mpf("4.125")
+        assert_same(found, (mp.cos(half), 0, 0, mp.sin(half)), (0, 0, 3.5), 40)
+
+
+def test_a_friction_that_is_too_weak_to_be_felt_gives_the_closed_form():
+    free = exact_state(ARTICLE, CUSPS, 0.3, 30)
+    assert_same(exact_state(ARTICLE, CUSPS, 0.3, 30, Friction(0.0, 1e-60)), *free, 30)
+
+
+def test_the_mean_rates_are_those_of_a_nutation():
+    for top in (ARTICLE, Top(ARTICLE.Ix, ARTICLE.Iz, -0.068)):
+        start = State.from_euler(theta=0.7, phi=0.2, theta_dot=3.0, phi_dot=9.0, psi_dot=170.0)
+        motion = ClosedForm(Inputs.of(top, start), 40)
+        with mp.workdps(40):
+            phases = []
+            for t in (0, motion.period):
+                w, x, y, z = motion.at(t).orientation
+                plus, minus = mp.atan2(z, w), mp.atan2(y, x)
+                phases.append((plus + minus, plus - minus))
+            for first, last, rate in zip(*phases, motion.mean_rates, strict=True):
+                turns = (last - first - rate * motion.period) / (2 * mp.pi)
+                assert abs(turns - mp.nint(turns)) < mpf(10) ** -35
+                assert abs(rate) > 1  # rad/s
+
+
+def test_it_imports_nothing_of_the_kernel_and_nothing_imports_it():
+    found = {
+        each.module
+        for path in SOURCES
+        for each in ast.parse(path.read_text()).body  # types are imported below TYPE_CHECKING
+        if isinstance(each, ast.ImportFrom)
+    }
+    ours = {name for name in found if name.startswith("symtop_ros")}
+    assert all(name.startswith("symtop_ros.physics.reference.") for name in ours)
+    done = run_python("import sys, symtop_ros.physics; assert 'mpmath' not in sys.modules")
+    assert (done.returncode, done.stderr) == (0, "")
