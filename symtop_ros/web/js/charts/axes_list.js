@@ -1,7 +1,6 @@
 // Quantities that the chart with axes of choice can show.
 
-import { findEnergies, findRest } from "../physics/energies.js";
-import { findTiltAcceleration } from "../physics/precession.js";
+import { findEnergies, findRest, findTiltAcceleration } from "./formulas.js";
 import { NANO } from "../physics/course.js";
 import { findVectors } from "../scene/vectors.js";
 

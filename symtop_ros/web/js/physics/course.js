@@ -1,11 +1,11 @@
 // A motion from a start, with friction and torque, computed by the kernel at any time.
 
+import { pack } from "./kernel.js";
 import { State } from "./state.js";
 
 /** @typedef {import("./kernel.js").Kernel} Kernel */
-/** @typedef {import("./kernel.js").Motion} Motion */
-/** @typedef {import("./precession.js").Top} Top */
-/** @typedef {import("./state.js").Vector} Vector */
+/** @typedef {import("./kernel.js").Top} Top */
+/** @typedef {import("./kernel.js").Vector} Vector */
 
 export const NANO = 1e9; // ns in a second
 /** @type {[number, number]} */
@@ -28,9 +28,10 @@ export class Course {
     this.start = start;
     this.friction = friction;
     this.torque = torque;
-    const { given: orientation, omega: angular_velocity } = start;
-    /** @type {Motion} */
-    this.motion = kernel.motion({ ...top, orientation, angular_velocity, friction, torque });
+    const given = { orientation: start.given, angular_velocity: start.omega, friction, torque };
+    /** The numbers of the motion, as the kernel takes them. */
+    this.packed = pack({ ...top, ...given });
+    this.motion = kernel.motion({ ...top, ...given });
     this.isDriven = [...friction, ...torque].some((each) => each !== 0);
     /** @type {Course | null} */
     this.undriven = this.isDriven ? null : this;
@@ -48,8 +49,8 @@ export class Course {
       const most = `within ${MOST_STEPS} steps of integration`;
       throw new RangeError(`a time must be ${most}, got ${passed / NANO} s after its event`);
     }
-    const [w, x, y, z, ...omega] = this.motion.atNanosecond(passed);
-    return new State([w, x, y, z], /** @type {Vector} */ (omega));
+    const { orientation, angular_velocity } = this.motion.atNanosecond(passed);
+    return new State(this.kernel, orientation, angular_velocity);
   }
 
   /**

@@ -1,187 +1,75 @@
-// Twin of physics/rule/verdict.py and kick_effect.py: what a start or a kick leads to, as records.
+// What a start or a kick leads to, as records for the templates: the kernel's verdicts, with null for
+// what is undefined.
 
-import { findLength } from "./elementary.js";
-import { nameSubject, PrecessionChange, TiltAcceleration } from "./rule.js";
-import { START_ROUNDING } from "./precession.js";
+/** @typedef {import("./kernel.js").Found} Found */
+/** @typedef {import("./kernel.js").Hold} Hold */
+/** @typedef {import("./kernel.js").Direction} Direction */
+/** @typedef {import("./course.js").Course} Course */
+/** @typedef {{kind: string, amount: number}} Lift */
 
-/** @typedef {import("./kernel.js").Motion} Motion */
-/** @typedef {import("./state.js").State} State */
-/** @typedef {import("./precession.js").Top} Top */
-/** @typedef {import("./kicks.js").Hold} Hold */
-/** @typedef {import("./rule.js").Direction} Direction */
-/**
- * Why Perry's rule holds, fails or says nothing.
- * @typedef {{kind: string, rule: string | null, subject: string, before: number | null,
- *   after: number | null, theta_ddot_without: number | null, theta_ddot: number | null,
- *   place: object | null}} Reason
- */
-/**
- * A motion and what it starts from; `free` is the same under gravity alone.
- * @typedef {{top: Top, start: State, motion: Motion, isDriven: boolean}} Course
- */
+const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];
 
-const EPS = 2 ** -52;
-const SAME_ANGLE = 1e-7; // rad
-
-/**
- * Whether a resting vertical axis is stable.
- * @param {Top} top
- * @param {State} state
- */
-const isSleepingStable = ({ Ix, Iz, Mgl }, state) => {
-  const weight = state.vertical[2] > 0 ? Mgl : -Mgl;
-  if (weight <= 0) return true;
-  const least = 2 * Math.sqrt(Ix) * Math.sqrt(weight);
-  return Math.abs(Iz * state.omega[2]) >= (1 - 8 * EPS) * least;
-};
-
-/**
- * @param {Top} top
- * @param {State} state
- */
-const classifyVertical = (top, state) => {
-  if (state.omega[0] || state.omega[1]) return "undefined";
-  return isSleepingStable(top, state) ? "stable" : "unstable";
-};
-
-/**
- * @param {Top} top
- * @param {State} state
- * @returns {Reason}
- */
-const explainVertical = (top, state) => ({
-  kind: classifyVertical(top, state),
-  rule: null,
-  subject: nameSubject(top),
-  before: null,
-  after: null,
-  theta_ddot_without: null,
-  theta_ddot: null,
-  place: null,
-});
-
-/**
- * @param {Top} top
- * @param {State} state
- * @returns {Direction}
- */
-const findDirection = (top, state) => {
-  if (state.isVertical) {
-    if (findLength(state.omega[0], state.omega[1]) === 0) return "stays";
-    return state.vertical[2] > 0 ? "falls" : "rises";
+/** Why Perry's rule holds, fails or says nothing. @param {Found} verdict */
+const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }) => {
+  if (!ON_THE_VERTICAL.includes(kind)) {
+    const regular_rates = place.regular_rates.filter((/** @type {number} */ rate) => rate === rate);
+    return { kind, rule, subject, ...numbers, place: { ...place, regular_rates } };
   }
-  let change = state.rates.theta;
-  if (Math.abs(change) <= START_ROUNDING * Math.max(...state.omega.map(Math.abs))) {
-    change = new TiltAcceleration(top, state, "spin_rate").at(state.rates.phi);
-  }
-  if (change === 0) return "stays";
-  return change < 0 ? "rises" : "falls";
+  const nothing = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
+  return { kind, rule, subject, ...nothing, place: null };
 };
 
-/** @param {Course} course */
-const findAverage = ({ top, start, motion }) => {
-  const {
-    precession_per_nutation: turns,
-    mean_precession_rate: rate,
-    spin_reverses,
-  } = motion.rates;
-  if (!Number.isFinite(turns)) return null;
-  const spin = start.omega[2];
-  const least = (2 * Math.sqrt(top.Ix) * Math.sqrt(Math.abs(top.Mgl))) / top.Iz;
-  const speed = top.Mgl && Math.abs(spin) > least ? "fast" : "slow";
-  const fast_top_rate = top.Iz * spin ? top.Mgl / (top.Iz * spin) : NaN;
-  return { rate, turns, speed, fast_top_rate, spin_reverses };
-};
+/** @param {Found} average */
+const readAverage = ({ is_fast, ...average }) =>
+  Number.isFinite(average.turns) ? { ...average, speed: is_fast ? "fast" : "slow" } : null;
 
 /**
- * The verdict on a state: what follows, and what Perry's rule would say if it were hurried.
- * @param {Course} course under gravity alone
+ * The verdict on a start under gravity alone, and what Perry's rule says if it is hurried.
+ * @param {Course} course
  * @param {number} factor
  * @param {Hold} hold
  */
-export const judge = (course, factor = 1.4, hold = "spin_rate") => {
-  const { top, start, motion } = course;
-  const tilt = start.isVertical ? null : new TiltAcceleration(top, start, hold);
-  let reason = explainVertical(top, start);
-  if (tilt) {
-    const [rate] = start.exactRates;
-    reason = new PrecessionChange(top, tilt, rate, factor * rate, factor).explain(false);
-  }
+export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
+  const found = kernel.judge(free.packed, factor, hold);
+  const reason = readReason(found);
   return {
-    subject: nameSubject(top),
-    direction: findDirection(top, start),
-    turning_angles: motion.turning_angles,
-    regular_rates: tilt ? tilt.quadratic.roots : [],
-    rule_holds: reason.rule === null ? null : reason.rule === "holds",
+    subject: found.subject,
+    direction: found.direction,
+    turning_angles: found.turning_angles,
+    regular_rates: reason.place?.regular_rates ?? [],
+    rule_holds: reason.rule && reason.rule === "holds",
     reason,
-    average: findAverage(course),
+    average: readAverage(found.average),
   };
 };
 
 /**
- * @param {number} was
- * @param {number} now
- */
-const compare = (was, now) => {
-  const change = Math.abs(was - now) > SAME_ANGLE ? was - now : 0;
-  const kind = change ? (change > 0 ? "higher" : "lower") : "unchanged";
-  return { kind, amount: Math.abs(change) };
-};
-
-/**
- * Facts that contradict what the rule says, or null.
- * @param {{rule: string | null, subject: string}} reason
- * @param {Direction | null} expected
- * @param {Direction} direction
- * @param {{kind: string}} highest
- * @param {{kind: string}} lowest
- */
-const findContradiction = ({ rule, subject }, expected, direction, highest, lowest) => {
-  if (expected === null || rule === null) return null;
-  const rises = expected === "rises";
-  const facts = [];
-  if (direction !== expected && direction !== "stays") facts.push(rises ? "falls" : "rises");
-  const opposite = rises ? "lower" : "higher";
-  if (highest.kind === opposite) facts.push(`highest_${opposite}`);
-  if (lowest.kind === opposite) facts.push(`lowest_${opposite}`);
-  return facts.length ? { rule, subject, facts } : null;
-};
-
-/**
- * The verdict on a kick. `anglesBefore` are the turning angles without it.
- * @param {Course} course after the kick
- * @param {State} before
- * @param {number[]} anglesBefore
+ * The verdict on the kick with which a course begins.
+ * @param {Course} course
+ * @param {import("./state.js").State} before
  * @param {Hold | null} hold null for an angular impulse
  */
-export const judgeKick = (course, before, anglesBefore, hold) => {
-  const { top, start, motion, isDriven } = course;
-  const kick = before.isVertical ? null : PrecessionChange.between(top, before, start, hold);
-  const reason = kick ? kick.explain(true) : explainVertical(top, start);
-  const direction = findDirection(top, start);
-  const angles = motion.turning_angles;
-  const [highest, lowest] = angles.map((now, k) => compare(anglesBefore[k], now));
+export const judgeKick = (course, before, hold) => {
+  const { kernel, packed, isDriven } = course;
+  const found = kernel.judgeKick(course.continueFree(before).packed, packed, hold);
+  const { factor, contrary_facts: facts, reason: _, average, ...others } = found;
+  const reason = readReason(found);
+  const { rule, subject } = reason;
   return {
-    axis: kick ? "tilted" : "vertical",
+    ...{
+      direction: /** @type {Direction} */ (found.direction),
+      highest: /** @type {Lift} */ (found.highest),
+      lowest: /** @type {Lift} */ (found.lowest),
+    },
+    ...others,
+    axis: before.isVertical ? "vertical" : "tilted",
     hold,
-    factor: kick ? kick.factor : null,
+    factor: Number.isNaN(factor) ? null : factor,
     before: reason.before,
     after: reason.after,
-    motion: motion.kind,
-    subject: nameSubject(top),
-    direction,
-    turning_angles: angles,
     driven: isDriven,
     reason,
-    highest,
-    lowest,
-    contradiction: findContradiction(
-      reason,
-      kick ? kick.expected : null,
-      direction,
-      highest,
-      lowest,
-    ),
-    average: isDriven ? null : findAverage(course),
+    contradiction: facts.length && rule ? { rule, subject, facts } : null,
+    average: readAverage(average),
   };
 };

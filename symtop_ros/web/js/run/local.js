@@ -62,7 +62,7 @@ export class LocalTop {
     /** Called when another motion begins. */
     this.begin = () => {};
     /** What Reset starts from. */
-    this.initial = State.fromEuler({ theta: 0 });
+    this.initial = State.fromEuler(kernel, { theta: 0 });
     /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
     this.kept = null;
   }

@@ -15,7 +15,7 @@ const DISCONNECTED = "the connection is lost: is top_panel still running?";
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
-  /** @type {import("../physics/state.js").Quaternion | null} */
+  /** @type {import("../physics/kernel.js").Quaternion | null} */
   orientation = null; // that the node has published last
   isGreeted = false;
   stamp = ""; // ns of the node's clock, of the last event
@@ -86,7 +86,7 @@ export class NodeTop extends LocalTop {
   /** The published attitude; all else follows from the events. */
   get state() {
     const computed = super.state;
-    return this.orientation ? new State(this.orientation, computed.omega) : computed;
+    return this.orientation ? new State(this.kernel, this.orientation, computed.omega) : computed;
   }
 
   /**

@@ -12,7 +12,7 @@ import {
 } from "./matrices.js";
 import { Size } from "./size.js";
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 
 const ANGLE = (42 * Math.PI) / 180; // of the view
 const STEEPEST = 1.5; // rad above or below the horizon

@@ -2,7 +2,7 @@
 
 import { typeset } from "../words/typeset.js";
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 
 const GAP = 2; // px between labels
 

@@ -1,7 +1,7 @@
 // Matrices of 16 numbers by columns, as WebGL wants them, and vectors of three.
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
-/** @typedef {import("../physics/state.js").Quaternion} Quaternion */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Quaternion} Quaternion */
 
 /**
  * @param {Float32Array | number[]} a

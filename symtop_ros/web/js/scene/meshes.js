@@ -89,7 +89,7 @@ const createRotor = (radius, height) => {
 
 /**
  * The body of a top: its rotor is at the centre of mass, and wider for a larger Iz/Ix.
- * @param {import("../physics/precession.js").Top} top
+ * @param {import("../physics/kernel.js").Top} top
  */
 export const createBody = ({ Ix, Iz, Mgl }) => {
   const [radius, height] = [0.2 + 0.26 * Math.sqrt(Iz / Ix), 0.56 * Math.sign(Mgl)];

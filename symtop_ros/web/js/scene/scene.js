@@ -19,7 +19,7 @@ import { findTorques, findVectors } from "./vectors.js";
 
 /** @typedef {import("../run/local.js").LocalTop} LocalTop */
 /** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 /** @typedef {import("./meshes.js").Color} Color */
 
 const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion

@@ -1,14 +1,8 @@
-// The parts of the energy of a top, and what a kick puts into them.
+// What a kick puts into the parts of the energy of a top.
 
-import { cosineAndSine } from "./elementary.js";
+import { findEnergies, findRest } from "../charts/formulas.js";
 
-/** @typedef {import("./state.js").State} State */
-/** @typedef {import("./precession.js").Top} Top */
-/**
- * Parts of the energy in J. E' is the sum of weight, precession and nutation; the spin keeps its
- * part until the next kick.
- * @typedef {{spin: number, weight: number, precession: number, nutation: number}} Energies
- */
+/** @typedef {import("../charts/formulas.js").Energies} Energies */
 /**
  * What has changed since before a kick, in mJ: just after it, and at the turning point that is
  * farther from there.
@@ -16,28 +10,6 @@ import { cosineAndSine } from "./elementary.js";
  */
 
 const MILLI = 1000;
-
-/** @param {Energies} energies */
-export const findRest = ({ weight, precession, nutation }) => weight + precession + nutation;
-
-/**
- * @param {Top} top
- * @param {State} state
- * @returns {Energies}
- */
-export const findEnergies = ({ Ix, Iz, Mgl }, state) => {
-  const [x, y, z] = state.omega;
-  const [gx, gy, gz] = state.vertical;
-  const sine = Math.hypot(gx, gy);
-  // Across the axis omega has two parts: about the line of nodes, and at right angles to it.
-  const [along, across] = sine ? [(x * gx + y * gy) / sine, (x * gy - y * gx) / sine] : [x, y];
-  return {
-    spin: (Iz * z * z) / 2,
-    weight: Mgl * gz,
-    precession: (Ix * along * along) / 2,
-    nutation: (Ix * across * across) / 2,
-  };
-};
 
 /**
  * @param {Energies} now
@@ -63,11 +35,20 @@ export const findLedger = ({ kind, course, before }) => {
   const [highest, lowest] = free.motion.turning_angles;
   const { theta } = start.angles;
   const isHighest = theta - highest > lowest - theta;
-  const weight = top.Mgl * cosineAndSine(isHighest ? highest : lowest)[0];
+  const weight = top.Mgl * Math.cos(isHighest ? highest : lowest);
   const far = { ...after, weight, nutation: 0, precession: findRest(after) - weight };
   return {
     kick: subtractEnergies(after, first),
     far: subtractEnergies(far, first),
     point: isHighest ? "highest" : "lowest",
   };
+};
+
+/** The record of the ledger, in mJ. @param {import("../run/run.js").Moment} moment */
+export const nameLedger = (moment) => {
+  const ledger = findLedger(moment);
+  if (!ledger) return { kind: "none" };
+  const { kick, far, point } = ledger;
+  const { weight, precession } = far;
+  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
 };
