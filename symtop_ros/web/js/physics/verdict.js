@@ -9,10 +9,13 @@
 
 const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];
 
+/** @param {number[]} rates */
+const keepDefined = (rates) => rates.filter((rate) => !Number.isNaN(rate));
+
 /** Why Perry's rule holds, fails or says nothing. @param {Found} verdict */
 const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }) => {
   if (!ON_THE_VERTICAL.includes(kind)) {
-    const regular_rates = place.regular_rates.filter((/** @type {number} */ rate) => rate === rate);
+    const regular_rates = keepDefined(place.regular_rates);
     return { kind, rule, subject, ...numbers, place: { ...place, regular_rates } };
   }
   const nothing = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
