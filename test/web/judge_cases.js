@@ -6,7 +6,7 @@ const toRecord = (value) =>
 window.judgeCases = async (cases) => {
   const { Course } = await import("/physics/course.js");
   const { State } = await import("/physics/state.js");
-  const { judge, judgeKick } = await import("/physics/verdict.js");
+  const { judge, judgeKick } = await import("/words/verdict.js");
   const { findConstants, findFrameTorques, findPotential } = await import("/charts/formulas.js");
   return cases.map(({ top, angles, rates, kick }) => {
     const state = State.fromEuler(kernel, angles, rates);

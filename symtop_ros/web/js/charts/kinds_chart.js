@@ -75,12 +75,7 @@ const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
   return `<path d="${path}" fill="var(--loops)"/>`;
 };
 
-/**
- * @param {Frame} frame
- * @param {Top} top
- * @param {number} theta
- * @param {[Pair, Pair]} ranges
- */
+/** @param {Frame} frame @param {Top} top @param {number} theta @param {[Pair, Pair]} ranges */
 const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
   const sides = [
     [low, 0],
@@ -106,10 +101,7 @@ const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
 /** What was drawn last: regions and boundaries hold for a top and a tilt. */
 const drawn = { key: "", text: "" };
 
-/**
- * @param {Top} top
- * @param {Turning | null} turning
- */
+/** @param {Top} top @param {Turning | null} turning */
 export const drawKinds = (top, turning) => {
   find("kinds-chart").hidden = !turning;
   if (!turning) return;

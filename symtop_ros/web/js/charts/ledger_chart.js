@@ -47,10 +47,7 @@ const drawBar = (frame, group, place, height) => {
     <text class="tick" x="${middle}" y="${above.toFixed(1)}" text-anchor="middle">${writeSigned(height)}</text>`;
 };
 
-/**
- * @param {Ledger | null} ledger
- * @param {string} sentence
- */
+/** @param {Ledger | null} ledger @param {string} sentence */
 export const drawLedger = (ledger, sentence) => {
   find("ledger-chart").hidden = !ledger;
   if (!ledger) return;

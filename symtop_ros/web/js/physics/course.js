@@ -8,10 +8,6 @@ import { State } from "./state.js";
 /** @typedef {import("./kernel.js").Vector} Vector */
 
 export const NANO = 1e9; // ns in a second
-/** @type {[number, number]} */
-const NO_FRICTION = [0, 0];
-/** @type {Vector} */
-const NO_TORQUE = [0, 0, 0];
 export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
 
 export class Course {
@@ -22,7 +18,7 @@ export class Course {
    * @param {[number, number]} friction
    * @param {Vector} torque
    */
-  constructor(kernel, top, start, friction = NO_FRICTION, torque = NO_TORQUE) {
+  constructor(kernel, top, start, friction = [0, 0], torque = [0, 0, 0]) {
     this.kernel = kernel;
     this.top = top;
     this.start = start;
@@ -39,7 +35,7 @@ export class Course {
 
   /** The motion that would follow under gravity alone. @returns {Course} */
   get free() {
-    this.undriven ??= new Course(this.kernel, this.top, this.start);
+    this.undriven ??= this.continueFree(this.start);
     return this.undriven;
   }
 
@@ -54,7 +50,7 @@ export class Course {
   }
 
   /**
-   * Integrate towards a time in so many steps; returns the time, in ns, up to which states are at hand.
+   * Integrate towards a time in so many steps; returns the time in ns up to which states are known.
    * @param {number} passed ns since the start
    * @param {number} steps
    */

@@ -1,4 +1,4 @@
-// The kernel in WebAssembly, by symtop.h: all physics of a page, with the bits of Python and no server.
+// The kernel in WebAssembly, by symtop.h: all physics of a page, with the bits of Python.
 
 /** @typedef {[number, number, number]} Vector */
 /** @typedef {[number, number, number, number]} Quaternion */
@@ -6,18 +6,15 @@
 /** @typedef {"spin_rate" | "spin_momentum"} Hold what a kick holds with theta': psi', or L_z */
 /** @typedef {"rises" | "falls" | "stays"} Direction */
 /**
- * What a motion starts from, in SI units. Friction is axial and transverse; the torque is in the
- * world frame.
+ * What a motion starts from, in SI units: w, x, y, z, body to world; angular velocity in the body
+ * frame; axial and transverse friction; the torque in the world frame.
  * @typedef {Top & {orientation: number[], angular_velocity: number[], friction?: number[],
- *   torque?: number[]}} Start orientation w, x, y, z; angular velocity in the body frame
+ *   torque?: number[]}} Start
  */
-/**
- * An argument for which a function writes: some doubles, a handle, or a record.
- * @typedef {{writes: number | "handle" | keyof typeof RECORDS}} Room
- */
+/** @typedef {{writes: number | string}} Room for so many doubles, a handle, or a record */
 /** @typedef {{[name: string]: any}} Found a record of symtop.h, with names for the enums */
 
-/** Names of the enums, in the order of symtop.h; of facts each is a bit. */
+/** The enums, in the order of symtop.h; a fact is a bit. @type {{[list: string]: any[]}} */
 export const NAMES = {
   kinds: [
     ...["regular", "unidirectional", "cusps", "looping", "through the pole", "asymptotic"],
@@ -39,52 +36,28 @@ export const NAMES = {
   ],
 };
 
-/** Records: their fields in order, each a double, two, a flag, one of the names, or a record. */
+/**
+ * Records as in symtop.h: a type and a field in turn. A type is a list of names or a record, too.
+ * @type {{[record: string]: string}}
+ */
 const RECORDS = {
-  rates: {
-    nutation_period: "double",
-    mean_precession_rate: "double",
-    mean_spin_rate: "double",
-    precession_per_nutation: "double",
-    spin_reverses: "flag",
-  },
-  place: { kind: "places", rate: "double", regular_rates: "pair" },
-  reason: {
-    kind: "reasons",
-    rule: "rules",
-    before: "double",
-    after: "double",
-    theta_ddot_without: "double",
-    theta_ddot: "double",
-    place: "place",
-  },
-  average: {
-    rate: "double",
-    turns: "double",
-    fast_top_rate: "double",
-    is_fast: "flag",
-    spin_reverses: "flag",
-  },
-  lift: { kind: "lifts", amount: "double" },
-  verdict: {
-    subject: "subjects",
-    direction: "directions",
-    turning_angles: "pair",
-    motion: "kinds",
-    reason: "reason",
-    average: "average",
-    factor: "double",
-    highest: "lift",
-    lowest: "lift",
-    contrary_facts: "facts",
-  },
+  rates: `double nutation_period, double mean_precession_rate, double mean_spin_rate,
+    double precession_per_nutation, flag spin_reverses`,
+  place: "places kind, double rate, pair regular_rates",
+  reason: `reasons kind, rules rule, double before, double after, double theta_ddot_without,
+    double theta_ddot, place place`,
+  average: "double rate, double turns, double fast_top_rate, flag is_fast, flag spin_reverses",
+  lift: "lifts kind, double amount",
+  verdict: `subjects subject, directions direction, pair turning_angles, kinds motion,
+    reason reason, average average, double factor, lift highest, lift lowest,
+    facts contrary_facts`,
 };
 
 const MORE_STEPS = 11; // of symtop_status
 export const VERTICAL = 15;
 const LARGEST = 1024; // bytes of a record
 
-/** Reads from memory as C has laid it out: all records hold doubles, and begin at multiples of 8. */
+/** Reads memory as C has laid it out: all records hold doubles, and begin at multiples of 8. */
 class Reader {
   /** @param {DataView} view @param {number} place */
   constructor(view, place) {
@@ -105,8 +78,8 @@ class Reader {
     if (type === "pair") return [this.read("double"), this.read("double")];
     if (type in RECORDS) {
       this.skip(0, 8);
-      const fields = Object.entries(RECORDS[/** @type {keyof typeof RECORDS} */ (type)]);
-      const found = Object.fromEntries(fields.map(([name, each]) => [name, this.read(each)]));
+      const fields = [...RECORDS[type].matchAll(/(\w+) (\w+)/g)];
+      const found = Object.fromEntries(fields.map(([, each, name]) => [name, this.read(each)]));
       this.skip(0, 8);
       return found;
     }
@@ -114,7 +87,7 @@ class Reader {
     if (type === "handle") return number;
     if (type === "flag") return number !== 0;
     if (type === "facts") return NAMES.facts.filter((_, bit) => (number >> bit) & 1);
-    return NAMES[/** @type {keyof typeof NAMES} */ (type)][number];
+    return NAMES[type][number];
   }
 }
 
@@ -160,11 +133,9 @@ export class Kernel {
 
   /** @param {number} size in bytes @returns {number} a place with so much room, for one call */
   reserve(size) {
-    if (size > this.size) {
-      this.exports.free(this.place);
-      this.place = this.exports.malloc(size);
-      this.size = size;
-    }
+    if (size <= this.size) return this.place;
+    this.exports.free(this.place);
+    Object.assign(this, { place: this.exports.malloc(size), size });
     return this.place;
   }
 
@@ -203,16 +174,14 @@ export class Kernel {
 
   /** @param {ArrayLike<number> | BigInt64Array} numbers @param {number} place */
   write(numbers, place) {
-    const { buffer } = this.exports.memory;
-    if (numbers instanceof BigInt64Array)
-      new BigInt64Array(buffer, place, numbers.length).set(numbers);
-    else new Float64Array(buffer, place, numbers.length).set(numbers);
+    const range = /** @type {const} */ ([this.exports.memory.buffer, place, numbers.length]);
+    if (numbers instanceof BigInt64Array) new BigInt64Array(...range).set(numbers);
+    else new Float64Array(...range).set(numbers);
   }
 
   /** @param {number | undefined} status nothing of a function that cannot refuse */
   demand(status) {
-    if (!status || status === MORE_STEPS) return;
-    throw new RangeError(this.describe(status));
+    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
   }
 
   /** @param {number} status */
@@ -227,16 +196,9 @@ export class Kernel {
     return new Motion(this, this.call("new", pack(start), room("handle"))[0]);
   }
 
-  /**
-   * Orientation and angular velocity of angles and rates.
-   * @param {Vector} angles
-   * @param {Vector} rates
-   * @returns {[Quaternion, Vector]}
-   */
+  /** The parts of a state. @param {Vector} angles @param {Vector} rates @returns {any[]} */
   fromAngles(angles, rates) {
-    const rooms = [room(4), room(3), room(1)];
-    const [orientation, omega] = this.call("from_angles", angles, rates, 1, ...rooms);
-    return [orientation, omega];
+    return this.call("from_angles", angles, rates, 1, room(4), room(3), room(1));
   }
 
   /** phi, theta and psi. @param {Quaternion} orientation @returns {Vector} */
@@ -278,7 +240,7 @@ export class Kernel {
     return this.call("kick", ...given, room(3), room(1))[0];
   }
 
-  /** @param {number[]} start as packed @param {number} factor @param {Hold} hold @returns {Found} */
+  /** @param {number[]} start @param {number} factor @param {Hold} hold @returns {Found} */
   judge(start, factor, hold) {
     const given = [start, [factor], 1, NAMES.holds.indexOf(hold)];
     return this.call("judge", ...given, room("verdict"), room(1))[0];
@@ -298,11 +260,7 @@ export class Motion {
     kernel.registry.register(this, handle);
   }
 
-  /**
-   * The state at a time in s.
-   * @param {number} t
-   * @returns {number[]} w, x, y, z, and the angular velocity in the body frame
-   */
+  /** The numbers of the state at a time in s. @param {number} t @returns {number[]} */
   at(t) {
     return this.kernel.call("state", this.handle, t, room(4), room(3)).flatMap((part) => [...part]);
   }
@@ -312,11 +270,7 @@ export class Motion {
     return this.atStamps([1, 0, 0, 0, 0], BigInt64Array.of(BigInt(passed)));
   }
 
-  /**
-   * States at times in s.
-   * @param {ArrayLike<number>} times
-   * @returns {{orientation: Float64Array, angular_velocity: Float64Array}} four and three a time
-   */
+  /** States at times in s, four and three numbers each. @param {ArrayLike<number>} times */
   states(times) {
     return this.fill("states", times.length, times);
   }
@@ -326,32 +280,22 @@ export class Motion {
     return this.fill("states_of_clock", stamps.length, clock, stamps);
   }
 
-  /**
-   * @param {string} name
-   * @param {number} count
-   * @param {(ArrayLike<number> | BigInt64Array)[]} times
-   */
+  /** @param {string} name @param {number} count @param {any[]} times */
   fill(name, count, ...times) {
+    const given = [this.handle, ...times, count, Infinity];
     const rooms = [room(4 * count), room(3 * count), room(1)];
-    const found = this.kernel.call(name, this.handle, ...times, count, Infinity, ...rooms);
-    return { orientation: found[0], angular_velocity: found[1] };
+    const [orientation, angular_velocity] = this.kernel.call(name, ...given, ...rooms);
+    return { orientation, angular_velocity };
   }
 
-  /**
-   * Integrate towards a time in so many steps; returns the time up to which states are at hand.
-   * @param {number} t
-   * @param {number} steps
-   * @returns {number}
-   */
+  /** Integrate towards a time in so many steps; returns the time up to which states are at hand. */
+  /** @param {number} t @param {number} steps @returns {number} */
   reach(t, steps) {
     return this.kernel.call("reach", this.handle, t, steps, room(1))[0][0];
   }
 
-  /**
-   * The motion that goes on from a time with another torque; its times count from there.
-   * @param {number} t
-   * @param {number[]} torque
-   */
+  /** The motion that goes on from a time with another torque; its times count from there. */
+  /** @param {number} t @param {number[]} torque */
   continue(t, torque) {
     const { kernel, handle } = this;
     return new Motion(kernel, kernel.call("continue", handle, t, torque, room("handle"))[0]);
@@ -359,7 +303,7 @@ export class Motion {
 
   /** @returns {string} */
   get kind() {
-    return /** @type {string} */ (NAMES.kinds[this.kernel.exports.symtop_find_kind(this.handle)]);
+    return NAMES.kinds[this.kernel.exports.symtop_find_kind(this.handle)];
   }
 
   /** The smallest and the largest theta in rad. @returns {[number, number]} */

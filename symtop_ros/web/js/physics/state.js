@@ -1,5 +1,4 @@
-// A state: quaternion (w, x, y, z), body to world, and the angular velocity in the body frame. Angles,
-// rates and kicks are those of the kernel.
+// A state: quaternion (w, x, y, z), body to world, and the angular velocity in the body frame.
 
 import { VERTICAL } from "./kernel.js";
 
@@ -33,10 +32,8 @@ export class State {
     const isUnit = Math.abs(norm - 1) <= NORM_ROUNDING;
     /** @type {Quaternion} */
     this.orientation = isUnit ? this.given : [w / norm, x / norm, y / norm, z / norm];
-    /** @type {Angles | undefined} */
-    this.foundAngles = undefined;
-    /** @type {Angles | undefined} */
-    this.foundRates = undefined;
+    /** @type {{angles?: Angles, rates?: Angles}} */
+    this.found = {};
   }
 
   /**
@@ -46,7 +43,8 @@ export class State {
    */
   static fromEuler(kernel, { phi = 0, theta, psi = 0 }, rates = {}) {
     const { phi: phiDot = 0, theta: thetaDot = 0, psi: psiDot = 0 } = rates;
-    return new State(kernel, ...kernel.fromAngles([phi, theta, psi], [phiDot, thetaDot, psiDot]));
+    const found = kernel.fromAngles([phi, theta, psi], [phiDot, thetaDot, psiDot]);
+    return new State(kernel, found[0], found[1]);
   }
 
   /** The vertical in the body frame. @returns {Vector} */
@@ -61,14 +59,14 @@ export class State {
   }
 
   get angles() {
-    this.foundAngles ??= name(this.kernel.findAngles(this.orientation));
-    return this.foundAngles;
+    this.found.angles ??= name(this.kernel.findAngles(this.orientation));
+    return this.found.angles;
   }
 
   /** The rates of Euler's angles; on the vertical phi' counts as 0. */
   get rates() {
-    this.foundRates ??= name(this.kernel.findAngleRates(this.orientation, this.omega));
-    return this.foundRates;
+    this.found.rates ??= name(this.kernel.findAngleRates(this.orientation, this.omega));
+    return this.found.rates;
   }
 
   /** Rates of regular precession at this tilt and spin. @param {import("./kernel.js").Top} top */

@@ -20,11 +20,7 @@ const LONGEST_STEP = 0.05; // s of the motion
 /** @type {{[way: string]: number}} */
 const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
 
-/**
- * @param {LocalTop} top
- * @param {State} after
- * @param {import("./run.js").Asked} asked
- */
+/** @param {LocalTop} top @param {State} after @param {import("./run.js").Asked} asked */
 const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
 
 /** @param {LocalTop} top @param {Message} message */
@@ -72,10 +68,7 @@ export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
   return [size * (b * z - c * y), size * (c * x - a * z), size * (a * y - b * x)];
 };
 
-/**
- * The torque of the buttons, about the vertical, in N m.
- * @param {Course} course
- */
+/** The torque of the buttons, about the vertical, in N m. @param {Course} course */
 export const findTorque = ({ top: { Ix, Mgl } }) => TORQUE_SHARE * (Math.abs(Mgl) || Ix);
 
 /**
@@ -101,11 +94,7 @@ const present = ({ course: { top, friction, start }, steady }) => ({
   torque: steady,
 });
 
-/**
- * @param {LocalTop} top
- * @param {Beginning} beginning
- * @param {string} [request]
- */
+/** @param {LocalTop} top @param {Beginning} beginning @param {string} [request] */
 const begin = (top, { top: own, friction, torque, start }, request) => {
   const course = new Course(top.kernel, own, start, friction, torque);
   top.add("start", course, request === undefined ? {} : { request });

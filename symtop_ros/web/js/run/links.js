@@ -23,16 +23,10 @@ const VECTORS = ["orientation", "angular_velocity", "torque"];
 const NAMES = [...TOP_NAMES, "axial", "transverse", ...ANGLES];
 const PRECESSIONS = ["slow", "fast"];
 
-/**
- * A number as a refusal or a request writes it.
- * @param {number} x
- */
+/** A number as a refusal or a request writes it. @param {number} x */
 export const writeShort = (x) => String(Number(Number(x).toPrecision(4)));
 
-/**
- * @param {SceneFile[]} scenes
- * @param {string} name
- */
+/** @param {SceneFile[]} scenes @param {string} name */
 export const findScene = (scenes, name) => {
   const scene = scenes.find((each) => each.name === name);
   if (scene) return scene;

@@ -89,11 +89,7 @@ export class NodeTop extends LocalTop {
     return this.orientation ? new State(this.kernel, this.orientation, computed.omega) : computed;
   }
 
-  /**
-   * Show what has come: the node has the time.
-   * @param {number} _ ms
-   * @param {number} now ms
-   */
+  /** Show what has come: the node has the time. @param {number} _ ms @param {number} now ms */
   advance(_, now) {
     this.show(now);
   }
@@ -119,10 +115,7 @@ export class NodeTop extends LocalTop {
     this.requests.push({ torque: [0, 0, sign * findTorque(this.course)] });
   }
 
-  /**
-   * @param {string} service
-   * @param {any} [argument]
-   */
+  /** @param {string} service @param {any} [argument] */
   ask(service, argument = null) {
     this.requests.push({ service, argument });
   }

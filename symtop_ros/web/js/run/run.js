@@ -49,11 +49,7 @@ export class Run {
     this.moments = [];
   }
 
-  /**
-   * The last event before a time, or the first one.
-   * @param {number} time ns
-   * @returns {Moment}
-   */
+  /** The last event before a time, or the first one. @param {number} time ns @returns {Moment} */
   find(time) {
     return this.moments[Math.max(0, this.findPlace(time))];
   }

@@ -51,10 +51,7 @@ export class Camera {
     );
   }
 
-  /**
-   * @param {Vector} eye
-   * @param {Vector} target
-   */
+  /** @param {Vector} eye @param {Vector} target */
   place(eye, target) {
     const [x, y, z] = subtract(eye, target);
     this.target = target;
@@ -78,10 +75,7 @@ export class Camera {
     this.pointers.set(event.pointerId, now);
   }
 
-  /**
-   * @param {number} right px
-   * @param {number} down px
-   */
+  /** @param {number} right px @param {number} down px */
   turn(right, down) {
     this.around -= right * TURN;
     this.above = Math.min(Math.max(this.above + down * TURN, -STEEPEST), STEEPEST);

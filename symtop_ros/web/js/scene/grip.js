@@ -9,10 +9,7 @@ import { State } from "../physics/state.js";
 
 const REACH = 24; // px around the ball in which a pull begins
 
-/**
- * The angles of an axis that points somewhere.
- * @param {Vector} direction
- */
+/** The angles of an axis that points somewhere. @param {Vector} direction */
 export const findAngles = (direction) => {
   const [x, y, z] = normalize(direction);
   return { theta: Math.atan2(Math.hypot(x, y), z), phi: Math.atan2(x, -y) };

@@ -28,12 +28,7 @@ const TRACE_NUTATIONS = 12; // longest plot, in nutations
 /** @param {number[]} numbers */
 const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
 
-/**
- * Numbers at equal distances.
- * @param {number} low
- * @param {number} high
- * @param {number} count
- */
+/** Numbers at equal distances. @param {number} low @param {number} high @param {number} count */
 const spread = (low, high, count) =>
   Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
 

@@ -1,6 +1,6 @@
 // What an event led to, as records: for the headline of the page, and for the reason below it.
 
-import { judge, judgeKick } from "../physics/verdict.js";
+import { judge, judgeKick } from "./verdict.js";
 
 /** @typedef {import("../physics/course.js").Course} Course */
 /** @typedef {import("../run/run.js").Moment} Moment */

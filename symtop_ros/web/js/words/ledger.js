@@ -11,11 +11,7 @@ import { findEnergies, findRest } from "../charts/formulas.js";
 
 const MILLI = 1000;
 
-/**
- * @param {Energies} now
- * @param {Energies} before
- * @returns {Energies} in mJ
- */
+/** @param {Energies} now @param {Energies} before @returns {Energies} in mJ */
 const subtractEnergies = (now, before) => ({
   spin: MILLI * (now.spin - before.spin),
   weight: MILLI * (now.weight - before.weight),

@@ -5,8 +5,8 @@ const DIGITS = 100; // which browsers write exactly, at most
 const WHOLE = 1e21; // from here on browsers write an exponent
 
 /**
- * Whether all that follows a place is exactly half of it, and the digit before it even: the even one of
- * two equally near numbers is wanted, where browsers write the larger.
+ * Whether exactly half is left from a place on, after an even digit: of two equally near numbers
+ * the even one is wanted, where browsers write the larger.
  * @param {string} digits
  * @param {number} place
  */
@@ -45,11 +45,7 @@ const writeExponent = (exponent) =>
 /** @param {string} text with a point */
 const dropZeros = (text) => text.replace(/\.?0*$/, "");
 
-/**
- * As %g of C.
- * @param {number} size
- * @param {number} count
- */
+/** As %g of C. @param {number} size @param {number} count */
 const writeGeneral = (size, count) => {
   const [digits, exponent] = findDigits(size, count);
   if (exponent < -4 || exponent >= count) {
@@ -61,10 +57,7 @@ const writeGeneral = (size, count) => {
   return dropZeros(text);
 };
 
-/**
- * @param {number} size
- * @param {number} decimals
- */
+/** @param {number} size @param {number} decimals */
 const writeScientific = (size, decimals) => {
   const [digits, exponent] = findDigits(size, decimals + 1);
   return `${digits[0]}.${digits.slice(1)}${writeExponent(exponent)}`;

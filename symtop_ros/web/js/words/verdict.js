@@ -1,10 +1,9 @@
-// What a start or a kick leads to, as records for the templates: the kernel's verdicts, with null for
-// what is undefined.
+// The kernel's verdicts as records for the templates, with null for what is undefined.
 
-/** @typedef {import("./kernel.js").Found} Found */
-/** @typedef {import("./kernel.js").Hold} Hold */
-/** @typedef {import("./kernel.js").Direction} Direction */
-/** @typedef {import("./course.js").Course} Course */
+/** @typedef {import("../physics/kernel.js").Found} Found */
+/** @typedef {import("../physics/kernel.js").Hold} Hold */
+/** @typedef {import("../physics/kernel.js").Direction} Direction */
+/** @typedef {import("../physics/course.js").Course} Course */
 /** @typedef {{kind: string, amount: number}} Lift */
 
 const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];
@@ -49,7 +48,7 @@ export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
 /**
  * The verdict on the kick with which a course begins.
  * @param {Course} course
- * @param {import("./state.js").State} before
+ * @param {import("../physics/state.js").State} before
  * @param {Hold | null} hold null for an angular impulse
  */
 export const judgeKick = (course, before, hold) => {
