@@ -198,7 +198,7 @@ export class Kernel {
 
   /** The parts of a state. @param {Vector} angles @param {Vector} rates @returns {any[]} */
   fromAngles(angles, rates) {
-    return this.call("from_angles", angles, rates, 1, room(4), room(3), room(1));
+    return this.call("from_angles", angles, rates, 1, room(4), room(3), room(1)).slice(0, 2);
   }
 
   /** phi, theta and psi. @param {Quaternion} orientation @returns {Vector} */
