@@ -2,11 +2,14 @@
 
 import os
 import re
+import shutil
 import sys
 from pathlib import Path
 
 import pytest
 from programs import execute
+
+from symtop_ros.web.join import write_file
 
 ROOT = Path(__file__).parents[1]
 MAKEFILE = ROOT / "Makefile"
@@ -78,3 +81,21 @@ def test_every_variable_of_the_makefile_has_a_value():
     told = make(ROOT, "--warn-undefined-variables", "-nB", "test", "test-kilted", "docs").stderr
     ours = [line for line in told.splitlines() if "undefined variable" in line]
     assert [line for line in ours if not re.search("'(ROS_LOG_DIR|MPLCONFIGDIR)'", line)] == []
+
+
+def test_the_page_needs_no_compiler_and_no_compiled_kernel(tmp_path):
+    """As in a fresh checkout on a machine without a compiler, once NumPy and PyYAML are there."""
+    compiled = shutil.ignore_patterns("libsymtop.*", "symtop.dll", "__pycache__")
+    shutil.copytree(ROOT / "symtop_ros", tmp_path / "symtop_ros", ignore=compiled)
+    shutil.copytree(ROOT / "config", tmp_path / "config")
+    programs = tmp_path / ".venv/bin"
+    programs.mkdir(parents=True)
+    python = programs / "python"
+    python.write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
+    python.chmod(0o755)
+    for name in ("bin/activate", "panel"):  # they have been set up
+        (tmp_path / ".venv" / name).touch()
+    command = [shutil.which("make"), "-f", MAKEFILE, "panel"]
+    made = execute(command, cwd=tmp_path, env={"PATH": str(programs)}, timeout=60)
+    assert (made.returncode, made.stdout) == (0, "wrote top.html, open it in a browser\n"), made
+    assert (tmp_path / "top.html").read_text() == write_file()

@@ -13,7 +13,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.simulation.changes.initial import ANGLES, RATES, start_motion
 from symtop_ros.simulation.presets import describe_scenes
 from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
@@ -23,7 +22,6 @@ from symtop_ros.wording.templates import TEMPLATES
 FOLDER = Path(__file__).parent
 MODULES = FOLDER.resolve() / "js"
 MAIN = MODULES / "start.js"
-STARTS = (*ANGLES, *RATES)
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
 PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
@@ -82,17 +80,14 @@ def collect_content() -> dict[str, Any]:
 
 
 def _read_values(name: str) -> dict[str, Any]:
-    """Return the motion of a scene, in the exact doubles with which a node starts it."""
+    """Return the parameters of a scene; the page's kernel computes the start, as a node's does."""
     settings = Settings.from_scene(name)
-    motion, initial = start_motion(settings), dataclasses.asdict(settings.initial)
+    friction = settings.friction
     return {
-        # what a link that names the scene leaves open
-        "initial": {} if initial["orientation"] else {each: initial[each] for each in STARTS},
-        "top": motion.top.moments,
-        "friction": (motion.friction.axial, motion.friction.transverse),
-        "torque": motion.applied_torque,
-        "orientation": motion.start.given_orientation.tolist(),
-        "angular_velocity": motion.start.angular_velocity.tolist(),
+        "initial": dataclasses.asdict(settings.initial),
+        "top": settings.top.moments,
+        "friction": (friction.axial, friction.transverse),
+        "torque": settings.steady_torque,
     }
 
 

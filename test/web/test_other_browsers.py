@@ -6,13 +6,12 @@ import io
 import numpy as np
 import pytest
 from other_browsers import running_firefox, running_webkit, until
-from physics.kernel.motions import encode, expect, normalize
-from physics.kernel.test_wasm import KERNEL, SCRIPT, list_samples
+from physics.kernel.motions import NAMES, encode, expect, list_samples, normalize
+from physics.kernel.test_wasm import KERNEL, SCRIPT
 from PIL import Image
 from web.opened import find_time, read_motion
 
 from symtop_ros.physics import Motion, Top, hurry, kick_verdict
-from symtop_ros.physics.kernel.door import KINDS
 from symtop_ros.wording import write
 from workshop.kernel_wasm import MODULE
 
@@ -46,17 +45,16 @@ def test_two_thousand_motions_have_the_bits_of_python(driver, tmp_path):
     page = tmp_path / "kernel.html"
     page.write_text(
         f"<!doctype html><title>kernel</title><script type='module'>{KERNEL}\n"
-        f"window.Kernel = Kernel;</script><script>{SCRIPT}\nwindow.print_motions = print_motions;"
+        f"</script><script>{SCRIPT}\nwindow.print_motions = print_motions;"
         "window.decode = decode;</script>"
     )
     driver.open(page.as_uri())
-    until(driver, "window.Kernel")
+    until(driver, "window.binding")
     samples = list_samples(range(210), range(34))
     found = driver.run(
-        """const [kinds, module, samples] = given;
-        window.kernel = await Kernel.load(decode(module));
-        return await print_motions(Kernel, kinds, module, samples);""",
-        list(KINDS),
+        """const [names, module, samples] = given;
+        return await print_motions(binding, names, module, samples);""",
+        NAMES,
         to_text(MODULE.read_bytes()),
         to_text(encode(samples)),
     )

@@ -94,7 +94,7 @@ def test_kinds_are_decided_as_in_the_article(tab):
         cases.append([top, random.uniform(0.2, 2.9), *random.normal(scale=(20, 100)).tolist()])
     found = tab.evaluate(
         """async (cases) => {
-            const { makesLoops, findBoundaries } = await import("/physics/kinds.js");
+            const { makesLoops, findBoundaries } = await import("/charts/kinds.js");
             return cases.map(([top, theta, phi, psi]) =>
                 [makesLoops(top, theta, phi, psi), findBoundaries(top, theta, phi)]);
         }""",
@@ -113,7 +113,7 @@ def test_kinds_are_decided_as_in_the_article(tab):
         expected = find_curves(ARTICLE, np.array([rate]))
         (boundaries,) = tab.evaluate(
             """async ([top, rate]) => {
-                const { findBoundaries } = await import("/physics/kinds.js");
+                const { findBoundaries } = await import("/charts/kinds.js");
                 return [findBoundaries(top, 0.5, rate)];
             }""",
             [{"Ix": ARTICLE.Ix, "Iz": ARTICLE.Iz, "Mgl": ARTICLE.Mgl}, rate],

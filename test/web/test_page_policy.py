@@ -111,14 +111,14 @@ def zip_texts(events):
     return zip([*events, events[-1]], HOSTILE, strict=True)
 
 
-def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(open_page, tmp_path):
-    page = open_page()
-    page.tab.click("#hurry")
-    events = page.read_events()
-    saved = page.save("This run as a page", tmp_path)
-    other = open_page()
-    other.tab.evaluate(DROP, saved.read_text())
-    other.until(lambda: other.read_events() == events)
+def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(opened, tmp_path):
+    opened.tab.click("#hurry")
+    events = opened.read_events()
+    saved = opened.save("This run as a page", tmp_path)
+    opened.press("r")
+    assert opened.read_events() != events
+    opened.tab.evaluate(DROP, saved.read_text())
+    opened.until(lambda: opened.read_events() == events)
 
 
 DROP = """(text) => {

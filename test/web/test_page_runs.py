@@ -70,7 +70,14 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened)
         assert find_refusal(run).startswith("events[1]: ")
 
 
-@pytest.mark.parametrize("run", [change(1, kind="__proto__"), change(1, act=None), {"events": 1}])
+@pytest.mark.parametrize(
+    "run",
+    [
+        change(1, kind="__proto__"),
+        pytest.param(change(1, act=None), marks=pytest.mark.long),
+        pytest.param({"events": 1}, marks=pytest.mark.long),
+    ],
+)
 def test_a_run_that_cannot_be_read_ends_no_page_that_remembers_or_holds_it(
     open_page, tmp_path, run
 ):
@@ -89,12 +96,16 @@ def test_a_run_that_cannot_be_read_ends_no_page_that_remembers_or_holds_it(
     assert [event["kind"] for event in opened.read_events()] == ["start", "kick"]
 
 
-def test_a_run_that_takes_too_long_to_integrate_is_refused_or_reached_later(opened):
+@pytest.mark.long
+def test_the_end_of_a_run_that_takes_too_long_to_integrate_is_reached_later(opened):
     driven = change(2, torque=[0, 0, 1e-4])
     driven["end"] = 4e6
     opened.drop(driven)
     opened.until(lambda: len(opened.read_events()) == 3)
     assert driven["events"][2]["time"] < opened.read_run()["end"] < 4e6
-    late = change(2)
+
+
+def test_an_event_that_takes_too_long_to_integrate_is_refused(opened):
+    late = change(2, torque=[0, 0, 1e-4])
     late["events"].append({**late["events"][2], "time": 4e6})
     assert refuse(opened, [late])[0].startswith("events[3]: a time must be within 100000 steps")

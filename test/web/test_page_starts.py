@@ -23,7 +23,7 @@ OPEN = """(hash) => new Promise((done) => {
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize("count", [30, pytest.param(500, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [20, pytest.param(500, marks=pytest.mark.long)])
 def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
     opened, rng = open_page(script=UNDRAWN), random.Random(49)
     for address in (HANGING, *(write_address(draw_start(rng)) for _ in range(count))):
@@ -103,24 +103,24 @@ def test_a_reset_of_a_loaded_run_keeps_its_torque(opened):
     assert opened.read_events()[1]["torque"] == [0.0, 0.0, 5e-4]
 
 
-@pytest.mark.parametrize(
-    ("fragment", "refusal"),
-    [
-        ("precession=medium", "precession must be slow or fast, got medium"),
-        ("precession=", "precession must be slow or fast, got nothing"),
-        ("torque=1,2", "torque must have 3 elements (N m), got 2"),
-        ("torque=1,2,soon", "torque must be a number, got soon"),
-        ("orientation=1,0,0,0", "orientation in a link must be given with angular_velocity, and "),
-        ("angular_velocity=1,0,0&theta=1", "orientation in a link must be given with "),
-        ("orientation=1,1,0,0&angular_velocity=0,0,1", "orientation "),
-        ("__proto__=1", "name in a link must be one of scene, precession, Ix, "),
-        ("theta=1e999", "theta must be a number, got 1e999"),
-        ("Ix=1e-300", "Ix, Iz and Mgl must be finite"),
-        ("scene=__proto__", "scene must be one of "),
-    ],
-)
-def test_a_link_that_cannot_be_followed_is_refused(opened, fragment, refusal):
+REFUSED = [
+    ("precession=medium", "precession must be slow or fast, got medium"),
+    ("precession=", "precession must be slow or fast, got nothing"),
+    ("torque=1,2", "torque must have 3 elements (N m), got 2"),
+    ("torque=1,2,soon", "torque must be a number, got soon"),
+    ("orientation=1,0,0,0", "orientation in a link must be given with angular_velocity, and "),
+    ("angular_velocity=1,0,0&theta=1", "orientation in a link must be given with "),
+    ("orientation=1,1,0,0&angular_velocity=0,0,1", "orientation "),
+    ("__proto__=1", "name in a link must be one of scene, precession, Ix, "),
+    ("theta=1e999", "theta must be a number, got 1e999"),
+    ("Ix=1e-300", "Ix, Iz and Mgl must be finite"),
+    ("scene=__proto__", "scene must be one of "),
+]
+
+
+def test_a_link_that_cannot_be_followed_is_refused(opened):
     events = opened.read_events()
-    follow(opened, fragment)
-    assert opened.say("refusal").startswith(refusal)
-    assert opened.read_events() == events
+    for fragment, refusal in REFUSED:
+        follow(opened, fragment)
+        assert opened.say("refusal").startswith(refusal)
+        assert opened.read_events() == events

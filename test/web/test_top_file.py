@@ -25,7 +25,7 @@ def test_a_saved_page_holds_the_run_and_goes_on(opened, open_page, tmp_path):
     assert events[-1]["kind"] == "kick"
 
 
-def test_a_frame_of_another_site_shows_the_top(browser, path):
+def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(browser, path):
     tab = browser.new_context(offline=True).new_page()
     tab.set_content("<iframe sandbox='allow-scripts' style='width: 900px; height: 700px'></iframe>")
     tab.evaluate("(page) => { document.querySelector('iframe').srcdoc = page; }", path.read_text())
@@ -33,14 +33,6 @@ def test_a_frame_of_another_site_shows_the_top(browser, path):
     frame.locator("#headline:not(:empty)").wait_for()
     frame.locator("#hurry").click()
     assert "higher" in frame.locator("#headline").text_content()
-    tab.context.close()
-
-
-def test_a_save_that_a_frame_may_not_allow_says_so(browser, path):
-    tab = browser.new_context(offline=True).new_page()
-    tab.set_content("<iframe sandbox='allow-scripts' style='width: 900px; height: 700px'></iframe>")
-    tab.evaluate("(page) => { document.querySelector('iframe').srcdoc = page; }", path.read_text())
-    frame = tab.frame_locator("iframe")
     frame.locator("#tab-save").click()
     frame.locator("#save-run").click()
     said = frame.locator("#refusal").text_content()

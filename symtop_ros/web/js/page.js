@@ -69,11 +69,7 @@ export class Page {
     listenToKeys(act, push);
   }
 
-  /**
-   * Show a top from now on.
-   * @param {Top} top
-   * @param {Element} source the page as it was opened
-   */
+  /** Show a top from now on. @param {Top} top @param {Element} source the page as it was opened */
   connect(top, source) {
     this.top = top;
     // A node has the time of its machine, and records there.

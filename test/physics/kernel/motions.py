@@ -13,6 +13,8 @@ from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.door import KINDS
 from symtop_ros.physics.kicks import FACTOR_OF_RATE
+from symtop_ros.physics.rule.kick_effect import FACTS, LIFTS
+from symtop_ros.physics.rule.perry import DIRECTIONS, PLACES, REASONS, RULES, SUBJECTS
 
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
 TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
@@ -20,6 +22,17 @@ STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64
 ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
 FACTOR = np.array([1.4])
+# Names of enums that programs are told.
+NAMES = {
+    "kinds": KINDS,
+    "subjects": SUBJECTS,
+    "directions": DIRECTIONS,
+    "rules": RULES,
+    "places": PLACES,
+    "reasons": REASONS,
+    "lifts": LIFTS,
+    "facts": FACTS,
+}
 
 
 class Sample:

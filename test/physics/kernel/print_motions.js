@@ -1,5 +1,7 @@
 // As print_motions.c, in a page: reads motions from bytes and returns what the kernel says of them.
 
+const FACTOR = 1.4; // of the kick that is judged
+
 class Reader {
   constructor(bytes) {
     this.view = new DataView(bytes.buffer);
@@ -18,11 +20,11 @@ class Reader {
   }
 }
 
-function read_motion(kernel, reader) {
+function read_start(reader) {
   const [Ix, Iz, Mgl] = reader.numbers(3);
   const [orientation, angular_velocity] = [reader.numbers(4), reader.numbers(3)];
   const [friction, torque] = [reader.numbers(2), reader.numbers(3)];
-  return kernel.motion({ Ix, Iz, Mgl, orientation, angular_velocity, friction, torque });
+  return { Ix, Iz, Mgl, orientation, angular_velocity, friction, torque };
 }
 
 function* list_rows({ orientation, angular_velocity }) {
@@ -32,39 +34,69 @@ function* list_rows({ orientation, angular_velocity }) {
   }
 }
 
-function read_states_of_clock(kernel, motion, clock, stamps) {
-  const { exports } = kernel;
-  const count = stamps.length;
-  const place = exports.malloc(8 * (8 * count + 6));
-  const given = place + 40;
-  const orientation = given + 8 * count;
-  const omega = orientation + 32 * count;
-  kernel.doubles(place, 5).set(clock);
-  new BigInt64Array(exports.memory.buffer, given, count).set(stamps);
-  const ends = [Infinity, orientation, omega, omega + 24 * count];
-  kernel.demand(exports.symtop_states_of_clock(motion.handle, place, given, count, ...ends));
-  const states = {
-    orientation: kernel.doubles(orientation, 4 * count).slice(),
-    angular_velocity: kernel.doubles(omega, 3 * count).slice(),
-  };
-  exports.free(place);
-  return states;
+/** The numbers of a record, with the places of names in their lists. */
+function* flatten(names, record) {
+  const lists = { subject: "subjects", direction: "directions", motion: "kinds", rule: "rules" };
+  for (const [field, value] of Object.entries(record)) {
+    if (field === "contrary_facts") {
+      yield names.facts.reduce((sum, each, bit) => sum + (value.includes(each) << bit), 0);
+    } else if (field === "kind") {
+      const list = "amount" in record ? "lifts" : "place" in record ? "reasons" : "places";
+      yield names[list].indexOf(value);
+    } else if (field in lists) yield names[lists[field]].indexOf(value);
+    else if (Array.isArray(value)) yield* value;
+    else if (typeof value === "object") yield* flatten(names, value);
+    else yield Number(value);
+  }
 }
 
-function* describe(kernel, kinds, reader) {
-  const motion = read_motion(kernel, reader);
+/** The angular velocity after a hurry; null if the axis is vertical. */
+function hurry(kernel, start, hold) {
+  const { orientation, angular_velocity: omega } = start;
+  try {
+    return kernel.kick(start, { orientation, omega }, "factor", [FACTOR], hold);
+  } catch (error) {
+    if (error.message.startsWith("axis must be tilted")) return null;
+    throw error;
+  }
+}
+
+/** The start from its angles, its regular rates and verdicts by both holds, and on a kick. */
+function* describe_start(kernel, names, pack, start) {
+  const { orientation, angular_velocity } = start;
+  const angles = kernel.findAngles(orientation);
+  const rates = kernel.findAngleRates(orientation, angular_velocity);
+  yield* angles;
+  yield* rates;
+  for (const part of kernel.fromAngles(angles, rates)) yield* part;
+  for (const hold of ["spin_rate", "spin_momentum"]) {
+    const found = kernel.findRegularRates(start, angles[1], rates[2], hold);
+    yield* [...found, NaN, NaN].slice(0, 2);
+    const kicked = hurry(kernel, start, hold);
+    if (!kicked) continue;
+    yield* kicked;
+    const [before, after] = [pack(start), pack({ ...start, angular_velocity: [...kicked] })];
+    yield* flatten(names, kernel.judge(before, FACTOR, hold));
+    yield* flatten(names, kernel.judgeKick(before, after, hold));
+  }
+}
+
+function* describe(kernel, names, pack, reader) {
+  const start = read_start(reader);
+  const motion = kernel.motion(start);
   const { rates } = motion;
-  yield kinds.indexOf(motion.kind);
+  yield names.kinds.indexOf(motion.kind);
   yield* motion.turning_angles;
   yield motion.nutation_period;
   yield* [rates.mean_precession_rate, rates.mean_spin_rate, rates.precession_per_nutation];
   yield Number(rates.spin_reverses);
+  yield* describe_start(kernel, names, pack, start);
   const times = reader.numbers(reader.number());
   for (const t of times) yield* motion.at(t);
   yield* list_rows(motion.states(times));
   const clock = reader.numbers(5);
   const stamps = reader.stamps(reader.number());
-  yield* list_rows(read_states_of_clock(kernel, motion, clock, stamps));
+  yield* list_rows(motion.atStamps(clock, stamps));
   if (reader.number()) {
     const [t, ...torque] = reader.numbers(4);
     yield* motion.continue(t, torque).at(t);
@@ -73,13 +105,13 @@ function* describe(kernel, kinds, reader) {
 
 const decode = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-/** All numbers, as base64 of their bytes. */
-async function print_motions(Kernel, kinds, module, samples) {
+/** All numbers, as base64 of their bytes. `names` are those of Python, in the order of symtop.h. */
+async function print_motions({ Kernel, pack }, names, module, samples) {
   const kernel = await Kernel.load(decode(module));
   const reader = new Reader(decode(samples));
   const numbers = [];
   const count = reader.number();
-  for (let n = 0; n < count; n++) numbers.push(...describe(kernel, kinds, reader));
+  for (let n = 0; n < count; n++) numbers.push(...describe(kernel, names, pack, reader));
   let text = "";
   const bytes = new Uint8Array(Float64Array.from(numbers).buffer);
   for (const byte of bytes) text += String.fromCharCode(byte);

@@ -7,23 +7,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import running_browser
-from physics.kernel.motions import encode, expect, list_many, list_samples, normalize
+from physics.kernel.motions import NAMES, encode, expect, list_many, list_samples, normalize
 
-from symtop_ros.physics.kernel.door import KINDS
 from workshop.kernel_wasm import DIGEST, FUNCTIONS, MODULE, SOURCES, digest_sources
 
 ROOT = Path(__file__).parents[3]
 ZIG = ROOT / ".venv/zig/bin/python"
 SCRIPT = Path(__file__).with_name("print_motions.js").read_text()
-KERNEL = (ROOT / "symtop_ros/web/js/physics/kernel.js").read_text()
+KERNEL = (
+    ROOT / "symtop_ros/web/js/physics/kernel.js"
+).read_text() + "\nwindow.binding = { Kernel, pack };"
 
 
 @pytest.fixture(scope="module")
 def page():
     with running_browser() as browser:
         tab = browser.new_page()
-        tab.add_script_tag(content=KERNEL + "\nwindow.Kernel = Kernel;", type="module")
-        tab.wait_for_function("Boolean(window.Kernel)")
+        tab.add_script_tag(content=KERNEL, type="module")
+        tab.wait_for_function("Boolean(window.binding)")
         tab.add_script_tag(content=SCRIPT)
         yield tab
 
@@ -31,7 +32,7 @@ def page():
 def load(page):
     """Have the page keep a kernel."""
     page.evaluate(
-        "async (module) => { window.kernel = await Kernel.load(decode(module)); }",
+        "async (module) => { window.kernel = await binding.Kernel.load(decode(module)); }",
         to_text(MODULE.read_bytes()),
     )
 
@@ -41,9 +42,9 @@ def to_text(data):
 
 
 def compare(page, samples, expected):
-    arguments = [list(KINDS), to_text(MODULE.read_bytes()), to_text(samples)]
+    arguments = [NAMES, to_text(MODULE.read_bytes()), to_text(samples)]
     result = page.evaluate(
-        "([kinds, module, samples]) => print_motions(Kernel, kinds, module, samples)", arguments
+        "([names, module, samples]) => print_motions(binding, names, module, samples)", arguments
     )
     assert normalize(np.frombuffer(base64.b64decode(result))) == expected
 

@@ -1,75 +1,63 @@
 // Quantities that the chart with axes of choice can show.
 
-import { findEnergies, findRest } from "../physics/energies.js";
-import { findTiltAcceleration } from "../physics/precession.js";
+import { findEnergies, findRest, findTiltAcceleration } from "./formulas.js";
 import { NANO } from "../physics/course.js";
 import { findVectors } from "../scene/vectors.js";
 
 /** @typedef {import("../physics/course.js").Course} Course */
 /** @typedef {import("../physics/state.js").State} State */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @typedef {import("./formulas.js").Energies} Energies */
 /** @typedef {(time: number, state: State, course: Course) => number} Pick */
 /** @typedef {{name: string, unit: string, isAngle?: boolean, pick: Pick}} Quantity */
 
 const MILLI = 1000;
 
+/** @param {string} name @param {"phi" | "theta" | "psi"} id @returns {Quantity} */
+const listAngle = (name, id) => ({
+  ...{ name, unit: "rad", isAngle: true },
+  pick: (_, { angles }) => angles[id],
+});
+
+/** @param {string} name @param {"phi" | "theta" | "psi"} id @returns {Quantity} */
+const listRate = (name, id) => ({ name, unit: "rad/s", pick: (_, { rates }) => rates[id] });
+
+/** @param {string} name @param {(parts: Energies) => number} part @returns {Quantity} */
+const listEnergy = (name, part) => ({
+  ...{ name, unit: "mJ" },
+  pick: (_, state, { top }) => MILLI * part(findEnergies(top, state)),
+});
+
+/** @param {string} name @param {(L: Vector) => number} part in space @returns {Quantity} */
+const listMomentum = (name, part) => ({
+  ...{ name, unit: "N m s" },
+  pick: (_, state, course) => part(findVectors(course, state).L),
+});
+
 /** @type {{[id: string]: Quantity}} */
 export const QUANTITIES = {
   time: { name: "time", unit: "s", pick: (time) => time / NANO },
-  theta: { name: "tilt theta", unit: "rad", isAngle: true, pick: (_, { angles }) => angles.theta },
-  phi: { name: "precession phi", unit: "rad", isAngle: true, pick: (_, { angles }) => angles.phi },
-  psi: { name: "spin psi", unit: "rad", isAngle: true, pick: (_, { angles }) => angles.psi },
-  theta_dot: { name: "tilt rate theta'", unit: "rad/s", pick: (_, { rates }) => rates.theta },
-  phi_dot: { name: "precession rate phi'", unit: "rad/s", pick: (_, { rates }) => rates.phi },
-  psi_dot: { name: "spin rate psi'", unit: "rad/s", pick: (_, { rates }) => rates.psi },
+  theta: listAngle("tilt theta", "theta"),
+  phi: listAngle("precession phi", "phi"),
+  psi: listAngle("spin psi", "psi"),
+  theta_dot: listRate("tilt rate theta'", "theta"),
+  phi_dot: listRate("precession rate phi'", "phi"),
+  psi_dot: listRate("spin rate psi'", "psi"),
   theta_ddot: {
-    name: "tilt acceleration theta''",
-    unit: "rad/s\u00b2",
+    ...{ name: "tilt acceleration theta''", unit: "rad/s\u00b2" },
     pick: (_, { angles, rates }, { top }) =>
       findTiltAcceleration(top, angles.theta, rates.phi, rates.psi),
   },
-  weight: {
-    name: "energy of the weight",
-    unit: "mJ",
-    pick: (_, state, { top }) => MILLI * findEnergies(top, state).weight,
-  },
-  precession: {
-    name: "energy of the precession",
-    unit: "mJ",
-    pick: (_, state, { top }) => MILLI * findEnergies(top, state).precession,
-  },
-  nutation: {
-    name: "energy of the nutation",
-    unit: "mJ",
-    pick: (_, state, { top }) => MILLI * findEnergies(top, state).nutation,
-  },
-  rest: {
-    name: "energy E'",
-    unit: "mJ",
-    pick: (_, state, { top }) => MILLI * findRest(findEnergies(top, state)),
-  },
-  L_x: {
-    name: "L along x, in space",
-    unit: "N m s",
-    pick: (_, state, course) => findVectors(course, state).L[0],
-  },
-  L_y: {
-    name: "L along y, in space",
-    unit: "N m s",
-    pick: (_, state, course) => findVectors(course, state).L[1],
-  },
-  L_vertical: {
-    name: "L along the vertical",
-    unit: "N m s",
-    pick: (_, state, course) => findVectors(course, state).L[2],
-  },
+  weight: listEnergy("energy of the weight", ({ weight }) => weight),
+  precession: listEnergy("energy of the precession", ({ precession }) => precession),
+  nutation: listEnergy("energy of the nutation", ({ nutation }) => nutation),
+  rest: listEnergy("energy E'", findRest),
+  L_x: listMomentum("L along x, in space", ([x]) => x),
+  L_y: listMomentum("L along y, in space", ([, y]) => y),
+  L_vertical: listMomentum("L along the vertical", ([, , z]) => z),
   L_axis: {
-    name: "L along the axis",
-    unit: "N m s",
+    ...{ name: "L along the axis", unit: "N m s" },
     pick: (_, { omega }, { top }) => top.Iz * omega[2],
   },
-  L_size: {
-    name: "size of L",
-    unit: "N m s",
-    pick: (_, state, course) => Math.hypot(...findVectors(course, state).L),
-  },
+  L_size: listMomentum("size of L", (L) => Math.hypot(...L)),
 };

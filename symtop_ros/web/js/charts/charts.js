@@ -25,7 +25,7 @@ export class Charts {
     const free = new FreeChart(keep);
     /** @type {{[name: string]: Draw}} */
     this.all = {
-      rule: (facts, { series }, factor) => drawRule(facts, last(series), factor),
+      rule: (facts, { samples }, factor) => drawRule(facts, last(samples).state, factor),
       well: ({ potential }, { series }) => drawWell(potential, last(series)[1]),
       theta: (facts, { series }) => drawOneSeries("theta", series, facts),
       phi_dot: (facts, { series }) => drawOneSeries("phi_dot", series, facts),
@@ -85,5 +85,5 @@ export class Charts {
   }
 }
 
-/** @param {Row[]} rows */
+/** @template T @param {T[]} rows */
 const last = (rows) => rows[rows.length - 1];

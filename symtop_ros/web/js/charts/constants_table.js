@@ -14,10 +14,7 @@ const NAMES = {
 };
 const ROUNDING = 1e-12;
 
-/**
- * @param {number} value
- * @param {number} change
- */
+/** @param {number} value @param {number} change */
 const writeChange = (value, change) =>
   Math.abs(change) <= ROUNDING * Math.abs(value) ? "constant" : `changed by ${shorten(change, 2)}`;
 
@@ -27,10 +24,7 @@ const createRow = ([name, text]) =>
 
 let shown = ""; // a table that stays as it is can be read, and its text marked
 
-/**
- * @param {string[][]} rates names and texts
- * @param {Constants} constants
- */
+/** @param {string[][]} rates names and texts @param {Constants} constants */
 export const showConstants = (rates, constants) => {
   const rows = Object.entries(constants).map(([name, [value, change, unit]]) => [
     NAMES[name],

@@ -33,11 +33,7 @@ const CURVES = [
   ["state", 'stroke="var(--phi)" stroke-width="1.8" id="chosen"'],
 ];
 
-/**
- * @param {Quantity} quantity
- * @param {Sample} sample
- * @param {Whose} whose
- */
+/** @param {Quantity} quantity @param {Sample} sample @param {Whose} whose */
 const measure = ({ pick, isAngle }, sample, whose) => {
   const state = sample[whose];
   if (!state) return NaN;
@@ -67,10 +63,7 @@ export class FreeChart {
     find("free").addEventListener("pointermove", (event) => this.follow(event));
   }
 
-  /**
-   * @param {string} id
-   * @param {string} chosen
-   */
+  /** @param {string} id @param {string} chosen */
   offer(id, chosen) {
     const list = find(id, HTMLSelectElement);
     for (const [value, { name, unit }] of Object.entries(QUANTITIES)) {

@@ -1,7 +1,7 @@
 // Chart of the kinds of motion over psi' and phi', with the present motion as a dot.
 
 import { find } from "../controls/document.js";
-import { findBoundaries, makesLoops } from "../physics/kinds.js";
+import { findBoundaries, makesLoops } from "./kinds.js";
 import {
   createFrame,
   draw,
@@ -14,12 +14,11 @@ import {
   WIDE,
   writeBelow,
 } from "./plot.js";
-import { estimateRoots } from "../physics/precession.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("../physics/precession.js").Top} Top */
+/** @typedef {import("../physics/kernel.js").Top} Top */
 /** @typedef {import("./plot.js").Frame} Frame */
-/** @typedef {{theta: number, phi_dot: number, psi_dot: number}} Turning */
+/** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Turning */
 /** @typedef {[number, number]} Pair */
 
 const HEIGHT = 190;
@@ -35,14 +34,9 @@ const LOOKS = {
   lower: 'stroke="var(--grey)" stroke-width="1.4" stroke-dasharray="2 2"',
 };
 
-/**
- * The ranges of psi' and of phi'.
- * @param {Top} top
- * @param {Turning} turning
- * @returns {[Pair, Pair]}
- */
-const findRanges = (top, { theta, phi_dot, psi_dot }) => {
-  const roots = estimateRoots(top, theta, psi_dot).filter((rate) => Math.abs(rate) < LARGEST);
+/** The ranges of psi' and of phi'. @param {Turning} turning @returns {[Pair, Pair]} */
+const findRanges = ({ phi_dot, psi_dot, roots: all }) => {
+  const roots = all.filter((rate) => Math.abs(rate) < LARGEST);
   const spin = 1.6 * Math.max(Math.abs(psi_dot), 100);
   const [low, high] = findSpan([0, phi_dot, ...roots, -10, 10], 1);
   const room = 0.25 * (high - low);
@@ -81,12 +75,7 @@ const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
   return `<path d="${path}" fill="var(--loops)"/>`;
 };
 
-/**
- * @param {Frame} frame
- * @param {Top} top
- * @param {number} theta
- * @param {[Pair, Pair]} ranges
- */
+/** @param {Frame} frame @param {Top} top @param {number} theta @param {[Pair, Pair]} ranges */
 const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
   const sides = [
     [low, 0],
@@ -112,14 +101,11 @@ const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
 /** What was drawn last: regions and boundaries hold for a top and a tilt. */
 const drawn = { key: "", text: "" };
 
-/**
- * @param {Top} top
- * @param {Turning | null} turning
- */
+/** @param {Top} top @param {Turning | null} turning */
 export const drawKinds = (top, turning) => {
   find("kinds-chart").hidden = !turning;
   if (!turning) return;
-  const ranges = findRanges(top, turning);
+  const ranges = findRanges(turning);
   const [horizontal, vertical] = ranges;
   const frame = createFrame(HEIGHT, horizontal, vertical);
   const key = JSON.stringify([top, turning.theta, ranges]);

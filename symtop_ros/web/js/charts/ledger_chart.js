@@ -1,12 +1,12 @@
 // Chart of the energy: what the last kick put into its parts, as bars.
 
 import { find, say } from "../controls/document.js";
-import { findRest } from "../physics/energies.js";
+import { findRest } from "./formulas.js";
 import { createFrame, draw, findSpan, level } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("../physics/energies.js").Energies} Energies */
-/** @typedef {import("../physics/energies.js").Ledger} Ledger */
+/** @typedef {import("./formulas.js").Energies} Energies */
+/** @typedef {import("../words/ledger.js").Ledger} Ledger */
 
 const HEIGHT = 150;
 const WIDTH = 0.2; // of a bar; groups are 1 apart
@@ -47,10 +47,7 @@ const drawBar = (frame, group, place, height) => {
     <text class="tick" x="${middle}" y="${above.toFixed(1)}" text-anchor="middle">${writeSigned(height)}</text>`;
 };
 
-/**
- * @param {Ledger | null} ledger
- * @param {string} sentence
- */
+/** @param {Ledger | null} ledger @param {string} sentence */
 export const drawLedger = (ledger, sentence) => {
   find("ledger-chart").hidden = !ledger;
   if (!ledger) return;

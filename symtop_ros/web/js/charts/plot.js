@@ -90,11 +90,7 @@ export const createFrame = (
   return { x, y, bottom, axes: axes.join("") };
 };
 
-/**
- * A line across the chart.
- * @param {number} height
- * @param {string} style
- */
+/** A line across the chart. @param {number} height @param {string} style */
 export const level = (height, style) =>
   `<path d="M${LEFT} ${height.toFixed(1)}H${WIDE - RIGHT}" ${style}/>`;
 
@@ -127,12 +123,7 @@ export const drawCurve = (points, style) => {
   return `<path d="${text}" fill="none" ${style}/>`;
 };
 
-/**
- * A dot.
- * @param {number} x
- * @param {number} y
- * @param {string} style
- */
+/** A dot. @param {number} x @param {number} y @param {string} style */
 export const drawDot = (x, y, style) =>
   `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="5" ${style}/>`;
 

@@ -12,7 +12,7 @@ import {
   WIDE,
   writeBelow,
 } from "./plot.js";
-import { estimateRoots, findTiltAcceleration } from "../physics/precession.js";
+import { findTiltAcceleration } from "./formulas.js";
 import { shorten } from "../words/quantities.js";
 
 /** @typedef {import("../words/facts.js").Facts} Facts */
@@ -26,12 +26,14 @@ const keepShown = (rates) => rates.filter((rate) => Math.abs(rate) < LARGEST);
 
 /**
  * @param {Facts} facts
- * @param {import("../run/local.js").Row} row of now
+ * @param {import("../physics/state.js").State} state of now
  * @param {number} factor by which Hurry multiplies phi'
  */
-export const drawRule = ({ body, start, roots: first }, [, theta, rate, spin], factor) => {
+export const drawRule = ({ body, start, roots: first }, state, factor) => {
+  const { theta } = state.angles;
+  const { phi: rate, psi: spin } = state.rates;
   const at = (/** @type {number} */ each) => findTiltAcceleration(body, theta, each, spin);
-  const roots = keepShown(estimateRoots(body, theta, spin));
+  const roots = keepShown(state.findRegularRates(body));
   const hurried = rate * factor;
   const range = findSpan([0, ...roots, ...keepShown(first), start.phi_dot, rate, hurried], 1);
   const rates = Array.from(

@@ -22,10 +22,7 @@ const drawPotential = (frame, { theta, height }, top, style) => {
   );
 };
 
-/**
- * @param {Potential} potential
- * @param {number} theta now
- */
+/** @param {Potential} potential @param {number} theta now */
 export const drawWell = (potential, theta) => {
   const { left, right, bottom, top, energy, angles, before } = potential;
   const frame = createFrame(HEIGHT, [left, right], [bottom, top]);

@@ -11,10 +11,7 @@ export const read = (id) => {
   }
 };
 
-/**
- * @param {string} id
- * @param {string} value
- */
+/** @param {string} id @param {string} value */
 export const keep = (id, value) => {
   try {
     localStorage.setItem(`symtop.${id}`, value);

@@ -54,10 +54,7 @@ export const write = (element, text) => {
   element.replaceChildren(...typeset(text));
 };
 
-/**
- * @param {string} id
- * @param {string} text
- */
+/** @param {string} id @param {string} text */
 export const say = (id, text) => write(find(id), text);
 
 /** Texts of the markup that have symbols. */

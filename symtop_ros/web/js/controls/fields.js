@@ -43,10 +43,7 @@ const REFUSED = 1000; // ms that a refused text stays after its field is left
 
 /** A field in the page, with its text and its slider. */
 class Entry {
-  /**
-   * @param {HTMLElement} place
-   * @param {Fields} fields
-   */
+  /** @param {HTMLElement} place @param {Fields} fields */
   constructor(place, fields) {
     this.name = place.dataset.field ?? "";
     this.field = FIELDS[this.name];
@@ -204,10 +201,7 @@ export class Fields {
     this.entries.factor.write();
   }
 
-  /**
-   * @param {string} name
-   * @param {number} value
-   */
+  /** @param {string} name @param {number} value */
   change(name, value) {
     this.asked = this.entries[name];
     this.asked.value = value;

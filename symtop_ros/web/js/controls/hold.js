@@ -3,10 +3,7 @@
 const PERIOD = 50; // ms between two messages
 const ENDS = ["pointerup", "pointerleave", "pointercancel", "blur", "keyup"];
 
-/**
- * @param {HTMLElement} button
- * @param {() => void} act
- */
+/** @param {HTMLElement} button @param {() => void} act */
 export const actWhileHeld = (button, act) => {
   let timer = 0;
   const end = () => clearInterval(timer);

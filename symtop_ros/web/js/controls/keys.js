@@ -41,10 +41,7 @@ const read = (event) => {
   return name ? { name } : null;
 };
 
-/**
- * @param {(name: string) => void} act
- * @param {(way: string) => void} push
- */
+/** @param {(name: string) => void} act @param {(way: string) => void} push */
 export const listenToKeys = (act, push) => {
   document.addEventListener(
     "keydown",

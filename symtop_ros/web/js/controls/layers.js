@@ -43,21 +43,14 @@ export class Layers {
     }
   }
 
-  /**
-   * @param {string} layer
-   * @param {boolean} shown
-   */
+  /** @param {string} layer @param {boolean} shown */
   show(layer, shown) {
     this.boxes[layer].checked = shown;
     this.mark(layer, shown);
     this.send({ act: "show", layer, shown });
   }
 
-  /**
-   * The legend has what is drawn.
-   * @param {string} layer
-   * @param {boolean} shown
-   */
+  /** The legend has what is drawn. @param {string} layer @param {boolean} shown */
   mark(layer, shown) {
     for (const entry of findAll(`#legend [data-layer="${layer}"]`)) entry.hidden = !shown;
   }

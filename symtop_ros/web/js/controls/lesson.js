@@ -29,11 +29,7 @@ const readPredictions = () => {
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
 
 export class Lesson {
-  /**
-   * @param {Step[]} steps
-   * @param {Send} send
-   * @param {(layers: string[]) => void} chooseLayers
-   */
+  /** @param {Step[]} steps @param {Send} send @param {(layers: string[]) => void} chooseLayers */
   constructor(steps, send, chooseLayers) {
     this.steps = steps;
     this.send = send;
@@ -82,30 +78,21 @@ export class Lesson {
     this.show(this.limit(number));
   }
 
-  /**
-   * @param {number} by
-   * @param {MouseEvent} event
-   */
+  /** @param {number} by @param {MouseEvent} event */
   go(by, event) {
     this.show(this.current + by);
     if (event.detail) this.select.scrollIntoView();
     else this.select.focus();
   }
 
-  /**
-   * @param {number} number
-   * @param {string} text
-   */
+  /** @param {number} number @param {string} text */
   predict(number, text) {
     // Another tab may have written others.
     this.predictions = { ...this.predictions, ...readPredictions(), [number]: text };
     keep(PREDICTIONS, JSON.stringify(this.predictions));
   }
 
-  /**
-   * @param {number} number
-   * @param {boolean} isBack
-   */
+  /** @param {number} number @param {boolean} isBack */
   show(number, isBack = false) {
     const isNew = this.shown !== null && this.shown !== number && !isBack;
     this.shown = number;
@@ -145,10 +132,7 @@ export class Lesson {
     find("lesson-acts").replaceChildren(...buttons);
   }
 
-  /**
-   * @param {Act} act
-   * @param {string} scene
-   */
+  /** @param {Act} act @param {string} scene */
   do({ start, hurry: factor, hold }, scene) {
     if (!start) {
       this.send({ act: "kick", factor, hold });

@@ -43,10 +43,7 @@ export const guard =
 /** @param {string | null} text @param {"lost" | "picture-lost"} id */
 export const showLoss = (text, id = "lost") => show(id, text ?? "");
 
-/**
- * @param {string} id
- * @param {string} text
- */
+/** @param {string} id @param {string} text */
 const show = (id, text) => {
   const place = find(id);
   write(place, text);

@@ -15,10 +15,7 @@ export class SpeedList {
     this.list.addEventListener("change", () => choose(Number(this.list.value)));
   }
 
-  /**
-   * @param {number} value
-   * @param {string} textContent
-   */
+  /** @param {number} value @param {string} textContent */
   add(value, textContent) {
     this.list.append(make("option", { value, textContent }));
   }

@@ -17,10 +17,7 @@ const choose = (chosen) => {
   document.body.classList.toggle("in-lesson", chosen.id === "lesson");
 };
 
-/**
- * @param {HTMLElement} panel
- * @param {KeyboardEvent} event
- */
+/** @param {HTMLElement} panel @param {KeyboardEvent} event */
 const move = (panel, event) => {
   const step = STEPS[event.key];
   if (!step) return;

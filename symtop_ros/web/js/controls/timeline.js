@@ -18,10 +18,7 @@ export class Timeline {
     }
   }
 
-  /**
-   * @param {number} time s of the run
-   * @param {number} end s
-   */
+  /** @param {number} time s of the run @param {number} end s */
   show(time, end) {
     if (!this.isDragged) Object.assign(this.line, { max: end, value: time });
     this.line.setAttribute("aria-valuetext", `${time.toFixed(3)} s of ${end.toFixed(3)} s`);

@@ -1,17 +1,13 @@
 // A motion from a start, with friction and torque, computed by the kernel at any time.
 
+import { pack } from "./kernel.js";
 import { State } from "./state.js";
 
 /** @typedef {import("./kernel.js").Kernel} Kernel */
-/** @typedef {import("./kernel.js").Motion} Motion */
-/** @typedef {import("./precession.js").Top} Top */
-/** @typedef {import("./state.js").Vector} Vector */
+/** @typedef {import("./kernel.js").Top} Top */
+/** @typedef {import("./kernel.js").Vector} Vector */
 
 export const NANO = 1e9; // ns in a second
-/** @type {[number, number]} */
-const NO_FRICTION = [0, 0];
-/** @type {Vector} */
-const NO_TORQUE = [0, 0, 0];
 export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
 
 export class Course {
@@ -22,15 +18,16 @@ export class Course {
    * @param {[number, number]} friction
    * @param {Vector} torque
    */
-  constructor(kernel, top, start, friction = NO_FRICTION, torque = NO_TORQUE) {
+  constructor(kernel, top, start, friction = [0, 0], torque = [0, 0, 0]) {
     this.kernel = kernel;
     this.top = top;
     this.start = start;
     this.friction = friction;
     this.torque = torque;
-    const { given: orientation, omega: angular_velocity } = start;
-    /** @type {Motion} */
-    this.motion = kernel.motion({ ...top, orientation, angular_velocity, friction, torque });
+    const given = { orientation: start.given, angular_velocity: start.omega, friction, torque };
+    /** The numbers of the motion, as the kernel takes them. */
+    this.packed = pack({ ...top, ...given });
+    this.motion = kernel.motion({ ...top, ...given });
     this.isDriven = [...friction, ...torque].some((each) => each !== 0);
     /** @type {Course | null} */
     this.undriven = this.isDriven ? null : this;
@@ -38,7 +35,7 @@ export class Course {
 
   /** The motion that would follow under gravity alone. @returns {Course} */
   get free() {
-    this.undriven ??= new Course(this.kernel, this.top, this.start);
+    this.undriven ??= this.continueFree(this.start);
     return this.undriven;
   }
 
@@ -48,12 +45,12 @@ export class Course {
       const most = `within ${MOST_STEPS} steps of integration`;
       throw new RangeError(`a time must be ${most}, got ${passed / NANO} s after its event`);
     }
-    const [w, x, y, z, ...omega] = this.motion.atNanosecond(passed);
-    return new State([w, x, y, z], /** @type {Vector} */ (omega));
+    const { orientation, angular_velocity } = this.motion.atNanosecond(passed);
+    return new State(this.kernel, orientation, angular_velocity);
   }
 
   /**
-   * Integrate towards a time in so many steps; returns the time, in ns, up to which states are at hand.
+   * Integrate towards a time in so many steps; returns the time in ns up to which states are known.
    * @param {number} passed ns since the start
    * @param {number} steps
    */

@@ -1,252 +1,324 @@
-// The kernel in WebAssembly: motions of the top in a page, with the bits of Python and no server.
+// The kernel in WebAssembly, by symtop.h: all physics of a page, with the bits of Python.
+
+/** @typedef {[number, number, number]} Vector */
+/** @typedef {[number, number, number, number]} Quaternion */
+/** @typedef {{Ix: number, Iz: number, Mgl: number}} Top */
+/** @typedef {"spin_rate" | "spin_momentum"} Hold what a kick holds with theta': psi', or L_z */
+/** @typedef {"rises" | "falls" | "stays"} Direction */
+/**
+ * What a motion starts from, in SI units: w, x, y, z, body to world; angular velocity in the body
+ * frame; axial and transverse friction; the torque in the world frame.
+ * @typedef {Top & {orientation: number[], angular_velocity: number[], friction?: number[],
+ *   torque?: number[]}} Start
+ */
+/** @typedef {{writes: number | string}} Room for so many doubles, a handle, or a record */
+/** @typedef {{[name: string]: any}} Found a record of symtop.h, with names for the enums */
+
+/** The enums, in the order of symtop.h; a fact is a bit. @type {{[list: string]: any[]}} */
+export const NAMES = {
+  kinds: [
+    ...["regular", "unidirectional", "cusps", "looping", "through the pole", "asymptotic"],
+    ...["sleeping", "driven"],
+  ],
+  holds: ["spin_rate", "spin_momentum", null],
+  kicks: ["rate", "change", "factor", "impulse"],
+  subjects: ["top", "axis"],
+  directions: ["rises", "falls", "stays"],
+  rules: [null, "holds", "fails"],
+  places: ["none", "only", "above", "below", "slow", "fast", "between", "outside"],
+  reasons: [
+    ...["hurried", "delayed", "if_hurried", "if_delayed", "angular_impulse", "no_precession"],
+    ...["unchanged", "reversed", "no_effect", "undefined", "stable", "unstable"],
+  ],
+  lifts: ["unchanged", "higher", "lower"],
+  facts: [
+    ...["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"],
+  ],
+};
 
 /**
- * What a motion starts from, in SI units. Friction is axial and transverse; the torque is in the
- * world frame.
- * @typedef {object} Start
- * @property {number} Ix
- * @property {number} Iz
- * @property {number} Mgl
- * @property {number[]} orientation w, x, y, z
- * @property {number[]} angular_velocity x, y, z in the body frame
- * @property {number[]} [friction]
- * @property {number[]} [torque]
+ * Records as in symtop.h: a type and a field in turn. A type is a list of names or a record, too.
+ * @type {{[record: string]: string}}
  */
+const RECORDS = {
+  rates: `double nutation_period, double mean_precession_rate, double mean_spin_rate,
+    double precession_per_nutation, flag spin_reverses`,
+  place: "places kind, double rate, pair regular_rates",
+  reason: `reasons kind, rules rule, double before, double after, double theta_ddot_without,
+    double theta_ddot, place place`,
+  average: "double rate, double turns, double fast_top_rate, flag is_fast, flag spin_reverses",
+  lift: "lifts kind, double amount",
+  verdict: `subjects subject, directions direction, pair turning_angles, kinds motion,
+    reason reason, average average, double factor, lift highest, lift lowest,
+    facts contrary_facts`,
+};
 
-/**
- * @typedef {object} Exports
- * @property {WebAssembly.Memory} memory
- * @property {() => void} _initialize
- * @property {(size: number) => number} malloc
- * @property {(place: number) => void} free
- * @property {(status: number) => number} symtop_describe_status
- * @property {(start: number, motion: number) => number} symtop_new
- * @property {(motion: number) => void} symtop_free
- * @property {(motion: number, t: number, torque: number, continued: number) => number}
- *   symtop_continue
- * @property {(motion: number, t: number, orientation: number, omega: number) => number}
- *   symtop_state
- * @property {(motion: number, times: number, count: number, steps: number, orientation: number,
- *   omega: number, written: number) => number} symtop_states
- * @property {(motion: number, clock: number, stamps: number, count: number, steps: number,
- *   orientation: number, omega: number, written: number) => number} symtop_states_of_clock
- * @property {(motion: number, t: number, steps: number, reached: number) => number} symtop_reach
- * @property {(motion: number) => number} symtop_find_kind
- * @property {(motion: number, angles: number) => void} symtop_find_turning_angles
- * @property {(motion: number, rates: number) => void} symtop_find_rates
- */
+const MORE_STEPS = 11; // of symtop_status
+export const VERTICAL = 15;
+const LARGEST = 1024; // bytes of a record
 
-// In the order of symtop_kind.
-const KINDS = [
-  "regular",
-  "unidirectional",
-  "cusps",
-  "looping",
-  "through the pole",
-  "asymptotic",
-  "sleeping",
-  "driven",
-];
-const OK = 0;
-const MORE_STEPS = 11;
-const NUMBERS = 15; // of symtop_start
-const STATE = 7;
-const CLOCK = 5; // numbers of symtop_clock
+/** Reads memory as C has laid it out: all records hold doubles, and begin at multiples of 8. */
+class Reader {
+  /** @param {DataView} view @param {number} place */
+  constructor(view, place) {
+    this.view = view;
+    this.place = place;
+  }
+
+  /** @param {number} size of what is read next @param {number} step to which it is aligned */
+  skip(size, step = size) {
+    const begin = Math.ceil(this.place / step) * step;
+    this.place = begin + size;
+    return begin;
+  }
+
+  /** @param {string} type @returns {any} */
+  read(type) {
+    if (type === "double") return this.view.getFloat64(this.skip(8), true);
+    if (type === "pair") return [this.read("double"), this.read("double")];
+    if (type in RECORDS) {
+      this.skip(0, 8);
+      const fields = [...RECORDS[type].matchAll(/(\w+) (\w+)/g)];
+      const found = Object.fromEntries(fields.map(([, each, name]) => [name, this.read(each)]));
+      this.skip(0, 8);
+      return found;
+    }
+    const number = this.view.getInt32(this.skip(4), true);
+    if (type === "handle") return number;
+    if (type === "flag") return number !== 0;
+    if (type === "facts") return NAMES.facts.filter((_, bit) => (number >> bit) & 1);
+    return NAMES[type][number];
+  }
+}
+
+/** The bytes that a function writes. @param {Room["writes"]} type */
+const measure = (type) => {
+  if (typeof type === "number") return 8 * type;
+  const reader = new Reader(new DataView(new ArrayBuffer(LARGEST)), 0);
+  reader.read(type);
+  return Math.max(reader.place, 8);
+};
+
+/** @param {number | Room["writes"]} type @returns {Room} */
+const room = (type) => ({ writes: type });
+
+/** The numbers of symtop_start. @param {Start} start */
+export const pack = ({ Ix, Iz, Mgl, ...given }) => {
+  const { orientation, angular_velocity, friction = [0, 0], torque = [0, 0, 0] } = given;
+  const parts = [orientation, angular_velocity, friction, torque];
+  if (String(parts.map((each) => each.length)) === "4,3,2,3")
+    return [Ix, Iz, Mgl, ...orientation, ...angular_velocity, ...friction, ...torque];
+  const names = "orientation, angular_velocity, friction and torque";
+  throw new RangeError(`${names} must have 4, 3, 2 and 3 numbers`);
+};
 
 export class Kernel {
-  /** @param {Exports} exports */
-  constructor(exports) {
+  /** @param {WebAssembly.Instance} instance */
+  constructor({ exports }) {
+    /** The functions, and the memory. @type {{[name: string]: any}} */
     this.exports = exports;
-    /** Room for the arguments and the result of one call. */
-    this.place = exports.malloc(8 * (NUMBERS + STATE + 2));
+    this.size = LARGEST;
+    /** Room for what one call takes and writes. @type {number} */
+    this.place = this.exports.malloc(this.size);
     /** @type {FinalizationRegistry<number>} */
-    this.registry = new FinalizationRegistry((handle) => exports.symtop_free(handle));
+    this.registry = new FinalizationRegistry((handle) => this.exports.symtop_free(handle));
   }
 
-  /**
-   * @param {BufferSource} bytes of kernel.wasm
-   * @returns {Promise<Kernel>}
-   */
+  /** @param {BufferSource} bytes of kernel.wasm */
   static async load(bytes) {
     const { instance } = await WebAssembly.instantiate(bytes, {});
-    const exports = /** @type {Exports} */ (/** @type {unknown} */ (instance.exports));
-    exports._initialize();
-    return new Kernel(exports);
+    /** @type {{[name: string]: any}} */ (instance.exports)._initialize();
+    return new Kernel(instance);
+  }
+
+  /** @param {number} size in bytes @returns {number} a place with so much room, for one call */
+  reserve(size) {
+    if (size <= this.size) return this.place;
+    this.exports.free(this.place);
+    Object.assign(this, { place: this.exports.malloc(size), size });
+    return this.place;
   }
 
   /**
-   * Make a motion; a start that is refused throws a RangeError.
-   * @param {Start} start
-   * @returns {Motion}
+   * Call a function with numbers, arrays and rooms; returns what it writes, a value for each room.
+   * What it refuses is a RangeError.
+   * @param {string} name
+   * @param {(number | ArrayLike<number> | BigInt64Array | Room)[]} given
+   * @returns {any[]}
    */
-  motion({ Ix, Iz, Mgl, orientation, angular_velocity, friction = [0, 0], torque = [0, 0, 0] }) {
-    const numbers = [Ix, Iz, Mgl, ...orientation, ...angular_velocity, ...friction, ...torque];
-    if (numbers.length !== NUMBERS) {
-      const names = "orientation, angular_velocity, friction and torque";
-      throw new RangeError(`${names} must have 4, 3, 2 and 3 numbers`);
-    }
-    this.doubles(this.place, NUMBERS).set(numbers);
-    const result = this.place + 8 * NUMBERS;
-    this.demand(this.exports.symtop_new(this.place, result));
-    return this.wrap(result);
+  call(name, ...given) {
+    const sizes = given.map((each) =>
+      typeof each === "number" ? 0 : "writes" in each ? measure(each.writes) : 8 * each.length,
+    );
+    let place = this.reserve(sizes.reduce((sum, each) => sum + each, 0));
+    /** @type {(() => any)[]} */
+    const rooms = [];
+    const taken = given.map((each, k) => {
+      if (typeof each === "number") return each;
+      const begin = place;
+      place += sizes[k];
+      if ("writes" in each) rooms.push(() => this.read(each.writes, begin));
+      else this.write(each, begin);
+      return begin;
+    });
+    this.demand(this.exports[`symtop_${name}`](...taken));
+    return rooms.map((read) => read());
   }
 
-  /**
-   * The numbers at a place. The memory moves when it grows: they are for one use.
-   * @param {number} place
-   * @param {number} count
-   */
-  doubles(place, count) {
-    return new Float64Array(this.exports.memory.buffer, place, count);
+  /** @param {Room["writes"]} type @param {number} place */
+  read(type, place) {
+    const { buffer } = this.exports.memory; // another one when the memory has grown
+    if (typeof type === "number") return new Float64Array(buffer, place, type).slice();
+    return new Reader(new DataView(buffer), place).read(type);
   }
 
-  /** @param {number} place where a handle has been written */
-  wrap(place) {
-    const handle = new Uint32Array(this.exports.memory.buffer, place, 1)[0];
-    const motion = new Motion(this, handle);
-    this.registry.register(motion, handle);
-    return motion;
+  /** @param {ArrayLike<number> | BigInt64Array} numbers @param {number} place */
+  write(numbers, place) {
+    const range = /** @type {const} */ ([this.exports.memory.buffer, place, numbers.length]);
+    if (numbers instanceof BigInt64Array) new BigInt64Array(...range).set(numbers);
+    else new Float64Array(...range).set(numbers);
+  }
+
+  /** @param {number | undefined} status nothing of a function that cannot refuse */
+  demand(status) {
+    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
   }
 
   /** @param {number} status */
-  demand(status) {
-    if (status === OK) return;
+  describe(status) {
     const bytes = new Uint8Array(this.exports.memory.buffer);
     const first = this.exports.symtop_describe_status(status);
-    throw new RangeError(new TextDecoder().decode(bytes.subarray(first, bytes.indexOf(0, first))));
+    return new TextDecoder().decode(bytes.subarray(first, bytes.indexOf(0, first)));
+  }
+
+  /** Make a motion. @param {Start} start */
+  motion(start) {
+    return new Motion(this, this.call("new", pack(start), room("handle"))[0]);
+  }
+
+  /** The parts of a state. @param {Vector} angles @param {Vector} rates @returns {any[]} */
+  fromAngles(angles, rates) {
+    return this.call("from_angles", angles, rates, 1, room(4), room(3), room(1)).slice(0, 2);
+  }
+
+  /** phi, theta and psi. @param {Quaternion} orientation @returns {Vector} */
+  findAngles(orientation) {
+    return this.call("find_angles", orientation, 1, room(3))[0];
+  }
+
+  /** @param {Quaternion} orientation @param {Vector} omega @returns {Vector} */
+  findAngleRates(orientation, omega) {
+    return this.call("find_angle_rates", orientation, omega, 1, room(3))[0];
+  }
+
+  /**
+   * The rates phi' of regular precession: slow and fast, one or none.
+   * @param {Top} top
+   * @param {number} theta
+   * @param {number} spin psi', or omega_z if the axial momentum is held
+   * @param {Hold} hold
+   * @returns {number[]}
+   */
+  findRegularRates({ Ix, Iz, Mgl }, theta, spin, hold = "spin_rate") {
+    const given = [[Ix, Iz, Mgl], [theta], [spin], 1, NAMES.holds.indexOf(hold)];
+    const [rates] = this.call("find_regular_rates", ...given, room(2));
+    return [...rates].filter((rate) => !Number.isNaN(rate));
+  }
+
+  /**
+   * The angular velocity after a kick.
+   * @param {Top} top
+   * @param {{orientation: Quaternion, omega: Vector}} state
+   * @param {string} kind
+   * @param {number[]} amount
+   * @param {Hold} hold
+   * @returns {Vector}
+   */
+  kick({ Ix, Iz, Mgl }, { orientation, omega }, kind, amount, hold) {
+    const how = [NAMES.kicks.indexOf(kind), NAMES.holds.indexOf(hold)];
+    const given = [[Ix, Iz, Mgl], orientation, omega, ...how, amount, 1];
+    return this.call("kick", ...given, room(3), room(1))[0];
+  }
+
+  /** @param {number[]} start @param {number} factor @param {Hold} hold @returns {Found} */
+  judge(start, factor, hold) {
+    const given = [start, [factor], 1, NAMES.holds.indexOf(hold)];
+    return this.call("judge", ...given, room("verdict"), room(1))[0];
+  }
+
+  /** @param {number[]} before @param {number[]} after @param {Hold | null} hold @returns {Found} */
+  judgeKick(before, after, hold) {
+    return this.call("judge_kick", before, after, NAMES.holds.indexOf(hold), room("verdict"))[0];
   }
 }
 
 export class Motion {
-  /**
-   * @param {Kernel} kernel
-   * @param {number} handle
-   */
+  /** @param {Kernel} kernel @param {number} handle */
   constructor(kernel, handle) {
     this.kernel = kernel;
     this.handle = handle;
+    kernel.registry.register(this, handle);
   }
 
-  /**
-   * The state at a time in s.
-   * @param {number} t
-   * @returns {number[]} w, x, y, z, and the angular velocity in the body frame
-   */
+  /** The numbers of the state at a time in s. @param {number} t @returns {number[]} */
   at(t) {
-    const { kernel, handle } = this;
-    const { place } = kernel;
-    kernel.demand(kernel.exports.symtop_state(handle, t, place, place + 32));
-    return [...kernel.doubles(place, STATE)];
+    return this.kernel.call("state", this.handle, t, room(4), room(3)).flatMap((part) => [...part]);
   }
 
-  /**
-   * The state at a time that is not rounded: a whole number of ns, as of the stamps of a node.
-   * @param {number} passed ns
-   * @returns {number[]} as of `at`
-   */
+  /** The state at a whole number of ns, not rounded, as of a node. @param {number} passed */
   atNanosecond(passed) {
-    const { kernel, handle } = this;
-    const { place } = kernel;
-    const [stamp, orientation] = [place + 8 * CLOCK, place + 8 * (CLOCK + 1)];
-    const [omega, written] = [orientation + 32, orientation + 8 * STATE];
-    kernel.doubles(place, CLOCK).set([1, 0, 0, 0, 0]); // factor and elapsed time
-    new BigInt64Array(kernel.exports.memory.buffer, stamp, 1)[0] = BigInt(passed);
-    kernel.demand(
-      kernel.exports.symtop_states_of_clock(
-        handle,
-        place,
-        stamp,
-        1,
-        Infinity,
-        orientation,
-        omega,
-        written,
-      ),
-    );
-    return [...kernel.doubles(orientation, STATE)];
+    return this.atStamps([1, 0, 0, 0, 0], BigInt64Array.of(BigInt(passed)));
   }
 
-  /**
-   * States at times in s.
-   * @param {ArrayLike<number>} times
-   * @returns {{orientation: Float64Array, angular_velocity: Float64Array}} four and three a time
-   */
+  /** States at times in s, four and three numbers each. @param {ArrayLike<number>} times */
   states(times) {
-    const { kernel, handle } = this;
-    const { exports } = kernel;
-    const count = times.length;
-    const place = exports.malloc(8 * (8 * count + 1));
-    const [orientation, omega] = [place + 8 * count, place + 40 * count];
-    try {
-      kernel.doubles(place, count).set(times);
-      const written = omega + 24 * count;
-      kernel.demand(
-        exports.symtop_states(handle, place, count, Infinity, orientation, omega, written),
-      );
-      return {
-        orientation: kernel.doubles(orientation, 4 * count).slice(),
-        angular_velocity: kernel.doubles(omega, 3 * count).slice(),
-      };
-    } finally {
-      exports.free(place);
-    }
+    return this.fill("states", times.length, times);
   }
 
-  /**
-   * Integrate towards a time in so many steps; returns the time up to which states are at hand.
-   * @param {number} t
-   * @param {number} steps
-   */
+  /** States at stamps of a clock. @param {number[]} clock @param {BigInt64Array} stamps in ns */
+  atStamps(clock, stamps) {
+    return this.fill("states_of_clock", stamps.length, clock, stamps);
+  }
+
+  /** @param {string} name @param {number} count @param {any[]} times */
+  fill(name, count, ...times) {
+    const given = [this.handle, ...times, count, Infinity];
+    const rooms = [room(4 * count), room(3 * count), room(1)];
+    const [orientation, angular_velocity] = this.kernel.call(name, ...given, ...rooms);
+    return { orientation, angular_velocity };
+  }
+
+  /** Integrate towards a time in so many steps; returns the time up to which states are at hand. */
+  /** @param {number} t @param {number} steps @returns {number} */
   reach(t, steps) {
-    const { kernel, handle } = this;
-    const status = kernel.exports.symtop_reach(handle, t, steps, kernel.place);
-    if (status !== MORE_STEPS) kernel.demand(status);
-    return kernel.doubles(kernel.place, 1)[0];
+    return this.kernel.call("reach", this.handle, t, steps, room(1))[0][0];
   }
 
-  /**
-   * The motion that goes on from a time with another torque; its times count from there.
-   * @param {number} t
-   * @param {number[]} torque
-   */
+  /** The motion that goes on from a time with another torque; its times count from there. */
+  /** @param {number} t @param {number[]} torque */
   continue(t, torque) {
     const { kernel, handle } = this;
-    const { place } = kernel;
-    kernel.doubles(place, 3).set(torque);
-    kernel.demand(kernel.exports.symtop_continue(handle, t, place, place + 24));
-    return kernel.wrap(place + 24);
+    return new Motion(kernel, kernel.call("continue", handle, t, torque, room("handle"))[0]);
   }
 
+  /** @returns {string} */
   get kind() {
-    return KINDS[this.kernel.exports.symtop_find_kind(this.handle)];
+    return NAMES.kinds[this.kernel.exports.symtop_find_kind(this.handle)];
   }
 
-  /** The smallest and the largest theta in rad. */
+  /** The smallest and the largest theta in rad. @returns {[number, number]} */
   get turning_angles() {
-    const { kernel, handle } = this;
-    kernel.exports.symtop_find_turning_angles(handle, kernel.place);
-    return [...kernel.doubles(kernel.place, 2)];
-  }
-
-  /** Period of theta in s; infinite if it does not return. */
-  get nutation_period() {
-    return this.rates.nutation_period;
+    const [[low, high]] = this.kernel.call("find_turning_angles", this.handle, room(2));
+    return [low, high];
   }
 
   /** What is the same in every nutation, as in symtop_rates. */
   get rates() {
-    const { kernel, handle } = this;
-    const { place } = kernel;
-    kernel.exports.symtop_find_rates(handle, place);
-    const [nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation] =
-      kernel.doubles(place, 4);
-    const [reverses] = new Int32Array(kernel.exports.memory.buffer, place + 32, 1);
-    return {
-      nutation_period,
-      mean_precession_rate,
-      mean_spin_rate,
-      precession_per_nutation,
-      spin_reverses: reverses !== 0,
-    };
+    return this.kernel.call("find_rates", this.handle, room("rates"))[0];
+  }
+
+  /** Period of theta in s; infinite if it does not return. @returns {number} */
+  get nutation_period() {
+    return this.rates.nutation_period;
   }
 }

@@ -1,13 +1,12 @@
 // What a page asks of its top: kicks, pushes, torques, starts, and the time of the run.
 
-import { applyImpulse, hurry, setPrecessionRate } from "../physics/kicks.js";
 import { Course, NANO } from "../physics/course.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 
 /** @typedef {import("./local.js").LocalTop} LocalTop */
 /** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/state.js").Vector} Vector */
-/** @typedef {import("../physics/kicks.js").Hold} Hold */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Hold} Hold */
 /** @typedef {import("./links.js").Beginning} Beginning */
 /** @typedef {{[name: string]: any}} Message */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
@@ -21,16 +20,12 @@ const LONGEST_STEP = 0.05; // s of the motion
 /** @type {{[way: string]: number}} */
 const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
 
-/**
- * @param {LocalTop} top
- * @param {State} after
- * @param {import("./run.js").Asked} asked
- */
+/** @param {LocalTop} top @param {State} after @param {import("./run.js").Asked} asked */
 const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
 
 /** @param {LocalTop} top @param {Message} message */
 const kick = (top, { factor, hold = "spin_rate" }) => {
-  const after = hurry(top.state, factor, hold);
+  const after = top.state.kick(top.course.top, "factor", [factor], hold);
   addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold });
 };
 
@@ -40,7 +35,7 @@ const kick = (top, { factor, hold = "spin_rate" }) => {
  * @param {string} kind of the request
  */
 const addImpulse = (top, impulse, kind) => {
-  const after = applyImpulse(top.course.top, top.state, impulse);
+  const after = top.state.kick(top.course.top, "impulse", impulse);
   const request = top.writer.write("request", { kind });
   addKick(top, after, { act: { angular_impulse: impulse }, hold: null, request });
 };
@@ -50,7 +45,7 @@ const push = (top, { way }) => {
   const change = SIGNS[way] * PUSH;
   if (way === "along" || way === "back") {
     const hold = "spin_momentum";
-    const after = setPrecessionRate(top.state, top.state.rates.phi + change, hold);
+    const after = top.state.kick(top.course.top, "change", [change], hold);
     addKick(top, after, { act: { precession_rate_change: change, hold }, hold });
     return;
   }
@@ -73,10 +68,7 @@ export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
   return [size * (b * z - c * y), size * (c * x - a * z), size * (a * y - b * x)];
 };
 
-/**
- * The torque of the buttons, about the vertical, in N m.
- * @param {Course} course
- */
+/** The torque of the buttons, about the vertical, in N m. @param {Course} course */
 export const findTorque = ({ top: { Ix, Mgl } }) => TORQUE_SHARE * (Math.abs(Mgl) || Ix);
 
 /**
@@ -102,11 +94,7 @@ const present = ({ course: { top, friction, start }, steady }) => ({
   torque: steady,
 });
 
-/**
- * @param {LocalTop} top
- * @param {Beginning} beginning
- * @param {string} [request]
- */
+/** @param {LocalTop} top @param {Beginning} beginning @param {string} [request] */
 const begin = (top, { top: own, friction, torque, start }, request) => {
   const course = new Course(top.kernel, own, start, friction, torque);
   top.add("start", course, request === undefined ? {} : { request });
@@ -115,7 +103,8 @@ const begin = (top, { top: own, friction, torque, start }, request) => {
 
 /** @param {LocalTop} top @param {Message} message */
 const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
-  const start = createStart(top.course.top, { theta: Number(theta), phi_dot, psi_dot }, precession);
+  const numbers = { theta: Number(theta), phi_dot, psi_dot };
+  const start = createStart(top.kernel, top.course.top, numbers, precession);
   begin(top, { ...present(top), start });
 };
 
@@ -123,23 +112,22 @@ const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
 const tilt = (top, { theta, phi }) => {
   const { psi_dot, phi_dot } = describeStart(top.state);
   const { psi } = top.state.angles;
-  begin(top, {
-    ...present(top),
-    start: createStart(top.course.top, { theta, phi, psi, phi_dot, psi_dot }),
-  });
+  const start = createStart(top.kernel, top.course.top, { theta, phi, psi, phi_dot, psi_dot });
+  begin(top, { ...present(top), start });
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const chooseScene = (top, { name }) => {
   const scene = findScene(top.content.scenes, name);
-  begin(top, readScene(scene), scene.title);
+  begin(top, readScene(top.kernel, scene), scene.title);
 };
 
 /** @param {LocalTop} top @param {Message} message */
 const followLink = (top, { link: { scene: name, ...texts } }) => {
   const scene = name === undefined ? null : findScene(top.content.scenes, name);
   const { event } = top.content.run_fields;
-  const beginning = readLink(texts, scene ? readScene(scene) : present(top), event);
+  const given = scene ? readScene(top.kernel, scene) : present(top);
+  const beginning = readLink(top.kernel, texts, given, event);
   begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : undefined);
 };
 

@@ -12,10 +12,7 @@ const KEPT = 10_000; // ms until the browser has begun to save
 const isSandboxed = () =>
   window.parent !== window && window.origin === "null" && location.protocol !== "file:";
 
-/**
- * @param {string} href
- * @param {string} name
- */
+/** @param {string} href @param {string} name */
 const download = (href, name) => {
   make("a", { href, download: name }).click();
   if (isSandboxed())
@@ -24,11 +21,7 @@ const download = (href, name) => {
     );
 };
 
-/**
- * @param {string} name
- * @param {string} type
- * @param {string} text
- */
+/** @param {string} name @param {string} type @param {string} text */
 const save = (name, type, text) => {
   const url = URL.createObjectURL(new Blob([text], { type }));
   download(url, name);
@@ -70,10 +63,7 @@ const findRun = (text) => {
   return new DOMParser().parseFromString(text, "text/html").getElementById(RUN)?.textContent ?? "";
 };
 
-/**
- * @param {Saved} top
- * @param {Element} source the page as it was opened
- */
+/** @param {Saved} top @param {Element} source the page as it was opened */
 export const offerFiles = (top, source) => {
   const writeRun = () => JSON.stringify(top.json);
   /** @type {{[id: string]: () => void}} */
@@ -86,10 +76,7 @@ export const offerFiles = (top, source) => {
   for (const [id, way] of Object.entries(ways)) find(id).addEventListener("click", way);
 };
 
-/**
- * @param {File} file a run.json or a saved page
- * @param {(run: any) => void} load
- */
+/** @param {File} file a run.json or a saved page @param {(run: any) => void} load */
 const open = async (file, load) => {
   const text = await file.text();
   let run = null;

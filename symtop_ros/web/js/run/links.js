@@ -1,15 +1,15 @@
 // Starts by names and numbers: of a scene, of a link, and by Euler's angles and rates.
 
-import { findRegularRates } from "../physics/precession.js";
 import { readField } from "./reader.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
-/** @typedef {import("../physics/precession.js").Top} Top */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Top} Top */
+/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
 /**
+ * The initial conditions of a scene are the `initial.*` parameters of a node; orientation x, y, z, w.
  * @typedef {{name: string, title: string, story: string, top: Vector, friction: [number, number],
- *   torque: Vector, orientation: import("../physics/state.js").Quaternion, angular_velocity: Vector,
- *   initial: {[name: string]: number}}} SceneFile
+ *   torque: Vector, initial: {[name: string]: any}}} SceneFile
  */
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
@@ -23,16 +23,10 @@ const VECTORS = ["orientation", "angular_velocity", "torque"];
 const NAMES = [...TOP_NAMES, "axial", "transverse", ...ANGLES];
 const PRECESSIONS = ["slow", "fast"];
 
-/**
- * A number as a refusal or a request writes it.
- * @param {number} x
- */
+/** A number as a refusal or a request writes it. @param {number} x */
 export const writeShort = (x) => String(Number(Number(x).toPrecision(4)));
 
-/**
- * @param {SceneFile[]} scenes
- * @param {string} name
- */
+/** @param {SceneFile[]} scenes @param {string} name */
 export const findScene = (scenes, name) => {
   const scene = scenes.find((each) => each.name === name);
   if (scene) return scene;
@@ -41,29 +35,29 @@ export const findScene = (scenes, name) => {
   );
 };
 
-/** @param {SceneFile} scene @returns {Beginning} */
-export const readScene = ({
-  top: [Ix, Iz, Mgl],
-  friction,
-  torque,
-  orientation,
-  angular_velocity,
-  initial,
-}) => ({
-  top: { Ix, Iz, Mgl },
-  friction,
-  torque,
-  start: new State(orientation, angular_velocity),
-  initial,
-});
+/** @param {Kernel} kernel @param {SceneFile} scene @returns {Beginning} */
+export const readScene = (kernel, { top: [Ix, Iz, Mgl], friction, torque, initial }) => {
+  const { precession, orientation, angular_velocity, ...numbers } = initial;
+  const given = { top: { Ix, Iz, Mgl }, friction, torque };
+  if (orientation.length) {
+    const [x, y, z, w] = orientation;
+    const omega = angular_velocity.length ? angular_velocity : [0, 0, 0];
+    return { ...given, start: new State(kernel, [w, x, y, z], omega) };
+  }
+  const start = precession
+    ? createStart(kernel, given.top, { ...numbers, theta_dot: 0 }, precession)
+    : createStart(kernel, given.top, numbers);
+  return { ...given, start, initial: numbers };
+};
 
 /**
  * A start by Euler's angles and rates; phi' may be that of a regular precession, slow or fast.
+ * @param {Kernel} kernel
  * @param {Top} top
  * @param {{[name: string]: number}} numbers
  * @param {string} [precession]
  */
-export const createStart = (top, numbers, precession) => {
+export const createStart = (kernel, top, numbers, precession) => {
   const { phi = 0, theta = 0, psi = 0, phi_dot = 0, theta_dot = 0, psi_dot = 0 } = numbers;
   if (!(theta >= 0 && theta <= Math.PI))
     throw new RangeError(`theta must be 0 to pi rad, got ${writeShort(theta)}`);
@@ -71,11 +65,12 @@ export const createStart = (top, numbers, precession) => {
   if (precession !== undefined) {
     if (!PRECESSIONS.includes(precession))
       throw new RangeError(`precession must be slow or fast, got ${precession || "nothing"}`);
-    const roots = findRegularRates(top, theta, psi_dot);
+    const roots = kernel.findRegularRates(top, theta, psi_dot);
     if (!roots.length) throw new RangeError("spin must be such that a regular precession exists");
     rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
   }
-  return State.fromEuler({ phi, theta, psi }, { phi: rate, theta: theta_dot, psi: psi_dot });
+  const rates = { phi: rate, theta: theta_dot, psi: psi_dot };
+  return State.fromEuler(kernel, { phi, theta, psi }, rates);
 };
 
 /** Tilt and rates; on the vertical all of the spin is psi'. @param {State} state */
@@ -117,11 +112,13 @@ const readVectors = (texts, fields) => {
 
 /**
  * A start by its exact doubles, as the page writes it into a link.
+ * @param {Kernel} kernel
  * @param {{[name: string]: any}} vectors
  * @param {boolean} isNamed by angles or rates as well
  */
-const readState = ({ orientation, angular_velocity }, isNamed) => {
-  if (orientation && angular_velocity && !isNamed) return new State(orientation, angular_velocity);
+const readState = (kernel, { orientation, angular_velocity }, isNamed) => {
+  if (orientation && angular_velocity && !isNamed)
+    return new State(kernel, orientation, angular_velocity);
   const names = `with angular_velocity, and without ${ANGLES.join(", ")} and precession`;
   throw new RangeError(`orientation in a link must be given ${names}`);
 };
@@ -129,12 +126,13 @@ const readState = ({ orientation, angular_velocity }, isNamed) => {
 /**
  * The beginning that a link names: parameters of the top and initial conditions, and what it does
  * not name from a scene or from the present motion.
+ * @param {Kernel} kernel
  * @param {{[name: string]: string}} texts without the name of a scene
  * @param {Beginning} given
  * @param {{[name: string]: import("./reader.js").Field}} fields of an event in run.json
  * @returns {Beginning}
  */
-export const readLink = ({ precession, ...texts }, given, fields) => {
+export const readLink = (kernel, { precession, ...texts }, given, fields) => {
   const vectors = readVectors(texts, fields);
   const single = Object.entries(texts).filter(([name]) => !VECTORS.includes(name));
   const numbers = Object.fromEntries(single.map(readNumber));
@@ -145,8 +143,8 @@ export const readLink = ({ precession, ...texts }, given, fields) => {
   const torque = vectors.torque ?? given.torque;
   const isNamed = precession !== undefined || ANGLES.some((each) => each in numbers);
   let { start } = given;
-  if (vectors.orientation || vectors.angular_velocity) start = readState(vectors, isNamed);
-  else if (isNamed) start = createStart(top, { ...given.initial, ...numbers }, precession);
+  if (vectors.orientation || vectors.angular_velocity) start = readState(kernel, vectors, isNamed);
+  else if (isNamed) start = createStart(kernel, top, { ...given.initial, ...numbers }, precession);
   return { top, friction, torque, start };
 };
 

@@ -62,7 +62,7 @@ export class LocalTop {
     /** Called when another motion begins. */
     this.begin = () => {};
     /** What Reset starts from. */
-    this.initial = State.fromEuler({ theta: 0 });
+    this.initial = State.fromEuler(kernel, { theta: 0 });
     /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
     this.kept = null;
   }
@@ -96,10 +96,7 @@ export class LocalTop {
     requestAnimationFrame(step);
   }
 
-  /**
-   * @param {number} passed ms
-   * @param {number} now ms
-   */
+  /** @param {number} passed ms @param {number} now ms */
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
     if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
@@ -225,10 +222,7 @@ export class LocalTop {
     this.tellSeries(times, states);
   }
 
-  /**
-   * @param {number[]} times ns
-   * @param {State[]} states
-   */
+  /** @param {number[]} times ns @param {State[]} states */
   tellSeries(times, states) {
     const start = this.run.findStart(this.time);
     const samples = times.map((time, n) => {

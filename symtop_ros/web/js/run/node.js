@@ -15,7 +15,7 @@ const DISCONNECTED = "the connection is lost: is top_panel still running?";
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
-  /** @type {import("../physics/state.js").Quaternion | null} */
+  /** @type {import("../physics/kernel.js").Quaternion | null} */
   orientation = null; // that the node has published last
   isGreeted = false;
   stamp = ""; // ns of the node's clock, of the last event
@@ -86,14 +86,10 @@ export class NodeTop extends LocalTop {
   /** The published attitude; all else follows from the events. */
   get state() {
     const computed = super.state;
-    return this.orientation ? new State(this.orientation, computed.omega) : computed;
+    return this.orientation ? new State(this.kernel, this.orientation, computed.omega) : computed;
   }
 
-  /**
-   * Show what has come: the node has the time.
-   * @param {number} _ ms
-   * @param {number} now ms
-   */
+  /** Show what has come: the node has the time. @param {number} _ ms @param {number} now ms */
   advance(_, now) {
     this.show(now);
   }
@@ -119,10 +115,7 @@ export class NodeTop extends LocalTop {
     this.requests.push({ torque: [0, 0, sign * findTorque(this.course)] });
   }
 
-  /**
-   * @param {string} service
-   * @param {any} [argument]
-   */
+  /** @param {string} service @param {any} [argument] */
   ask(service, argument = null) {
     this.requests.push({ service, argument });
   }

@@ -8,9 +8,9 @@ import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
 /** @typedef {import("../physics/kernel.js").Kernel} Kernel */
-/** @typedef {import("../physics/state.js").Vector} Vector */
-/** @typedef {import("../physics/state.js").Quaternion} Quaternion */
-/** @typedef {import("../physics/kicks.js").Hold} Hold */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Quaternion} Quaternion */
+/** @typedef {import("../physics/kernel.js").Hold} Hold */
 /** @typedef {"start" | "kick" | "change" | "torque"} Kind */
 /**
  * What was asked for: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
@@ -49,11 +49,7 @@ export class Run {
     this.moments = [];
   }
 
-  /**
-   * The last event before a time, or the first one.
-   * @param {number} time ns
-   * @returns {Moment}
-   */
+  /** The last event before a time, or the first one. @param {number} time ns @returns {Moment} */
   find(time) {
     return this.moments[Math.max(0, this.findPlace(time))];
   }
@@ -163,7 +159,7 @@ export class Run {
   /** @param {EventRecord} event */
   append({ kind, time, top, orientation, angular_velocity, friction, torque, ...asked }) {
     const [Ix, Iz, Mgl] = top;
-    const start = new State(orientation, angular_velocity);
+    const start = new State(this.kernel, orientation, angular_velocity);
     const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
     this.add(kind, Math.round(time * NANO), course, asked);
   }

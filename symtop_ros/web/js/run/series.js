@@ -6,10 +6,7 @@ import { chooseWindow } from "../words/facts.js";
 const SHARE = 200; // of a window: rows in it
 const MOST = 20_000; // rows between two events; a longer time has them farther apart
 
-/**
- * @param {import("./run.js").Run} run
- * @param {number} now ns
- */
+/** @param {import("./run.js").Run} run @param {number} now ns */
 export const writeSeries = ({ moments }, now) => {
   const lines = ["time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"];
   moments.forEach(({ time: begin, course }, k) => {

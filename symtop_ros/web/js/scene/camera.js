@@ -12,7 +12,7 @@ import {
 } from "./matrices.js";
 import { Size } from "./size.js";
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 
 const ANGLE = (42 * Math.PI) / 180; // of the view
 const STEEPEST = 1.5; // rad above or below the horizon
@@ -51,10 +51,7 @@ export class Camera {
     );
   }
 
-  /**
-   * @param {Vector} eye
-   * @param {Vector} target
-   */
+  /** @param {Vector} eye @param {Vector} target */
   place(eye, target) {
     const [x, y, z] = subtract(eye, target);
     this.target = target;
@@ -78,10 +75,7 @@ export class Camera {
     this.pointers.set(event.pointerId, now);
   }
 
-  /**
-   * @param {number} right px
-   * @param {number} down px
-   */
+  /** @param {number} right px @param {number} down px */
   turn(right, down) {
     this.around -= right * TURN;
     this.above = Math.min(Math.max(this.above + down * TURN, -STEEPEST), STEEPEST);

@@ -1,6 +1,6 @@
 // Lines of the scene as pieces between points: circles of the unit sphere, and traces.
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 
 /** @param {Vector[]} points @returns {number[]} pieces between neighbours */
 export const listPieces = (points) =>

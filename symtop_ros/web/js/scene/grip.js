@@ -4,15 +4,12 @@
 import { normalize } from "./matrices.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 /** @typedef {import("../run/local.js").LocalTop} LocalTop */
 
 const REACH = 24; // px around the ball in which a pull begins
 
-/**
- * The angles of an axis that points somewhere.
- * @param {Vector} direction
- */
+/** The angles of an axis that points somewhere. @param {Vector} direction */
 export const findAngles = (direction) => {
   const [x, y, z] = normalize(direction);
   return { theta: Math.atan2(Math.hypot(x, y), z), phi: Math.atan2(x, -y) };
@@ -73,6 +70,6 @@ export class Grip {
   get preview() {
     if (!this.end || !this.isTilting) return null;
     const { psi } = this.top.state.angles;
-    return State.fromEuler({ ...findAngles(this.end), psi });
+    return State.fromEuler(this.top.kernel, { ...findAngles(this.end), psi });
   }
 }

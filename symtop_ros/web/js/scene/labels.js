@@ -2,15 +2,12 @@
 
 import { typeset } from "../words/typeset.js";
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 
 const GAP = 2; // px between labels
 
 export class Labels {
-  /**
-   * @param {HTMLElement} place
-   * @param {import("./camera.js").Camera} camera
-   */
+  /** @param {HTMLElement} place @param {import("./camera.js").Camera} camera */
   constructor(place, camera) {
     this.place = place;
     this.camera = camera;
@@ -26,11 +23,7 @@ export class Labels {
     this.shown.clear();
   }
 
-  /**
-   * @param {string} name
-   * @param {string} color
-   * @param {Vector} point
-   */
+  /** @param {string} name @param {string} color @param {Vector} point */
   put(name, color, point) {
     const at = this.camera.project(point);
     if (!at) return;
@@ -38,10 +31,7 @@ export class Labels {
     this.shown.set(name, { x: at.x, y: at.y });
   }
 
-  /**
-   * @param {string} name
-   * @param {string} color
-   */
+  /** @param {string} name @param {string} color */
   find(name, color) {
     if (!this.names[name]) {
       const label = document.createElement("span");

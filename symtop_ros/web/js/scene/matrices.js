@@ -1,7 +1,7 @@
 // Matrices of 16 numbers by columns, as WebGL wants them, and vectors of three.
 
-/** @typedef {import("../physics/state.js").Vector} Vector */
-/** @typedef {import("../physics/state.js").Quaternion} Quaternion */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Quaternion} Quaternion */
 
 /**
  * @param {Float32Array | number[]} a
@@ -26,22 +26,10 @@ export const createPerspective = (angle, aspect) => {
   const scale = 1 / Math.tan(angle / 2);
   const depth = 1 / (near - far);
   return [
-    scale / aspect,
-    0,
-    0,
-    0,
-    0,
-    scale,
-    0,
-    0,
-    0,
-    0,
-    (near + far) * depth,
-    -1,
-    0,
-    0,
-    2 * near * far * depth,
-    0,
+    ...[scale / aspect, 0, 0, 0],
+    ...[0, scale, 0, 0],
+    ...[0, 0, (near + far) * depth, -1],
+    ...[0, 0, 2 * near * far * depth, 0],
   ];
 };
 
@@ -60,33 +48,13 @@ export const findSize = (a) => Math.hypot(...a);
 /** @param {Vector} a @returns {Vector} */
 export const normalize = (a) => scale(a, 1 / (findSize(a) || 1));
 
-/**
- * The view from an eye to a target, with z up.
- * @param {Vector} eye
- * @param {Vector} target
- */
+/** The view from an eye to a target, with z up. @param {Vector} eye @param {Vector} target */
 export const createView = (eye, target) => {
   const back = normalize(subtract(eye, target));
   const right = normalize(cross([0, 0, 1], back));
   const up = cross(back, right);
-  return [
-    right[0],
-    up[0],
-    back[0],
-    0,
-    right[1],
-    up[1],
-    back[1],
-    0,
-    right[2],
-    up[2],
-    back[2],
-    0,
-    -dot(right, eye),
-    -dot(up, eye),
-    -dot(back, eye),
-    1,
-  ];
+  const turned = [0, 1, 2].flatMap((k) => [right[k], up[k], back[k], 0]);
+  return [...turned, -dot(right, eye), -dot(up, eye), -dot(back, eye), 1];
 };
 
 /**
@@ -96,20 +64,10 @@ export const createView = (eye, target) => {
  * @param {Vector} place
  */
 export const createPose = ([w, x, y, z], [a, b, c] = [1, 1, 1], place = [0, 0, 0]) => [
-  a * (w * w + x * x - y * y - z * z),
-  a * 2 * (x * y + w * z),
-  a * 2 * (x * z - w * y),
-  0,
-  b * 2 * (x * y - w * z),
-  b * (w * w - x * x + y * y - z * z),
-  b * 2 * (y * z + w * x),
-  0,
-  c * 2 * (x * z + w * y),
-  c * 2 * (y * z - w * x),
-  c * (w * w - x * x - y * y + z * z),
-  0,
-  ...place,
-  1,
+  ...[a * (w * w + x * x - y * y - z * z), a * 2 * (x * y + w * z), a * 2 * (x * z - w * y), 0],
+  ...[b * 2 * (x * y - w * z), b * (w * w - x * x + y * y - z * z), b * 2 * (y * z + w * x), 0],
+  ...[c * 2 * (x * z + w * y), c * 2 * (y * z - w * x), c * (w * w - x * x - y * y + z * z), 0],
+  ...[...place, 1],
 ];
 
 /**

@@ -9,6 +9,12 @@
 const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
 const FACETS = 10; // of a sector
 
+/** @param {number[]} radii @param {number[]} heights @returns {Profile} */
+const createProfile = (radii, heights) => radii.map((radius, k) => [radius, heights[k]]);
+
+/** Of the two triangles of a facet: whether a corner is at its end, and whether it is above. */
+const CORNERS = createProfile([0, 1, 0, 1, 1, 0], [0, 0, 1, 0, 1, 1]);
+
 /** @param {string} hex @returns {Color} */
 export const readColor = (hex) =>
   /** @type {Color} */ ([1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255));
@@ -35,14 +41,7 @@ export const createLathe = (profile, first, second = first) => {
     const [out, up] = [(y - z) / length, (r - s) / length];
     for (let facet = 0; facet < count; facet += 1) {
       const color = Math.floor(facet / FACETS) % 2 ? second : first;
-      for (const [corner, isUpper] of [
-        [0, 0],
-        [1, 0],
-        [0, 1],
-        [1, 0],
-        [1, 1],
-        [0, 1],
-      ]) {
+      for (const [corner, isUpper] of CORNERS) {
         const angle = (2 * Math.PI * (facet + corner)) / count;
         const [c, s1] = [Math.cos(angle), Math.sin(angle)];
         const [radius, height] = isUpper ? [s, y] : [r, z];
@@ -59,21 +58,11 @@ export const createLathe = (profile, first, second = first) => {
  * @param {number} height
  */
 const createRotor = (radius, height) => {
-  /** @type {Profile} */
-  const shape = [
-    [0.022, -0.2],
-    [0.1, -0.17],
-    [0.35, -0.11],
-    [0.72, -0.06],
-    [0.94, -0.035],
-    [0.94, 0.035],
-    [0.8, 0.05],
-    [0.45, 0.075],
-    [0.16, 0.105],
-    [0.022, 0.14],
-  ];
-  const scaled = shape.map(
-    ([r, z]) => /** @type {[number, number]} */ ([Math.max(0.022, r * radius), height + z]),
+  const radii = [0.022, 0.1, 0.35, 0.72, 0.94, 0.94, 0.8, 0.45, 0.16, 0.022];
+  const heights = [-0.2, -0.17, -0.11, -0.06, -0.035, 0.035, 0.05, 0.075, 0.105, 0.14];
+  const scaled = createProfile(
+    radii.map((each) => Math.max(0.022, each * radius)),
+    heights.map((each) => height + each),
   );
   /** @type {Profile} */
   const rim = Array.from({ length: 9 }, (_, k) => {
@@ -89,53 +78,26 @@ const createRotor = (radius, height) => {
 
 /**
  * The body of a top: its rotor is at the centre of mass, and wider for a larger Iz/Ix.
- * @param {import("../physics/precession.js").Top} top
+ * @param {import("../physics/kernel.js").Top} top
  */
 export const createBody = ({ Ix, Iz, Mgl }) => {
   const [radius, height] = [0.2 + 0.26 * Math.sqrt(Iz / Ix), 0.56 * Math.sign(Mgl)];
   const low = Math.min(0, height - 0.22);
-  /** @type {Profile} */
-  const axle = [
-    [0, low],
-    [0.022, low + 0.03],
-    [0.022, 0.93],
-    [0.034, 0.95],
-    [0.034, 0.985],
-    [0, 1],
-  ];
+  const heights = [low, low + 0.03, 0.93, 0.95, 0.985, 1];
+  const axle = createProfile([0, 0.022, 0.022, 0.034, 0.034, 0], heights);
   return [...createLathe(axle, STEEL), ...createRotor(radius, height)];
 };
 
 export const createStand = () =>
   createLathe(
-    [
-      [0.17, -0.32],
-      [0.17, -0.28],
-      [0.05, -0.22],
-      [0.03, -0.03],
-      [0, -0.02],
-    ],
+    createProfile([0.17, 0.17, 0.05, 0.03, 0], [-0.32, -0.28, -0.22, -0.03, -0.02]),
     STONE,
   );
 
 /** A shaft of length 1 along z, to be scaled, and a head whose tip is the origin. @param {Color} color */
 export const createArrow = (color) => ({
-  shaft: createLathe(
-    [
-      [0, 0],
-      [0.013, 0],
-      [0.013, 1],
-    ],
-    color,
-  ),
-  head: createLathe(
-    [
-      [0, -0.1],
-      [0.036, -0.1],
-      [0, 0],
-    ],
-    color,
-  ),
+  shaft: createLathe(createProfile([0, 0.013, 0.013], [0, 0, 1]), color),
+  head: createLathe(createProfile([0, 0.036, 0], [-0.1, -0.1, 0]), color),
 });
 
 /** A ball of radius 1. @param {Color} color */
@@ -149,11 +111,4 @@ export const createBall = (color) => {
 };
 
 /** A flat disc of radius 1. @param {Color} color */
-export const createDisc = (color) =>
-  createLathe(
-    [
-      [1, 0],
-      [0, 0],
-    ],
-    color,
-  );
+export const createDisc = (color) => createLathe(createProfile([1, 0], [0, 0]), color);

@@ -76,14 +76,8 @@ void main() {
   float far = length(at.xy - middle.xy) / radius;
   result = vec4(0.0, 0.0, 0.0, opacity * pow(max(1.0 - far, 0.0), 1.5));
 }`;
-const CORNERS = [
-  [0, -1],
-  [0, 1],
-  [1, -1],
-  [1, -1],
-  [0, 1],
-  [1, 1],
-];
+const CORNERS = [0, 0, 1, 1, 0, 1].map((end, k) => [end, [-1, 1, -1, -1, 1, 1][k]]);
+const SMOOTH = { antialias: true, failIfMajorPerformanceCaveat: true };
 const PIECE = 6; // numbers of its two ends
 
 export class Painter {
@@ -92,11 +86,8 @@ export class Painter {
     const options = { alpha: true, preserveDrawingBuffer: true };
     // A graphics card smooths edges for nothing; software would need four times as long for it.
     const gl =
-      canvas.getContext("webgl2", {
-        ...options,
-        antialias: true,
-        failIfMajorPerformanceCaveat: true,
-      }) ?? canvas.getContext("webgl2", { ...options, antialias: false });
+      canvas.getContext("webgl2", { ...options, ...SMOOTH }) ??
+      canvas.getContext("webgl2", { ...options, antialias: false });
     if (!gl) throw new Error("this browser has no WebGL 2: the scene cannot be drawn");
     this.gl = gl;
     this.canvas = canvas;
@@ -118,10 +109,7 @@ export class Painter {
     };
   }
 
-  /**
-   * @param {string} vertex
-   * @param {string} fragment
-   */
+  /** @param {string} vertex @param {string} fragment */
   link(vertex, fragment) {
     const { gl } = this;
     const program = /** @type {WebGLProgram} */ (gl.createProgram());
@@ -162,11 +150,7 @@ export class Painter {
     return { array, buffer, width, count: 0 };
   }
 
-  /**
-   * Give a model other corners.
-   * @param {Model} model
-   * @param {Float32Array} numbers
-   */
+  /** Give a model other corners. @param {Model} model @param {Float32Array} numbers */
   fill(model, numbers) {
     const { gl } = this;
     gl.bindBuffer(gl.ARRAY_BUFFER, model.buffer);
@@ -174,10 +158,7 @@ export class Painter {
     model.count = numbers.length / model.width;
   }
 
-  /**
-   * @param {Mesh} mesh
-   * @param {Model} model that it becomes
-   */
+  /** @param {Mesh} mesh @param {Model} model that it becomes */
   loadMesh(mesh, model = this.create([3, 3, 3])) {
     this.fill(model, new Float32Array(mesh));
     return model;
@@ -237,10 +218,7 @@ export class Painter {
     return known[name];
   }
 
-  /**
-   * @param {WebGLProgram} program
-   * @param {number[]} pose
-   */
+  /** @param {WebGLProgram} program @param {number[]} pose */
   use(program, pose) {
     const { gl } = this;
     gl.useProgram(program);

@@ -19,7 +19,7 @@ import { findTorques, findVectors } from "./vectors.js";
 
 /** @typedef {import("../run/local.js").LocalTop} LocalTop */
 /** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 /** @typedef {import("./meshes.js").Color} Color */
 
 const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion
@@ -30,20 +30,11 @@ const GHOST_OPACITY = 0.28;
 const BALL = 0.055;
 const HORIZON = 1.65; // rad; the axis goes below the pivot: no stand, and the whole sphere
 const GROUND = -0.33;
-/** @type {[Vector, Vector][]} */
+/** @type {{eye: Vector, target: Vector}[]} */
 const VIEWS = [
-  [
-    [1.9, -2.2, 1.35],
-    [0, 0, 0.45],
-  ],
-  [
-    [2.75, -3.2, 1.3],
-    [0, 0, 0],
-  ],
-  [
-    [2.75, -3.2, -1.3],
-    [0, 0, 0],
-  ],
+  { eye: [1.9, -2.2, 1.35], target: [0, 0, 0.45] },
+  { eye: [2.75, -3.2, 1.3], target: [0, 0, 0] },
+  { eye: [2.75, -3.2, -1.3], target: [0, 0, 0] },
 ];
 const LOST = "the picture is lost: the graphics card was reset. It is drawn again when it is back";
 const STILL = createPose([1, 0, 0, 0]);
@@ -52,10 +43,7 @@ const STILL = createPose([1, 0, 0, 0]);
 const paint = (name) => readColor(COLORS[name]);
 
 export class Scene {
-  /**
-   * @param {HTMLElement} place in which the scene is shown
-   * @param {LocalTop} top
-   */
+  /** @param {HTMLElement} place in which the scene is shown @param {LocalTop} top */
   constructor(place, top) {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("role", "img");
@@ -149,15 +137,12 @@ export class Scene {
     const view = isBelow ? (course.top.Mgl < 0 && momentum < 0 ? 2 : 1) : 0;
     if (view !== this.view) {
       this.view = view;
-      this.camera.place(...VIEWS[view]);
+      this.camera.place(VIEWS[view].eye, VIEWS[view].target);
     }
     painter.loadLines(listSphere(view > 0), this.models.sphere);
   }
 
-  /**
-   * @param {State} state now
-   * @param {State[]} states of the trace
-   */
+  /** @param {State} state now @param {State[]} states of the trace */
   draw(state, states) {
     const { painter, camera, grip } = this;
     if (painter.gl.isContextLost()) return;
@@ -198,10 +183,7 @@ export class Scene {
     if (layers[FICTITIOUS]) this.drawTorques(state);
   }
 
-  /**
-   * @param {State} state
-   * @param {State[]} states
-   */
+  /** @param {State} state @param {State[]} states */
   drawLines(state, states) {
     const {
       painter,
@@ -219,12 +201,7 @@ export class Scene {
     painter.drawLines(this.models.trace, paint("trace"), 3, STILL);
   }
 
-  /**
-   * @param {string} name
-   * @param {Vector} vector
-   * @param {Vector} origin
-   * @param {string} label
-   */
+  /** @param {string} name @param {Vector} vector @param {Vector} origin @param {string} label */
   drawArrow(name, vector, origin, label) {
     const length = findSize(vector);
     if (!(length > SHORTEST)) return;

@@ -1,10 +1,10 @@
 // The vectors of a state that the scene draws, in the world frame.
 
 import { add } from "./matrices.js";
-import { findFrameTorques } from "../physics/precession.js";
+import { findFrameTorques } from "../charts/formulas.js";
 
 /** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/state.js").Vector} Vector */
+/** @typedef {import("../physics/kernel.js").Vector} Vector */
 
 /**
  * @param {import("../physics/course.js").Course} course
@@ -24,7 +24,7 @@ export const findVectors = ({ top: { Ix, Iz, Mgl }, friction, torque }, state) =
 
 /**
  * The torques along the line of nodes for an observer who precesses with the top.
- * @param {import("../physics/precession.js").Top} top
+ * @param {import("../physics/kernel.js").Top} top
  * @param {State} state
  */
 export const findTorques = (top, state) => {

@@ -1,13 +1,12 @@
 // What the page says and plots of a run: sentences, rates, roots, the potential.
 
 import { NANO } from "../physics/course.js";
-import { findLedger, findRest } from "../physics/energies.js";
 import { findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
-import { findTurning } from "../physics/kinds.js";
+import { findLedger, nameLedger } from "./ledger.js";
+import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
-import { EffectivePotential, findConstants } from "../physics/potential.js";
-import { findRegularRates } from "../physics/precession.js";
+import { findConstants, findPotential } from "../charts/formulas.js";
 
 /** @typedef {import("../run/run.js").Run} Run */
 /** @typedef {import("../run/run.js").Moment} Moment */
@@ -29,12 +28,7 @@ const TRACE_NUTATIONS = 12; // longest plot, in nutations
 /** @param {number[]} numbers */
 const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
 
-/**
- * Numbers at equal distances.
- * @param {number} low
- * @param {number} high
- * @param {number} count
- */
+/** Numbers at equal distances. @param {number} low @param {number} high @param {number} count */
 const spread = (low, high, count) =>
   Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
 
@@ -54,7 +48,7 @@ export const chooseWindow = ({ motion }) => {
  * @param {Moment} moment
  */
 const describePotential = (course, state, { before, last }) => {
-  const potential = new EffectivePotential(course.top, state);
+  const potential = findPotential(course.top, state);
   const angles = course.continueFree(state).motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
@@ -70,7 +64,7 @@ const describePotential = (course, state, { before, last }) => {
   const margin = 0.04 * Math.max(high - low, 0.1);
   const [left, right] = [Math.max(0, low - margin), Math.min(Math.PI, high + margin)];
   const shown = [...spread(left, right, CURVE), ...angles].sort((a, b) => a - b);
-  const sample = (/** @type {EffectivePotential} */ each) => ({
+  const sample = (/** @type {typeof potential} */ each) => ({
     theta: shown,
     height: shown.map((tilt) => Math.min(each.at(tilt), top + (top - bottom))),
   });
@@ -82,7 +76,7 @@ const describePotential = (course, state, { before, last }) => {
     energy: potential.energy,
     angles,
     ...sample(potential),
-    before: before && last ? sample(new EffectivePotential(last.top, before)) : null,
+    before: before && last ? sample(findPotential(last.top, before)) : null,
   };
 };
 
@@ -109,15 +103,6 @@ export const compareConstants = ({ top, start }, state) => {
   return Object.fromEntries(
     names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
   );
-};
-
-/** The record of the ledger, in mJ. @param {Moment} moment */
-const nameLedger = (moment) => {
-  const ledger = findLedger(moment);
-  if (!ledger) return { kind: "none" };
-  const { kick, far, point } = ledger;
-  const { weight, precession } = far;
-  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
 };
 
 /**
@@ -151,7 +136,7 @@ export const describe = (run, writer, time) => {
       "friction.transverse": course.friction[1],
     },
     start,
-    roots: findRegularRates(course.top, start.theta, start.psi_dot),
+    roots: run.kernel.findRegularRates(course.top, start.theta, start.psi_dot),
     window: chooseWindow(course.free),
     since: run.findStart(time) / NANO,
     marks: run.moments.filter(({ kind }) => kind === "kick").map((each) => each.time / NANO),

@@ -1,6 +1,6 @@
 // What an event led to, as records: for the headline of the page, and for the reason below it.
 
-import { judge, judgeKick } from "../physics/verdict.js";
+import { judge, judgeKick } from "./verdict.js";
 
 /** @typedef {import("../physics/course.js").Course} Course */
 /** @typedef {import("../run/run.js").Moment} Moment */
@@ -36,17 +36,14 @@ const findSwing = (highest, lowest) => {
  * where that is not the one in which it ends.
  * @param {Course} course
  * @param {import("../physics/state.js").State} before
- * @param {Course} last
- * @param {import("../physics/kicks.js").Hold | null} hold
+ * @param {import("../physics/kernel.js").Hold | null} hold
  */
-const findKick = (course, before, last, hold) => {
-  const angles = last.continueFree(before).motion.turning_angles;
-  const { top, start, free, isDriven } = course;
-  const verdict = judgeKick({ top, start, motion: free.motion, isDriven }, before, angles, hold);
+const findKick = (course, before, hold) => {
+  const verdict = judgeKick(course, before, hold);
   const kind = findSwing(verdict.highest, verdict.lowest);
   const { direction } = verdict;
   return {
-    outcome: { ...verdict, motion: course.motion.kind },
+    outcome: verdict,
     swing: {
       kind,
       first: OPPOSITE[kind] === direction ? direction : null,
@@ -60,17 +57,17 @@ const findKick = (course, before, last, hold) => {
  * those under gravity alone; the headline says so where more acts.
  * @param {Moment} moment
  */
-export const findOutcome = ({ kind, asked, course, before, last }) => {
+export const findOutcome = ({ kind, asked, course, before }) => {
   const { motion } = course.free;
   const forces = findForces(course);
   const subject = course.top.Mgl < 0 ? "axis" : "top";
   const { kind: moves, turning_angles } = motion;
   const headline = { subject, forces, motion: moves, turning_angles };
-  if (kind === "kick" && before && last) {
-    const { outcome, swing } = findKick(course, before, last, asked.hold ?? null);
+  if (kind === "kick" && before) {
+    const { outcome, swing } = findKick(course, before, asked.hold ?? null);
     return { headline: { ...headline, ...swing }, name: "kick", outcome };
   }
-  const verdict = judge(course.free);
+  const verdict = judge(course);
   return {
     headline: { ...headline, kind: forces ? "driven" : (KINDS[kind] ?? "start") },
     name: forces ? "driven" : "start",

@@ -1,34 +1,25 @@
 // Twin of the rounding in wording/templates.py: how a number is written, in every sentence.
 
-import { Big, LONGEST } from "../physics/big.js";
-
 const [SMALLEST_RATE, LARGEST_RATE] = [0.1, 1e5]; // rad/s; others are written with three digits
+const DIGITS = 100; // which browsers write exactly, at most
+const WHOLE = 1e21; // from here on browsers write an exponent
 
 /**
- * The integer nearest to size times 10^power; the even one of two.
- * @param {number} size
- * @param {number} power
+ * Whether exactly half is left from a place on, after an even digit: of two equally near numbers
+ * the even one is wanted, where browsers write the larger.
+ * @param {string} digits
+ * @param {number} place
  */
-const scaleToInteger = (size, power) => {
-  const { mantissa, exponent } = Big.of(size, LONGEST);
-  let above = mantissa * (power > 0 ? 10n ** BigInt(power) : 1n);
-  let below = power < 0 ? 10n ** BigInt(-power) : 1n;
-  if (exponent > 0) above <<= BigInt(exponent);
-  else below <<= BigInt(-exponent);
-  const whole = above / below;
-  const twice = 2n * (above - whole * below);
-  return twice > below || (twice === below && whole & 1n) ? whole + 1n : whole;
-};
+const isHalfAboveEven = (digits, place) =>
+  /^50*$/.test(digits.slice(place)) && /[02468]$/.test(digits.slice(0, place));
 
-/**
- * With a number of decimals.
- * @param {number} size
- * @param {number} decimals
- */
+/** With a number of decimals. @param {number} size @param {number} decimals */
 const writeFixed = (size, decimals) => {
-  const digits = String(scaleToInteger(size, decimals)).padStart(decimals + 1, "0");
-  const place = digits.length - decimals;
-  return decimals ? `${digits.slice(0, place)}.${digits.slice(place)}` : digits;
+  if (size >= WHOLE) return `${BigInt(size)}${decimals ? `.${"0".repeat(decimals)}` : ""}`;
+  const all = size.toFixed(DIGITS);
+  const digits = all.replace(".", "");
+  if (!isHalfAboveEven(digits, digits.length - DIGITS + decimals)) return size.toFixed(decimals);
+  return all.slice(0, all.length - DIGITS + (decimals || -1));
 };
 
 /**
@@ -38,13 +29,13 @@ const writeFixed = (size, decimals) => {
  * @returns {[string, number]}
  */
 const findDigits = (size, count) => {
-  if (size === 0) return ["0".repeat(count), 0];
-  let exponent = Math.floor(Math.log10(size));
-  for (;;) {
-    const digits = String(scaleToInteger(size, count - 1 - exponent));
-    if (digits.length === count) return [digits, exponent];
-    exponent += digits.length - count;
-  }
+  const [all, exact] = size.toExponential(DIGITS).replace(".", "").split("e");
+  if (isHalfAboveEven(all, count)) return [all.slice(0, count), Number(exact)];
+  const [digits, exponent] = size
+    .toExponential(count - 1)
+    .replace(".", "")
+    .split("e");
+  return [digits, Number(exponent)];
 };
 
 /** @param {number} exponent */
@@ -54,11 +45,7 @@ const writeExponent = (exponent) =>
 /** @param {string} text with a point */
 const dropZeros = (text) => text.replace(/\.?0*$/, "");
 
-/**
- * As %g of C.
- * @param {number} size
- * @param {number} count
- */
+/** As %g of C. @param {number} size @param {number} count */
 const writeGeneral = (size, count) => {
   const [digits, exponent] = findDigits(size, count);
   if (exponent < -4 || exponent >= count) {
@@ -70,10 +57,7 @@ const writeGeneral = (size, count) => {
   return dropZeros(text);
 };
 
-/**
- * @param {number} size
- * @param {number} decimals
- */
+/** @param {number} size @param {number} decimals */
 const writeScientific = (size, decimals) => {
   const [digits, exponent] = findDigits(size, decimals + 1);
   return `${digits[0]}.${digits.slice(1)}${writeExponent(exponent)}`;

@@ -16,10 +16,7 @@ const DOTS = ["", ".", ".."];
 const SYMBOL =
   /\b(theta|phi|psi|omega|lambda|p|L|U|u|E|I|Mgl|Ix|Iy|Iz)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?:\^(\d))?(?![\w'])|(rad\/s|kg m|\))\^2/g;
 
-/**
- * @param {string} name
- * @param {(Node | string)[]} children
- */
+/** @param {string} name @param {(Node | string)[]} children */
 const create = (name, ...children) => {
   const element = document.createElementNS(SPACE, name);
   element.append(...children);

@@ -23,20 +23,12 @@ export class Writer {
     return this.fill(record.kind ? `${name}.${record.kind}` : name, record, variant);
   }
 
-  /**
-   * @param {string} key
-   * @param {Variant} variant
-   */
+  /** @param {string} key @param {Variant} variant */
   find(key, variant) {
     return this.templates[`${key}@${variant}`] ?? this.templates[key];
   }
 
-  /**
-   * @param {string} key
-   * @param {Fields} record
-   * @param {Variant} variant
-   * @returns {string}
-   */
+  /** @param {string} key @param {Fields} record @param {Variant} variant @returns {string} */
   fill(key, record, variant) {
     return this.find(key, variant).replace(PLACEHOLDER, (whole, name, form) => {
       const text = this.writeValue(name, record[name], form ?? "", record, variant);
@@ -77,11 +69,7 @@ export class Writer {
     return texts.join(this.templates[`${form}.join`] ?? this.templates.join);
   }
 
-  /**
-   * @param {string} key
-   * @param {number[]} values
-   * @param {Variant} variant
-   */
+  /** @param {string} key @param {number[]} values @param {Variant} variant */
   fillNumbers(key, values, variant) {
     const forms = [...this.find(key, variant).matchAll(PLACEHOLDER)];
     const texts = new Set(forms.map(([, place, form]) => writeNumber(values[Number(place)], form)));

@@ -3,12 +3,9 @@
 // phi' = (p_phi - p_psi u)/(Ix (1 - u^2)) vanishes at u = cos(theta) = p_phi/p_psi only, and the axis
 // gets there if the height there costs less than E'.
 
-import { cosineAndSine } from "./elementary.js";
-import { findConstants } from "./potential.js";
+import { findConstants } from "./formulas.js";
 
-/** @typedef {import("./precession.js").Top} Top */
-/** @typedef {import("./state.js").State} State */
-/** @typedef {[number, number]} Pair */
+/** @typedef {import("../physics/kernel.js").Top} Top */
 
 const TWICE = 2; // Mgl/p_psi: phi' of the second cusp
 const AT_REST = 1e-9; // of omega: theta' that is smaller is none
@@ -21,7 +18,7 @@ const AT_REST = 1e-9; // of omega: theta' that is smaller is none
  * @param {number} psiDot
  */
 export const makesLoops = ({ Ix, Iz, Mgl }, theta, phiDot, psiDot) => {
-  const [u, sine] = cosineAndSine(theta);
+  const [u, sine] = [Math.cos(theta), Math.sin(theta)];
   const axial = Iz * (psiDot + phiDot * u);
   const vertical = Ix * phiDot * sine * sine + axial * u;
   // Both sides times p_psi^2, so that no spin is no exception.
@@ -38,7 +35,7 @@ export const makesLoops = ({ Ix, Iz, Mgl }, theta, phiDot, psiDot) => {
  * @returns {{cusps: number, regular: number, upper: number, lower: number}}
  */
 export const findBoundaries = ({ Ix, Iz, Mgl }, theta, phiDot) => {
-  const [u, sine] = cosineAndSine(theta);
+  const [u, sine] = [Math.cos(theta), Math.sin(theta)];
   const turned = phiDot * u;
   const axial = (TWICE * Mgl) / phiDot;
   // Where phi' would vanish beyond the vertical there is no cusp.
@@ -52,21 +49,21 @@ export const findBoundaries = ({ Ix, Iz, Mgl }, theta, phiDot) => {
 };
 
 /**
- * Tilt and rates of a motion where theta' = 0: at its start, or at the turning point next to it.
+ * Tilt, rates and regular rates of a motion where theta' = 0: at its start, or at the turning point next to it.
  * Null where this is on the vertical.
- * @param {import("./course.js").Course} course
- * @returns {{theta: number, phi_dot: number, psi_dot: number} | null}
+ * @param {import("../physics/course.js").Course} course
+ * @returns {{theta: number, phi_dot: number, psi_dot: number, roots: number[]} | null}
  */
-export const findTurning = ({ top, start, free }) => {
+export const findTurning = ({ kernel, top, start, free }) => {
   const { theta: tilt } = start.angles;
   const { rates } = start;
   const isAtRest = Math.abs(rates.theta) <= AT_REST * Math.max(...start.omega.map(Math.abs));
   const [low, high] = free.motion.turning_angles;
   const theta = isAtRest ? tilt : tilt - low < high - tilt ? low : high;
-  const [u, sine] = cosineAndSine(theta);
+  const [u, sine] = [Math.cos(theta), Math.sin(theta)];
   if (sine < 1e-6) return null;
-  if (isAtRest) return { theta, phi_dot: rates.phi, psi_dot: rates.psi };
-  const constants = findConstants(top, start);
-  const phi_dot = (constants["L_z'"] - constants.L_z * u) / (top.Ix * sine * sine);
-  return { theta, phi_dot, psi_dot: constants.L_z / top.Iz - phi_dot * u };
+  const { L_z, "L_z'": vertical } = findConstants(top, start);
+  const phi_dot = isAtRest ? rates.phi : (vertical - L_z * u) / (top.Ix * sine * sine);
+  const psi_dot = isAtRest ? rates.psi : L_z / top.Iz - phi_dot * u;
+  return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
 };

@@ -1,0 +1,77 @@
+// Formulas of what is drawn and tabled, in doubles: curves, bars, arrows, and constants of a motion.
+
+/** @typedef {import("../physics/state.js").State} State */
+/** @typedef {import("../physics/kernel.js").Top} Top */
+/**
+ * Parts of the energy in J. E' is the sum of weight, precession and nutation; the spin keeps its
+ * part until the next kick.
+ * @typedef {{spin: number, weight: number, precession: number, nutation: number}} Energies
+ */
+
+/**
+ * The torques about the line of nodes in the precessing frame, in N m; their total is Ix theta''.
+ * @param {Top} top
+ * @param {number} theta
+ * @param {number} rate phi'
+ * @param {number} spin psi'
+ */
+export const findFrameTorques = ({ Ix, Iz, Mgl }, theta, rate, spin) => {
+  const [cosine, sine] = [Math.cos(theta), Math.sin(theta)];
+  const gravity = Mgl * sine;
+  const coriolis = -Iz * spin * rate * sine;
+  const centrifugal = (Ix - Iz) * (rate * rate) * sine * cosine;
+  return { gravity, coriolis, centrifugal, total: gravity + coriolis + centrifugal };
+};
+
+/**
+ * theta'' in rad/s^2.
+ * @param {Top} top
+ * @param {number} theta
+ * @param {number} rate phi'
+ * @param {number} spin psi'
+ */
+export const findTiltAcceleration = (top, theta, rate, spin) =>
+  findFrameTorques(top, theta, rate, spin).total / top.Ix;
+
+/** Energy, and the angular momentum about the axis and about the vertical. */
+/** @param {Top} top @param {State} state */
+export const findConstants = ({ Ix, Iz, Mgl }, state) => {
+  const [x, y, z] = state.omega;
+  const [gx, gy, gz] = state.vertical;
+  return {
+    energy: (Ix * x * x + Ix * y * y + Iz * z * z) / 2 + Mgl * gz,
+    L_z: Iz * z,
+    "L_z'": Ix * x * gx + Ix * y * gy + Iz * z * gz,
+  };
+};
+
+/** @param {Top} top @param {State} state @returns {Energies} */
+export const findEnergies = ({ Ix, Iz, Mgl }, state) => {
+  const [x, y, z] = state.omega;
+  const [gx, gy, gz] = state.vertical;
+  const sine = Math.hypot(gx, gy);
+  // Across the axis omega has two parts: about the line of nodes, and at right angles to it.
+  const [along, across] = sine ? [(x * gx + y * gy) / sine, (x * gy - y * gx) / sine] : [x, y];
+  return {
+    spin: (Iz * z * z) / 2,
+    weight: Mgl * gz,
+    precession: (Ix * along * along) / 2,
+    nutation: (Ix * across * across) / 2,
+  };
+};
+
+/** @param {Energies} energies */
+export const findRest = ({ weight, precession, nutation }) => weight + precession + nutation;
+
+/** The effective potential over theta, and the energy E' in it. */
+/** @param {Top} top @param {State} state */
+export const findPotential = (top, state) => {
+  const { L_z, "L_z'": vertical } = findConstants(top, state);
+  const at = (/** @type {number} */ theta) => {
+    // b - a u as (b - a) + a (1 - u): for an upright axis nothing is left of the difference.
+    const turning = (vertical - L_z) / top.Ix + (L_z / top.Ix) * 2 * Math.sin(theta / 2) ** 2;
+    const share = turning === 0 ? 0 : turning / Math.sin(theta);
+    return (top.Ix * share * share) / 2 + top.Mgl * Math.cos(theta);
+  };
+  return { at, energy: findRest(findEnergies(top, state)) };
+};

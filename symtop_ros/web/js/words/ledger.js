@@ -1,0 +1,50 @@
+// What a kick puts into the parts of the energy of a top.
+
+import { findEnergies, findRest } from "../charts/formulas.js";
+
+/** @typedef {import("../charts/formulas.js").Energies} Energies */
+/**
+ * What has changed since before a kick, in mJ: just after it, and at the turning point that is
+ * farther from there.
+ * @typedef {{kick: Energies, far: Energies, point: "highest" | "lowest"}} Ledger
+ */
+
+const MILLI = 1000;
+
+/** @param {Energies} now @param {Energies} before @returns {Energies} in mJ */
+const subtractEnergies = (now, before) => ({
+  spin: MILLI * (now.spin - before.spin),
+  weight: MILLI * (now.weight - before.weight),
+  precession: MILLI * (now.precession - before.precession),
+  nutation: MILLI * (now.nutation - before.nutation),
+});
+
+/**
+ * The ledger of a kick, under gravity alone; null if the last event is none.
+ * @param {import("../run/run.js").Moment} moment
+ * @returns {Ledger | null}
+ */
+export const findLedger = ({ kind, course, before }) => {
+  if (kind !== "kick" || !before) return null;
+  const { top, start, free } = course;
+  const [first, after] = [findEnergies(top, before), findEnergies(top, start)];
+  const [highest, lowest] = free.motion.turning_angles;
+  const { theta } = start.angles;
+  const isHighest = theta - highest > lowest - theta;
+  const weight = top.Mgl * Math.cos(isHighest ? highest : lowest);
+  const far = { ...after, weight, nutation: 0, precession: findRest(after) - weight };
+  return {
+    kick: subtractEnergies(after, first),
+    far: subtractEnergies(far, first),
+    point: isHighest ? "highest" : "lowest",
+  };
+};
+
+/** The record of the ledger, in mJ. @param {import("../run/run.js").Moment} moment */
+export const nameLedger = (moment) => {
+  const ledger = findLedger(moment);
+  if (!ledger) return { kind: "none" };
+  const { kick, far, point } = ledger;
+  const { weight, precession } = far;
+  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
+};

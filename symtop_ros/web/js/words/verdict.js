@@ -1,0 +1,77 @@
+// The kernel's verdicts as records for the templates, with null for what is undefined.
+
+/** @typedef {import("../physics/kernel.js").Found} Found */
+/** @typedef {import("../physics/kernel.js").Hold} Hold */
+/** @typedef {import("../physics/kernel.js").Direction} Direction */
+/** @typedef {import("../physics/course.js").Course} Course */
+/** @typedef {{kind: string, amount: number}} Lift */
+
+const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];
+
+/** @param {number[]} rates */
+const keepDefined = (rates) => rates.filter((rate) => !Number.isNaN(rate));
+
+/** Why Perry's rule holds, fails or says nothing. @param {Found} verdict */
+const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }) => {
+  if (!ON_THE_VERTICAL.includes(kind)) {
+    const regular_rates = keepDefined(place.regular_rates);
+    return { kind, rule, subject, ...numbers, place: { ...place, regular_rates } };
+  }
+  const nothing = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
+  return { kind, rule, subject, ...nothing, place: null };
+};
+
+/** @param {Found} average */
+const readAverage = ({ is_fast, ...average }) =>
+  Number.isFinite(average.turns) ? { ...average, speed: is_fast ? "fast" : "slow" } : null;
+
+/**
+ * The verdict on a start under gravity alone, and what Perry's rule says if it is hurried.
+ * @param {Course} course
+ * @param {number} factor
+ * @param {Hold} hold
+ */
+export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
+  const found = kernel.judge(free.packed, factor, hold);
+  const reason = readReason(found);
+  return {
+    subject: found.subject,
+    direction: found.direction,
+    turning_angles: found.turning_angles,
+    regular_rates: reason.place?.regular_rates ?? [],
+    rule_holds: reason.rule && reason.rule === "holds",
+    reason,
+    average: readAverage(found.average),
+  };
+};
+
+/**
+ * The verdict on the kick with which a course begins.
+ * @param {Course} course
+ * @param {import("../physics/state.js").State} before
+ * @param {Hold | null} hold null for an angular impulse
+ */
+export const judgeKick = (course, before, hold) => {
+  const { kernel, packed, isDriven } = course;
+  const found = kernel.judgeKick(course.continueFree(before).packed, packed, hold);
+  const { factor, contrary_facts: facts, reason: _, average, ...others } = found;
+  const reason = readReason(found);
+  const { rule, subject } = reason;
+  return {
+    ...{
+      direction: /** @type {Direction} */ (found.direction),
+      highest: /** @type {Lift} */ (found.highest),
+      lowest: /** @type {Lift} */ (found.lowest),
+    },
+    ...others,
+    axis: before.isVertical ? "vertical" : "tilted",
+    hold,
+    factor: Number.isNaN(factor) ? null : factor,
+    before: reason.before,
+    after: reason.after,
+    driven: isDriven,
+    reason,
+    contradiction: facts.length && rule ? { rule, subject, facts } : null,
+    average: readAverage(average),
+  };
+};
