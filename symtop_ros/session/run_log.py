@@ -23,8 +23,8 @@ from symtop_ros.wire.diagnostics import Status
 from symtop_ros.wire.layout import NANOSECONDS
 
 NODE, RATE = "/top", 200.0  # name of the node that would have written the log, and its rate in Hz
-# The states of a run are those of other processors and of Python alone too, which may differ by
-# rounding, and an event of a node may be half a nanosecond away from its place in the run.
+# A run may be of another version of the kernel, whose states may differ by rounding, and an event
+# of a node may be half a nanosecond away from its place in the run.
 ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9
 
 

@@ -151,7 +151,7 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
     sphere = {"top__Ix": 1e-4, "top__Iz": 1e-4, "friction__transverse": 1e-6}
     run = start(**sphere, initial__psi_dot=5e6, real_time_factor=10.0)
     begin = time.monotonic()
-    # some ticks in Python alone; the kernel takes hundreds until it has tried for long enough
+    # hundreds of ticks until it has tried for long enough
     while run.simulation.factor >= 0.1 and time.monotonic() - begin < 4.0:
         run.clock.now += 5 * MS
         run.simulation.tick()
