@@ -1,4 +1,4 @@
-"""Why a sum of mean rates must keep 20 digits (`KEPT`), or is computed with more.
+"""Why a sum of mean rates must keep 20 digits, or is computed with more.
 
 The mean precession and spin are a + b and a - b + c, with the means a and b of arg A and arg B. A
 sphere that hardly feels its weight turns about L, and its mean spin is as small as the weight: the
@@ -7,34 +7,26 @@ has 17; the other three are for the rounding of the terms. Without the limit the
 rounding, or zero, where the true rate is in proportion to the weight.
 """
 
-from decimal import Decimal, localcontext
-
-from symtop_ros.physics.exact.mean_rates import KEPT, add_means
-from symtop_ros.physics.exact.precise import PRECISE
-
-from design.digits import find_rates
 from symtop_ros.physics import State, Top
+from symtop_ros.physics.reference import ClosedForm, Inputs
 
 WEIGHTS = (1e-3, 1e-12, 1e-24, 1e-30, 1e-36, 1e-48, 1e-60)  # J
 START = State.from_euler(theta=1.0, theta_dot=0.3, phi_dot=2.0)
 
 
 def find_mean_spins(Mgl: float) -> tuple[float, float]:
-    """Return the mean spin in rad/s as the sum of 50 digits has it, and as `add_means` has it."""
-    top = Top(1.0, 1.0, Mgl)
-    q, omega = (tuple(part.tolist()) for part in START.parts)
-    _, a, b = find_rates(top, START, PRECISE.prec)
-    with localcontext(PRECISE):
-        kept = add_means(a, b, Decimal(0), top.moments, q, omega)
-        return float(a - b), float(kept[1])
+    """Return the mean spin in rad/s as 50 digits have it, and as 250 have it."""
+    inputs = Inputs.of(Top(1.0, 1.0, Mgl), START)
+    few, many = (ClosedForm(inputs, digits).mean_rates[1] for digits in (50, 250))
+    return float(few), float(many)
 
 
 def main() -> None:
     """Print the table."""
-    print(f"a sum keeps {KEPT} digits\n{'Mgl (J)':10}{'50 digits':>24}{'as many as needed':>24}")
+    print(f"{'Mgl (J)':10}{'50 digits':>24}{'250 digits':>24}")
     for Mgl in WEIGHTS:
-        plain, kept = find_mean_spins(Mgl)
-        print(f"{Mgl:<10.0e}{plain:24.16e}{kept:24.16e}")
+        few, many = find_mean_spins(Mgl)
+        print(f"{Mgl:<10.0e}{few:24.16e}{many:24.16e}")
 
 
 if __name__ == "__main__":

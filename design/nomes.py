@@ -8,21 +8,17 @@ not negligible in either series, from the middle of the parameters to the separa
 """
 
 import math
-from decimal import Decimal, localcontext
 
-from symtop_ros.physics.exact.direct_series import NEGLIGIBLE
-from symtop_ros.physics.exact.precise import PRECISE
-from symtop_ros.physics.exact.quotients import compute_mean
+from mpmath import ellipk, mp, mpf
 
+NEGLIGIBLE = 1e-17  # of a sum
 COMPLEMENTS = (0.9, 0.5, 1e-2, 1e-6, 1e-12, 1e-24, 1e-48)  # 1 - m
 
 
 def count_terms(complement: float) -> tuple[int, int]:
     """Return the numbers of terms in the nome and in the complementary nome, for 1 - m."""
-    with localcontext(PRECISE):
-        exact = Decimal(complement)
-        # K'/K is the quotient of two arithmetic-geometric means
-        ratio = float(compute_mean(exact.sqrt()) / compute_mean((1 - exact).sqrt()))
+    with mp.workdps(60):
+        ratio = float(ellipk(complement) / ellipk(1 - mpf(complement)))  # K'/K
     return _count(math.pi * ratio), _count(math.pi / ratio)
 
 

@@ -1,17 +1,20 @@
 """The reference, written from docs/derivation.md alone, and the kernel are the same."""
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 from mpmath import mp, mpf
 from physics.tops import attitude_error, error
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.physics.reference import ClosedForm, Inputs
+from symtop_ros.physics.reference import ClosedForm, Inputs, closed_form
 from workshop.speed.reference import EPS, Reference, read_entries
 from workshop.testset.exact import distance
 
 pytestmark = pytest.mark.untraced
+PAGE = Path(__file__).parents[2] / "docs/derivation.md"
 STORED = read_entries()
 REFERENCE = Reference.read()
 UPSIDE_DOWN = State((0.0, 1.0, 0.0, 0.0), (2.0, 0.0, 0.0))  # rad/s
@@ -93,3 +96,15 @@ def test_a_motion_next_to_the_separatrix_has_its_finite_period():
     there, back = (derive(top, start, t).orientation for t in (0, period))
     with mp.workdps(60):
         assert abs(mp.hypot(*there[1:3]) - mp.hypot(*back[1:3])) < mpf(10) ** -45
+
+
+def test_what_the_derivation_quotes_is_the_code_of_the_reference():
+    code = dedent_lines(Path(closed_form.__file__).read_text())
+    quoted = re.findall(r"^```py\n(.+?)^```", PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    assert len(quoted) == 6
+    for each in quoted:
+        assert dedent_lines(each) in code
+
+
+def dedent_lines(text):
+    return "\n".join(line.strip() for line in text.splitlines())
