@@ -58,6 +58,11 @@ class Opened:
             json.dumps(run),
         )
 
+    def follow(self, fragment):
+        """Follow a link to this page."""
+        self.tab.evaluate("(fragment) => { location.hash = fragment; }", fragment)
+        self.tab.wait_for_timeout(0)
+
     def start_scene(self, name):
         self.open_tab("start")
         self.tab.select_option("#scenes", name)

@@ -42,10 +42,7 @@ def test_headline_and_reason_agree(opened, Mgl):
     subject = "axis" if Mgl < 0 else "top"
     swings = set()
     for theta, spin, rate in itertools.product((0.5, 2.0), (60, -200), (-8, 3, 9)):
-        opened.enter("top.Mgl", str(Mgl))
-        opened.enter("psi_dot", str(spin))
-        opened.enter("phi_dot", str(rate))
-        opened.enter("theta", str(theta))
+        opened.follow(f"Mgl={Mgl}&theta={theta}&psi_dot={spin}&phi_dot={rate}")
         assert opened.say("headline").startswith(f"The {subject} ")
         for key in ("h", "ArrowUp"):
             opened.press(key)

@@ -11,7 +11,9 @@ ACTS = 40  # in an hour
 LARGEST = 20_000  # bytes
 
 
-@pytest.mark.parametrize("fragment", ["", "#theta=0.7&psi_dot=180"])
+@pytest.mark.parametrize(
+    "fragment", [pytest.param("", marks=pytest.mark.long), "#theta=0.7&psi_dot=180"]
+)
 def test_a_reload_loses_nothing(open_page, fragment):
     page = open_page(fragment)
     page.wait_for_time(0.02)
@@ -48,7 +50,7 @@ def test_a_sleep_of_the_computer_loses_nothing(open_page):
     page.tab.click("#hurry")
     events, before = page.read_events(), page.read_run()["end"]
     # nothing runs for some time, and the clock runs
-    page.tab.evaluate("const end = performance.now() + 3000; while (performance.now() < end) {}")
+    page.tab.evaluate("const end = performance.now() + 1500; while (performance.now() < end) {}")
     page.tab.wait_for_timeout(400)
     run = page.read_run()
     assert run["events"] == events

@@ -128,6 +128,7 @@ DROP = """(text) => {
 }"""
 
 
+@pytest.mark.long  # as in a saved page, above
 def test_the_policy_holds_in_a_file(tab, path):
     tab.goto(path.as_uri())
     check(tab.main_frame)

@@ -23,7 +23,7 @@ OPEN = """(hash) => new Promise((done) => {
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize("count", [20, pytest.param(500, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [12, pytest.param(500, marks=pytest.mark.long)])
 def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
     opened, rng = open_page(script=UNDRAWN), random.Random(49)
     for address in (HANGING, *(write_address(draw_start(rng)) for _ in range(count))):
@@ -62,15 +62,12 @@ FOLLOW = """async (addresses) => {
 }"""
 
 
-def test_hostile_addresses_end_nothing_and_a_key_is_answered_after_each(opened):
-    answers = opened.tab.evaluate(FOLLOW, HOSTILE)
+# Every third of them in each run of the tests: some of each name and of each value.
+@pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.long)])
+def test_hostile_addresses_end_nothing_and_a_key_is_answered_after_each(opened, step):
+    answers = opened.tab.evaluate(FOLLOW, HOSTILE[::step])
     assert {started for started, _ in answers} == {0, 1}
     assert {answered for _, answered in answers} == {1}
-
-
-def follow(opened, fragment):
-    opened.tab.evaluate("(fragment) => { location.hash = fragment; }", fragment)
-    opened.tab.wait_for_timeout(0)
 
 
 def read_link(opened):
@@ -82,13 +79,22 @@ def get_motion(event):
     return {name: event[name] for name in names}
 
 
-def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page):
-    runs = [f"scene={name}" for name in scene_names()]
+# Scenes in which the last digits decide, and a torque; all in the long tests.
+@pytest.mark.parametrize(
+    "scenes",
+    [
+        ("hurry_slow", "vertical_torque"),
+        pytest.param(scene_names(), marks=pytest.mark.long),
+    ],
+    ids=["some", "all"],
+)
+def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, scenes):
+    runs = [f"scene={name}" for name in scenes]
     other = open_page(script=FEW_FRAMES + UNDRAWN)
     for fragment in (*runs, write_address(draw_start(random.Random(4)))[1:]):
-        follow(opened, fragment)
+        opened.follow(fragment)
         link, headline = read_link(opened), opened.say("headline")
-        follow(other, link)
+        other.follow(link)
         assert get_motion(other.read_events()[-1]) == get_motion(opened.read_events()[-1])
         assert other.say("headline") == headline
         assert read_link(other) == link
@@ -121,6 +127,6 @@ REFUSED = [
 def test_a_link_that_cannot_be_followed_is_refused(opened):
     events = opened.read_events()
     for fragment, refusal in REFUSED:
-        follow(opened, fragment)
+        opened.follow(fragment)
         assert opened.say("refusal").startswith(refusal)
         assert opened.read_events() == events

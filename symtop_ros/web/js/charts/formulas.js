@@ -69,7 +69,8 @@ export const findPotential = (top, state) => {
   const { L_z, "L_z'": vertical } = findConstants(top, state);
   const at = (/** @type {number} */ theta) => {
     // b - a u as (b - a) + a (1 - u): for an upright axis nothing is left of the difference.
-    const turning = (vertical - L_z) / top.Ix + (L_z / top.Ix) * 2 * Math.sin(theta / 2) ** 2;
+    const half = Math.sin(theta / 2);
+    const turning = (vertical - L_z) / top.Ix + (L_z / top.Ix) * (2 * half * half);
     const share = turning === 0 ? 0 : turning / Math.sin(theta);
     return (top.Ix * share * share) / 2 + top.Mgl * Math.cos(theta);
   };
