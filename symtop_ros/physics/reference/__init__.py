@@ -6,6 +6,7 @@ be read next to docs/derivation.md, and needs mpmath: `pip install symtop_ros[re
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -46,11 +47,16 @@ def exact_state(
         Time in s, of any sign.
     digits : int
         Decimal digits of the result: of the quaternion, and of the angular velocity relative to its
-        size.
+        size, as long as friction leaves a part of 10^-digits of that.
     friction : Friction, optional
         Friction at the pivot and in the air.
     torque : sequence of three floats
         A constant torque in the world frame, in N m.
+
+    Raises
+    ------
+    ValueError
+        If the top or the start are many, the time is not finite, or digits are not positive.
 
     Examples
     --------
@@ -62,6 +68,7 @@ def exact_state(
     >>> nstr(exact_state(top, cusps, 10.0).orientation[0], 25)
     '0.5831799034733807704174033'
     """
+    _check(top, start, t, digits)
     inputs, working = Inputs.of(top, start), digits + 15
     drag = (friction.axial, friction.transverse) if friction else (0.0, 0.0)
 
@@ -71,16 +78,29 @@ def exact_state(
         return ClosedForm(inputs, working).at(t)
 
     found, before = compute(), None
-    while before is None or not _agree(found, before, digits):
+    swing = float(abs(inputs.Mgl) / inputs.Ix) ** 0.5
+    fastest = swing + float(max(map(abs, inputs.angular_velocity)))
+    while before is None or not _agree(found, before, digits, fastest):
         working += 15
         found, before = compute(), found
     return found
 
 
-def _agree(found: ExactState, before: ExactState, digits: int) -> bool:
+def _check(top: Top, start: State, t: float, digits: int) -> None:
+    if top.shape or start.given_orientation.shape != (4,):
+        shapes = f"shapes {top.shape} and {start.given_orientation.shape[:-1]}"
+        raise ValueError(f"top and start must be those of one motion, got {shapes}")
+    if not math.isfinite(t):
+        raise ValueError(f"t must be a finite number, got {t} s")
+    if digits < 1:
+        raise ValueError(f"digits must be 1 or more, got {digits}")
+
+
+def _agree(found: ExactState, before: ExactState, digits: int, fastest: float) -> bool:
     """Return True if quaternions, and rates relative to their size, agree to so many digits."""
     with mp.workdps(digits + 10):
         pairs = zip(found, before, strict=True)
         apart = [mp.norm([a - b for a, b in zip(*each, strict=True)]) for each in pairs]
         least: Number = mp.mpf(10) ** -digits
-        return bool(apart[0] < least and apart[1] <= least * mp.norm(found.angular_velocity))
+        size = mp.norm(found.angular_velocity) + least * fastest
+        return bool(apart[0] < least and apart[1] <= least * size)

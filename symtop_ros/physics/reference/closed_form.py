@@ -124,19 +124,20 @@ class Nutation:
         self.zeros = -below, above, energy / beta
         self.d = [mpf(lift - a * zero) for zero in self.zeros]
         self.beta = mpf(beta)
-        self._set_phase(-1 if u_dot < 0 else 1)
-
-    def _set_phase(self, sign: int) -> None:
-        s1, s2, s3 = self.s
-        self.s31 = s3 - s1
+        self.s31 = self.s[2] - self.s[0]
         self.m, self.k = self.s21 / self.s31, sqrt(self.s32 / self.s31)  # k is k'
         self.rate = sqrt(self.beta * self.s31) / 2
         self.K = pi / 2 / agm(1, self.k) if self.k else inf
         self.Kc = pi / 2 / agm(1, sqrt(self.m)) if self.m else inf
-        self.v0 = mpf(0)
-        if self.m:  # [4] 1 - sn^2 = s2/s21, 1 - m sn^2 = s3/s31
-            sn = sqrt(-s1 / self.s21)
-            self.v0 = sign * sn * elliprf(s2 / self.s21, s3 / self.s31, 1)
+        self.v0 = self._find_phase(falls=u_dot < 0)
+
+    def _find_phase(self, falls: bool) -> Number:
+        """Return the phase at the start [4]: 1 - sn^2 is s2/s21, and 1 - m sn^2 is s3/s31."""
+        if not self.m:
+            return mpf(0)
+        s1, s2, s3 = self.s
+        sn = sqrt(-s1 / self.s21) * (-1 if falls else 1)
+        return sn * elliprf(s2 / self.s21, s3 / self.s31, 1)
 
     def find_factors(self, start: Start) -> tuple[Factor, ...]:
         """Return A, B and conj(omega) as functions of time."""

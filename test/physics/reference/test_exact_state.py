@@ -85,6 +85,27 @@ def test_a_friction_that_is_too_weak_to_be_felt_gives_the_closed_form():
     assert_same(exact_state(ARTICLE, CUSPS, 0.3, 30, Friction(0.0, 1e-60)), *free, 30)
 
 
+def test_a_spin_of_which_friction_leaves_less_than_a_digit_is_found_without_more_digits_of_it():
+    start = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 4.0))
+    found = exact_state(Top(1.0, 0.5, 0.0), start, 6.0, 20, friction=Friction(axial=10.0))
+    with mp.workdps(40):
+        assert abs(found.orientation[0] - mp.cos(mpf("0.1"))) < mpf(10) ** -20
+        assert abs(found.angular_velocity[2] - 4 * mp.exp(-120)) < mpf(10) ** -35
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"t": float("nan")}, "t must be a finite number, got nan s"),
+        ({"digits": 0}, "digits must be 1 or more, got 0"),
+        ({"top": Top([1.0, 2.0], 0.5, 1.0)}, "top and start must be those of one motion"),
+    ],
+)
+def test_what_has_no_state_is_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
+        exact_state(**({"top": ARTICLE, "start": CUSPS, "t": 1.0} | changes))
+
+
 def test_the_mean_rates_are_those_of_a_nutation():
     for top in (ARTICLE, Top(ARTICLE.Ix, ARTICLE.Iz, -0.068)):
         start = State.from_euler(theta=0.7, phi=0.2, theta_dot=3.0, phi_dot=9.0, psi_dot=170.0)
