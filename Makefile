@@ -148,7 +148,7 @@ $(VENV)/ros: $(SOURCES) $(VENV)/bin/activate
 
 # The page has the kernel as WebAssembly: it needs no compiler, and runs from the checkout.
 $(VENV)/panel: $(VENV)/bin/activate
-	@echo "Setting up .venv: NumPy and PyYAML (about 80 MB, once) ..."
+	@echo "Setting up .venv: NumPy and PyYAML (about 100 MB, once) ..."
 	@$(TICK) $(BIN)/python -m pip install 'numpy>=1.24' 'pyyaml>=5.4'
 	@touch $@
 

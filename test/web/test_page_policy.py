@@ -39,7 +39,8 @@ ATTACK = """async (own) => {
             done.push(address);
         } catch {}
     }
-    await new Promise((wait) => setTimeout(wait, 200));
+    for (let k = 0; k < 100 && forbidden.size < 8; k += 1)
+        await new Promise((wait) => setTimeout(wait, 50));
     if (window.pwned) done.push("script");
     return { done, forbidden: [...forbidden].sort() };
 }"""
