@@ -48,6 +48,7 @@ STATE = 7  # of an orientation and an angular velocity
 
 BLOCK = 256  # elements of a call that takes up to 0.1 ms for each
 
+INT64 = np.dtype(np.int64).char  # "l", or "q" where a long has 32 bits (Windows)
 Numbers = POINTER(c_double)
 State, Pair = c_double * STATE, c_double * 2
 
@@ -357,7 +358,7 @@ class KernelMotion:
         status = self._door.states_of_clock(
             self._handle,
             Clock(factor, elapsed),
-            read_from(stamps, "l"),
+            read_from(stamps, INT64),
             count,
             steps,
             write_to(orientation, 4 * count),
