@@ -59,3 +59,11 @@ def stack(x: Any, y: Any, z: Any) -> Real:
     vector = np.empty((*x.shape, 3))
     vector[..., 0], vector[..., 1], vector[..., 2] = x, y, z
     return vector
+
+
+def find_rotation_vectors(q: Real) -> Real:
+    """Return the vectors of the rotations of quaternions of any norm, of at most half a turn."""
+    sine = np.sqrt(np.square(q[..., 1:]).sum(axis=-1, keepdims=True))
+    angle = 2 * np.arctan2(sine, np.abs(q[..., :1]))
+    scale = np.where(sine, angle / np.where(sine, sine, 1.0), 0.0)
+    return np.asarray(np.copysign(scale, q[..., :1]) * q[..., 1:])

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from physics.derivatives.differences import differentiate
+from physics.differences import differentiate
 
 from workshop.main import main
 from workshop.speed import derivatives

@@ -5,7 +5,7 @@ Run it by hand after a change: PYTHONPATH=.:test python test/speed/write_derivat
 
 import json
 
-from physics.derivatives.differences import differentiate
+from physics.differences import differentiate
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import Motion

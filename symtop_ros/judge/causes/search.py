@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real, compose, invert
+from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset, to_rotation
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the
@@ -70,11 +70,7 @@ class Table:
 
 def _turns(q: Real) -> Real:
     """Return rotation vectors from each attitude to the next, (g, n - 1, 3)."""
-    step = compose(invert(q[:, :-1]), q[:, 1:])
-    step = step * np.where(step[..., :1] < 0, -1.0, 1.0)
-    sine = np.linalg.norm(step[..., 1:], axis=-1, keepdims=True)
-    angle = 2 * np.arctan2(sine, step[..., :1])
-    return np.asarray(step[..., 1:] * angle / np.where(sine > 0, sine, 1.0))
+    return find_rotation_vectors(compose(invert(q[:, :-1]), q[:, 1:]))
 
 
 def fit_level(q: Real, exact: Real, level: str) -> Offset:

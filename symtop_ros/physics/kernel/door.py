@@ -171,7 +171,6 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "find_engine": (_HANDLE,),
     "find_turning_angles": (_HANDLE, POINTER(Pair)),
     "find_rates": (_HANDLE, POINTER(RatesRecord)),
-    "find_nutation_rate": (_HANDLE, POINTER(Pair)),
     "find_farthest_time": (_HANDLE, POINTER(c_double)),
     "*states": (_HANDLE, _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
     "*states_of_clock": (
@@ -406,13 +405,6 @@ class KernelMotion:
         farthest = c_double()
         self._door.find_farthest_time(self._handle, farthest)
         return farthest.value
-
-    @property
-    def nutation_rate(self) -> tuple[float, float]:
-        """2 pi over the nutation period in rad/s, as a sum of two doubles."""
-        rate = Pair()
-        self._door.find_nutation_rate(self._handle, rate)
-        return rate[0], rate[1]
 
 
 def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: Any) -> None:

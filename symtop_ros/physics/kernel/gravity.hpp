@@ -93,13 +93,14 @@ class GravityMotion {
 
   Rates find_rates() {
     prepare(SOLVED);
-    Rates rates = is_free_ ? find_free_rates() : find_closed_rates();
+    const Kind kind = find_kind();
+    const bool has_means = kind != SLEEPING && kind != THROUGH_THE_POLE;
+    Rates rates = is_free_ ? find_free_rates() : find_closed_rates(has_means);
     if (is_turned_over_) {
       rates.mean_precession_rate = -rates.mean_precession_rate;
       rates.precession_per_nutation = -rates.precession_per_nutation;
     }
-    const Kind kind = find_kind();
-    if (kind == SLEEPING || kind == THROUGH_THE_POLE)
+    if (!has_means)
       rates.mean_precession_rate = rates.mean_spin_rate = rates.precession_per_nutation = NAN;
     return rates;
   }
@@ -140,8 +141,9 @@ class GravityMotion {
     return arc_tangent(std::sqrt(near.to_double()), std::sqrt(far.to_double()));
   }
 
-  Rates find_closed_rates() const {
-    const MeanRates mean = symtop::find_mean_rates(closed_);
+  // The means of a planar swing vanish: 700 digits would be taken to look for theirs.
+  Rates find_closed_rates(bool has_means) const {
+    const MeanRates mean = has_means ? symtop::find_mean_rates(closed_) : MeanRates();
     const double rate = closed_.nutation_rate.to_double();
     const double turns =
         closed_.nutation_rate.sign ? (mean.precession / closed_.nutation_rate).to_double() : NAN;

@@ -53,13 +53,24 @@ inline Pair find_cosine_and_sine(double angle) {
   return cosine_and_sine(is_large ? take_turns_off(angle).to_double() : angle);
 }
 
-// Cosine and sine of (a + b)/2. Beyond a turn the rounding of the sum is larger than that of the
-// result; Knuth's two-sum finds it, and a small rotation makes it good.
+// Cosine and sine of (a + b)/2. Knuth's two-sum finds what the sum has lost, up to half an EPS of it,
+// and a small rotation makes it good: below LARGEST_ANGLE its cosine is 1 to rounding.
 inline Pair turn_by_half_sum(double a, double b) {
   const double total = a + b, part = total - a;
   const double lost = ((a - (total - part)) + (b - part)) / 2;
-  return multiply(find_cosine_and_sine(total / 2),
-                  cosine_and_sine(std::fabs(total) <= 2 * PI ? 0.0 : lost));
+  const bool is_large = std::fabs(total) > LARGEST_ANGLE;
+  return multiply(find_cosine_and_sine(total / 2), is_large ? cosine_and_sine(lost) : Pair{1, lost});
+}
+
+// Cosine and sine of a tilt, or of half a tilt. A multiple of the double next to pi is the vertical
+// itself: with the 1.2e-16 rad that are missing, a top that hangs at rest would be one that swings.
+inline Pair find_tilt(double theta, bool is_half) {
+  const double half_turns = round_to_integer(theta / PI);
+  if (std::fabs(theta) > LARGEST_ANGLE || half_turns * PI != theta)
+    return find_cosine_and_sine(is_half ? theta / 2 : theta);
+  const int quarters = static_cast<int>(half_turns) * (is_half ? 1 : 2) & 3;
+  const double COSINES[] = {1, 0, -1, 0};
+  return {COSINES[quarters], COSINES[(quarters + 3) & 3]};
 }
 
 inline void flush_tiny(double* numbers, int count) {
@@ -73,10 +84,10 @@ inline void find_state(const double angles[3], const double rates[3], double q[4
                        double omega[3]) {
   const double phi = angles[0], theta = angles[1], psi = angles[2];
   const Pair sum = turn_by_half_sum(phi, psi), difference = turn_by_half_sum(phi, -psi);
-  const Pair half = find_cosine_and_sine(theta / 2);
+  const Pair half = find_tilt(theta, true);
   q[0] = half.x * sum.x, q[1] = half.y * difference.x;
   q[2] = half.y * difference.y, q[3] = half.x * sum.y;
-  const Pair tilt = find_cosine_and_sine(theta), spin = find_cosine_and_sine(psi);
+  const Pair tilt = find_tilt(theta, false), spin = find_cosine_and_sine(psi);
   omega[0] = rates[0] * tilt.y * spin.y + rates[1] * spin.x;
   omega[1] = rates[0] * tilt.y * spin.x - rates[1] * spin.y;
   omega[2] = rates[0] * tilt.x + rates[2];

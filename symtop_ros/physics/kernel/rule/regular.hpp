@@ -119,7 +119,7 @@ struct TiltQuadratic {
 // have as a factor, and which is zero on the vertical.
 inline void find_tilt_torques(const symtop_top& top, double theta, double phi_dot, double psi_dot,
                               double torques[4]) {
-  const Pair tilt = find_cosine_and_sine(theta);
+  const Pair tilt = find_tilt(theta, false);
   torques[0] = top.Mgl;
   torques[1] = -top.Iz * psi_dot * phi_dot;
   torques[2] = (top.Ix - top.Iz) * tilt.x * phi_dot * phi_dot;

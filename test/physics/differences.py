@@ -75,15 +75,18 @@ def _near(q, base):
     return q if sum(a * b for a, b in zip(q, base[0], strict=True)) > 0 else [-c for c in q]
 
 
-def find_errors(found, right):
+def find_errors(motion, found, right):
     """The largest error of each Jacobian, as a part of the largest element of its block.
 
-    A block has three rows, and one column for a moment or three for the start.
+    A block has three rows, and one column for a moment or three for the start. Of a moment that
+    hardly counts an error is promised as a part of 1e-3 rad, or of the spin, for all of the moment.
     """
-    errors = np.zeros(found.shape[:-2])
-    for rows in (slice(0, 3), slice(3, 6)):
+    errors, spin = np.zeros(found.shape[:-2]), np.abs(motion.start.angular_velocity).max()
+    for rows, size in ((slice(0, 3), 1.0), (slice(3, 6), spin)):
         for columns in BLOCKS:
             largest = np.abs(right[..., rows, columns]).max(axis=(-1, -2))
+            if columns.stop <= 2:
+                largest = np.maximum(largest, 1e-3 * size / motion.top.moments[columns.start])
             off = np.abs(found - right)[..., rows, columns].max(axis=(-1, -2))
             errors = np.maximum(errors, off / np.where(largest, largest, 1.0))
     return errors

@@ -2,15 +2,13 @@
 
 import numpy as np
 import pytest
-from physics.derivatives.differences import FEW_DIGITS, differentiate, find_errors
+from physics.differences import FEW_DIGITS, differentiate, find_errors
 from physics.tops import ARTICLE, CUSPS, seeds
 
 from symtop_ros.physics import Friction, Motion, Motions, State, Top
+from symtop_ros.physics.arguments import NO_FRICTION
 
-# Promised are 1e-8; measured below are 2e-13 in the first nutations.
-CLOSE = 1e-12
-# After a million nutations, where one has been measured to 1e-14 and is repeated.
-LATE = 5e-12
+PROMISED = 1e-8  # docs/filters.md
 SLOW = 6.497144816155788  # rad/s, the slow root of the article's top
 HALF = Top(2e-4, 1e-4, 0.05)
 RETURNING = {
@@ -59,7 +57,7 @@ def test_derivatives_of_a_motion_that_returns_are_exact(name):
     motion = Motion(*RETURNING[name])
     times = [0.13 * motion.nutation_period, 2.71 * motion.nutation_period]
     right = differentiate(motion, times, digits=FEW_DIGITS)
-    assert find_errors(motion.jacobian(times), right).max() < CLOSE
+    assert find_errors(motion, motion.jacobian(times), right).max() < PROMISED
 
 
 @pytest.mark.parametrize("name", leave_some(NOT_RETURNING))
@@ -67,14 +65,14 @@ def test_derivatives_of_a_motion_that_does_not_return_are_exact(name):
     top, start, end = NOT_RETURNING[name]
     motion, times = Motion(top, start), [0.2 * end, end]
     right = differentiate(motion, times, returns=False, digits=FEW_DIGITS)
-    assert find_errors(motion.jacobian(times), right).max() < CLOSE
+    assert find_errors(motion, motion.jacobian(times), right).max() < PROMISED
 
 
 @pytest.mark.parametrize("name", DRIVEN)
 def test_derivatives_of_a_driven_motion_are_exact(name):
     motion, times = Motion(*DRIVEN[name]), [0.03, 0.2]
     right = differentiate(motion, times, digits=FEW_DIGITS)
-    assert find_errors(motion.jacobian(times), right).max() < CLOSE
+    assert find_errors(motion, motion.jacobian(times), right).max() < PROMISED
 
 
 @pytest.mark.long
@@ -82,8 +80,8 @@ def test_derivatives_of_a_driven_motion_are_exact(name):
 def test_derivatives_after_a_million_nutations_are_exact(name):
     motion = Motion(*RETURNING[name])
     times = [1e3 * motion.nutation_period, 1.000000123e6 * motion.nutation_period]
-    errors = find_errors(motion.jacobian(times), differentiate(motion, times))
-    assert errors.max() < LATE
+    errors = find_errors(motion, motion.jacobian(times), differentiate(motion, times))
+    assert errors.max() < PROMISED
 
 
 @pytest.mark.parametrize("name", [*RETURNING, *NOT_RETURNING, *DRIVEN])
@@ -94,9 +92,11 @@ def test_derivatives_by_the_start_are_chained(name, sign):
     for columns in (slice(0, 3), slice(3, 6)):
         for rows in (slice(0, 3), slice(3, 6)):
             largest = np.abs(together[rows, columns]).max()
-            # the state in the middle is rounded: 4e-12 measured, of the unstable sleeper
+            # three Jacobians, and the rounding of the state in the middle
             error = np.abs(chained - together)[rows, columns].max()
-            assert error <= 1e-11 * max(largest, np.abs(chained[rows, columns]).max()), columns
+            assert error <= 4 * PROMISED * max(largest, np.abs(chained[rows, columns]).max()), (
+                columns
+            )
 
 
 def chain(arguments, first, then):
@@ -109,7 +109,7 @@ def chain(arguments, first, then):
 def test_at_the_start_they_are_the_identity():
     for arguments in (*RETURNING.values(), *DRIVEN.values()):
         found = Motion(*arguments).jacobian(0.0)
-        assert np.abs(found - np.eye(6, 9, 3)).max() < 1e-15
+        assert np.abs(found - np.eye(6, 9, 3)).max() < PROMISED
 
 
 def test_a_rotation_about_the_vertical_turns_every_attitude_alike():
@@ -118,9 +118,9 @@ def test_a_rotation_about_the_vertical_turns_every_attitude_alike():
     vertical = CUSPS.to_body([0.0, 0.0, 1.0])
     turned = motion.jacobian(times)[:, :, 3:6] @ vertical
     right = motion.at(times).to_body([0.0, 0.0, 1.0])
-    # 1e-14 measured; one nutation, repeated 6e5 times
-    assert np.abs(turned[:, :3] - right).max() < 1e-9
-    assert np.abs(turned[:, 3:]).max() < 1e-7
+    largest = np.abs(motion.jacobian(times)).reshape(3, 2, 3, 9)[..., 3:6].max(axis=(2, 3))
+    assert (np.abs(turned[:, :3] - right).max(axis=1) < 2 * PROMISED * largest[:, 0]).all()
+    assert (np.abs(turned[:, 3:]).max(axis=1) < 2 * PROMISED * largest[:, 1]).all()
 
 
 def test_shapes_follow_those_of_times_and_motions():
@@ -135,14 +135,43 @@ def test_shapes_follow_those_of_times_and_motions():
 
 
 def test_each_time_is_as_alone():
-    times = np.random.default_rng(1).uniform(-3.0, 3.0, 700)
+    times = np.linspace(-3.0, 3.0, 97)
     for arguments in (RETURNING["cusps"], NOT_RETURNING["separatrix"][:2]):
         motion = Motion(*arguments)
         together = motion.jacobian(times)
-        for k in (0, 255, 256, 699):
-            alone = Motion(*arguments).jacobian(times[k])
-            # one system of equations or many: LAPACK may round differently
-            assert find_errors(alone, together[k]) < CLOSE
+        for k in (0, 31, 48, 96):
+            # two of them, with steps of their own
+            assert find_errors(motion, motion.jacobian(times[k]), together[k]) < 2 * PROMISED
+
+
+def near_the_vertical(tilt, friction=NO_FRICTION):
+    """A spin too slow to stay upright, and a start from which the axis falls and returns."""
+    start = State.from_euler(theta=tilt, phi=0.3, psi=0.7, psi_dot=50.0)
+    return Motion(ARTICLE, start, friction)
+
+
+# The axis comes back to the unstable place: changes grow by 1/tilt on the way, and shrink again.
+@pytest.mark.parametrize(
+    ("tilt", "friction"),
+    [
+        (1e-3, NO_FRICTION),
+        (1e-5, NO_FRICTION),
+        (1e-4, Friction(axial=1e-300)),
+        *(pytest.param(tilt, NO_FRICTION, marks=pytest.mark.long) for tilt in (1e-2, 1e-4, 2e-6)),
+    ],
+)
+def test_derivatives_are_exact_after_an_unstable_place(tilt, friction):
+    motion = near_the_vertical(tilt, friction)
+    times = [0.9 * motion.nutation_period, 1.3 * motion.nutation_period]
+    right = differentiate(near_the_vertical(tilt), times, digits=50)
+    assert find_errors(motion, motion.jacobian(times), right).max() < PROMISED
+
+
+@pytest.mark.parametrize("tilt", [1e-8, 1e-10, 1e-12])
+def test_what_doubles_do_not_resolve_is_refused(tilt):
+    motion = near_the_vertical(tilt)
+    with pytest.raises(ValueError, match="at which double precision resolves the derivatives"):
+        motion.jacobian(0.9 * motion.nutation_period)
 
 
 @pytest.mark.parametrize("seed", seeds(5, 100))
@@ -156,4 +185,4 @@ def test_random_motions_are_chained_at_late_times(seed):
     )
     chained, together, second = chain((top, start), *rng.uniform(10.0, 1e4, 2))
     # the rounding of the state in the middle grows with the second half, of up to 1e4 s
-    assert np.abs(chained - together).max() < 1e-10 * np.abs(second).max()
+    assert np.abs(chained - together).max() < 4 * PROMISED * np.abs(second).max()
