@@ -1,17 +1,16 @@
-"""The constant rotations, the delay and the drift that explain most of the errors of estimates.
+"""The constant rotations, the delay and the drift that are to be removed from estimates.
 
 A steady motion cannot show all of them: the top in regular precession looks the same after any
 delay, but for rotations of the world and of the body. The rank of the problem says what it hides.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-import numpy as np
-
+from symtop_ros.judge.causes.causes import Search
 from symtop_ros.judge.causes.search import fit_level
 from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import ROTATIONS, SAMPLES, Fit
+from symtop_ros.judge.fit import SAMPLES
 from symtop_ros.judge.truth import Truth
 
 MODELS = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
@@ -35,25 +34,35 @@ def explain(
     delay: bool = True,
     drift: bool = True,
 ) -> Explanation:
-    """Return the explanation by constant rotations, a delay up to 0.1 s, and a drift.
+    """Return the least squares of constant rotations, a delay up to 0.5 s, and a drift.
 
-    The rotations follow by least squares for each delay and drift (Kabsch 1976, in four
-    dimensions). All delays are tried, since a spinning top repeats itself with each turn; if they
-    and a slow drift leave errors, once more with the best of all drifts. What is found is refined
-    by the method of Gauss and Newton. The simplest explanation that leaves no more is taken: the
-    one with the smallest delay.
+    All delays and drifts are tried, and then a delay next to the best drift. Of those that leave as
+    little, the one with the fewest numbers and the smallest delay is taken.
     """
-    turns = tuple(ROTATIONS) if rotations else ()
-    fit = Fit(truth.select(estimates).thin(SAMPLES), truth, turns)
-    if len(fit.some) < 2:
+    some = truth.select(estimates).thin(SAMPLES)
+    if len(some) < 2:
         return Explanation()
-    fit.hidden.extend(fit.find_hidden())
-    sees_drift = drift and "drift" not in fit.hidden
-    best = fit.find_best(delay and "delay" not in fit.hidden, sees_drift)
-    if delay and "delay" not in fit.hidden and fit.loses_delay(best):
-        fit.hidden.append("delay")
-        best = fit.find_best(False, sees_drift)
-    return Explanation(best, tuple(fit.hidden), float(np.sqrt(4 * fit.cost(best))))
+    search = Search(some, truth, some)
+    level = "none" if not rotations else "world" if "rotations" in search.hidden else "both"
+    names = [name for name in search.names if {"delay": delay, "drift": drift}.get(name)]
+    found = [each for name in ("", *names) for each in search.search("", name)]
+    if len(names) == 2:
+        found += [
+            replace(each, parameters=("delay", "drift"))
+            for first in found
+            if first.parameters == ("drift",)
+            for each in search.search("", "delay", first.offset)
+        ]
+    found += search.shift_periods("", found)
+    found = [
+        search.refine("", level, each.parameters, each.offset)
+        for each in found
+        if rotations or each.level == "none"
+    ]
+    limit = search.allow(min(found, key=lambda each: each.cost), len(some))
+    good = [each for each in found if each.cost <= limit]
+    best = min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
+    return Explanation(best.offset, search.hidden, best.residual)
 
 
 def align(estimates: Estimates, truth: Truth, model: str) -> Offset:

@@ -195,6 +195,8 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
         "gyroscope_scale": offset.scale,
         "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
         "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
+        "parameter_deviation": found.best.deviation if found.best.parameters else None,
+        "rotation_deviation": found.best.turn_deviation if found.best.level != "none" else None,
         "delay_period": found.period,
         "not_identifiable": list(found.hidden),
         "residual_rms": found.best.residual,

@@ -44,12 +44,12 @@ RESPONSE = 0.03  # of the outermost states, in rad or in units of the fastest ra
 LARGEST_STEP = 0.01  # in units of a parameter's size: 1/Ix curves over Ix
 # The difference between the two orders is the error of the fourth, (h/s)^4: that of the sixth is
 # then below 1e-9.
-LARGEST_DIFFERENCE = 1e-7
-STATE_ERROR = 4 * EPS  # docs/accuracy.md
+LARGEST_DIFFERENCE = 3e-7
+STATE_ERROR = 2 * EPS  # of the states in a difference, which are rounded at random
 LARGEST_ROUNDING = 5e-10  # of a derivative, in units of the largest of its block
 PROMISED = 1e-8  # error of a derivative, in units of the largest of its block
-SMALLEST = 1e-3  # effect of all of a parameter, in rad or of the spin, that is measured by itself
-UPRIGHT = 1e-6  # rad
+SMALLEST = 1e-3  # effect, of that on the whole state or of that of all of a parameter
+UPRIGHT = 1e-7  # rad
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
 TINY = 1e-300  # no zero is divided by
 MOST_ROUNDS, SHORTEST = 30, 1e-6  # the factor of a step in a round
@@ -108,6 +108,7 @@ class _Stencil:
         # A top without weight has the size of the weight that would move it at its rate.
         weight = max(abs(Mgl), Ix * (nutation or rate) ** 2)
         self._sizes = np.array([Ix, Iz, weight, 1, 1, 1, rate, rate, rate])
+        self._parameters = np.array([Ix, Iz, Mgl or weight, 1, 1, 1, rate, rate, rate])
         self._longest = self._sizes * LARGEST_STEP
         self._steps = self._sizes * min(LARGEST_STEP, RESPONSE / 3 / (1 + rate * longest))
         w, x, y, z = np.abs(self._start[3:7]).tolist()
@@ -142,8 +143,8 @@ class _Stencil:
 
     def _adapt(self, responses: Real, are_curved: Truths, roughness: Real) -> bool:
         """Change the steps of columns, (9,); return False if none changes."""
-        self._targets[are_curved & (responses < 4 * self._targets)] /= 4
-        shorter = np.minimum(self._targets / np.maximum(responses, SHORTEST), 0.25)
+        self._targets[are_curved & (responses < 2 * self._targets)] /= 2
+        shorter = np.minimum(self._targets / np.maximum(responses, SHORTEST), 0.5)
         longer = np.clip(2 * roughness, 1.0, 1 / SHORTEST)
         longer[roughness <= 1] = 1.0
         steps = np.minimum(self._steps * np.where(are_curved, shorter, longer), self._longest)
@@ -218,23 +219,29 @@ class _Stencil:
         """Return which derivatives are curved too much, and how much too rough by rounding."""
         largest = _spread_over_blocks(np.abs(sixth).max(axis=2))
         spins = np.abs(self._base.angular_velocity[some]).max(axis=-1)
-        sizes = np.stack((np.ones(len(some)), spins), axis=-1)[..., None]  # of what is rounded
+        sizes = np.stack((np.ones(len(some)), np.maximum(spins, TINY)), axis=-1)[
+            ..., None
+        ]  # of what is rounded
         weights = self._schemes[:, 1]
-        lost = STATE_ERROR * np.abs(weights).sum(axis=1) * sizes / self._steps
+        norms = np.sqrt(np.square(weights).sum(axis=1)) / self._steps
+        lost = STATE_ERROR * norms * sizes
         are_curved = np.abs(sixth - fourth).max(axis=2) > LARGEST_DIFFERENCE * largest + lost
         are_noisy = np.zeros_like(are_curved)
         if self._is_driven:
             # An unstable one amplifies the rounding of its steps: a state may lose more.
-            left = 4 * np.sqrt(np.square(weights).sum(axis=1)) * remainders / self._steps
-            are_noisy = left > PROMISED * largest + 4 * lost
+            left = 4 * norms * remainders
+            are_noisy = left > PROMISED * largest + 12 * lost
         # What is left of states that have moved far is curvature as well.
         has_moved = responses.max(axis=1, keepdims=True) > RESPONSE / 100
         are_curved |= are_noisy & has_moved
-        # Where a longer step is of no use, the effect is small: an absolute error is left.
+        # Where a longer step is of no use, an absolute error is left of rows that happen to change
+        # little, such as omega after a whole nutation, and of parameters that hardly count.
+        effect = (largest / sizes).max(axis=1, keepdims=True)
+        least = SMALLEST * sizes * np.maximum(effect, 1 / np.abs(self._parameters))
         wanted = np.where(
             self._steps < self._longest,
             LARGEST_ROUNDING * largest,
-            PROMISED * np.maximum(largest, SMALLEST * sizes / self._sizes),
+            PROMISED * np.maximum(largest, least),
         )
         if self._is_upright:
             # It hardly feels its moments, and the rounding of the spin's angle remains.

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.compare import compare
 from symtop_ros.judge.explain import explain
-from symtop_ros.judge.fit import MAX_DELAY
+from symtop_ros.judge.fit import MOST_DELAY
 from symtop_ros.judge.truth import Truth, scene_truth
 from symtop_ros.physics import Motion, State, regular_precession_rates
 from symtop_ros.simulation.events import start_event
@@ -65,17 +65,17 @@ def test_a_drift_that_turns_a_slow_top_far_within_the_run_is_found(scene, rate, 
 def test_delays_stay_within_their_bound():
     truth, stamps = truth_and_stamps(1000)
     late = Made(delay=0.15).make(truth, stamps)
-    assert abs(explain(late, truth).offset.delay) <= MAX_DELAY
+    assert abs(explain(late, truth).offset.delay) <= MOST_DELAY
 
 
-@pytest.mark.parametrize(("noise", "hidden"), [(1e-9, ()), (1e-2, ("delay",))])
-def test_noise_hides_the_delay_of_a_motion_that_is_almost_steady(noise, hidden):
+@pytest.mark.parametrize(("noise", "delay"), [(1e-9, 0.004), (1e-2, 0.0)])
+def test_a_delay_that_noise_hides_is_not_removed(noise, delay):
     # 1e-3 rad/s off regular precession: a nutation of 1e-5 rad
     rate = regular_precession_rates(ARTICLE, 0.5, 200.0)[0] + 1e-3
     start = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
     truth = Truth([start_event(Motion(ARTICLE, start))])
     found = explain(Made(delay=0.004, noise=noise).make(truth, STAMPS), truth)
-    assert found.hidden == hidden
+    assert found.offset.delay == pytest.approx(delay, abs=1e-4)
 
 
 def test_noise_leaves_a_residual():

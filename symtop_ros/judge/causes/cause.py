@@ -8,7 +8,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.judge.causes.search import LEVELS
-from symtop_ros.judge.compare import IDENTITY, NONE, Offset
+from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
 
@@ -28,6 +28,9 @@ class Cause:
     parameters: tuple[str, ...]
     offset: Offset
     cost: float  # mean square of the distances of quaternions
+    # standard deviation of the parameter and of the rotations (rad), if what is left is noise
+    deviation: float = 0.0
+    turn_deviation: float = 0.0
 
     @property
     def weight(self) -> float:
@@ -40,7 +43,7 @@ class Cause:
         return float(np.sqrt(4 * self.cost))
 
     @property
-    def kind(self) -> tuple[object, ...]:
+    def kind(self) -> tuple[str, str, tuple[str, ...]]:
         """Its kind, without numbers."""
         return self.change, self.level, self.parameters
 
@@ -62,17 +65,6 @@ def set_parameter(offset: Offset, name: str, value: float) -> Offset:
     """Return an offset with a parameter; without a name, the same."""
     changed: dict[str, Any] = {name: value} if name else {}
     return replace(offset, **changed)
-
-
-def keep_rotations(offset: Offset, level: str) -> Offset:
-    """Return an offset with those of its rotations that a level has."""
-    turns = LEVELS[level][0]
-    world = offset.world if 2 in turns else IDENTITY
-    if level == "heading":
-        world = world * np.array([1.0, 0.0, 0.0, 1.0])
-        size = float(np.linalg.norm(world))
-        world = world / size if size > 0 else IDENTITY
-    return replace(offset, world=world, body=offset.body if 5 in turns else IDENTITY)
 
 
 def measure_turns(offset: Offset) -> float:

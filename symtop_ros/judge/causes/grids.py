@@ -10,16 +10,17 @@ from symtop_ros.judge.causes.cause import CHANGES, set_parameter
 from symtop_ros.judge.causes.search import Table
 from symtop_ros.judge.compare import IDENTITY, NONE, Offset, Scaling
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import GRID_STEP, MOST_DELAYS
+from symtop_ros.judge.fit import MOST_DELAY
 from symtop_ros.judge.truth import Truth
 
-MOST = 0.5  # s, of a delay
+# A parameter is tried in steps in which it turns the attitude by so many rad, and at most so often.
+GRID_STEP, MOST_STEPS = 0.5, 1000
 MOST_CLOCK = 5e-3  # s per s
 MOST_SCALE = 0.05  # of the scale of a gyroscope
 TURNS = 8  # of world or body within the run, by a drift
 BATCH = 32  # scales of which paths are computed together, as far as a cache reaches
 COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
-Key = tuple[str, int, bool, tuple[float, float]]
+Key = tuple[str, int, int, bool, tuple[float, float]]
 
 
 @dataclass(eq=False)
@@ -65,7 +66,7 @@ class Grids:
         """Return exact attitudes and what is known of them, for each offset or once for all."""
         moved = offsets if name in ("delay", "clock") else offsets[:1]
         ends = (moved[0].delay, moved[-1].clock)
-        key = name if name in ("delay", "clock") else "", len(some), some.of_sensor, ends
+        key = name if len(moved) > 1 else "", len(moved), len(some), some.of_sensor, ends
         if key not in self.exacts:
             stamps = np.concatenate([each.shift(some.stamps) for each in moved])
             exact, _, known = self.truth.states_at(stamps, some.of_sensor)
@@ -92,11 +93,11 @@ class Grids:
         scale = min(MOST_SCALE, turns / whole)
         drift = turns / self.span
         most, turn = {  # the largest value, and by how many rad it turns the attitude
-            "delay": (MOST, MOST * self.fastest),
+            "delay": (MOST_DELAY, MOST_DELAY * self.fastest),
             "clock": (MOST_CLOCK, MOST_CLOCK * angle),
             "scale": (scale, scale * whole),
             "drift": (drift, turns),
             "spin": (drift, turns),
         }[name]
-        count = int(min(max(turn / GRID_STEP, 10), MOST_DELAYS))
+        count = int(min(max(turn / GRID_STEP, 10), MOST_STEPS))
         return np.linspace(-most, most, 2 * count + 1)
