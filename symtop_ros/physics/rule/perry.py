@@ -31,6 +31,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from symtop_ros.physics.kernel.door import PlaceRecord, VerdictRecord
+from symtop_ros.physics.kicks import Hold
 from symtop_ros.wording import write
 
 # Names in the order in which symtop.h has them.
@@ -65,11 +66,14 @@ class Place:
         The rate in rad/s.
     regular_rates : tuple of float
         Rates of regular precession in rad/s, the slow one first.
+    held : {"spin_rate", "spin_momentum"}
+        The quantity at which these rates are regular: that which the kick holds.
     """
 
     kind: PlaceKind
     rate: float
     regular_rates: tuple[float, ...]
+    held: Hold = "spin_rate"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,14 +111,18 @@ class Reason:
         return write("reason", self)
 
 
-def read_place(place: PlaceRecord) -> Place:
+def read_place(place: PlaceRecord, held: Hold) -> Place:
     """Return the place of a rate from the kernel's record."""
     rates = tuple(rate for rate in place.regular_rates if not math.isnan(rate))
-    return Place(PLACES[place.kind], place.rate, rates)
+    return Place(PLACES[place.kind], place.rate, rates, held)
 
 
-def read_reason(verdict: VerdictRecord) -> Reason:
-    """Return the reason from the kernel's record of a verdict."""
+def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
+    """Return the reason from the kernel's record of a verdict.
+
+    The kernel finds the rates after an angular impulse (`hold` is None) at the spin rate that it
+    left.
+    """
     found = verdict.reason
     kind, rule, subject = REASONS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
     if found.kind >= VERTICAL:
@@ -127,5 +135,5 @@ def read_reason(verdict: VerdictRecord) -> Reason:
         found.after,
         found.theta_ddot_without,
         found.theta_ddot,
-        read_place(found.place),
+        read_place(found.place, hold or "spin_rate"),
     )
