@@ -19,7 +19,8 @@ SAY = """async (cases) => {
         const start = isBelow ? new State(kernel, [0, 1, 0, 0], [0, 0, psi_dot])
             : State.fromEuler(kernel, { theta }, rates);
         const course = new Course(kernel, top, start);
-        const { headline, name, outcome } = findOutcome({ kind: "start", asked: {}, course });
+        const moment = { kind: "start", asked: {}, course };
+        const { headline, name, outcome } = findOutcome(moment, course);
         const say = (...given) => writer.write(...given);
         return [say("headline", headline), say(name, outcome), course.motion.kind];
     });

@@ -16,7 +16,7 @@ const WAVES = ["cusps", "looping", "unidirectional"];
 const KINDS = { start: "start", change: "changed", torque: "released" };
 
 /** @param {Course} course @returns {Forces} */
-const findForces = ({ friction, torque }) => {
+export const findForces = ({ friction, torque }) => {
   const [rubs, turns] = [friction, torque].map((parts) => parts.some((each) => each !== 0));
   if (rubs && turns) return "both";
   if (rubs) return "friction";
@@ -71,20 +71,25 @@ const findMoves = (kind, [low, high], reason) => {
 
 /**
  * The record of the headline, and that of its reason with the name of its template. Motions are
- * those under gravity alone; the headline says so where more acts.
+ * those under gravity alone, from the state of now; the headline says so where more acts.
  * @param {Moment} moment
+ * @param {Course} free the motion that would follow
  */
-export const findOutcome = ({ kind, asked, course, before }) => {
-  const { motion } = course.free;
+export const findOutcome = ({ kind, asked, course, before }, free) => {
+  const { motion } = free;
   const forces = findForces(course);
   const subject = course.top.Mgl < 0 ? "axis" : "top";
   const { kind: moves, turning_angles } = motion;
   const headline = { subject, forces, turning_angles };
   if (kind === "kick" && before) {
     const { outcome, swing } = findKick(course, before, asked.hold ?? null);
-    return { headline: { ...headline, ...swing }, name: "kick", outcome };
+    const kicked = { ...headline, ...swing };
+    if (!forces) return { headline: kicked, name: "kick", outcome };
+    // The angles of the kick do not hold for long.
+    const past = { ...kicked, turning_angles: null };
+    return { headline: past, name: "after_kick", outcome: { verdict: outcome } };
   }
-  const verdict = judge(course);
+  const verdict = judge(free);
   return {
     headline: {
       ...headline,

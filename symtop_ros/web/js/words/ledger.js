@@ -1,6 +1,7 @@
 // What a kick puts into the parts of the energy of a top.
 
 import { findEnergies, findRest } from "../charts/formulas.js";
+import { findForces } from "./headline.js";
 
 /** @typedef {import("../charts/formulas.js").Energies} Energies */
 /**
@@ -55,5 +56,6 @@ export const nameLedger = (moment) => {
   if (!ledger) return { kind: "none" };
   const { kick, far, point } = ledger;
   const [weight, precession] = [far.weight, far.precession].map((each) => nameGain(each, far));
-  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
+  const forces = findForces(moment.course);
+  return { kind: "kick", forces, rest: findRest(kick), spin: kick.spin, weight, precession, point };
 };
