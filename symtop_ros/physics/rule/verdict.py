@@ -44,7 +44,8 @@ class Average:
     turns : float
         Turns of the precession in a nutation.
     speed : {"fast", "slow"}
-        "fast" if the approximation is meant for this top: p_psi^2 > 4 Ix |Mgl|, Mgl not 0.
+        "fast" if the approximation is meant for this top, p_psi^2 > 4 Ix |Mgl| and Mgl not 0, and
+        the mean is within 30 % of it.
     fast_top_rate : float
         Mgl/p_psi in rad/s.
     spin_reverses : bool
@@ -70,7 +71,7 @@ class Verdict:
         "axis" for Mgl < 0: the direction of the centre of mass is then the opposite.
     direction : {"rises", "falls", "stays"}
         Direction of the axis from this state on, without the kick: by theta', or by theta'' if
-        theta' = 0.
+        theta' = 0. It does not move by less than 1e-7 rad.
     turning_angles : (float, float)
         Smallest and largest theta in rad from this state on, without the kick.
     regular_rates : tuple of float

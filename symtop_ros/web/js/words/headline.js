@@ -7,7 +7,6 @@ import { judge, judgeKick } from "./verdict.js";
 /** @typedef {"friction" | "torque" | "both" | null} Forces what acts besides gravity */
 
 const SEEN = 5e-4; // rad; a tilt that differs by less looks the same, and reads the same with 3 decimals
-const SAME = 1e-7; // rad; as of the kernel, which knows angles that nearly meet no better
 
 /** @type {{[kind: string]: string}} */
 const OPPOSITE = { higher: "falls", lower: "rises" };
@@ -66,7 +65,7 @@ const findKick = (course, before, hold) => {
  */
 const findMoves = (kind, [low, high], reason) => {
   if (kind === "regular") return reason === "no_precession" ? "still" : kind;
-  return WAVES.includes(kind) && high - low <= SAME ? "hardly" : kind;
+  return WAVES.includes(kind) && low === high ? "hardly" : kind;
 };
 
 /**
@@ -76,23 +75,25 @@ const findMoves = (kind, [low, high], reason) => {
  * @param {Course} free the motion that would follow
  */
 export const findOutcome = ({ kind, asked, course, before }, free) => {
-  const { motion } = free;
   const forces = findForces(course);
   const subject = course.top.Mgl < 0 ? "axis" : "top";
-  const { kind: moves, turning_angles } = motion;
-  const headline = { subject, forces, turning_angles };
+  const headline = { subject, forces };
   if (kind === "kick" && before) {
     const { outcome, swing } = findKick(course, before, asked.hold ?? null);
-    const kicked = { ...headline, ...swing };
-    if (!forces) return { headline: kicked, name: "kick", outcome };
-    // The angles of the kick do not hold for long.
-    const past = { ...kicked, turning_angles: null };
-    return { headline: past, name: "after_kick", outcome: { verdict: outcome } };
+    // With friction or a torque the angles of the kick do not hold for long.
+    const turning_angles = forces ? null : outcome.turning_angles;
+    const kicked = { ...headline, turning_angles, ...swing };
+    return forces
+      ? { headline: kicked, name: "after_kick", outcome: { verdict: outcome } }
+      : { headline: kicked, name: "kick", outcome };
   }
   const verdict = judge(free);
+  const { turning_angles } = verdict;
+  const moves = free.motion.kind;
   return {
     headline: {
       ...headline,
+      turning_angles,
       kind: forces ? "driven" : (KINDS[kind] ?? "start"),
       motion: findMoves(moves, turning_angles, verdict.reason.kind),
     },

@@ -55,8 +55,10 @@ export const judgeKick = (course, before, hold) => {
   const { kernel, packed, isDriven } = course;
   const found = kernel.judgeKick(course.continueFree(before).packed, packed, hold);
   const { factor, contrary_facts: facts, reason: _, average, ...others } = found;
-  // The kernel finds the rates after an angular impulse at the spin rate that it left.
-  const reason = readReason(found, hold ?? "spin_rate");
+  // A push along the precession holds the spin momentum; after any other angular impulse the kernel
+  // finds the rates at the spin rate that it left.
+  const isPush = found.reason.kind !== "angular_impulse";
+  const reason = readReason(found, hold ?? (isPush ? "spin_momentum" : "spin_rate"));
   const { rule, subject } = reason;
   return {
     ...{
