@@ -1,6 +1,7 @@
 """Templates: how a record becomes text.
 
 A template has placeholders, `{name}` or `{name:form}`; `name` is a field of the record.
+`{a,b:form}` stands for the numbers of several fields.
 
 ===================  =======================================================================
 value of the field   text
@@ -13,7 +14,8 @@ a record             the template `form`, or `name` without it; if the record ha
                      `kind`, the template `form.KIND`
 several of these     each as above, joined by the template `form.join`, or by `join`
 some numbers         if there is a template `form`: it, with the placeholders `{0}`, `{1}`
-                     ...; or the template `form.same` if all of them read the same
+                     ..., with as many digits as tell the numbers apart; or the template
+                     `form.same`, if there is one and all read the same
 ===================  =======================================================================
 
 A placeholder without text takes the space before it along. A variant (`degrees`) of a template has
@@ -30,9 +32,11 @@ form         text
 ``3f``       3 decimals
 ``3g``       3 significant digits without trailing zeros, as %g of C: with an exponent of at least
              two digits if it is below -4 or not below the number of digits
-``rate``     ``2f`` for zero and from 0.1 to 1e5, ``3g`` below and above
+``2r``       a rate: ``2f`` for zero and from 0.1 to 1e5, ``3g`` below and above
 ``1fdeg``    an angle in rad, written in degrees: 180/pi times the double, with 1 decimal; so with
              the other forms
+``3to7f``    of some numbers: ``3f``, or ``4f`` ... ``7f`` if these make more of them differ; so
+             with the other forms
 ===========  ======================================================================================
 """
 
@@ -51,7 +55,9 @@ import math
 FILE = Path(__file__).with_name("en.json")
 TEMPLATES: dict[str, str] = json.loads(FILE.read_text(encoding="utf-8"))
 Variant = Literal["radians", "degrees"]
-PLACEHOLDER = re.compile(r" ?\{(\w+)(?::(\w+))?\}")
+PLACEHOLDER = re.compile(r" ?\{([\w,]+)(?::(\w+))?\}")
+FORM = re.compile(r"(\d+)(?:to(\d+))?([fger])(deg)?")
+MOST_DIGITS = 17  # which tell any two doubles apart
 SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three digits
 
 
@@ -94,7 +100,7 @@ class _Writer:
 
         def replace(found: "re.Match[str]") -> str:
             name, form = found.groups()
-            text = self._write_value(name, record[name], form, record)
+            text = self._write_value(name, _pick(name, record), form, record)
             return f" {text}" if text and found[0].startswith(" ") else text
 
         return PLACEHOLDER.sub(replace, template)
@@ -121,14 +127,29 @@ class _Writer:
         return TEMPLATES.get(f"{form}.join", TEMPLATES["join"]).join(texts)
 
     def _fill_numbers(self, key: str, values: Sequence[float]) -> str:
-        record = {str(place): value for place, value in enumerate(values)}
         template = TEMPLATES.get(f"{key}@{self.variant}", TEMPLATES[key])
-        forms = dict(PLACEHOLDER.findall(template))
-        texts = {write_number(record[place], form) for place, form in forms.items()}
-        return self._fill(f"{key}.same" if len(texts) == 1 else key, record)
+        places = [(values[int(place)], form) for place, form in PLACEHOLDER.findall(template)]
+        tries = [[write_number(*each, more) for each in places] for more in range(MOST_DIGITS)]
+        texts = max(tries, key=lambda each: len(set(each)))  # the shortest of those
+        if len(set(texts)) == 1 and f"{key}.same" in TEMPLATES:
+            return self._fill(f"{key}.same", {str(n): value for n, value in enumerate(values)})
+        written = iter(texts)
+        return PLACEHOLDER.sub(
+            lambda found: f"{found[0].partition('{')[0]}{next(written)}", template
+        )
 
 
-def write_number(value: float, form: str) -> str:
+def _pick(names: str, record: Mapping[str, Any]) -> Any:
+    """Return the value of a field, or the numbers of several."""
+    if "," not in names:
+        return record[names]
+    values = [record[name] for name in names.split(",")]
+    return [
+        number for each in values for number in (each if isinstance(each, list | tuple) else [each])
+    ]
+
+
+def write_number(value: float, form: str, more: int = 0) -> str:
     """Return a number as text.
 
     Parameters
@@ -136,6 +157,8 @@ def write_number(value: float, form: str) -> str:
     value : float
     form : str
         A format of the table above, such as ``3f``.
+    more : int
+        Digits beyond the first number of a format such as ``3to7f``.
 
     Examples
     --------
@@ -144,11 +167,15 @@ def write_number(value: float, form: str) -> str:
     ('0.12', '0.38', '0.000')
     >>> write_number(-49.66, "3g"), write_number(1e-5, "3g"), write_number(0.5, "1fdeg")
     ('-49.7', '1e-05', '28.6')
+    >>> write_number(0.5, "3to7f"), write_number(0.5, "3to7f", 2)
+    ('0.500', '0.50000')
     """
-    if form == "rate":
+    least, most, letter, degrees = FORM.fullmatch(form).groups()  # type: ignore[union-attr]
+    digits = min(int(least) + more, int(most or least))
+    if degrees:
+        value = value * 180 / math.pi
+    if letter == "r":
         plain = value == 0 or SMALLEST_RATE <= abs(value) < LARGEST_RATE
-        return write_number(value, "2f" if plain else "3g")
-    if form.endswith("deg"):
-        return write_number(value * 180 / math.pi, form.removesuffix("deg"))
-    text = f"{value:.{form}}"
+        letter, digits = ("f", digits) if plain else ("g", digits + 1)
+    text = f"{value:.{digits}{letter}}"
     return text.lstrip("-") if float(text) == 0 else text

@@ -64,8 +64,8 @@ def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     assert opened.say("ledger-text") == (
         f"The kick changed E' by {ledger.kick.rest:.3g} mJ and the energy of the spin by "
         f"{ledger.kick.spin:.3g} mJ. At its highest point the weight has gained "
-        f"{ledger.far.weight:.3g} mJ since before the kick, and the precession "
-        f"{ledger.far.precession:.3g} mJ."
+        f"{ledger.far.weight:.3g} mJ since before the kick, and the precession has lost "
+        f"{-ledger.far.precession:.3g} mJ."
     )
     assert "1.93 mJ" in opened.say("ledger-text")
     bars = opened.tab.locator("#ledger text.tick[text-anchor=middle]").all_text_contents()

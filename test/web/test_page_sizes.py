@@ -83,7 +83,9 @@ def test_a_refusal_is_in_sight_and_escape_puts_it_away(open_page, size):
 def test_no_headline_moves_the_scene_and_no_legend_covers_much_of_it(open_page, size):
     page = open_in(open_page, size)
     before = settle(page, "#scene")
-    words = "Friction and a torque act: without them the top falls and comes back to rest in cusps."
+    words = (
+        "Friction and a torque act: without them the top precesses in cusps and is at rest in each."
+    )
     page.tab.evaluate(
         "(text) => { document.querySelector('#headline').textContent = text; }", words
     )

@@ -91,6 +91,8 @@ def get_motion(event):
 def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, scenes):
     runs = [f"scene={name}" for name in scenes]
     other = open_page(script=FEW_FRAMES + UNDRAWN)
+    for page in (opened, other):  # the headline of a driven motion follows it
+        page.press("Space")
     for fragment in (*runs, write_address(draw_start(random.Random(4)))[1:]):
         opened.follow(fragment)
         link, headline = read_link(opened), opened.say("headline")

@@ -22,6 +22,7 @@ from symtop_ros.physics import (
     perrys_rule,
     regular_precession_rates,
 )
+from symtop_ros.physics.kicks import HOLDS
 from symtop_ros.physics.rule.perry import Place, Reason
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Parameters, Setting
 from symtop_ros.wording import templates, write
@@ -61,7 +62,9 @@ def test_every_template_names_fields_of_its_record():
     for key, template in TEMPLATES.items():
         known = records.get(key.partition(".")[0])
         if known:
-            assert {name for name, _ in PLACEHOLDER.findall(template)} <= known
+            assert {
+                name for names, _ in PLACEHOLDER.findall(template) for name in names.split(",")
+            } <= known
 
 
 def test_the_file_has_each_key_once_and_plain_placeholders():
@@ -76,14 +79,65 @@ def test_a_verdict_states_range_rule_and_average():
     assert str(perrys_rule(ARTICLE, precess(9.0))) == (
         "The top rises: theta will stay between 0.439 and 0.500 rad. Perry's rule holds: hurried "
         "from 9.00 to 12.60 rad/s, theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies "
-        "between the regular rates 6.50 and 69.82 rad/s). On average phi' is 6.42 rad/s, 0.157 "
-        "turns in a nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s)."
+        "between the regular rates 6.50 and 69.82 rad/s at this spin rate). On average phi' is "
+        "6.42 rad/s, 0.157 turns in a nutation "
+        "(slow precession of a fast top: Mgl/p_psi = 5.72 rad/s)."
     )
 
 
 def test_angles_that_read_the_same_are_written_once():
     slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
     assert "theta will stay at 0.500 rad." in str(perrys_rule(ARTICLE, precess(slow)))
+
+
+NUMBER = r"(-?\d[\d.]*(?:e[+-]\d+)?)"
+PAIRS = f"{NUMBER} (?:instead of|to|->) {NUMBER}"
+
+
+def read_numbers(text):
+    return [float(each) for each in re.findall(NUMBER, text)]
+
+
+@pytest.mark.parametrize("hold", HOLDS)
+@pytest.mark.parametrize("nearness", [10.0**-n for n in range(1, 13)])
+def test_two_numbers_that_differ_read_differently(nearness, hold):
+    slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
+    for rate in (slow * (1 + nearness), slow * (1 - nearness), 9.0):
+        before, factor = precess(rate), 1 + nearness
+        kicked = kick_verdict(Motion(ARTICLE, hurry(before, factor, hold)), before, hold)
+        for verdict in (perrys_rule(ARTICLE, before, factor, hold), kicked):
+            if verdict.reason.kind in ("hurried", "if_hurried"):
+                pairs = re.findall(PAIRS, str(verdict))
+                assert len(pairs) == 2
+                assert all(a != b for a, b in pairs), pairs
+            if verdict.reason.place.kind in ("between", "outside"):
+                assert len(set(read_numbers(write("place", verdict.reason.place)))) == 3
+
+
+@pytest.mark.parametrize("off", [1e-3, 1e-5, -1e-5])
+def test_a_top_that_moves_is_not_said_to_stay(off):
+    slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
+    verdict = perrys_rule(ARTICLE, precess(slow + off))
+    assert verdict.direction in ("rises", "falls")
+    for variant in ("radians", "degrees"):
+        low, high = read_numbers(write("verdict", verdict, variant).partition(". ")[0])
+        assert low < high
+
+
+def test_what_is_held_is_said_with_the_regular_rates():
+    before = precess(9.0)
+    said = {hold: str(perrys_rule(ARTICLE, before, 1.4, hold)) for hold in HOLDS}
+    assert "the regular rates 6.50 and 69.82 rad/s at this spin rate)" in said["spin_rate"]
+    at_momentum = perrys_rule(ARTICLE, before, 1.4, "spin_momentum").regular_rates
+    rates = " and ".join(f"{rate:.2f}" for rate in at_momentum)
+    assert f"the regular rates {rates} rad/s at this spin momentum)" in said["spin_momentum"]
+
+
+def test_a_change_without_effect_is_no_kick_at_a_start():
+    sphere, state = Top(1e-3, 1e-3, 0.2), State((0.5, 0.5, 0.5, 0.5), (0.0, 5.0, 0.0))
+    reason = write("reason", perrys_rule(sphere, state).reason)
+    assert "kick" not in reason
+    assert "theta'' is the same at 5.00 as at 7.00 rad/s" in reason
 
 
 def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():

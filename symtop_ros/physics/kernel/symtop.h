@@ -303,7 +303,7 @@ typedef struct {
   double rate;          /* mean phi' in rad/s; NaN if undefined */
   double turns;         /* precession in a nutation */
   double fast_top_rate; /* Mgl/p_psi; NaN if p_psi = 0 */
-  int is_fast;          /* 1 if that is meant for this top: p_psi^2 > 4 Ix |Mgl|, Mgl not 0 */
+  int is_fast;          /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, and that is within 30 % of rate */
   int spin_reverses;
 } symtop_average;
 
@@ -326,7 +326,7 @@ typedef enum {
 
 typedef struct {
   symtop_subject subject;
-  symtop_direction direction; /* of the axis from the start on, or from the kick on */
+  symtop_direction direction; /* of the axis from here on; less than 1e-7 rad is none */
   double turning_angles[2];   /* under gravity alone */
   symtop_kind motion;
   symtop_reason reason;

@@ -126,15 +126,15 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     >>> print(answer)  # doctest: +NORMALIZE_WHITESPACE
     Precession 6.50 -> 9.10 rad/s. The top rises: theta will stay between 0.437 and 0.500 rad.
     Perry's rule holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies between the
-    regular rates 6.50 and 69.82 rad/s). Compared with no kick, the highest point is 0.063 rad
-    higher and the lowest point unchanged. On average phi' is 6.41 rad/s, 0.157 turns in a nutation
-    (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
+    regular rates 6.50 and 69.82 rad/s at this spin rate). Compared with no kick, the highest point
+    is 0.063 rad higher and the lowest point unchanged. On average phi' is 6.41 rad/s, 0.157 turns
+    in a nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
     validate_one(motion, "motion")
     held = len(HOLDS) if hold is None else HOLDS.index(validate_hold(hold))
     alone = pack_start(motion.top, before, NO_FRICTION, NO_TORQUE)
     found = door.judge_kick(alone, motion.packed_start, held)
-    reason, (low, high) = read_reason(found), found.turning_angles
+    reason, (low, high) = read_reason(found, hold), found.turning_angles
     return KickVerdict(
         axis="vertical" if before.is_vertical else "tilted",
         hold=hold,

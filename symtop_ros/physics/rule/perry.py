@@ -6,8 +6,8 @@ not kicked: phi' is multiplied by a factor while the spin rate or the spin momen
 - factor > 1 (hurried): the rule holds if theta'' is lower with the kick.
 - 0 <= factor < 1 (delayed): the rule holds if theta'' is higher with the kick.
 - The rule says nothing (None) if phi' = 0, if the factor is 1 or negative, about an angular
-  impulse, if theta'' is the same with the kick as without it, and on the vertical, where phi' is
-  undefined.
+  impulse that changes theta' or the spin momentum, if theta'' is the same with the kick as without
+  it, and on the vertical, where phi' is undefined.
 
 These words mean the axis. The height of the centre of mass is cos(theta) times an arm of the sign
 of Mgl, so for Mgl < 0 it moves the other way, and the answers name both.
@@ -31,6 +31,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from symtop_ros.physics.kernel.door import PlaceRecord, VerdictRecord
+from symtop_ros.physics.kicks import Hold
 from symtop_ros.wording import write
 
 # Names in the order in which symtop.h has them.
@@ -49,6 +50,7 @@ SUBJECTS: tuple[Subject, ...] = get_args(Subject)
 RULES: tuple[Rule | None, ...] = (None, *get_args(Rule))
 PLACES: tuple[PlaceKind, ...] = get_args(PlaceKind)
 REASONS: tuple[ReasonKind, ...] = (*get_args(Change), *get_args(Silence), *get_args(VerticalCase))
+IMPULSE: Silence = "angular_impulse"
 VERTICAL = len(REASONS) - len(get_args(VerticalCase))  # from here on the axis is on the vertical
 
 
@@ -65,11 +67,14 @@ class Place:
         The rate in rad/s.
     regular_rates : tuple of float
         Rates of regular precession in rad/s, the slow one first.
+    held : {"spin_rate", "spin_momentum"}
+        The quantity at which these rates are regular: that which the kick holds.
     """
 
     kind: PlaceKind
     rate: float
     regular_rates: tuple[float, ...]
+    held: Hold = "spin_rate"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,14 +112,18 @@ class Reason:
         return write("reason", self)
 
 
-def read_place(place: PlaceRecord) -> Place:
+def read_place(place: PlaceRecord, held: Hold) -> Place:
     """Return the place of a rate from the kernel's record."""
     rates = tuple(rate for rate in place.regular_rates if not math.isnan(rate))
-    return Place(PLACES[place.kind], place.rate, rates)
+    return Place(PLACES[place.kind], place.rate, rates, held)
 
 
-def read_reason(verdict: VerdictRecord) -> Reason:
-    """Return the reason from the kernel's record of a verdict."""
+def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
+    """Return the reason from the kernel's record of a verdict.
+
+    `hold` is None for an angular impulse: a push along the precession holds the spin momentum, and
+    after any other the kernel finds the rates at the spin rate that it left.
+    """
     found = verdict.reason
     kind, rule, subject = REASONS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
     if found.kind >= VERTICAL:
@@ -127,5 +136,5 @@ def read_reason(verdict: VerdictRecord) -> Reason:
         found.after,
         found.theta_ddot_without,
         found.theta_ddot,
-        read_place(found.place),
+        read_place(found.place, hold or ("spin_rate" if kind == IMPULSE else "spin_momentum")),
     )

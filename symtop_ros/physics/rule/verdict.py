@@ -44,7 +44,8 @@ class Average:
     turns : float
         Turns of the precession in a nutation.
     speed : {"fast", "slow"}
-        "fast" if the approximation is meant for this top: p_psi^2 > 4 Ix |Mgl|, Mgl not 0.
+        "fast" if the approximation is meant for this top, p_psi^2 > 4 Ix |Mgl| and Mgl not 0, and
+        the mean is within 30 % of it.
     fast_top_rate : float
         Mgl/p_psi in rad/s.
     spin_reverses : bool
@@ -70,7 +71,7 @@ class Verdict:
         "axis" for Mgl < 0: the direction of the centre of mass is then the opposite.
     direction : {"rises", "falls", "stays"}
         Direction of the axis from this state on, without the kick: by theta', or by theta'' if
-        theta' = 0.
+        theta' = 0. It does not move by less than 1e-7 rad.
     turning_angles : (float, float)
         Smallest and largest theta in rad from this state on, without the kick.
     regular_rates : tuple of float
@@ -91,8 +92,8 @@ class Verdict:
     >>> print(verdict)  # doctest: +NORMALIZE_WHITESPACE
     The top rises: theta will stay between 0.439 and 0.500 rad. Perry's rule holds: hurried from
     9.00 to 12.60 rad/s, theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies between
-    the regular rates 6.50 and 69.82 rad/s). On average phi' is 6.42 rad/s, 0.157 turns in a
-    nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
+    the regular rates 6.50 and 69.82 rad/s at this spin rate). On average phi' is 6.42 rad/s, 0.157
+    turns in a nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
 
     subject: Subject
@@ -196,7 +197,7 @@ def perrys_rule(
         return _judge_each(top, state, validate_array("factor", factor), hold)
     factor = validate_number("factor", factor)
     found: Any = _judge(top, state, np.array([factor]), (), hold)
-    return _read(door.VerdictRecord.from_buffer(found))
+    return _read(door.VerdictRecord.from_buffer(found), hold)
 
 
 def _judge(
@@ -212,8 +213,8 @@ def _judge(
     return verdicts
 
 
-def _read(found: door.VerdictRecord) -> Verdict:
-    reason = read_reason(found)
+def _read(found: door.VerdictRecord, hold: Hold) -> Verdict:
+    reason = read_reason(found, hold)
     low, high = found.turning_angles
     return Verdict(
         subject=SUBJECTS[found.subject],

@@ -14,7 +14,8 @@ import { recall } from "./run/memory.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
-import { inDegrees, shorten } from "./words/quantities.js";
+import { inDegrees } from "./words/quantities.js";
+import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
 import { SpeedList } from "./controls/speed.js";
 import { addTabs } from "./controls/tabs.js";
@@ -22,6 +23,7 @@ import { followTheme } from "./controls/theme.js";
 import { Timeline } from "./controls/timeline.js";
 
 /** @typedef {import("./words/facts.js").Facts} Facts */
+/** @typedef {import("./controls/roots.js").Now} Now */
 /** @typedef {{[name: string]: any}} Message */
 /**
  * A top of the page: it takes messages, and its answers are told.
@@ -37,13 +39,14 @@ export class Page {
     this.content = content;
     /** @type {Top | null} */
     this.top = null; // while the kernel is loaded
-    /** What holds for a whole motion. @type {Facts | null} */
+    /** What holds after the last act, and for the motion. @type {Facts | null} */
     this.facts = null;
     const send = this.send.bind(this);
     writeSymbols();
     dismissRefusals();
     addTabs();
     this.fields = new Fields(send);
+    this.roots = new Roots(send);
     this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
     this.timeline = new Timeline((time) => send({ act: "seek", time }));
     this.layers = new Layers(send);
@@ -95,9 +98,11 @@ export class Page {
 
   /** Show what the top tells. @param {Message} message */
   receive(message) {
-    const { hello, facts, samples, refused, granted, said, lost } = message;
+    const { hello, facts, motion, now, samples, refused, granted, said, lost } = message;
     if (hello) this.greet(hello);
     if (facts) this.showFacts(facts);
+    if (motion && this.facts) this.showMotion({ ...this.facts, ...motion }, false);
+    if (now) this.showNow(now);
     if (samples) this.showFrame(message);
     if (refused) refuse(this.fields.markRefused(refused));
     if (granted) this.fields.grant();
@@ -131,37 +136,34 @@ export class Page {
 
   /** @param {Facts} facts */
   showFacts(facts) {
-    this.facts = facts;
-    const sentences = inDegrees() ? facts.degrees : facts;
-    say("headline", sentences.headline);
-    say("why", sentences.why);
+    this.showMotion(facts, true);
     say("pause", facts.running ? "Pause" : "Run");
     say("record", facts.recording ? "End the recording" : "Record (MCAP)");
     say("pace", facts.running ? "" : "paused");
     this.speeds.show(facts.factor);
     find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
-    this.showRoots(facts.roots);
-    this.showHistory(sentences.history);
+    this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
     this.fields.show(facts);
     this.lesson?.follow(facts);
     showLedger(facts.ledger, facts.energies);
+  }
+
+  /** Show what follows the motion. @param {Facts} facts @param {boolean} isAct that is announced */
+  showMotion(facts, isAct) {
+    this.facts = facts;
+    const { headline, why } = facts.texts[inDegrees() ? "degrees" : "radians"];
+    find("said").ariaLive = isAct ? "polite" : "off"; // a screen reader would never end
+    say("headline", headline);
+    say("why", why);
     showKinds(facts.body, facts.turning);
   }
 
-  /** @param {number[]} roots rates of regular precession */
-  showRoots(roots) {
-    const names = roots.length === 2 ? ["slow root", "fast root"] : ["only root"];
-    const buttons = roots.map((rate, k) => {
-      const button = make("button", { textContent: `${names[k]} ${shorten(rate)} rad/s` });
-      const precession = k ? "fast" : "slow";
-      const { theta, psi_dot } = this.fields.values;
-      button.addEventListener("click", () =>
-        this.send({ act: "start", theta, psi_dot, precession }),
-      );
-      return button;
-    });
-    const text = roots.length ? "steady at the" : "no steady precession at this tilt and spin";
-    find("roots").replaceChildren(text, ...buttons);
+  /** Show the tilt and the rates of now. @param {Now} now */
+  showNow(now) {
+    this.fields.follow(now);
+    this.roots.show(
+      this.fields.isEdited && this.facts ? { ...this.facts.start, ...this.facts } : now,
+    );
   }
 
   /** @param {[entry: number, text: string][]} history */

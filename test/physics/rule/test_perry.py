@@ -149,6 +149,49 @@ def test_an_impulse_has_no_rule_but_facts():
     assert (found.subject, found.direction, found.highest.kind) == ("top", "rises", "higher")
 
 
+def push_along(top, state, size):
+    """An angular impulse across the axis, in the vertical plane through it, in the world frame."""
+    axis = state.to_world([0.0, 0.0, 1.0])
+    return size * (np.array([0.0, 0.0, 1.0]) - axis[2] * axis)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_push_along_the_precession_is_judged_as_a_hurry_that_holds_the_spin_momentum(seed):
+    rng = random.Random(seed)
+    top, theta, psi = ARTICLE, rng.uniform(0.2, 2.9), rng.uniform(-3, 3)
+    before = State.from_euler(
+        theta=theta, phi=1.1, psi=psi, theta_dot=rng.choice((0.0, 1.0)), phi_dot=6.0, psi_dot=200.0
+    )
+    size = rng.choice([0.05, -0.05, 1.0]) * top.Ix * abs(before.euler_rates.phi)
+    after = apply_impulse(top, before, push_along(top, before, size))
+    found = kick_verdict(Motion(top, after), before, None)
+    expected = kick_verdict(Motion(top, after), before, "spin_momentum")
+    assert found.hold is None
+    assert found.reason == expected.reason
+    assert found.reason.kind == ("hurried" if size > 0 else "delayed")
+    assert found.reason.place.held == "spin_momentum"
+
+
+def test_a_fall_too_small_to_see_is_none():
+    for off in (1e-8, -1e-8, 1e-6, -1e-6):  # swings of 2e-10 and 2e-8 rad
+        verdict = perrys_rule(ARTICLE, precess(SLOW + off))
+        assert verdict.direction == "stays"
+        assert verdict.turning_angles[0] == verdict.turning_angles[1]
+        assert "theta will stay at 0.500 rad" in str(verdict)
+    # A hurry while the tilt still grows, by 2e-10 rad: what follows is a rise.
+    before = State.from_euler(theta=0.5, theta_dot=1e-5, phi_dot=9.0, psi_dot=200.0)
+    assert perrys_rule(ARTICLE, before).direction == "rises"
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_fast_top_is_named_only_where_the_mean_is_like_its_rate(seed):
+    for n in range(100):
+        case = random_case(1000 * seed + n, "fast")
+        average = perrys_rule(case.top, case.start).average
+        if average and average.speed == "fast":
+            assert abs(average.rate / average.fast_top_rate - 1) <= 0.3
+
+
 def test_a_delay_to_rest_is_a_delay_and_not_a_reversal():
     before = State.from_euler(theta=0.5, psi=0.8, theta_dot=1.0, phi_dot=6.5, psi_dot=200.0)
     assert perrys_rule(ARTICLE, before, 0.0).rule_holds is True

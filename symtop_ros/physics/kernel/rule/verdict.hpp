@@ -4,7 +4,7 @@
 // One definition of the rule serves a start, a kick and a map. The kicked top is compared with the
 // same top not kicked. Hurried (a factor above 1), the rule holds if theta'' is lower with the kick;
 // delayed (0 to 1), if it is higher. It says nothing if phi' = 0, if the factor is 1 or negative,
-// about an angular impulse, if theta'' is the same with the kick as without it, and on the vertical,
+// about an angular impulse that is no push along the precession, if theta'' is the same with the kick as without it, and on the vertical,
 // where phi' is undefined. At a root of regular precession theta'' is 0 without the kick, so the
 // hurried axis rises if and only if the rule holds: the article's case.
 #pragma once
@@ -17,6 +17,8 @@ namespace symtop {
 // Turning angles that differ by less count as equal: next to a pole, or where two roots of the cubic
 // nearly meet, an angle is the square root of a quantity that is known to EPS (section 2).
 const double SAME_ANGLE = 1e-7;  // rad
+// Of Mgl/p_psi, by which the mean precession rate may differ from it to be compared with it.
+const double LIKE_A_FAST_TOP = 0.3;
 
 // Direction of the axis from a state on: by theta', or by theta'' if theta' vanishes up to rounding.
 inline symtop_direction find_direction(const Instant& now) {
@@ -34,6 +36,17 @@ inline symtop_direction find_direction(const Instant& now) {
     change = TiltAcceleration(now, SYMTOP_SPIN_RATE).at(phi_dot);
   }
   return change == 0 ? SYMTOP_STAYS : change < 0 ? SYMTOP_RISES : SYMTOP_FALLS;
+}
+
+// Where the axis goes before it turns back: with theta' or theta'' of some rounding it may have been
+// at its turning point already, and it goes nowhere between turning angles that count as equal.
+inline symtop_direction find_visible_direction(const Instant& now, const double angles[2]) {
+  const symtop_direction first = find_direction(now);
+  if (angles[1] - angles[0] <= SAME_ANGLE) return SYMTOP_STAYS;
+  const double theta = arc_tangent(now.vertical.find_sine(), now.vertical.z);
+  if (first == SYMTOP_FALLS && angles[1] - theta <= SAME_ANGLE) return SYMTOP_RISES;
+  if (first == SYMTOP_RISES && theta - angles[0] <= SAME_ANGLE) return SYMTOP_FALLS;
+  return first;
 }
 
 // True if an axis at rest on the vertical stays near it after a small kick: p_psi^2 >= 4 Ix |Mgl|
@@ -103,14 +116,28 @@ inline PrecessionChange find_change(const Instant& before, const Instant& after,
   return {was, now, factor, true};
 }
 
+// True if a kick leaves theta' and the axial momentum as they were, up to rounding: a push on the
+// axle along the precession or against it, Perry's own experiment.
+inline bool is_push_along(const Instant& before, const Instant& after) {
+  const double* was = before.start.angular_velocity;
+  const double* now = after.start.angular_velocity;
+  const Vertical& g = before.vertical;
+  const double rounding = 8 * EPS * std::fmax(before.find_largest_rate(), after.find_largest_rate());
+  const double along_nodes = (now[0] - was[0]) * g.y - (now[1] - was[1]) * g.x;
+  return std::fabs(now[2] - was[2]) <= rounding &&
+         std::fabs(along_nodes) <= rounding * g.find_sine();
+}
+
 inline symtop_average find_average(const symtop_start& s, GravityMotion& motion) {
   const Rates rates = motion.find_rates();
   const double p_psi = s.Iz * s.angular_velocity[2];
-  // Mgl/p_psi is meant for p_psi^2 >> 4 Ix |Mgl|; below that number it is not even a guess.
+  // Mgl/p_psi is meant for p_psi^2 >> 4 Ix |Mgl|, and for starts near the slow precession: of another
+  // one it can be the wrong sign.
   const double least = 2 * std::sqrt(s.Ix) * std::sqrt(std::fabs(s.Mgl)) / s.Iz;
-  return {rates.mean_precession_rate, rates.precession_per_nutation,
-          p_psi != 0 ? s.Mgl / p_psi : NAN,
-          s.Mgl != 0 && std::fabs(s.angular_velocity[2]) > least, rates.spin_reverses};
+  const double rate = rates.mean_precession_rate, slow = p_psi != 0 ? s.Mgl / p_psi : NAN;
+  const bool is_fast = s.Mgl != 0 && std::fabs(s.angular_velocity[2]) > least &&
+                       std::fabs(rate - slow) <= LIKE_A_FAST_TOP * std::fabs(slow);
+  return {rate, rates.precession_per_nutation, slow, is_fast, rates.spin_reverses};
 }
 
 inline symtop_average leave_average() { return {NAN, NAN, NAN, 0, 0}; }
@@ -119,8 +146,9 @@ inline symtop_average leave_average() { return {NAN, NAN, NAN, 0, 0}; }
 inline symtop_verdict describe_course(const Instant& now, GravityMotion& motion) {
   symtop_verdict verdict = {};
   verdict.subject = now.top.Mgl < 0 ? SYMTOP_AXIS : SYMTOP_TOP;
-  verdict.direction = find_direction(now);
   motion.find_turning_angles(verdict.turning_angles);
+  verdict.direction = find_visible_direction(now, verdict.turning_angles);
+  if (verdict.direction == SYMTOP_STAYS) verdict.turning_angles[1] = verdict.turning_angles[0];
   verdict.motion = static_cast<symtop_kind>(motion.find_kind());
   return verdict;
 }
@@ -168,8 +196,10 @@ inline unsigned find_contrary_facts(const symtop_verdict& v) {
 // The verdict on a kick that was made; the motions are those without it and with it.
 inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start& after,
                                  GravityMotion& without, GravityMotion& with, bool is_driven,
-                                 symtop_hold hold) {
+                                 symtop_hold given) {
   const Instant was(before), now(after);
+  const symtop_hold hold =
+      given == SYMTOP_NOTHING && is_push_along(was, now) ? SYMTOP_SPIN_MOMENTUM : given;
   symtop_verdict verdict = describe_course(now, with);
   verdict.average = is_driven ? leave_average() : find_average(after, with);
   if (is_driven) verdict.motion = SYMTOP_DRIVEN;

@@ -2,6 +2,7 @@
 
 import { find, say } from "../controls/document.js";
 import { findRest } from "./formulas.js";
+import { ROUNDING } from "../words/ledger.js";
 import { createFrame, draw, findSpan, level } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
@@ -17,7 +18,6 @@ const BARS = [
   ["nutation", "var(--grey)", ({ nutation }) => nutation],
   ["E'", "var(--gold)", findRest],
 ];
-const ROUNDING = 1e-9; // of the largest change; less is drawn as none
 
 /** @param {number} value */
 const writeSigned = (value) =>

@@ -1,5 +1,7 @@
 // Fields of numbers: a value is taken over on Enter or when the field is left, never while it is
-// typed, and nothing is written into a field that has the focus.
+// typed, and nothing is written into a field that has the focus. Tilt and rates follow the motion, and
+// are those of the start while one of them is edited. Behind the digits of a field is a double: who
+// types these digits again means it.
 
 import { findAll, make, write } from "./document.js";
 import { refuse } from "./notices.js";
@@ -38,6 +40,8 @@ const FIELDS = {
 };
 /** @type {{[key: string]: number}} */
 const SIGNS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
+const DIGITS = 6; // of a field
+const ROOT_DIGITS = 4; // of a regular rate on its button
 const BETWEEN = 100; // ms; of the moves of a slider the last one in this time is sent
 const REFUSED = 1000; // ms that a refused text stays after its field is left
 
@@ -76,10 +80,19 @@ class Entry {
     this.text.addEventListener("input", () => {
       this.isTyped = true;
     });
+    this.text.addEventListener("focus", () => {
+      if (!this.text.hasAttribute("aria-invalid")) this.showStart();
+    });
     this.text.addEventListener("blur", () => {
       this.commit();
       setTimeout(() => this.write(), REFUSED);
     });
+  }
+
+  /** What is edited is the start. */
+  showStart() {
+    const value = this.fields.read(this.name);
+    if (value !== undefined) this.text.value = shorten(value * this.scale, DIGITS);
   }
 
   cancel() {
@@ -92,12 +105,13 @@ class Entry {
   commit() {
     if (!this.isTyped) return;
     this.isTyped = false;
-    const value = parseQuantity(this.text.value, Boolean(this.field.isAngle));
+    const typed = this.text.value.trim();
+    const shown = this.fields.listShown(this.name).find(([value, digits]) => {
+      return shorten(value * this.scale, digits) === typed;
+    });
+    const value = shown?.[0] ?? parseQuantity(typed, Boolean(this.field.isAngle));
     const refusal = this.check(value);
-    if (refusal)
-      this.refuse(
-        `${this.field.label} must be ${refusal}, got ${this.text.value.trim() || "nothing"}`,
-      );
+    if (refusal) this.refuse(`${this.field.label} must be ${refusal}, got ${typed || "nothing"}`);
     else this.fields.change(this.name, value);
   }
 
@@ -152,14 +166,14 @@ class Entry {
       Number(Number(this.slider.value).toFixed(decimals)),
       Number(this.slider.max),
     );
-    this.text.value = shorten(value * this.scale, 6);
+    this.text.value = shorten(value * this.scale, DIGITS);
     this.fields.later(() => this.fields.change(this.name, value));
   }
 
   write() {
-    const value = this.fields.values[this.name];
+    const value = this.fields.read(this.name);
     if (value === undefined) return;
-    const shown = shorten(value * this.scale, 6);
+    const shown = shorten(value * this.scale, DIGITS);
     if (document.activeElement !== this.text) {
       this.text.value = shown;
       this.text.removeAttribute("aria-invalid");
@@ -189,7 +203,11 @@ export class Fields {
   constructor(send) {
     this.send = send;
     /** @type {{[name: string]: number}} */
-    this.values = { factor: 1.4 };
+    this.values = { factor: 1.4 }; // of the last act
+    /** @type {{[name: string]: number}} */
+    this.now = {}; // tilt and rates of the motion
+    /** @type {number[]} */
+    this.roots = []; // at the last act
     /** @type {(() => void) | null} */
     this.last = null;
     const entries = findAll("[data-field]").map((place) => new Entry(place, this));
@@ -249,6 +267,7 @@ export class Fields {
   /** @param {import("../words/facts.js").Facts} facts */
   show({ start, top, roots }) {
     Object.assign(this.values, start, top);
+    this.roots = roots;
     this.entries.psi_dot.widen([340, start.psi_dot]);
     this.entries.phi_dot.widen([
       10,
@@ -256,6 +275,36 @@ export class Fields {
       ...roots.filter((rate) => Math.abs(rate) < 1e4),
     ]);
     for (const entry of Object.values(this.entries)) entry.write();
+  }
+
+  /** Follow the motion. @param {import("./roots.js").Now} now */
+  follow({ theta, phi_dot, psi_dot }) {
+    this.now = { theta, phi_dot, psi_dot };
+    for (const name of Object.keys(this.now)) this.entries[name].write();
+  }
+
+  /** Whether the tilt or a rate is edited. */
+  get isEdited() {
+    const place = document.activeElement?.closest("[data-field]");
+    return place instanceof HTMLElement && (place.dataset.field ?? "") in this.now;
+  }
+
+  /** What a field shows. @param {string} name @returns {number | undefined} */
+  read(name) {
+    return (this.isEdited ? undefined : this.now[name]) ?? this.values[name];
+  }
+
+  /**
+   * The doubles of which digits are shown while a field is edited.
+   * @param {string} name
+   * @returns {[value: number, digits: number][]}
+   */
+  listShown(name) {
+    const roots = name === "phi_dot" ? this.roots : [];
+    return [
+      [this.values[name], DIGITS],
+      ...roots.map((rate) => /** @type {[number, number]} */ ([rate, ROOT_DIGITS])),
+    ];
   }
 
   showUnit() {

@@ -76,9 +76,8 @@ export const createStart = (kernel, top, numbers, precession) => {
 /** Tilt and rates; on the vertical all of the spin is psi'. @param {State} state */
 export const describeStart = (state) => {
   if (state.isVertical) return { theta: state.angles.theta, phi_dot: 0, psi_dot: state.omega[2] };
-  const round = (/** @type {number} */ x) => Math.round(x * 1e6) / 1e6;
   const { phi, psi } = state.rates;
-  return { theta: state.angles.theta, phi_dot: round(phi), psi_dot: round(psi) };
+  return { theta: state.angles.theta, phi_dot: phi, psi_dot: psi };
 };
 
 /** @param {string} name @param {string | number} text of a link */

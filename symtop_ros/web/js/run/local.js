@@ -2,7 +2,13 @@
 
 import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
-import { chooseWindow, compareConstants, describe } from "../words/facts.js";
+import {
+  chooseWindow,
+  compareConstants,
+  describe,
+  describeMotion,
+  describeNow,
+} from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
@@ -30,6 +36,7 @@ const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sl
 const SPEED = 0.1; // of real time: nutation is too fast for the eye
 const FRAME_STEPS = 3000; // of an integration, for one frame
 const POINTS = 240; // of trace and charts
+const FOLLOW = 250; // ms between two texts of a motion that friction or a torque changes
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
 
 export class LocalTop {
@@ -53,6 +60,10 @@ export class LocalTop {
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
     this.chartsDue = 0; // ms
+    this.textsDue = 0; // ms
+    this.toldAt = NaN; // ns; the time of the texts
+    /** What would follow under gravity alone, at the last texts. @type {Course | null} */
+    this.freeOfTexts = null;
     /** States of the last frame by their times in ns. @type {Map<number, State>} */
     this.states = new Map();
     /** @type {(message: Message) => void} */
@@ -170,7 +181,8 @@ export class LocalTop {
   /** What holds for the motion of now has changed. */
   changed() {
     this.window = chooseWindow(this.course.free);
-    this.chartsDue = 0;
+    this.chartsDue = this.textsDue = 0;
+    this.freeOfTexts = null;
     this.states.clear();
     this.begin();
   }
@@ -186,6 +198,14 @@ export class LocalTop {
   /** The torque without that of a button. */
   get steady() {
     return this.run.findSteady(this.time);
+  }
+
+  /** The motion that would follow under gravity alone; friction and torques change it. */
+  get free() {
+    const { course } = this;
+    if (!course.isDriven) return course;
+    this.freeOfTexts ??= course.continueFree(this.state);
+    return this.freeOfTexts;
   }
 
   /** Times of the last window in ns, for trace and charts: those of a grid, and now. */
@@ -216,10 +236,23 @@ export class LocalTop {
   show(now) {
     const times = this.listTimes();
     const states = this.findStates(times);
+    this.tellMotion(now);
     this.draw(states[states.length - 1], states);
     if (now < this.chartsDue) return;
     this.chartsDue = now + CHARTS;
     this.tellSeries(times, states);
+  }
+
+  /** Tell the numbers of now, and what follows the motion, when they are due. @param {number} now ms */
+  tellMotion(now) {
+    if (now < this.textsDue) return;
+    this.textsDue = now + FOLLOW;
+    const { run, writer, time, state } = this;
+    this.tell({ now: describeNow(this.course, state) });
+    if (!this.course.isDriven || this.toldAt === time) return;
+    this.freeOfTexts = null;
+    this.tell({ motion: describeMotion(run, writer, time, this.free) });
+    this.toldAt = time;
   }
 
   /** @param {number[]} times ns @param {State[]} states */
@@ -238,9 +271,16 @@ export class LocalTop {
   }
 
   tellFacts() {
-    const facts = describe(this.run, this.writer, this.time);
+    this.freeOfTexts = null;
+    const { run, writer, time } = this;
+    const facts = {
+      ...describe(run, writer, time),
+      ...describeMotion(run, writer, time, this.free),
+    };
+    this.toldAt = time;
     const { isRunning: running, speed: factor, isRecording: recording } = this;
     this.tell({ facts: { ...facts, running, factor, recording } });
+    this.tell({ now: describeNow(this.course, this.state) });
   }
 
   /**

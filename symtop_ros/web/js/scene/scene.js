@@ -61,6 +61,8 @@ export class Scene {
     this.view = -1; // index of `VIEWS`
     this.torqueScale = 1;
     this.bodyKey = "";
+    /** The motion whose turning circles are loaded. @type {import("../physics/course.js").Course | null} */
+    this.circled = null;
     this.models = this.loadModels();
     this.grip = new Grip(canvas, this.camera, top);
     canvas.addEventListener("webglcontextlost", (event) => this.lose(event));
@@ -79,6 +81,7 @@ export class Scene {
     this.painter.programs = this.painter.prepare();
     this.models = this.loadModels();
     this.bodyKey = "";
+    this.circled = null;
     this.begin();
     this.tellLoss(null);
   }
@@ -122,7 +125,6 @@ export class Scene {
       this.bodyKey = key;
     }
     const angles = course.free.motion.turning_angles;
-    painter.loadLines(angles.flatMap(listParallel), this.models.circles);
     for (const [name, vector] of Object.entries(findVectors(this.top.course, state))) {
       const largest = name === "torque" ? Math.abs(course.top.Mgl) : findSize(vector);
       this.scales[name] = largest
@@ -190,6 +192,10 @@ export class Scene {
       top: { layers },
     } = this;
     if (layers.sphere) painter.drawLines(this.models.sphere, paint("sphere"), 1, STILL, 0.55);
+    const { free } = this.top;
+    if (free !== this.circled)
+      painter.loadLines(free.motion.turning_angles.flatMap(listParallel), this.models.circles);
+    this.circled = free;
     if (layers["turning circles"])
       painter.drawLines(this.models.circles, paint("circles"), 2, STILL);
     const { phi } = state.angles;

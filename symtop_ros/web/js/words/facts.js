@@ -15,9 +15,11 @@ import { findConstants, findPotential } from "../charts/formulas.js";
 /** @typedef {import("./wording.js").Writer} Writer */
 /** @typedef {import("./wording.js").Variant} Variant */
 /**
- * What holds for a whole motion, and how its top runs.
- * @typedef {ReturnType<typeof describe> & {running: boolean, factor: number, recording: boolean}} Facts
+ * What holds after an act until the next one, what follows the motion, and how its top runs.
+ * @typedef {ReturnType<typeof describe> & MotionFacts & {running: boolean, factor: number, recording: boolean}} Facts
  */
+
+/** What friction and torques change. @typedef {ReturnType<typeof describeMotion>} MotionFacts */
 
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
@@ -43,18 +45,17 @@ export const chooseWindow = ({ motion }) => {
 
 /**
  * The box of the potential, its curve in it, and the curve before the last change.
- * @param {Course} course
- * @param {State} state
- * @param {Moment} moment
+ * @param {Course} free
+ * @param {Moment | null} change
  */
-const describePotential = (course, state, { before, last }) => {
-  const potential = findPotential(course.top, state);
-  const angles = course.continueFree(state).motion.turning_angles;
+const describePotential = ({ top: body, start, motion }, change) => {
+  const potential = findPotential(body, start);
+  const angles = motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
   const bottom = Math.min(findLeast(heights), potential.energy);
   const depth = potential.energy - bottom;
-  const least = LEAST * Math.max(Math.abs(course.top.Mgl), Math.abs(depth), 1e-12);
+  const least = LEAST * Math.max(Math.abs(body.Mgl), Math.abs(depth), 1e-12);
   const top = potential.energy + Math.max(ABOVE * depth, least);
   const near = tilts.filter((_, k) => heights[k] <= top);
   const [low, high] = [
@@ -76,7 +77,8 @@ const describePotential = (course, state, { before, last }) => {
     energy: potential.energy,
     angles,
     ...sample(potential),
-    before: before && last ? sample(findPotential(last.top, before)) : null,
+    before:
+      change?.before && change.last ? sample(findPotential(change.last.top, change.before)) : null,
   };
 };
 
@@ -105,29 +107,56 @@ export const compareConstants = ({ top, start }, state) => {
   );
 };
 
+/** The last event that was not a torque of a button. @param {Run} run @param {number} time ns */
+const findAnnounced = (run, time) => {
+  const past = run.moments.slice(0, run.findPlace(time) + 1);
+  return past.findLast(({ kind }) => kind !== "torque") ?? run.find(time);
+};
+
 /**
- * All that holds for the motion after the last event.
+ * What follows the motion where friction or a torque acts: what gravity alone would make of the
+ * state of now. Of a kick the sentences are those of the kick.
+ * @param {Run} run
+ * @param {Writer} writer
+ * @param {number} time ns
+ * @param {Course} free the motion that would follow under gravity alone
+ */
+export const describeMotion = (run, writer, time, free) => {
+  const announced = findAnnounced(run, time);
+  const { headline, name, outcome } = findOutcome(run.find(time), free);
+  const say = (/** @type {Variant} */ variant) => ({
+    headline: writer.write("headline", headline, variant),
+    why: writer.write(name, outcome, variant),
+  });
+  return {
+    texts: { radians: say("radians"), degrees: say("degrees") },
+    potential: describePotential(free, announced.kind === "start" ? null : announced),
+    table: listRates(free),
+    turning: findTurning(free),
+  };
+};
+
+/** Tilt, rates and regular rates of now. @param {Course} course @param {State} state */
+export const describeNow = ({ kernel, top }, state) => {
+  const { theta, phi_dot, psi_dot } = describeStart(state);
+  return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
+};
+
+/**
+ * What holds after the last event until the next one.
  * @param {Run} run
  * @param {Writer} writer
  * @param {number} time ns
  */
 export const describe = (run, writer, time) => {
-  const moment = run.find(time);
-  const state = run.at(time);
-  const { course } = moment;
-  const past = run.moments.slice(0, run.findPlace(time) + 1);
-  const announced = past.findLast(({ kind }) => kind !== "torque") ?? moment;
-  const { headline, name, outcome } = findOutcome(moment);
-  const say = (/** @type {Variant} */ variant) => ({
-    headline: writer.write("headline", headline, variant),
-    why: writer.write(name, outcome, variant),
-    history: listHistory(run, writer, variant),
-  });
-  const start = describeStart(course.start);
-  const isNew = announced.kind === "start";
+  const { course, kind } = run.find(time);
+  const announced = findAnnounced(run, time);
+  const { roots, ...start } = describeNow(course, course.start);
   return {
-    ...say("radians"),
-    degrees: say("degrees"),
+    histories: {
+      radians: listHistory(run, writer, "radians"),
+      degrees: listHistory(run, writer, "degrees"),
+    },
     top: {
       "top.Ix": course.top.Ix,
       "top.Iz": course.top.Iz,
@@ -136,21 +165,14 @@ export const describe = (run, writer, time) => {
       "friction.transverse": course.friction[1],
     },
     start,
-    roots: run.kernel.findRegularRates(course.top, start.theta, start.psi_dot),
+    roots,
     window: chooseWindow(course.free),
     since: run.findStart(time) / NANO,
-    marks: run.moments.filter(({ kind }) => kind === "kick").map((each) => each.time / NANO),
-    potential: describePotential(
-      course,
-      course.isDriven ? state : course.start,
-      isNew ? { ...moment, before: null } : announced,
-    ),
-    table: listRates(course.free),
+    marks: run.moments.filter((each) => each.kind === "kick").map((each) => each.time / NANO),
     link: writeLink(course),
     ledger: findLedger(announced),
     energies: writer.write("ledger", nameLedger(announced)),
-    turning: findTurning(course),
     body: course.top,
-    isFresh: moment.kind === "start",
+    isFresh: kind === "start",
   };
 };

@@ -6,13 +6,16 @@ import { judge, judgeKick } from "./verdict.js";
 /** @typedef {import("../run/run.js").Moment} Moment */
 /** @typedef {"friction" | "torque" | "both" | null} Forces what acts besides gravity */
 
+const SEEN = 5e-4; // rad; a tilt that differs by less looks the same, and reads the same with 3 decimals
+
 /** @type {{[kind: string]: string}} */
 const OPPOSITE = { higher: "falls", lower: "rises" };
+const WAVES = ["cusps", "looping", "unidirectional"];
 /** @type {{[kind: string]: string}} */
 const KINDS = { start: "start", change: "changed", torque: "released" };
 
 /** @param {Course} course @returns {Forces} */
-const findForces = ({ friction, torque }) => {
+export const findForces = ({ friction, torque }) => {
   const [rubs, turns] = [friction, torque].map((parts) => parts.some((each) => each !== 0));
   if (rubs && turns) return "both";
   if (rubs) return "friction";
@@ -20,20 +23,20 @@ const findForces = ({ friction, torque }) => {
 };
 
 /**
- * What a kick changed at the highest and the lowest point together.
- * @param {{kind: string}} highest
- * @param {{kind: string}} lowest
+ * What a kick changed at the highest and the lowest point together, as far as it is seen.
+ * @param {import("./verdict.js").Lift} highest
+ * @param {import("./verdict.js").Lift} lowest
  */
 const findSwing = (highest, lowest) => {
-  const kinds = new Set([highest.kind, lowest.kind]);
-  kinds.delete("unchanged");
+  const lifts = [highest, lowest].filter(({ kind }) => kind !== "unchanged");
+  const kinds = new Set(lifts.filter(({ amount }) => amount > SEEN).map(({ kind }) => kind));
   if (kinds.size === 2) return highest.kind === "higher" ? "wider" : "narrower";
-  return [...kinds][0] ?? "same";
+  return [...kinds][0] ?? (lifts.length ? "hidden" : "same");
 };
 
 /**
  * The verdict on a kick, and what its headline adds: the direction in which the top moves at first,
- * where that is not the one in which it ends.
+ * where that is not the one in which it ends, and it is seen.
  * @param {Course} course
  * @param {import("../physics/state.js").State} before
  * @param {import("../physics/kernel.js").Hold | null} hold
@@ -41,35 +44,59 @@ const findSwing = (highest, lowest) => {
 const findKick = (course, before, hold) => {
   const verdict = judgeKick(course, before, hold);
   const kind = findSwing(verdict.highest, verdict.lowest);
-  const { direction } = verdict;
+  const { direction, turning_angles } = verdict;
+  const { theta } = course.start.angles;
+  const way = direction === "rises" ? theta - turning_angles[0] : turning_angles[1] - theta;
   return {
     outcome: verdict,
     swing: {
       kind,
-      first: OPPOSITE[kind] === direction ? direction : null,
+      first: OPPOSITE[kind] === direction && way > SEEN ? direction : null,
       most: Math.max(verdict.highest.amount, verdict.lowest.amount),
     },
   };
 };
 
 /**
- * The record of the headline, and that of its reason with the name of its template. Motions are
- * those under gravity alone; the headline says so where more acts.
- * @param {Moment} moment
+ * How a top moves, as far as it differs from a top that stays at its tilt.
+ * @param {string} kind of the motion
+ * @param {[number, number]} turning_angles
+ * @param {string} reason of a verdict
  */
-export const findOutcome = ({ kind, asked, course, before }) => {
-  const { motion } = course.free;
+const findMoves = (kind, [low, high], reason) => {
+  if (kind === "regular") return reason === "no_precession" ? "still" : kind;
+  return WAVES.includes(kind) && low === high ? "hardly" : kind;
+};
+
+/**
+ * The record of the headline, and that of its reason with the name of its template. Motions are
+ * those under gravity alone, from the state of now; the headline says so where more acts.
+ * @param {Moment} moment
+ * @param {Course} free the motion that would follow
+ */
+export const findOutcome = ({ kind, asked, course, before }, free) => {
   const forces = findForces(course);
   const subject = course.top.Mgl < 0 ? "axis" : "top";
-  const { kind: moves, turning_angles } = motion;
-  const headline = { subject, forces, motion: moves, turning_angles };
+  const headline = { subject, forces };
   if (kind === "kick" && before) {
     const { outcome, swing } = findKick(course, before, asked.hold ?? null);
-    return { headline: { ...headline, ...swing }, name: "kick", outcome };
+    // With friction or a torque the angles of the kick do not hold for long.
+    const turning_angles = forces ? null : outcome.turning_angles;
+    const kicked = { ...headline, turning_angles, ...swing };
+    return forces
+      ? { headline: kicked, name: "after_kick", outcome: { verdict: outcome } }
+      : { headline: kicked, name: "kick", outcome };
   }
-  const verdict = judge(course);
+  const verdict = judge(free);
+  const { turning_angles } = verdict;
+  const moves = free.motion.kind;
   return {
-    headline: { ...headline, kind: forces ? "driven" : (KINDS[kind] ?? "start") },
+    headline: {
+      ...headline,
+      turning_angles,
+      kind: forces ? "driven" : (KINDS[kind] ?? "start"),
+      motion: findMoves(moves, turning_angles, verdict.reason.kind),
+    },
     name: forces ? "driven" : "start",
     outcome: { motion: moves, forces, verdict },
   };

@@ -1,6 +1,7 @@
 // What a kick puts into the parts of the energy of a top.
 
 import { findEnergies, findRest } from "../charts/formulas.js";
+import { findForces } from "./headline.js";
 
 /** @typedef {import("../charts/formulas.js").Energies} Energies */
 /**
@@ -10,6 +11,7 @@ import { findEnergies, findRest } from "../charts/formulas.js";
  */
 
 const MILLI = 1000;
+export const ROUNDING = 1e-9; // of the largest change; less is drawn and told as none
 
 /** @param {Energies} now @param {Energies} before @returns {Energies} in mJ */
 const subtractEnergies = (now, before) => ({
@@ -40,11 +42,20 @@ export const findLedger = ({ kind, course, before }) => {
   };
 };
 
+/** @param {number} change mJ @param {Energies} scale */
+const nameGain = (change, { weight, precession }) => {
+  const amount = Math.abs(change);
+  if (amount <= ROUNDING * Math.max(Math.abs(weight), Math.abs(precession)))
+    return { kind: "kept", amount };
+  return { kind: change > 0 ? "gained" : "lost", amount };
+};
+
 /** The record of the ledger, in mJ. @param {import("../run/run.js").Moment} moment */
 export const nameLedger = (moment) => {
   const ledger = findLedger(moment);
   if (!ledger) return { kind: "none" };
   const { kick, far, point } = ledger;
-  const { weight, precession } = far;
-  return { kind: "kick", rest: findRest(kick), spin: kick.spin, weight, precession, point };
+  const [weight, precession] = [far.weight, far.precession].map((each) => nameGain(each, far));
+  const forces = findForces(moment.course);
+  return { kind: "kick", forces, rest: findRest(kick), spin: kick.spin, weight, precession, point };
 };

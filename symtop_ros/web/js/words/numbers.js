@@ -65,22 +65,30 @@ const writeScientific = (size, decimals) => {
 
 const WRITERS = { f: writeFixed, g: writeGeneral, e: writeScientific };
 
-/**
- * A number as text, in a format such as 3f, 3g, rate or 1fdeg.
- * @param {number} value
- * @param {string} form
- * @returns {string}
- */
-export const writeNumber = (value, form) => {
-  if (form === "rate") {
-    const size = Math.abs(value);
-    const isPlain = value === 0 || (SMALLEST_RATE <= size && size < LARGEST_RATE);
-    return writeNumber(value, isPlain ? "2f" : "3g");
-  }
-  if (form.endsWith("deg")) return writeNumber((value * 180) / Math.PI, form.slice(0, -3));
+const FORM = /^(\d+)(?:to(\d+))?([fger])(deg)?$/;
+export const MOST_DIGITS = 17; // which tell any two doubles apart
+
+/** @param {number} value @param {number} digits @param {string} letter */
+const writePlain = (value, digits, letter) => {
   if (Number.isNaN(value)) return "nan";
   if (!Number.isFinite(value)) return value < 0 ? "-inf" : "inf";
-  const [, count, letter] = /** @type {RegExpMatchArray} */ (form.match(/^(\d+)([fge])$/));
-  const text = WRITERS[/** @type {"f" | "g" | "e"} */ (letter)](Math.abs(value), Number(count));
+  const text = WRITERS[/** @type {"f" | "g" | "e"} */ (letter)](Math.abs(value), digits);
   return value < 0 && Number(text) !== 0 ? `-${text}` : text;
+};
+
+/**
+ * A number as text, in a format such as 3f, 3g, 2r, 1fdeg or 3to7f.
+ * @param {number} given
+ * @param {string} form
+ * @param {number} more digits than the first of 3to7f
+ * @returns {string}
+ */
+export const writeNumber = (given, form, more = 0) => {
+  const [, least, most, letter, degrees] = /** @type {RegExpMatchArray} */ (form.match(FORM));
+  const digits = Math.min(Number(least) + more, Number(most ?? least));
+  const value = degrees ? (given * 180) / Math.PI : given;
+  if (letter !== "r") return writePlain(value, digits, letter);
+  const size = Math.abs(value);
+  const isPlain = value === 0 || (SMALLEST_RATE <= size && size < LARGEST_RATE);
+  return isPlain ? writePlain(value, digits, "f") : writePlain(value, digits + 1, "g");
 };

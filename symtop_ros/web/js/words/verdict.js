@@ -11,11 +11,11 @@ const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];
 /** @param {number[]} rates */
 const keepDefined = (rates) => rates.filter((rate) => !Number.isNaN(rate));
 
-/** Why Perry's rule holds, fails or says nothing. @param {Found} verdict */
-const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }) => {
+/** Why Perry's rule holds, fails or says nothing. @param {Found} verdict @param {Hold} held */
+const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }, held) => {
   if (!ON_THE_VERTICAL.includes(kind)) {
     const regular_rates = keepDefined(place.regular_rates);
-    return { kind, rule, subject, ...numbers, place: { ...place, regular_rates } };
+    return { kind, rule, subject, ...numbers, place: { ...place, regular_rates, held } };
   }
   const nothing = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
   return { kind, rule, subject, ...nothing, place: null };
@@ -33,7 +33,7 @@ const readAverage = ({ is_fast, ...average }) =>
  */
 export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
   const found = kernel.judge(free.packed, factor, hold);
-  const reason = readReason(found);
+  const reason = readReason(found, hold);
   return {
     subject: found.subject,
     direction: found.direction,
@@ -55,11 +55,15 @@ export const judgeKick = (course, before, hold) => {
   const { kernel, packed, isDriven } = course;
   const found = kernel.judgeKick(course.continueFree(before).packed, packed, hold);
   const { factor, contrary_facts: facts, reason: _, average, ...others } = found;
-  const reason = readReason(found);
+  // A push along the precession holds the spin momentum; after any other angular impulse the kernel
+  // finds the rates at the spin rate that it left.
+  const isPush = found.reason.kind !== "angular_impulse";
+  const reason = readReason(found, hold ?? (isPush ? "spin_momentum" : "spin_rate"));
   const { rule, subject } = reason;
   return {
     ...{
       direction: /** @type {Direction} */ (found.direction),
+      turning_angles: /** @type {[number, number]} */ (found.turning_angles),
       highest: /** @type {Lift} */ (found.highest),
       lowest: /** @type {Lift} */ (found.lowest),
     },

@@ -1,11 +1,15 @@
 // Twin of wording/templates.py: how a record becomes text, by the templates of wording/en.json.
 
-import { writeNumber } from "./numbers.js";
+import { MOST_DIGITS, writeNumber } from "./numbers.js";
 
 /** @typedef {"radians" | "degrees"} Variant */
 /** @typedef {{[name: string]: any}} Fields */
 
-const PLACEHOLDER = / ?\{(\w+)(?::(\w+))?\}/g;
+const PLACEHOLDER = / ?\{([\w,]+)(?::(\w+))?\}/g;
+
+/** The value of a field, or the numbers of several. @param {string} names @param {Fields} record */
+const pick = (names, record) =>
+  names.includes(",") ? names.split(",").flatMap((name) => record[name]) : record[names];
 
 export class Writer {
   /** @param {{[key: string]: string}} templates */
@@ -31,7 +35,7 @@ export class Writer {
   /** @param {string} key @param {Fields} record @param {Variant} variant @returns {string} */
   fill(key, record, variant) {
     return this.find(key, variant).replace(PLACEHOLDER, (whole, name, form) => {
-      const text = this.writeValue(name, record[name], form ?? "", record, variant);
+      const text = this.writeValue(name, pick(name, record), form ?? "", record, variant);
       return text && whole.startsWith(" ") ? ` ${text}` : text;
     });
   }
@@ -71,9 +75,16 @@ export class Writer {
 
   /** @param {string} key @param {number[]} values @param {Variant} variant */
   fillNumbers(key, values, variant) {
-    const forms = [...this.find(key, variant).matchAll(PLACEHOLDER)];
-    const texts = new Set(forms.map(([, place, form]) => writeNumber(values[Number(place)], form)));
-    const record = Object.fromEntries(values.map((value, place) => [String(place), value]));
-    return this.fill(texts.size === 1 ? `${key}.same` : key, record, variant);
+    const template = this.find(key, variant);
+    const places = [...template.matchAll(PLACEHOLDER)];
+    const write = (/** @type {number} */ more) =>
+      places.map(([, place, form]) => writeNumber(values[Number(place)], form, more));
+    const tries = Array.from({ length: MOST_DIGITS }, (_, more) => write(more));
+    const count = (/** @type {string[]} */ texts) => new Set(texts).size;
+    // The shortest of those that tell most numbers apart.
+    const texts = tries.reduce((best, each) => (count(each) > count(best) ? each : best));
+    if (count(texts) === 1 && `${key}.same` in this.templates)
+      return this.fill(`${key}.same`, { ...values }, variant);
+    return template.replace(PLACEHOLDER, (whole) => whole.split("{")[0] + texts.shift());
   }
 }

@@ -1,0 +1,185 @@
+"""What the page shows in random runs is the state that it draws, to the digits that it shows."""
+
+import math
+import random
+import re
+
+import pytest
+
+from symtop_ros.physics import (
+    ExactTimes,
+    Friction,
+    Motion,
+    State,
+    Top,
+    regular_precession_rates,
+)
+
+FIELDS = "theta", "phi_dot", "psi_dot"
+SCENES = "friction", "vertical_torque", "hurry_slow", "cusps", "sleeping_wakes", "disc"
+FOLLOWS = 700  # ms; the page writes its texts every 250 ms, and draws a frame every 120 ms here
+NUMBER = r"-?[\d.]+(?:e[+-]?\d+)?"
+READ = """() => ({
+    time: document.body.dataset.time,
+    fields: Object.fromEntries(["theta", "phi_dot", "psi_dot"].map((name) =>
+        [name, document.getElementById(`field-${name}`).value])),
+    roots: [...document.querySelectorAll("#roots button")].filter((each) => !each.hidden)
+        .map((each) => each.textContent),
+    rows: Object.fromEntries([...document.querySelectorAll("#constants tr")]
+        .map((row) => [...row.children].map((each) => each.textContent))),
+})"""
+
+
+def is_rounded(text, value, digits=None):
+    """Return True if a text is a number to its last digit, or to so many digits."""
+    mantissa, _, exponent = text.partition("e")
+    decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
+    if digits and value:  # zeros at the end are not written
+        decimals = max(decimals, digits - 1 - math.floor(math.log10(abs(value))))
+    # a tie, and a rounding of the number itself
+    return abs(float(text) - value) <= 0.5001 * 10.0**-decimals + 1e-14 * abs(value)
+
+
+class Shown:
+    """The run of a page at the time that it shows, in Python."""
+
+    def __init__(self, page):
+        self.texts = page.tab.evaluate(READ)
+        run, time = page.read_run(), round(float(self.texts["time"]) * 1e9)
+        events = [each for each in run["events"] if round(each["time"] * 1e9) <= time]
+        self.event = events[-1]
+        self.top = Top(*self.event["top"])
+        motion = Motion(
+            self.top,
+            State(self.event["orientation"], self.event["angular_velocity"]),
+            Friction(*self.event["friction"]),
+            self.event["torque"],
+        )
+        self.state = motion.at(ExactTimes(time - round(self.event["time"] * 1e9)))
+        self.free = Motion(self.top, self.state)
+
+    def check(self, page):
+        theta, rates = self.state.euler_angles.theta, self.state.euler_rates
+        if self.state.is_vertical:
+            return
+        shown = {"theta": theta, "phi_dot": rates.phi, "psi_dot": rates.psi}
+        for name, value in shown.items():
+            assert is_rounded(self.texts["fields"][name], value, 6), (name, value, self.texts)
+        roots = regular_precession_rates(self.top, theta, rates.psi)
+        assert len(roots) == len(self.texts["roots"])
+        for text, root in zip(self.texts["roots"], roots, strict=True):
+            assert is_rounded(re.findall(NUMBER, text)[0], root, 4), (text, root)
+        self.check_motion(page.say("headline"))
+
+    def check_motion(self, headline):
+        assert self.texts["rows"]["motion"] == self.free.kind
+        period = self.texts["rows"].get("nutation period")
+        if period:
+            assert is_rounded(period.split()[0], self.free.nutation_period, 4)
+        if tilts := re.search(
+            f"tilt (?:is between|stays at) ({NUMBER})(?: and ({NUMBER}))? rad", headline
+        ):
+            low, high = self.free.turning_angles
+            assert is_rounded(tilts[1], low), (headline, low)
+            assert is_rounded(tilts[2] or tilts[1], high), (headline, high)
+
+
+def act(page, rng):
+    """Do one of the acts after which numbers could be those of another state."""
+    kind = rng.choice(("scene", "kick", "torque", "seek", "run", "run", "field"))
+    if kind == "scene":
+        page.follow(f"scene={rng.choice(SCENES)}")
+    elif kind == "kick":
+        page.press(rng.choice(("h", "d", "ArrowUp", "ArrowRight")))
+    elif kind == "torque":
+        page.open_tab("push")
+        button = page.tab.locator(f"[data-hold='{rng.choice((1, -1))}']")
+        button.dispatch_event("pointerdown")
+        page.tab.wait_for_timeout(rng.uniform(100, 500))
+        button.dispatch_event("pointerup")
+        page.tab.wait_for_timeout(300)
+    elif kind == "seek":
+        page.seek(rng.random() * page.read_run()["end"])
+    elif kind == "run":
+        if page.say("pause") == "Run":
+            page.press("Space")
+        page.tab.wait_for_timeout(rng.uniform(300, 1500))
+    else:
+        page.enter("friction.axial", rng.choice(("0", "2e-6", "1e-5")))
+    return kind
+
+
+@pytest.mark.parametrize(
+    ("seed", "count"), [(1, 25), *(pytest.param(n, 400, marks=pytest.mark.long) for n in (2, 3))]
+)
+def test_every_number_shown_is_that_of_the_state_drawn(open_page, seed, count):
+    page, rng = open_page("#scene=friction"), random.Random(seed)
+    page.tab.select_option("#speed", "1")
+    kinds = []
+    for _ in range(count):
+        kinds.append(act(page, rng))
+        if page.say("pause") == "Pause":
+            page.press("Space")
+        page.tab.evaluate("document.activeElement.blur()")
+        page.tab.wait_for_timeout(FOLLOWS)
+        if page.say("refusal"):
+            page.press("Escape")
+        Shown(page).check(page)
+    assert {"run", "seek"} <= {*kinds}
+
+
+def read_all(page):
+    return page.tab.evaluate(READ), page.say("headline"), page.say("why")
+
+
+def test_a_seek_shows_what_waiting_shows(open_page):
+    page = open_page("#scene=friction")
+    page.tab.select_option("#speed", "1")
+    page.wait_for_time(1.0)
+    page.press("Space")
+    page.tab.wait_for_timeout(FOLLOWS)
+    waited, end = read_all(page), page.read_run()["end"]
+    page.seek(0.3)
+    page.tab.wait_for_timeout(FOLLOWS)
+    assert read_all(page) != waited
+    page.seek(end)
+    page.tab.wait_for_timeout(FOLLOWS)
+    assert read_all(page) == waited
+
+
+def test_a_kick_under_friction_is_said_to_be_past(open_page):
+    page = open_page("#scene=friction")
+    page.press("h")
+    assert page.say("why").startswith("Just after the kick: Precession ")
+    assert "between" not in page.say("headline")
+
+
+def test_the_digits_that_are_shown_start_the_motion_that_is_shown(opened):
+    """Tilt, spin and the slow rate are typed again, as fields and buttons show them."""
+    opened.press("Space")
+    for _ in range(2):
+        for name, text in (("theta", "0.5"), ("psi_dot", "200"), ("phi_dot", "6.497")):
+            opened.enter(name, text)
+            headline = opened.say("headline")
+            assert headline == "The top precesses steadily, its tilt stays at 0.500 rad.", name
+    opened.tab.click("#hurry")
+    assert " at first" not in opened.say("headline")
+    opened.enter("phi_dot", "6.4970")  # another number than the one that is shown
+    assert "its tilt is between" in opened.say("headline")
+
+
+def test_fields_show_the_start_while_they_are_edited(opened):
+    opened.press("Space")
+    opened.enter("phi_dot", "0")
+    opened.press("Space")
+    opened.wait_for_time(0.02)
+    opened.press("Space")
+    opened.tab.wait_for_timeout(FOLLOWS)
+    read = [opened.tab.input_value(f"#field-{name}") for name in FIELDS]
+    assert read[1] != "0"
+    opened.tab.focus("#field-theta")
+    opened.tab.wait_for_timeout(FOLLOWS)
+    assert [opened.tab.input_value(f"#field-{name}") for name in FIELDS] == ["0.5", "0", "200"]
+    opened.press("Escape")
+    opened.tab.wait_for_timeout(FOLLOWS)
+    assert [opened.tab.input_value(f"#field-{name}") for name in FIELDS] == read
