@@ -20,8 +20,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 sys.path.append(str(Path(__file__).parents[1]))
+from processors import old_processor
+
 from workshop.load.endings import bound
 
 ROOT = Path(__file__).parents[1]
@@ -35,6 +38,8 @@ WITH_NUMPY1 = ("test/client", "test/node/test_services.py", "test/node/test_reco
 NODES = ("test/node", "test/system", "test/load")
 PLAIN = ("test/speed", "test/wire", "test/models", "test/testset")
 JUDGE = ("test/judge", "test/imu", "test/check")
+# These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise.
+NUMBERS = ("test/physics", "test/simulation", "test/check", "test/judge")
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
@@ -60,6 +65,7 @@ class Command:
 
     words: tuple[str, ...]
     again: tuple[str, ...]  # what comes before the name of a test to run it alone; () for a check
+    folder: Path | None = None  # in which it runs; this checkout if not given
 
 
 @dataclass
@@ -91,14 +97,21 @@ def closing(text: str) -> str:
 
 
 def pytest(
-    *words: str, python: Path = BIN / "python", options: Sequence[str] = (), trace: bool = False
+    *words: str,
+    python: Path = BIN / "python",
+    options: Sequence[str] = (),
+    trace: bool = False,
+    before: Sequence[str] = (),
+    folder: Path | None = None,
 ) -> Command:
-    """Return the command for some tests that follow a simulated clock."""
-    start = [str(python), "-m", *(("coverage", "run", "-m") if trace else ()), "pytest"]
+    """Return the command for some tests that follow a simulated clock; `before` it may be env."""
+    start = [*before, str(python), "-m", *(("coverage", "run", "-m") if trace else ()), "pytest"]
     marked = () if "-m" in words else ("-m", MARKS)
     name = os.path.relpath(python, ROOT)
     return Command(
-        (*start, "-q", "--color=no", *options, *marked, *words), (name, "-m", "pytest", *options)
+        (*start, "-q", "--color=no", *options, *marked, *words),
+        (*before, name, "-m", "pytest", *options),
+        folder,
     )
 
 
@@ -115,15 +128,17 @@ def check_page(what: str) -> Command:
 
 def list_groups(trace: bool) -> dict[str, list[Command]]:
     """Return the commands of each group, by its name; with `trace` coverage is measured."""
+    old = ("env", *(f"{name}={value}" for name, value in old_processor().items()))
 
-    def run(*words: str, python: Path = BIN / "python", options: Sequence[str] = ()) -> Command:
-        return pytest(*words, python=python, options=options, trace=trace)
+    def run(*words: str, **options: Any) -> Command:
+        return pytest(*words, trace=trace, **options)
 
     return {
         "nodes": [run(*WITH_NUMPY1, python=NUMPY1), run(*NODES, *ignore(WITH_NUMPY1))],
         "rest": [run("test", *ignore(ELSEWHERE))],
         "judge": [run(*JUDGE)],
         "physics": [run("test/physics")],
+        "old-processor": [run(*NUMBERS, before=old)],
         "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "plain": [run(*PLAIN, *WITH_ROS)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
@@ -162,7 +177,8 @@ def run_group(name: str, commands: Sequence[Command]) -> Outcome:
         before = path.stat().st_size
         with path.open("a") as file:
             words = bound([*priority, *command.words])
-            status = subprocess.run(words, stdout=file, stderr=file, cwd=ROOT, check=False)
+            folder = command.folder or ROOT
+            status = subprocess.run(words, stdout=file, stderr=file, cwd=folder, check=False)
         text = path.read_bytes()[before:].decode(errors="replace")
         outcome.add(command, status.returncode, text)
     outcome.seconds = time.monotonic() - began
@@ -252,9 +268,13 @@ def main() -> int:
         groups = replace_wording(groups)
     if unknown := [name for name in options.groups if name not in groups]:
         parser.error(f"GROUP must be one of {', '.join(groups)}, got {unknown[0]}")
+    return run_and_print({name: groups[name] for name in options.groups or groups})
+
+
+def run_and_print(chosen: dict[str, list[Command]]) -> int:
+    """Run groups, those of real time alone, and print the summary; return 1 if any test failed."""
     # Small matrices gain nothing by threads, which take a quarter of the time of two processors.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    chosen = {name: groups[name] for name in options.groups or groups}
     OUTPUT.mkdir(parents=True, exist_ok=True)
     alone = {name: chosen.pop(name) for name in ["realtime"] if name in chosen}
     try:
