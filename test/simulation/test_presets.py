@@ -64,6 +64,20 @@ def test_an_invalid_scene_is_refused_quickly_and_in_one_sentence(folder, content
     assert_one_sentence(str(refusal.value))
 
 
+def test_a_scene_at_the_limits_is_read_and_beyond_them_refused(folder):
+    text = HEAD + "    top: {Mgl: 0.05}\n"
+    for size, deep in ((65_536, 6), (65_537, 6), (65_536, 7)):
+        # two levels of maps are around the lists
+        lists = f"    imu.position: {'[' * deep}1.0{']' * deep}\n" if deep > 6 else ""
+        file = folder / "odd.yaml"
+        file.write_text((text + lists).ljust(size - 1, "#") + "\n")
+        if (size, deep) == (65_536, 6):
+            assert load_scene("odd") == {"top.Mgl": 0.05}
+        else:
+            with pytest.raises(RefusedError, match=r"bytes \(limit 65536\)|more than 8 levels"):
+                load_scene("odd")
+
+
 @pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])
 def test_a_scene_that_is_not_a_file_is_refused(folder, make):
     make(folder / "odd.yaml")
