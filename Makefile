@@ -1,4 +1,5 @@
-# Everything is installed into .venv. The rest of the machine is unchanged, but for pip's cache.
+# Everything is installed into .venv, by `make test` what only some groups need when they start
+# (test/groups.py). The rest of the machine is unchanged, but for pip's cache.
 PYTHON ?= python3
 VENV := .venv
 # What is compiled at the installation.
@@ -32,7 +33,7 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS and no compiler
 	@$(BIN)/python -m symtop_ros.panel.main
 
-test: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (9 minutes; 3 GB, once)
+test: $(VENV)/test  ## style, types and all tests (9 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, and with load, lesson and demonstration in full, of which 96 % are asked (18 minutes)

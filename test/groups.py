@@ -13,6 +13,7 @@ import argparse
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import time
@@ -126,6 +127,13 @@ def check_page(what: str) -> Command:
     return Command(("sh", str(script), str(Path(sys.prefix, "js")), what), ())
 
 
+def fetch(*targets: str) -> list[Command]:
+    """Return the commands that fetch what only some groups need, one at a time of all groups."""
+    alone = ("flock", str(OUTPUT / "fetching")) if shutil.which("flock") else ()
+    paths = [os.path.relpath(Path(sys.prefix, target), ROOT) for target in targets]
+    return [Command((*alone, "make", "--silent", path), ()) for path in paths]
+
+
 def list_groups(trace: bool) -> dict[str, list[Command]]:
     """Return the commands of each group, by its name; with `trace` coverage is measured."""
     old = ("env", *(f"{name}={value}" for name, value in old_processor().items()))
@@ -134,20 +142,25 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         return pytest(*words, trace=trace, **options)
 
     return {
-        "nodes": [run(*WITH_NUMPY1, python=NUMPY1), run(*NODES, *ignore(WITH_NUMPY1))],
-        "rest": [run("test", *ignore(ELSEWHERE))],
+        "nodes": [
+            *fetch("messages/done", "numpy1/test"),
+            run(*WITH_NUMPY1, python=NUMPY1),
+            run(*NODES, *ignore(WITH_NUMPY1)),
+        ],
+        "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
         "judge": [run(*JUDGE)],
         "physics": [run("test/physics")],
         "old-processor": [run(*NUMBERS, before=old)],
-        "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
-        "plain": [run(*PLAIN, *WITH_ROS)],
+        "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
+        "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
         "lint": [
+            *fetch("js/done"),
             *(check("ruff", "check"), check("ruff", "format", "--check")),
             *(check("codespell"), check("mypy")),
             *(check_page("style"), check_page("types")),
         ],
-        "realtime": [run("-m", "realtime and not long", *REALTIME)],
+        "realtime": [*fetch("chromium"), run("-m", "realtime and not long", *REALTIME)],
     }
 
 

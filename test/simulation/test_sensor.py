@@ -216,5 +216,6 @@ def test_a_random_walk_computes_what_neighbouring_samples_share_once(monkeypatch
 
     monkeypatch.setattr(sensor, "_normals", count)
     sensor.random_walks(1, [0], np.arange(10_000) * 1_000_000)
-    # 24 levels of bridges; those that are longer than a sample are shared: measured 4.91
+    # Of 24 levels of bridges three are shorter than a sample, one has its length, and each level
+    # above it has half as many: below 3 + 2 for each sample.
     assert sum(counts) < 5 * 10_000
