@@ -28,8 +28,14 @@ def _rounded(name: str) -> Callable[..., float]:
 
 
 sin, cos, tan, asin, atan2 = map(_rounded, ("sin", "cos", "tan", "asin", "atan2"))
-sqrt, hypot, log, _power = map(_rounded, ("sqrt", "hypot", "log", "power"))
+sqrt, log, _power = map(_rounded, ("sqrt", "log", "power"))
 PI = float(mp.pi)
+
+
+def hypot(*parts: float) -> float:
+    """Return the length of a vector."""
+    with mp.workdps(DIGITS):
+        return float(mp.norm(parts))
 
 
 def ten_to(exponent: float) -> float:
