@@ -87,8 +87,16 @@ def make_stranger(folder: Path) -> groups.Command:
     home.mkdir()
     home.chmod(0o777)
     variables = {"HOME": str(home), "PATH": copy_path(folder), "PYTHONPATH": str(copy)}
-    become = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups")
-    return make_command(variables, *(become if os.geteuid() == 0 else ()), folder=copy)
+    return make_command(variables, *(give_up_rights() if os.geteuid() == 0 else ()), folder=copy)
+
+
+def give_up_rights() -> tuple[str, ...]:
+    """Return what makes root a user without rights: nobody, if that user may run this Python."""
+    places = Path(sys.executable).resolve().parents
+    if all(place.stat().st_mode & 0o001 for place in places):
+        return "setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"
+    # A Python in the home of root: permissions of files then count for root, too.
+    return "setpriv", "--bounding-set=-dac_override,-dac_read_search"
 
 
 @contextlib.contextmanager
