@@ -135,10 +135,14 @@ def check_page(what: str) -> Command:
 
 
 def fetch(*targets: str) -> list[Command]:
-    """Return the commands that fetch what only some groups need, one at a time of all groups."""
-    alone = ("flock", str(OUTPUT / "fetching")) if shutil.which("flock") else ()
-    paths = [os.path.relpath(Path(sys.prefix, target), ROOT) for target in targets]
-    return [Command((*alone, "make", "--silent", path), ()) for path in paths]
+    """Return the commands that fetch what only some groups need, never one target twice at once."""
+    commands = []
+    for target in targets:
+        lock = str(OUTPUT / f"{target.replace('/', '-')}.lock")
+        alone = ("flock", lock) if shutil.which("flock") else ()
+        path = os.path.relpath(Path(sys.prefix, target), ROOT)
+        commands.append(Command((*alone, "make", "--silent", path), ()))
+    return commands
 
 
 def list_groups(trace: bool) -> dict[str, list[Command]]:

@@ -109,18 +109,6 @@ def test_a_recording_that_ends_between_two_files_leaves_none_without_messages(tm
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_messages_that_come_between_two_files_are_in_the_second_although_it_ends_at_once(tmp_path):
-    recorder = create(tmp_path, max_duration=1.0)
-    path = recorder.start({})
-    for stamp in (0, 2 * 10**9):
-        recorder.add(1, stamp, b"x")
-    until(lambda: is_finished(path))
-    recorder.add(1, 3 * 10**9, b"last")
-    recorder.stop()
-    (other,) = set(tmp_path.iterdir()) - {path}
-    assert contents(other)[-1] == ("/plain", 3 * 10**9, b"last")
-
-
 def is_finished(path):
     """Return True if a file has its index."""
     with path.open("rb") as file:

@@ -101,9 +101,10 @@ def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_res
 
 
 def test_without_a_root_the_parameters_are_refused():
-    session, _ = start(Program())
-    with pytest.raises(RefusedError, match="precession must be a rate that exists"):
-        session.plan_settings({"initial.precession": "slow", "initial.psi_dot": 3.0})
+    session, _ = start(Program(), initial__precession="slow", initial__psi_dot=200.0)
+    for changes in ({"initial.psi_dot": 3.0}, {"top.Mgl": 10.0}):
+        with pytest.raises(RefusedError, match="precession must be a rate that exists"):
+            session.plan_settings(changes)
 
 
 def test_the_urdf_moves_by_tf_while_that_is_published():
