@@ -1,4 +1,5 @@
-# Everything is installed into .venv. The rest of the machine is unchanged, but for pip's cache.
+# Everything is installed into .venv, by `make test` what only some groups need when they start
+# (test/groups.py). The rest of the machine is unchanged, but for pip's cache.
 PYTHON ?= python3
 VENV := .venv
 # What is compiled at the installation.
@@ -7,7 +8,7 @@ NUMPY1 := .venv/numpy1
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
 TOOLS := pytest hypothesis mpmath rosbags coverage
-GROUPS := nodes rest judge plain physics without-ros examples lint realtime
+GROUPS := nodes rest judge plain physics old-processor without-ros examples lint realtime
 # A line every ten seconds, for as long as the shell of a recipe runs: pip may be silent for minutes.
 TICK = ( n=0; while sleep 10 > /dev/null && kill -0 $$$$ 2> /dev/null; do n=$$((n + 10)); echo "  ... at work for $$n s"; done ) & \
   tick=$$!; trap 'kill $$tick' EXIT;
@@ -21,7 +22,7 @@ export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean
+.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -32,7 +33,7 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS and no compiler
 	@$(BIN)/python -m symtop_ros.panel.main
 
-test: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(VENV)/js/done $(NUMPY1)/test  ## style, types and all tests (9 minutes; 3 GB, once)
+test: $(VENV)/test  ## style, types and all tests (9 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
 coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, and with load, lesson and demonstration in full, of which 96 % are asked (18 minutes)
@@ -53,6 +54,7 @@ test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, articl
 test-judge: $(VENV)/test  ## check of logs, sensor, judge of estimates
 test-plain: $(VENV)/test  ## report, messages, models, test set
 test-physics: $(VENV)/test  ## the library
+test-old-processor: $(VENV)/test  ## tests of numbers with the instructions of a processor of 2008
 test-without-ros: $(VENV)/test $(VENV)/chromium  ## simulation, session, log, page: as without ROS and Rerun
 test-examples: $(VENV)/test  ## examples in docstrings
 test-lint: $(VENV)/test $(VENV)/js/done  ## the same as lint
@@ -60,11 +62,14 @@ test-realtime: $(VENV)/test $(VENV)/chromium  ## tests that measure time, one af
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-elsewhere test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
 	@$(BIN)/python -m pytest -m long test
 
 test-keys: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
 	@$(BIN)/python test/groups.py --keys
+
+test-elsewhere: $(VENV)/test  ## tests of numbers and logs as on other processors, in other countries, for a stranger (20 minutes)
+	@$(BIN)/python test/elsewhere.py
 
 matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
 	@$(BIN)/python workshop/matrix.py

@@ -43,7 +43,7 @@ def test_offset_delay_and_drift_of_a_nutating_top_are_found_together(scene, rate
     found = explain(estimates, truth)
     assert found.hidden == ()
     # Stamps are whole nanoseconds, in which the top turns by 2e-7 rad, and rotations replace most
-    # of a delay: measured 5e-8 s.
+    # of a delay: 2e-7 rad in the middle of 2 rad/s.
     assert found.offset.delay == pytest.approx(0.0123, abs=1e-7)
     assert found.offset.drift == pytest.approx(rate, abs=1e-8)
     assert found.residual < 1e-5
@@ -57,7 +57,7 @@ def test_a_drift_that_turns_a_slow_top_far_within_the_run_is_found(scene, rate, 
     # The hanging top looks the same after a turn of 0.105 s: the smaller delay counts.
     truth = scene_truth(scene)
     found = explain(Made(delay=delay, drift=rate).make(truth, STAMPS), truth)
-    # Measured 4e-10 s and 1e-13 rad/s; stamps are whole nanoseconds.
+    # Stamps are whole nanoseconds; their errors of half of one cancel in the slope.
     assert found.offset.delay == pytest.approx(delay, abs=1e-9)
     assert found.offset.drift == pytest.approx(rate, abs=1e-11)
 

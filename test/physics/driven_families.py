@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Sequence
 
+from drawn import Numbers, hypot
 from physics.tops import ARTICLE, series_of
 
 from symtop_ros.physics import Friction, Motion, State, Top
@@ -37,7 +37,7 @@ class DrivenCase:
 
     def __init__(self, family: str, seed: int) -> None:
         self.family = family
-        self.random = random.Random(f"{family} {seed}")
+        self.random = Numbers(f"{family} {seed}")
         self.torque: Vector = (0.0, 0.0, 0.0)
         self.friction = Friction()
         self.use_random_top()
@@ -57,8 +57,8 @@ class DrivenCase:
 
     def use_random_top(self) -> None:
         draw = self.random
-        Ix = 10 ** draw.uniform(-4, 1)
-        weight = draw.choice([1, 1, 1, -1]) * 10 ** draw.uniform(0.5, 3)
+        Ix = draw.power(-4, 1)
+        weight = draw.choice([1, 1, 1, -1]) * draw.power(0.5, 3)
         self.set_top(Top(Ix, Ix * draw.uniform(0.05, 1.95), Ix * weight))
         self.use_random_start(spin=4.0)
         self.t = 20 / self.swing
@@ -106,7 +106,7 @@ class DrivenCase:
         self.use_friction(self.random.uniform(0.2, 2), self.random.uniform(0.2, 2))
 
     def _make_overdamped(self, seed: int) -> None:
-        strength = 10 ** self.random.uniform(0.5, 2)
+        strength = self.random.power(0.5, 2)
         self.use_friction(strength, strength * self.random.uniform(0.5, 2))
 
     def _make_tiny_and_long(self, seed: int) -> None:
@@ -155,16 +155,16 @@ class DrivenCase:
         self.friction, self.t = Friction(1e-6, self.random.choice([1e-6, 1e-5])), 5.0
 
     def _make_rods(self, seed: int) -> None:
-        Ix = 10 ** self.random.uniform(-3, 0)
-        ratio = 10 ** self.random.uniform(-8, -1)
-        self.set_top(Top(Ix, Ix * ratio, Ix * 10 ** self.random.uniform(1, 2)))
+        Ix = self.random.power(-3, 0)
+        ratio = self.random.power(-8, -1)
+        self.set_top(Top(Ix, Ix * ratio, Ix * self.random.power(1, 2)))
         self.use_random_start(spin=min(4.0, 300 * ratio))
         self.use_friction(self.random.uniform(0, 0.05), self.random.uniform(0, 0.05))
         self.t = 10 / self.swing
 
     def _make_mixed(self, seed: int) -> None:
         self.use_random_start(spin=self.random.choice([0.3, 1, 5, 10]))
-        self.use_friction(10 ** self.random.uniform(-6, 0), 10 ** self.random.uniform(-6, 0))
+        self.use_friction(self.random.power(-6, 0), self.random.power(-6, 0))
         self.use_torque([axis for axis in range(3) if self.random.random() < 0.5], 0.2)
 
     def _make_tumbling(self, seed: int) -> None:
@@ -178,7 +178,7 @@ class DrivenCase:
 
     def _draw_attitude(self) -> list[list[float]]:
         q = [self.random.gauss(0, 1) for _ in range(4)]
-        return [[part / math.hypot(*q) for part in q]]
+        return [[part / hypot(*q) for part in q]]
 
 
 def list_cases() -> list[DrivenCase]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import lzma
 import math
-import random
 from dataclasses import dataclass
 from pathlib import Path
+
+from drawn import Numbers, asin, atan2, cos, hypot, sin, tan
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.physics.reference import ClosedForm, Inputs, Series
@@ -77,30 +78,28 @@ def read_stored(data: dict) -> tuple[Top, State]:
 
 
 def make_case(family: str, seed: int) -> Case:
-    rng = random.Random(f"{family} {seed}")
-    spans = tuple(rng.choice([1, -1]) * 10 ** rng.uniform(*each) for each in ((-3, 0), (0, 12)))
+    rng = Numbers(f"{family} {seed}")
+    spans = tuple(rng.choice([1, -1]) * rng.power(*each) for each in ((-3, 0), (0, 12)))
     if family == "separatrix of a pendulum":
         return _near_separatrix(rng, spans, 0.0)
     if family == "separatrix of a spinning top":
         return _near_separatrix(rng, spans, rng.uniform(0.1, 0.95) * rng.choice([1, -1]))
-    Ix, pull = 10 ** rng.uniform(-6, 1), 10 ** rng.uniform(0, 3)
+    Ix, pull = rng.power(-6, 1), rng.power(0, 3)
     ratio, tilt, across, spin = _choose(rng, family)
     if family == "weak weight":
-        pull = 10 ** rng.uniform(-30, -6)
+        pull = rng.power(-30, -6)
     phi, psi = rng.uniform(-3, 3), rng.uniform(-3, 3)
     direction = rng.uniform(-3, 3)
     if family == "nearly regular":
-        across = _regular_rate(ratio, tilt, spin) * math.sin(tilt)
-        across *= 1 + rng.choice([1, -1]) * 10 ** rng.uniform(-9, -1)
+        across = _regular_rate(ratio, tilt, spin) * sin(tilt)
+        across *= 1 + rng.choice([1, -1]) * rng.power(-9, -1)
         direction = math.pi / 2 - psi
     if family.endswith("pole"):  # p_phi = p_psi or -p_psi, up to rounding
         side = 1 if family == "upper pole" else -1
-        level = side * spin * ratio * math.tan(tilt / 2) ** side
-        across, direction = math.hypot(level, across), math.atan2(level, across) - psi
+        level = side * spin * ratio * tan(tilt / 2) ** side
+        across, direction = hypot(level, across), atan2(level, across) - psi
     scale = math.sqrt(pull)
-    omega = tuple(
-        scale * rate for rate in (across * math.cos(direction), across * math.sin(direction), spin)
-    )
+    omega = tuple(scale * rate for rate in (across * cos(direction), across * sin(direction), spin))
     sign = -1 if family == "weight below" else 1
     moments = (Ix, Ix * ratio, sign * Ix * pull)
     return Case(moments, _orientation(tilt, phi, psi), omega, spans)
@@ -109,20 +108,20 @@ def make_case(family: str, seed: int) -> Case:
 def _regular_rate(ratio: float, tilt: float, spin: float) -> float:
     """The slow rate of regular precession at a given omega_z, if there is one."""
     half = ratio * spin / 2
-    root = half * half - math.cos(tilt)
+    root = half * half - cos(tilt)
     return 1 / (half + math.sqrt(root)) if root > 0 else half
 
 
-def _choose(rng: random.Random, family: str) -> tuple[float, ...]:
+def _choose(rng: Numbers, family: str) -> tuple[float, ...]:
     """Iz/Ix, theta, and the rates across and along the axis in units of sqrt(Mgl/Ix)."""
     ratio, tilt = rng.uniform(0.1, 1.9), rng.uniform(0.05, 3.0)
     across, spin = rng.choice([0.0, rng.uniform(0, 3)]), rng.uniform(-6, 6)
-    near, sign = 10 ** rng.uniform(-9, -1), rng.choice([1, -1])
+    near, sign = rng.power(-9, -1), rng.choice([1, -1])
     sleeping = rng.uniform(2.5, 9) / ratio
     return {
         "disc": (rng.choice([2.0, 1.0, 1.0 + 1e-12, rng.uniform(1, 2)]), tilt, across, spin),
         "rod": (rng.uniform(0.03, 0.1), tilt, across, spin),
-        "fast": (ratio, tilt, across, sign * 10 ** rng.uniform(1, 2)),
+        "fast": (ratio, tilt, across, sign * rng.power(1, 2)),
         "slow": (ratio, tilt, across / 30, spin / 60),
         "hanging": (ratio, math.pi - near, near * across, sleeping),
         "upright": (ratio, near, near * across, sleeping),
@@ -136,38 +135,38 @@ def _choose(rng: random.Random, family: str) -> tuple[float, ...]:
 
 
 def _orientation(theta: float, phi: float, psi: float) -> tuple[float, ...]:
-    c, s = math.cos(theta / 2), math.sin(theta / 2)
+    c, s = cos(theta / 2), sin(theta / 2)
     plus, minus = (phi + psi) / 2, (phi - psi) / 2
-    return (c * math.cos(plus), s * math.cos(minus), s * math.sin(minus), c * math.sin(plus))
+    return (c * cos(plus), s * cos(minus), s * sin(minus), c * sin(plus))
 
 
-def _near_separatrix(rng: random.Random, spans: tuple[float, ...], spin: float) -> Case:
+def _near_separatrix(rng: Numbers, spans: tuple[float, ...], spin: float) -> Case:
     """A start with a gap of 1e-2 to 1e-30 on either side, as rounded, or exactly without."""
     side = rng.choice(["pushed", "let go", "thrown up", "exact"])
     digits = DIGITS + DIGITS_OF_GAP
     if side == "exact":  # doubles with few bits, of which no sum and no product is rounded
         across, up = rng.randint(1, 40) / 8, 0.0 if spin == 0 else rng.randint(-16, 16) / 8
-        spans = tuple(10 ** rng.uniform(-3, 1.3) / math.hypot(across, up) for _ in range(2))
+        spans = tuple(rng.power(-3, 1.3) / hypot(across, up) for _ in range(2))
         moments = (1.0, 0.5, (across**2 + up**2) / 2)
         omega = (-across, up, 2 * up)
         return Case(moments, (0.5, 0.5, 0.5, 0.5), omega, spans, digits, has_period=False)
     ratio, angle = rng.uniform(0.2, 1.9), rng.uniform(-3, 3)
-    gap = 10 ** rng.uniform(-30, -2)
+    gap = rng.power(-30, -2)
     omega_z = 2 * spin / ratio
     size = math.sqrt(gap)
     if side == "pushed":
         half = rng.uniform(-3, 3)
-        q = (math.cos(half), 0.0, 0.0, math.sin(half))
-        omega = (size * math.cos(angle), size * math.sin(angle), omega_z)
+        q = (cos(half), 0.0, 0.0, sin(half))
+        omega = (size * cos(angle), size * sin(angle), omega_z)
     elif side == "let go":
-        q = _orientation(2 * math.asin(size), angle, 0.4)
+        q = _orientation(2 * asin(size), angle, 0.4)
         omega = (0.0, 0.0, omega_z)
     else:  # the doubles nearest to a start from which the axis comes to rest on top
         theta = rng.uniform(0.5, 3.0)
-        p = omega_z * ratio * math.tan(theta / 2)
-        theta_dot = -math.sqrt(max(0.0, 2 * (1 - math.cos(theta)) - p * p))
+        p = omega_z * ratio * tan(theta / 2)
+        theta_dot = -math.sqrt(max(0.0, 2 * (1 - cos(theta)) - p * p))
         psi = rng.uniform(-3, 3)
-        c, s = math.cos(psi), math.sin(psi)
+        c, s = cos(psi), sin(psi)
         q = _orientation(theta, angle, psi)
         omega = (p * s + theta_dot * c, p * c - theta_dot * s, omega_z)
     return Case((1.0, ratio, 1.0), q, omega, spans, digits)

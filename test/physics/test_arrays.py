@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import (
@@ -15,14 +16,14 @@ from symtop_ros.physics import (
 )
 
 COUNT = 200
-RNG = np.random.default_rng(8)
+RNG = Numbers(8)
 ANGLES = {
-    "theta": RNG.uniform(0.0, np.pi, COUNT),
-    "phi": RNG.choice([0.1, 1.0, 1e4, 1e9, 1e20], COUNT) * RNG.normal(size=COUNT),
-    "psi": RNG.choice([0.0, 3.0, 1e5, 1e12], COUNT) * RNG.normal(size=COUNT),
+    "theta": RNG.uniforms(0.0, np.pi, COUNT),
+    "phi": np.array(RNG.choices([0.1, 1.0, 1e4, 1e9, 1e20], k=COUNT)) * RNG.normals(COUNT),
+    "psi": np.array(RNG.choices([0.0, 3.0, 1e5, 1e12], k=COUNT)) * RNG.normals(COUNT),
 }
 RATES = {
-    name: RNG.choice([0.0, 1e-200, 3.0, 200.0], COUNT)
+    name: np.array(RNG.choices([0.0, 1e-200, 3.0, 200.0], k=COUNT))
     for name in ("theta_dot", "phi_dot", "psi_dot")
 }
 STATES = State.from_euler(**ANGLES, **RATES)
@@ -51,7 +52,7 @@ def test_angles_and_rates_are_broadcast():
 
 @pytest.mark.parametrize("hold", HOLDS)
 def test_kicks_of_arrays_are_those_of_each(hold):
-    rates, factors = RNG.normal(size=COUNT) * 10, RNG.uniform(-1, 3, COUNT)
+    rates, factors = RNG.normals(COUNT) * 10, RNG.uniforms(-1, 3, COUNT)
     one, other = set_precession_rate(STATES, rates, hold), hurry(STATES, factors, hold)
     for n, state in enumerate(STATES):
         assert one[n] == set_precession_rate(state, float(rates[n]), hold)
@@ -65,8 +66,8 @@ def test_one_state_takes_many_kicks_and_many_states_one():
 
 
 def test_impulses_on_many_tops_are_those_on_each():
-    tops = Top(RNG.uniform(0.5, 1.0, COUNT), 0.4, RNG.normal(size=COUNT))
-    impulses = RNG.normal(size=(COUNT, 3))
+    tops = Top(RNG.uniforms(0.5, 1.0, COUNT), 0.4, RNG.normals(COUNT))
+    impulses = RNG.normals(COUNT, 3)
     kicked = apply_impulse(tops, STATES, impulses)
     for n, state in enumerate(STATES):
         top = Top(float(tops.Ix[n]), 0.4, float(tops.Mgl[n]))
@@ -76,10 +77,10 @@ def test_impulses_on_many_tops_are_those_on_each():
 
 @pytest.mark.parametrize("hold", HOLDS)
 def test_verdicts_on_arrays_are_those_on_each(hold):
-    tops = Top(0.000228, 0.0000572, RNG.normal(size=COUNT) * 0.1)
+    tops = Top(0.000228, 0.0000572, RNG.normals(COUNT) * 0.1)
     states, factors = (
         State.from_euler(theta=ANGLES["theta"], phi_dot=9.0, psi_dot=150.0),
-        RNG.uniform(-1, 3, COUNT),
+        RNG.uniforms(-1, 3, COUNT),
     )
     many = perrys_rule(tops, states, factors, hold)
     for n in range(COUNT):
@@ -101,8 +102,8 @@ def test_one_state_has_verdicts_for_many_factors():
 
 
 def test_regular_rates_of_arrays_are_those_of_each():
-    tops = Top(0.000228, RNG.choice([0.0000572, 0.000228, 0.0004], COUNT), 0.068)
-    spins = RNG.normal(size=COUNT) * 150
+    tops = Top(0.000228, np.array(RNG.choices([0.0000572, 0.000228, 0.0004], k=COUNT)), 0.068)
+    spins = RNG.normals(COUNT) * 150
     slow, fast = regular_precession_rates(tops, ANGLES["theta"], spins)
     kinds = set()
     for n in range(COUNT):

@@ -4,6 +4,7 @@ import itertools
 import math
 
 import pytest
+from drawn import ten_to
 from mpmath import mp
 from physics.tops import ARTICLE, EPS, attitude_error, error, random_case
 
@@ -24,7 +25,7 @@ def powers(first, last):
 
     Two of three powers are for the long trials.
     """
-    steps = [10.0**-k for k in range(first, last + 1, 3)]
+    steps = [ten_to(-k) for k in range(first, last + 1, 3)]
     rarely = [small for k, small in enumerate(steps) if k % 3]
     long = [pytest.param(small, marks=pytest.mark.long) for small in rarely]
     return pytest.mark.parametrize("small", [*steps[::3], *long, 0.0])
@@ -112,11 +113,11 @@ def test_a_spin_near_critical(top, small, sign, tilt):
 @BOTH_TOPS
 @pytest.mark.parametrize("t", [1e-9, 1.0, 1e9])
 def test_a_fast_spin(top, power, sign, t):
-    start = State.from_euler(theta=0.5, phi=1.0, theta_dot=3.0, psi_dot=sign * 10.0**power)
-    assert_met(top, start, min(t, 10.0 ** (15 - power)))  # within 1e15 turns
+    start = State.from_euler(theta=0.5, phi=1.0, theta_dot=3.0, psi_dot=sign * ten_to(power))
+    assert_met(top, start, min(t, ten_to(15 - power)))  # within 1e15 turns
 
 
-@pytest.mark.parametrize("t", [sign * 10.0**k for k in range(-9, 10) for sign in (1, -1)])
+@pytest.mark.parametrize("t", [sign * ten_to(k) for k in range(-9, 10) for sign in (1, -1)])
 @BOTH_TOPS
 @pytest.mark.parametrize("spin", [20.0, 200.0])
 def test_a_long_or_short_time(top, spin, t):
@@ -162,7 +163,7 @@ def test_a_precession_that_nearly_leads_through_a_pole(top, small, sign, pole):
 @pytest.mark.parametrize(
     ("small", "excess"),
     [
-        *itertools.product([10.0**-k for k in range(2, 12)], [0.0, 1e-15, -1e-15, 1e-13]),
+        *itertools.product([ten_to(-k) for k in range(2, 12)], [0.0, 1e-15, -1e-15, 1e-13]),
         *((1e-12, 0.0), (1e-13, 0.0), (1e-14, 0.0), (1e-16, -1e-15), (1e-16, 1e-13), (1e-16, 0.0)),
     ],
 )
@@ -231,7 +232,7 @@ def test_the_fast_regular_precession_of_an_axis_nearly_horizontal(small, sign):
 @BOTH_SIDES
 @pytest.mark.parametrize("spin", [0.0, 200.0])
 def test_a_weight_that_nearly_vanishes(power, sign, spin):
-    top = Top(0.000228, 5.72e-05, sign * 10.0**-power)
+    top = Top(0.000228, 5.72e-05, sign * ten_to(-power))
     start = State.from_euler(theta=0.5, theta_dot=1.5, phi_dot=3.0, psi_dot=spin)
     assert_met(top, start, 0.3, 1e5)
 
@@ -239,7 +240,7 @@ def test_a_weight_that_nearly_vanishes(power, sign, spin):
 @pytest.mark.parametrize("power", [50, 100, 200, 300])
 @BOTH_SIDES
 def test_a_weight_that_vanishes_for_all_purposes(power, sign):
-    top = Top(0.000228, 5.72e-05, sign * 10.0**-power)
+    top = Top(0.000228, 5.72e-05, sign * ten_to(-power))
     start = State.from_euler(theta=0.5, theta_dot=1.5, phi_dot=3.0, psi_dot=200.0)
     assert_met(top, start, 0.3)
 
@@ -247,8 +248,8 @@ def test_a_weight_that_vanishes_for_all_purposes(power, sign):
 @pytest.mark.parametrize("power", [1, 10, 100, 300])
 @BOTH_SIDES
 def test_a_weight_however_small_moves_an_axis_at_rest(power, sign):
-    top = Top(0.001, 0.0005, sign * 10.0**-power)
-    natural = math.sqrt(0.001) * 10.0 ** (power / 2)  # s
+    top = Top(0.001, 0.0005, sign * ten_to(-power))
+    natural = math.sqrt(0.001) * ten_to(power / 2)  # s
     assert_met(top, State.from_euler(theta=0.5, psi=1.0), 0.7 * natural, 20.0 * natural)
 
 

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from drawn import ten_to
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from physics.tops import EPS, FAMILIES, distance, random_case
@@ -19,7 +20,7 @@ CASES = st.builds(random_case, st.integers(0, 10**6), st.sampled_from(FAMILIES[:
 ANGLES = st.floats(-math.pi, math.pi)
 POWERS_OF_TWO = st.integers(-20, 20).map(lambda k: 2.0**k)
 FACTORS = st.floats(0.1, 10.0)
-PHASES = st.floats(-2.0, 6.0).map(lambda k: 10.0**k)  # rad
+PHASES = st.floats(-2.0, 6.0).map(ten_to)  # rad
 often = settings(max_examples=100)
 
 

@@ -1,9 +1,9 @@
 """Rods that turn about their axis up to 1e15 times: the angular velocity across the axis."""
 
 import math
-import random
 
 import pytest
+from drawn import Numbers, hypot
 from mpmath import mp, mpf
 from physics.refusals import meet
 from physics.tops import EPS, largest_rate, seeds
@@ -28,14 +28,14 @@ def find_error(top, start, t):
 
 
 def random_rod(rng):
-    Ix, ratio = 10 ** rng.uniform(-4, 0), 10 ** rng.uniform(-16, -10)
-    top = Top(Ix, Ix * ratio, rng.choice([-1, 1]) * Ix * 10 ** rng.uniform(0, 3))
+    Ix, ratio = rng.power(-4, 0), rng.power(-16, -10)
+    top = Top(Ix, Ix * ratio, rng.choice([-1, 1]) * Ix * rng.power(0, 3))
     q = [rng.gauss(0, 1) for _ in range(4)]
     rate = math.sqrt(abs(top.Mgl) / Ix)
-    spin = rng.choice([-1, 1]) * rate * 10 ** rng.uniform(-1, 1) / ratio
+    spin = rng.choice([-1, 1]) * rate * rng.power(-1, 1) / ratio
     omega = [3 * rng.gauss(0, 1) * rate, 3 * rng.gauss(0, 1) * rate, spin]
-    t = rng.choice([-1, 1]) * 10 ** rng.uniform(0, 3)
-    return top, State([c / math.hypot(*q) for c in q], omega), t
+    t = rng.choice([-1, 1]) * rng.power(0, 3)
+    return top, State([c / hypot(*q) for c in q], omega), t
 
 
 def test_a_rod_that_was_above_the_promise_is_within():
@@ -52,7 +52,7 @@ def test_a_rod_that_was_above_the_promise_is_within():
 
 @pytest.mark.parametrize("seed", seeds(4, 100))
 def test_the_angular_velocity_of_rods_is_as_promised(seed):
-    rng = random.Random(seed)
+    rng = Numbers(seed)
     for _ in range(CASES):
         top, start, t = random_rod(rng)
         t = meet(Motion(top, start), t)

@@ -71,7 +71,7 @@ def test_states_are_right_at_a_hundredth_and_at_a_million_million_periods(name):
     for periods in (0.01, 0.3, 0.5, 0.77, 1.2, -1000.3, 1e6 + 0.499, 1e12 + 0.8):
         t = periods * motion.nutation_period
         (q, omega), state = exact.at(t), motion.at(t)
-        # measured: 2 eps and 3 eps; the rest is for other libraries of sines
+        # as promised in docs/accuracy.md
         assert attitude_error(q, state.orientation) <= 5 * EPS
         assert error(omega, state.angular_velocity, largest_rate(motion)) <= 5 * EPS
 

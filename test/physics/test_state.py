@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from mpmath import mp, mpf
 from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_states
@@ -64,10 +65,8 @@ def test_the_vertical_is_z_turned_into_the_body():
 @pytest.fixture(scope="module")
 def alone():
     """Orientations and angular velocities, and the angles and rates of each computed alone."""
-    chance = np.random.default_rng(1)
-    orientation = chance.normal(size=(2048, 4))
-    orientation /= np.linalg.norm(orientation, axis=-1, keepdims=True)
-    omega = chance.normal(size=(2048, 3))
+    chance = Numbers(1)
+    orientation, omega = chance.quaternions(2048), chance.normals(2048, 3)
     each = [State(q, w) for q, w in zip(orientation, omega, strict=True)]
     angles = [[*state.euler_angles, *state.euler_rates] for state in each]
     return orientation, omega, np.array(angles)
@@ -117,7 +116,7 @@ def test_a_multiple_of_pi_is_the_vertical_exactly(turns):
 
 def test_matrices_rotate_as_quaternions_do_and_lead_back():
     states = random_states(500)
-    vectors = np.random.default_rng(3).normal(size=(500, 3))
+    vectors = Numbers(3).normals(500, 3)
     turned = np.einsum("nij,nj->ni", states.matrix, vectors)
     # sums of three products of numbers of about 1
     assert np.abs(turned - states.to_world(vectors)).max() < 16 * EPS

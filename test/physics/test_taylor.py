@@ -17,8 +17,7 @@ SEEDS = 125  # of each family
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_state_is_right_to_five_eps(family):
-    # From 1e-3 to 1e12 periods. Measured: 2 eps for the attitude and 3 eps for the angular
-    # velocity; 5 is what is promised.
+    # From 1e-3 to 1e12 periods; 5 is what is promised.
     for data in STORED:
         if data["family"] != family:
             continue

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from drawn import Numbers, cos, sin
 from mpmath import mp, mpf
 
 from symtop_ros.physics import Motion, State, Top
@@ -52,36 +52,36 @@ class Case:
 
 
 def random_case(seed: int, family: str) -> Case:
-    rng = random.Random(f"{family} {seed}")
-    Ix = 10 ** rng.uniform(-6, 1)
-    ratio = rng.choice([rng.uniform(0.01, 2.0), 2.0, 1.0 + 1e-12, 1.0, 10 ** rng.uniform(-4, 0)])
-    pull = 10 ** rng.uniform(0, 3) * rng.choice([1, 1, -1])
-    tilt = rng.choice([rng.uniform(0, math.pi), 10 ** rng.uniform(-12, 0)])
+    rng = Numbers(f"{family} {seed}")
+    Ix = rng.power(-6, 1)
+    ratio = rng.choice([rng.uniform(0.01, 2.0), 2.0, 1.0 + 1e-12, 1.0, rng.power(-4, 0)])
+    pull = rng.power(0, 3) * rng.choice([1, 1, -1])
+    tilt = rng.choice([rng.uniform(0, math.pi), rng.power(-12, 0)])
     critical = 2 * math.sqrt(abs(pull)) / ratio  # rad/s, where p_psi^2 = 4 Ix Mgl
-    spin = critical * rng.choice([-1, 1]) * rng.choice([0.0, 10 ** rng.uniform(-2, 3)])
-    across = rng.choice([0.0, 10 ** rng.uniform(-3, 1) * critical, tilt * critical])
-    t = 10 ** rng.uniform(-3, 9) * rng.choice([-1, 1])
+    spin = critical * rng.choice([-1, 1]) * rng.choice([0.0, rng.power(-2, 3)])
+    across = rng.choice([0.0, rng.power(-3, 1) * critical, tilt * critical])
+    t = rng.power(-3, 9) * rng.choice([-1, 1])
     if family == "weak gravity":
         pull = rng.choice([-1, 1]) * 1e-15 / Ix
     if family == "fast":
-        spin = rng.choice([-1, 1]) * 10 ** rng.uniform(5, 7)
+        spin = rng.choice([-1, 1]) * rng.power(5, 7)
     if family == "critical":
         spin = critical * (1 + rng.choice([0.0, rng.uniform(-1e-9, 1e-9)]))
-        tilt, across = 10 ** rng.uniform(-12, -2), 0.0
+        tilt, across = rng.power(-12, -2), 0.0
         t = rng.uniform(0.1, 30) / math.sqrt(abs(pull))
     if family == "pendulum":
         spin = 0.0
         t = rng.uniform(0.1, 30) / math.sqrt(abs(pull))
     if family == "from below":  # through the lower pole, with more or less than enough to rise
-        tilt = math.pi - 10 ** rng.uniform(-12, -1)
+        tilt = math.pi - rng.power(-12, -1)
         spin *= rng.choice([0.0, 1e-9, 1.0])
         across = 2 * math.sqrt(abs(pull)) * (1 + rng.choice([0.0, 1e-15, 1e-9, 0.1, -1e-6]))
         t = rng.uniform(0.1, 10) / math.sqrt(abs(pull))
     angle, phi, psi = (rng.uniform(-3, 3) for _ in range(3))
-    c, s = math.cos(tilt / 2), math.sin(tilt / 2)
+    c, s = cos(tilt / 2), sin(tilt / 2)
     plus, minus = (phi + psi) / 2, (phi - psi) / 2
-    q = (c * math.cos(plus), s * math.cos(minus), s * math.sin(minus), c * math.sin(plus))
-    omega = (across * math.cos(angle), across * math.sin(angle), spin)
+    q = (c * cos(plus), s * cos(minus), s * sin(minus), c * sin(plus))
+    omega = (across * cos(angle), across * sin(angle), spin)
     return Case(Top(Ix, Ix * ratio, Ix * pull), State(q, omega), t)
 
 
@@ -92,9 +92,8 @@ def precess(phi_dot: float, psi_dot: float = 200.0, theta: float = 0.5) -> State
 
 def random_states(count: int, seed: int = 1) -> State:
     """Attitudes all over the sphere, rates of all sizes about 10 rad/s."""
-    rng = np.random.default_rng(seed)
-    q = rng.normal(size=(count, 4))
-    return State(q / np.linalg.norm(q, axis=1, keepdims=True), rng.normal(size=(count, 3)) * 10)
+    rng = Numbers(seed)
+    return State(rng.quaternions(count), rng.normals(count, 3) * 10)
 
 
 def distance(a: State, b: State) -> float:

@@ -3,7 +3,28 @@ from types import SimpleNamespace
 import pytest
 
 from symtop_ros.session.diagnostics import _log_status, _pace_status
-from symtop_ros.wire.diagnostics import OK, WARN
+from symtop_ros.wire.diagnostics import ERROR, OK, WARN
+
+
+def test_a_recording_that_failed_is_an_error_with_its_reason():
+    status = _log_status(SimpleNamespace(path="a", dropped=7, failure="a: no space", running=False))
+    assert (status.level, status.message) == (ERROR, "a: no space")
+
+
+@pytest.mark.parametrize(
+    ("kept", "running", "level", "achieved"),
+    [(2.0, True, OK, "2.0"), (0.5, True, WARN, "0.5"), (2.0, False, OK, "0.0")],
+)
+def test_a_motion_that_is_slowed_down_is_a_warning(kept, running, level, achieved):
+    simulation = SimpleNamespace(
+        factor=kept,
+        segment=SimpleNamespace(running=running),
+        settings=SimpleNamespace(real_time_factor=2.0),
+        ticker=SimpleNamespace(late=2, missed=0, rate=200.0),
+    )
+    status = _pace_status(simulation)
+    assert (status.level, status.values["real_time_factor.achieved"]) == (level, achieved)
+    assert ("too fast for the compute budget" in status.message) == (kept < 2.0)
 
 
 def test_dropped_messages_are_a_warning():

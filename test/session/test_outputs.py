@@ -9,6 +9,8 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wire.messages import CLOCK
 
 SECOND = 1_000_000_000
 
@@ -81,6 +83,28 @@ def test_a_topic_is_published_while_it_has_a_subscriber_and_a_latched_one_always
     assert (
         len(host.publishers["events"].sent) == len(host.publishers["robot_description"].sent) == 1
     )
+
+
+def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_rests():
+    host = Program()
+    session, clock = start(host, publish_clock=True)
+    clock.is_simulated = False
+    host.publishers["clock"].has_subscriber = True
+    advance(session, clock, 0.05)
+    sent = host.publishers["clock"].sent
+    assert sent == [CLOCK.encode(stamp, ()) for stamp in host.samples]
+    assert len(sent) == 11
+    assert session.answer("pause", lambda: True)[0]
+    count = len(sent)
+    session.keep_up()
+    assert len(sent) == count + 1
+
+
+def test_without_a_root_the_parameters_are_refused():
+    session, _ = start(Program(), initial__precession="slow", initial__psi_dot=200.0)
+    for changes in ({"initial.psi_dot": 3.0}, {"top.Mgl": 10.0}):
+        with pytest.raises(RefusedError, match="precession must be a rate that exists"):
+            session.plan_settings(changes)
 
 
 def test_the_urdf_moves_by_tf_while_that_is_published():

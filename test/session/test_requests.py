@@ -51,6 +51,46 @@ def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
     assert run.simulation.segment.motion.start == start
 
 
+@pytest.mark.parametrize(
+    ("request_", "rates"),
+    [
+        ({"psi_dot": 180.0}, (None, 0.0, 180.0)),
+        ({"phi_dot": 2.0}, (2.0, 0.0, 200.0)),
+        ({"theta_dot": 1.0}, (0.0, 1.0, 200.0)),
+        ({"precession": "slow", "theta_dot": 0.0}, (None, 0.0, 200.0)),
+    ],
+)
+def test_a_rate_that_is_asked_for_takes_the_place_of_a_root_of_the_parameters(request_, rates):
+    run = Run(initial__precession="slow", initial__psi_dot=200.0)
+    assert run.ask("set_initial_conditions", request_)[0]
+    motion = run.simulation.segment.motion
+    assert (motion.kind == "regular") == (rates[0] is None)
+    found = motion.start.euler_rates
+    # rounding of 200 rad/s, over sin(0.5)
+    for name, rate in zip(("phi", "theta", "psi"), rates, strict=True):
+        assert rate is None or getattr(found, name) == pytest.approx(rate, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("request_", "other"),
+    [({"theta_dot": 1.0}, "theta_dot"), ({"phi_dot": 0.0, "theta_dot": 0.0}, "phi_dot")],
+)
+def test_a_root_is_refused_together_with_a_rate(request_, other):
+    granted, reason = Run().ask("set_initial_conditions", {"precession": "slow", **request_})
+    assert not granted
+    assert reason.startswith(f"precession must be given without {other}, got both")
+
+
+def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():
+    run = Run(initial__orientation=[0.6, 0.0, 0.0, 0.8])
+    assert run.ask("set_initial_conditions", {})[0]
+    start = run.simulation.segment.motion.start
+    assert start.orientation.tolist() == [0.8, 0.6, 0.0, 0.0]
+    assert start.angular_velocity.tolist() == [0.0, 0.0, 0.0]
+    assert run.ask("set_initial_conditions", {"theta": 0.7})[0]
+    assert run.simulation.segment.motion.start.euler_angles.theta == pytest.approx(0.7, rel=1e-15)
+
+
 def test_a_pause_stops_the_motion_and_a_step_advances_it():
     run = Run()
     run.advance(0.5)

@@ -6,11 +6,11 @@ exact sum of products of nanoseconds and real-time factors. It is computed with 
 
 from __future__ import annotations
 
-import random
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from mpmath import mp, mpf
 from physics.tops import EPS, attitude_error, error, exact_euler, turn
 from simulation.runs import SECOND, ListSink, Run
@@ -148,7 +148,7 @@ def test_samples_of_a_minute_and_after_a_year(scene, factor):
     ],
 )
 def test_samples_after_many_pauses_steps_and_changes(scene, count):
-    run, chance = start(scene, publish_rate=30.0), random.Random(1)
+    run, chance = start(scene, publish_rate=30.0), Numbers(1)
     for _ in range(count):
         action = chance.randrange(3)
         if action == 0:
@@ -157,7 +157,7 @@ def test_samples_after_many_pauses_steps_and_changes(scene, count):
         elif action == 1:
             run.ask("pause", False)
         else:
-            run.change({"real_time_factor": 10 ** chance.uniform(-3, 2)})
+            run.change({"real_time_factor": chance.power(-3, 2)})
         run.clock.now += chance.randrange(SECOND)
         run.tick()
     run.ask("pause", False)

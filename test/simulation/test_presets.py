@@ -1,6 +1,7 @@
 """Invalid scene files are refused in one sentence, quickly and in little memory."""
 
 import os
+import re
 import time
 
 import pytest
@@ -62,6 +63,24 @@ def test_an_invalid_scene_is_refused_quickly_and_in_one_sentence(folder, content
     assert time.process_time() - began < 2.0
     assert sentence in str(refusal.value)
     assert_one_sentence(str(refusal.value))
+
+
+@pytest.mark.parametrize(("size", "refusal"), [(65_536, ""), (65_537, "65537 bytes (limit 65536)")])
+def test_a_scene_may_have_64_kib(folder, size, refusal):
+    text = HEAD + "    top: {Mgl: 0.05}\n"
+    (folder / "odd.yaml").write_text(text.ljust(size - 1, "#") + "\n")
+    if refusal:
+        with pytest.raises(RefusedError, match=re.escape(refusal)):
+            load_scene("odd")
+    else:
+        assert load_scene("odd") == {"top.Mgl": 0.05}
+
+
+@pytest.mark.parametrize(("lists", "reason"), [(5, "a list of them"), (6, NO_ALIASES)])
+def test_eight_levels_are_read_of_which_three_are_maps(folder, lists, reason):
+    (folder / "odd.yaml").write_text(f"{HEAD}    x: {'[' * lists}1{']' * lists}\n")
+    with pytest.raises(RefusedError, match=reason):
+        load_scene("odd")
 
 
 @pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])

@@ -126,6 +126,22 @@ def test_noise_depends_on_the_seed_and_the_stamp_only():
     assert run_python(code, pickle.dumps(NOISY).hex()).stdout == f"{errors[:1].tolist()}\n"
 
 
+def test_noise_has_the_values_that_it_had_in_logs_of_before():
+    stamp = np.array([7 * SECOND])
+    # the logarithm in the inverse of the normal distribution may differ in its last bits
+    within = {"rel": 1e-12}
+    white = replace(NOISY, gyroscope_random_walk=0.0, accelerometer_random_walk=0.0)
+    gyroscope = [0.006015341648823625, -0.036003598188738904, -0.01871372888514022]
+    accelerometer = [-0.13606311253896938, -0.4890352087910973, 0.060353280564874795]
+    assert white.noise(stamp)[0].tolist() == pytest.approx([*gyroscope, *accelerometer], **within)
+    walks = [0.006134343307703254, -0.03663529636966924, -0.01921767214655474]
+    walks += [-0.11881259134568098, -0.4899157954420559, 0.04078434593768043]
+    assert NOISY.noise(stamp)[0].tolist() == pytest.approx(walks, **within)
+    later = random_walks(5, [2, 3], np.array([SECOND, 3600 * SECOND + 1])).ravel().tolist()
+    known = [-0.0181971324128599, -53.8163166360681, -0.5371121175440042, 91.22892677461851]
+    assert later == pytest.approx(known, **within)
+
+
 def test_noise_shows_in_the_covariances():
     numbers = measured("imu", segment_of(NOISY))
     assert numbers[0, 16] == pytest.approx((2e-3) ** 2 * 400, rel=4 * EPS)
@@ -162,6 +178,11 @@ def test_a_damaged_event_is_refused(values):
         ("gravity", 0.0, "gravity must be 0.001 to 1000 m/s^2, got 0.0"),
         ("imu.position", [1.0, 2.0], "imu.position must have 3 elements (m), got 2"),
         ("imu.orientation", [0.0, 0.0, 0.0, 0.5], "imu.orientation must be a quaternion of norm 1"),
+        (
+            "imu.orientation",
+            [0.0, 0.0, 0.0, 2.5],
+            "imu.orientation must be 4 numbers from -2 to 2 (x, y, z, w), got ",
+        ),
         ("imu.noise.gyroscope_noise_density", -1.0, "imu.noise.gyroscope_noise_density must be 0 "),
         ("imu.noise.seed", 0.5, "imu.noise.seed must be a whole number"),
     ],
@@ -195,5 +216,6 @@ def test_a_random_walk_computes_what_neighbouring_samples_share_once(monkeypatch
 
     monkeypatch.setattr(sensor, "_normals", count)
     sensor.random_walks(1, [0], np.arange(10_000) * 1_000_000)
-    # 24 levels of bridges; those that are longer than a sample are shared: measured 4.91
+    # Of 24 levels of bridges three are shorter than a sample, one has its length, and each level
+    # above it has half as many: below 3 + 2 for each sample.
     assert sum(counts) < 5 * 10_000

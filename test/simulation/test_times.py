@@ -88,10 +88,14 @@ def test_a_torque_that_ends_in_a_step_acts_until_then():
     assert run.ask("pause", True)[0]
     run.push((0.0, 0.0, 2e-4))
     assert run.ask("step", {"duration": 0.3})[0]
+    assert not any(run.simulation.segment.motion.applied_torque)
+    last_of_step = len(run.sink.order)
     assert run.ask("pause", False)[0]
     run.advance(0.1)
     begin, end = (each.stamp for each in run.sink.events if each.name == "torque")
     assert end - begin == 100 * MS
+    # it ends before the sample at the end of the step, and not with the next one
+    assert run.sink.order.index("torque", run.sink.order.index("step")) < last_of_step
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
     run.assert_recomputed()
 

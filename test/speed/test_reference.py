@@ -92,7 +92,7 @@ def test_driven_motions_are_more_exact_than_those_of_heyoka(family):
             found = motion.at(problem.times).orientation
             errors.append(max(map(problem.error, problem.times, found)))
     median, largest = HEYOKA[family]
-    # Measured: the median 3 (overdamped) to 10 000 times, the largest 5 to 20 000 times as small.
+    # docs/accuracy.md says that its errors are larger in every family.
     assert np.median(errors) <= median / 2
     assert max(errors) <= largest / 2
 

@@ -10,8 +10,8 @@ from workshop.speed.reference import Reference, integrate, read_entries, split_o
 
 ARTICLE = Reference.read().article
 DIGITS = read_entries()["article"]
-# 32 digits, and an error of 1e-26 in each of a hundred steps that grows with the motion;
-# 5e-26 measured. The digits that are stored end at 1e-25.
+# 32 digits, and an error of 1e-26 in each of a hundred steps that grows with the motion; the
+# digits that are stored end at 1e-25.
 SMALLEST = mpf(10) ** -24
 
 

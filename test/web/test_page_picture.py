@@ -51,9 +51,15 @@ def test_texts_out_of_sight_are_those_of_now(opened):
     assert opened.say("free-values").startswith("tilt theta 0.9 rad")
 
 
+# The page watches its charts in the same way, and since before: it is told first.
+KNOWN_TO_BE_OUT_OF_SIGHT = """() => new Promise((done) => new IntersectionObserver(([chart]) => {
+  if (!chart.isIntersecting) done();
+}).observe(document.querySelector("#free")))"""
+
+
 def test_a_printer_gets_the_charts_of_now(opened):
     opened.tab.set_viewport_size({"width": 1280, "height": 400})
-    opened.tab.wait_for_timeout(300)  # the charts out of sight are known
+    opened.tab.evaluate(KNOWN_TO_BE_OUT_OF_SIGHT)
     opened.enter("theta", "0.9")
     opened.press("Space")
     read = "document.querySelector('#free svg').innerHTML"

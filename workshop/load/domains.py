@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
 import fcntl
 import os
 import tempfile
@@ -21,6 +22,8 @@ def claim_domain() -> int:
     """Return a domain that no other process holds; it is held until the process ends."""
     global _next  # noqa: PLW0603
     FOLDER.mkdir(exist_ok=True)
+    with contextlib.suppress(PermissionError):  # of another user, who has done the same
+        FOLDER.chmod(0o777)
     for _ in DOMAINS:
         _next += 1
         number = DOMAINS[_next % len(DOMAINS)]
@@ -44,7 +47,11 @@ def _release_all() -> None:
 
 
 def _lock(number: int) -> IO[str] | None:
-    file = (FOLDER / str(number)).open("w")
+    path = FOLDER / str(number)
+    if not path.exists():
+        path.touch()
+        path.chmod(0o644)  # whatever the umask is: a lock of another user only needs to be read
+    file = path.open()
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:

@@ -28,7 +28,8 @@ def test_the_masses_have_the_moments_of_the_top(top):
     x, y, z = (places**2).T
     inertia = [masses @ (y + z), masses @ (z + x), masses @ (x + y)]
     assert inertia == pytest.approx([top.Ix, top.Ix, top.Iz], rel=4e-16 * len(masses))
-    assert masses @ places == pytest.approx([0, 0, 0], abs=4e-18 * masses.sum())  # 1e-18 measured
+    # eps of arms of 1 cm
+    assert masses @ places == pytest.approx([0, 0, 0], abs=4e-18 * masses.sum())
 
 
 def test_a_wrong_constant_fails_each_claim(monkeypatch):

@@ -1,10 +1,10 @@
 """Perry's rule: the article's cases, its definition, and verdicts against the motion."""
 
 import math
-import random
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, precess, random_case, seeds
 
@@ -85,8 +85,8 @@ def test_hurrying_the_slow_root_raises_unless_all_is_reversed(top, before, direc
 
 @pytest.mark.parametrize("seed", range(200))
 def test_the_direction_is_where_the_top_then_moves(seed):
-    rng = random.Random(seed)
-    Ix = 10 ** rng.uniform(-4, 0)
+    rng = Numbers(seed)
+    Ix = rng.power(-4, 0)
     top = Top(Ix, Ix * rng.uniform(0.05, 2.0), Ix * rng.uniform(-300, 300))
     state = precess(rng.uniform(-40, 40), rng.uniform(-200, 200), rng.uniform(0.05, 3.0))
     theta = Motion(top, state).at(1e-5).euler_angles.theta - state.euler_angles.theta
@@ -223,7 +223,7 @@ def test_facts_that_disagree_with_the_rule_are_named():
 
 @pytest.mark.parametrize("seed", range(60))
 def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
-    rng = random.Random(seed)
+    rng = Numbers(seed)
     before = precess(rng.uniform(-90, 90), rng.uniform(-300, 300), rng.uniform(0.1, 3.0))
     factor = rng.choice([0.5, 1.4])
     found = answer(before, factor)
@@ -338,7 +338,7 @@ def test_a_slow_top_is_not_compared_with_a_fast_one():
 def test_where_the_rate_changes_nothing_the_verdict_does_not_depend_on_rounding(
     top, theta, psi_dot, direction
 ):
-    rng = random.Random(3)
+    rng = Numbers(3)
     for _ in range(200):
         phi, psi = rng.uniform(-math.pi, math.pi), rng.uniform(-math.pi, math.pi)
         before = State.from_euler(theta=theta, phi=phi, psi=psi, phi_dot=3.0, psi_dot=psi_dot)
@@ -363,20 +363,20 @@ def test_a_large_factor_next_to_the_vertical_is_judged_by_exact_rates():
 def state_next_to_the_vertical(rng):
     """A tilt of 1e-3 to 1e-12, with phi' of which the two terms nearly cancel."""
     return State.from_euler(
-        theta=10 ** rng.uniform(-12, -3),
+        theta=rng.power(-12, -3),
         phi=rng.uniform(-3, 3),
         psi=rng.uniform(-3, 3),
-        theta_dot=10 ** rng.uniform(-3, 1),
-        phi_dot=rng.gauss(0, 10 ** rng.uniform(-3, 2)),
+        theta_dot=rng.power(-3, 1),
+        phi_dot=rng.gauss(0, rng.power(-3, 2)),
         psi_dot=rng.gauss(0, 3),
     )
 
 
 @pytest.mark.parametrize("seed", seeds(10, 50))
 def test_the_rule_next_to_the_vertical_is_that_of_sixty_digits(seed):
-    rng = random.Random(seed)
+    rng = Numbers(seed)
     for _ in range(1000):
-        Ix = 10 ** rng.uniform(-3, 1)
+        Ix = rng.power(-3, 1)
         top = Top(Ix, Ix * rng.uniform(0.1, 2.0), Ix * rng.gauss(0, 30))
         state, hold = state_next_to_the_vertical(rng), rng.choice(HOLDS)
         # a factor that takes the sum of the rates to where the slope of the quadratic is nearly 0
@@ -385,7 +385,7 @@ def test_the_rule_next_to_the_vertical_is_that_of_sixty_digits(seed):
         spin = state.angular_velocity[2] if hold == "spin_momentum" else state.euler_rates.psi
         transverse = top.Ix if hold == "spin_momentum" else top.Ix - top.Iz
         factor = top.Iz * spin / (transverse * float(state.vertical[2])) / rate - 1.0
-        factor *= 1 + rng.choice([-1, 1]) * 10 ** rng.uniform(-12, 0)
+        factor *= 1 + rng.choice([-1, 1]) * rng.power(-12, 0)
         if not abs(factor) < 1e9 or factor < 0:
             continue
         holds = perrys_rule(top, state, factor, hold).rule_holds

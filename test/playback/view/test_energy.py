@@ -10,7 +10,7 @@ from symtop_ros.playback.view.energy import EnergyBook
 
 LOWEST = abs(ARTICLE.Mgl)
 SIZE = float(ARTICLE.energy(CUSPS)) + LOWEST
-ROUNDING = 64 * EPS * SIZE  # of sums of energies; measured: 9 EPS
+ROUNDING = 64 * EPS * SIZE  # four sums of three energies, each of up to five rounded products
 
 
 def read(run, folder):

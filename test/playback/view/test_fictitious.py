@@ -31,7 +31,7 @@ def test_on_cusps_the_fourth_arrow_is_the_angular_acceleration(tmp_path):
     expected = ARTICLE.Ix * (after - before) / (2 * step) / find_scale(ARTICLE, CUSPS)
     phi = motion.at(seconds).euler_angles.phi
     nodes = np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
-    # a central difference: (40 rad/s step)^2/6 of a length below 1; measured: 2e-8
+    # a central difference: (40 rad/s step)^2/6 of a length below 1 are 3e-8
     assert np.abs(found["sum"][1] - expected[:, None] * nodes).max() < 5e-8
     tips = [sum(found[name]) for name in DEPTHS]
     for tip, name in zip(tips, ("Coriolis", "centrifugal"), strict=False):

@@ -20,7 +20,7 @@ def read(start, folder):
 def test_in_regular_precession_the_frame_of_the_nodes_needs_no_change_of_L(tmp_path):
     _, torques = read(REGULAR, tmp_path)
     size = np.abs(torques.total).max()
-    # the root is a double, and L a sum of products of doubles; measured: 3e-16
+    # the root is a double, and L a sum of products of doubles; a few roundings
     assert np.abs(torques.precession - torques.total).max() <= 1e-15 * size
 
 

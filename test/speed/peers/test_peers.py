@@ -44,7 +44,7 @@ def test_finer_settings_are_better(peer):
     if len(peer.settings) == 1:
         pytest.skip("it has no settings")
     coarse, fine = (find_error(peer, CUSPS, 0.125, peer.settings[k]) for k in (0, 2))
-    # A step four times as small: at order 1 an error of a quarter (0.24 measured), at least 8 times
+    # A step four times as small: at order 1 an error of a quarter, at least 8 times
     # as small at higher orders.
     first_order = peer.name in ("MuJoCo implicitfast", "MuJoCo Euler")
     assert fine < coarse / (3 if first_order else 8)
@@ -69,7 +69,7 @@ def test_the_recorded_motion_is_the_one_that_is_timed(peer):
     assert times.max() == 0.125
     assert times.min() > 0
     # The steps are the same but for two: Radau ends with another Newton iteration, and Drake with
-    # error control chooses its first step by the last one of before (6.5e-5 measured). Both make
+    # error control chooses its first step by the last one of before. Both make
     # differences of the size of the tolerance.
     adaptive = "Radau" in peer.name or "three angles" in peer.name
     close = 10 * peer.settings[1] if adaptive else 4 * EPS

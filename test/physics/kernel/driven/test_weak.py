@@ -1,9 +1,8 @@
 """Torques, weights and rates of any smallness: no state is lost to an underflow."""
 
-import random
-
 import numpy as np
 import pytest
+from drawn import Numbers
 from physics.refusals import refused
 from physics.tops import seeds
 
@@ -14,11 +13,11 @@ CASES = 500  # of a seed
 
 def draw(rng):
     """A small number of any size, or zero."""
-    return rng.choice([0.0, 10 ** rng.uniform(-320, 0), 10 ** rng.uniform(-120, -60)])
+    return rng.choice([0.0, rng.power(-320, 0), rng.power(-120, -60)])
 
 
 def random_motion(rng):
-    Ix = 10 ** rng.uniform(-3, 3)
+    Ix = rng.power(-3, 3)
     top = Top(Ix, Ix * rng.uniform(0.1, 2.0), draw(rng) * rng.choice([-1, 1]))
     q = rng.choice([(1, 0, 0, 0), (0.6, 0.8, 0, 0), (0.5, 0.5, 0.5, 0.5)])
     start = State(q, [draw(rng) for _ in range(3)])
@@ -49,7 +48,7 @@ def test_a_rod_that_turns_too_fast_for_all_digits_is_refused():
 
 @pytest.mark.parametrize("seed", seeds(20, 100))
 def test_weak_motions_are_finite_and_have_norm_one(seed):
-    rng = random.Random(seed)
+    rng = Numbers(seed)
     for _ in range(CASES):
         arguments = random_motion(rng)
         state = Motion(*arguments).at(rng.choice([1e-3, 1.0, 30.0]))

@@ -3,13 +3,14 @@
 import math
 
 import pytest
+from drawn import ten_to
 from mpmath import mp, mpf
 from physics.tops import EPS, FAMILIES, random_case
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.physics.reference import ClosedForm, Inputs
 
-WEIGHTS = [10.0**-n for n in (20, 30, 35, 40, 50, 100, 150, 190)]
+WEIGHTS = [ten_to(-n) for n in (20, 30, 35, 40, 50, 100, 150, 190)]
 OMEGA = (1.0, 2.0, -0.5)
 
 

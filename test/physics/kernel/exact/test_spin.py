@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from drawn import ten_to
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS, exact_euler, random_case
 
@@ -54,7 +55,7 @@ def test_a_spin_that_starts_at_zero_at_a_turning_point_does_not_reverse(Mgl, phi
     assert motion.spin_reverses == has_both
 
 
-@pytest.mark.parametrize("step", [10.0**-k for k in range(1, 13)])
+@pytest.mark.parametrize("step", [ten_to(-k) for k in range(1, 13)])
 def test_the_spin_reverses_as_soon_as_it_starts_on_the_other_side_of_zero(step):
     """The start is at a turning point. Steps below 64 EPS of the rates would count as rounding."""
     grows = Motion(ARTICLE, State.from_euler(theta=2.0, phi_dot=-9.0, psi_dot=step))

@@ -1,0 +1,129 @@
+"""Run the tests of physics, runs, logs and estimates as on other machines.
+
+python test/elsewhere.py [MACHINE...]
+
+A machine is a processor (test/processors.py), a country, or the account of a stranger: a checkout
+with blanks and umlauts in its path that may not be written to, a user who is not root, an empty
+HOME, rustup without a toolchain, no compiler and no npm.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).parents[1]))
+import groups
+from processors import list_processors
+
+ROOT = groups.ROOT
+ROOMS = tuple(f"test/{room}" for room in ("physics", "simulation", "session", "log", "check"))
+ROOMS = (*ROOMS, "test/judge")
+# Decimal commas, a dotless i, and times at which it is another day.
+COUNTRIES = {"tr_TR": "Pacific/Kiritimati", "de_DE": "Pacific/Pago_Pago"}
+NOT_COPIED = (".git", ".venv", ".hypothesis", "__pycache__", "report", "site", "build")
+# A stranger has none of these.
+TOOLS = ("c++", "g++", "gcc", "cc", "clang", "clang++", "rustc", "cargo", "node", "npm", "npx")
+RUSTUP = "#!/bin/sh\necho 'error: rustup could not choose a version of rustc to run' >&2\nexit 1\n"
+NOBODY = "65534"
+
+
+def make_command(
+    variables: Mapping[str, str], *before: str, folder: Path = ROOT, plugins: tuple[str, ...] = ()
+) -> groups.Command:
+    """Return the command that runs the rooms under some variables."""
+    environment = ("env", *(f"{name}={value}" for name, value in variables.items()), *before)
+    options = tuple(word for plugin in plugins for word in ("-p", plugin))
+    return groups.pytest(*ROOMS, options=options, before=environment, folder=folder)
+
+
+def make_country(locale: str, zone: str, folder: Path) -> groups.Command:
+    """Return the command for a country: its locale, its time, a random hash and a umask of 077."""
+    place = folder / "locales" / f"{locale}.UTF-8"
+    place.parent.mkdir(exist_ok=True)
+    define = ["localedef", "-i", locale, "-f", "UTF-8", str(place)]
+    subprocess.run(define, check=False, capture_output=True)  # it warns, and says so by its status
+    variables = {"LC_ALL": f"{locale}.UTF-8", "LOCPATH": str(place.parent), "TZ": zone}
+    umask = ("sh", "-c", 'umask 077; exec "$@"', "sh")
+    return make_command(
+        {**variables, "PYTHONHASHSEED": "random"}, *umask, plugins=("foreign_locale",)
+    )
+
+
+def copy_checkout(folder: Path) -> Path:
+    """Copy the checkout, with a link to its environment, and return where it may only be read."""
+    copy = folder / "größe top"
+    shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(*NOT_COPIED))
+    (copy / ".venv").symlink_to(ROOT / ".venv")
+    subprocess.run(["chmod", "-R", "a-w,a+rX", str(copy)], check=True)
+    return copy
+
+
+def copy_path(folder: Path) -> str:
+    """Return a PATH of links to all programs but tools, with a rustup that has no toolchain."""
+    programs = folder / "programs"
+    programs.mkdir()
+    for path in os.get_exec_path():
+        for program in Path(path).glob("*"):
+            if not program.name.startswith(TOOLS):
+                with contextlib.suppress(FileExistsError):
+                    (programs / program.name).symlink_to(program)
+    for name in ("rustc", "cargo"):
+        (programs / name).write_text(RUSTUP)
+        (programs / name).chmod(0o755)
+    return str(programs)
+
+
+def make_stranger(folder: Path) -> groups.Command:
+    """Return the command for a user who is not root, and has next to nothing."""
+    copy, home = copy_checkout(folder), folder / "home"
+    home.mkdir()
+    home.chmod(0o777)
+    variables = {"HOME": str(home), "PATH": copy_path(folder), "PYTHONPATH": str(copy)}
+    return make_command(variables, *(give_up_rights() if os.geteuid() == 0 else ()), folder=copy)
+
+
+def give_up_rights() -> tuple[str, ...]:
+    """Return what makes root a user without rights: nobody, if that user may run this Python."""
+    places = Path(sys.executable).resolve().parents
+    if all(place.stat().st_mode & 0o001 for place in places):
+        return "setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"
+    # A Python in the home of root: permissions of files then count for root, too.
+    return "setpriv", "--bounding-set=-dac_override,-dac_read_search"
+
+
+@contextlib.contextmanager
+def machines() -> Iterator[dict[str, list[groups.Command]]]:
+    """Provide the commands of each machine, by its name."""
+    with tempfile.TemporaryDirectory(prefix="elsewhere-") as name:
+        folder = Path(name)
+        folder.chmod(0o755)
+        found = {name: make_command(each) for name, each in list_processors().items()}
+        found |= {name: make_country(name, zone, folder) for name, zone in COUNTRIES.items()}
+        found["stranger"] = make_stranger(folder)
+        try:
+            yield {name: [command] for name, command in found.items()}
+        finally:
+            subprocess.run(["chmod", "-R", "u+w", name], check=False)
+
+
+def main() -> int:
+    """Run the tests on the machines that are named, or on all; return 1 if any failed."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("machines", nargs="*", metavar="MACHINE", help="all if none is named")
+    chosen = parser.parse_args().machines
+    with machines() as found:
+        if unknown := [name for name in chosen if name not in found]:
+            parser.error(f"MACHINE must be one of {', '.join(found)}, got {unknown[0]}")
+        return groups.run_and_print({name: found[name] for name in chosen or found})
+
+
+if __name__ == "__main__":
+    sys.exit(main())
