@@ -157,7 +157,7 @@ def push_along(top, state, size):
 
 @pytest.mark.parametrize("seed", range(20))
 def test_a_push_along_the_precession_is_judged_as_a_hurry_that_holds_the_spin_momentum(seed):
-    rng = random.Random(seed)
+    rng = Numbers(seed)
     top, theta, psi = ARTICLE, rng.uniform(0.2, 2.9), rng.uniform(-3, 3)
     before = State.from_euler(
         theta=theta, phi=1.1, psi=psi, theta_dot=rng.choice((0.0, 1.0)), phi_dot=6.0, psi_dot=200.0
