@@ -79,7 +79,7 @@ def differentiate(motion: Any, times: Real) -> Real:
         found[group], left = _Stencil(motion, times[group]).settle()
         if len(left) and len(group) == 1:
             raise refuse("t", UNRESOLVED, float(times[group[0]]))
-        # Times of which each needs steps of its own; few motions have them.
+        # Few motions have times that need different steps.
         groups += [each for each in np.array_split(group[left], 2) if len(each)]
     return found
 
