@@ -53,6 +53,7 @@ UPRIGHT = 1e-7  # rad
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
 TINY = 1e-300  # no zero is divided by
 MOST_ROUNDS, SHORTEST = 30, 1e-6  # the factor of a step in a round
+OTHER = 0.618  # the factor of a step that confirms another one
 UNRESOLVED = (
     "a time at which double precision resolves the derivatives (the start is too near the vertical "
     "or the separatrix)"
@@ -115,6 +116,7 @@ class _Stencil:
         self._is_upright = 0 < 2 * min(math.hypot(x, y), math.hypot(w, z)) < UPRIGHT
         self._is_driven = motion.is_driven
         self._targets = np.full(9, RESPONSE)
+        self._winding = 1 + rate * np.abs(times)  # rad by which phases have turned, at most
         self._units = np.array([1.0, rate])  # of attitude and omega
         self._schemes = np.stack([CENTRAL] * 9)
         if 2 * Ix - Iz < 8 * LARGEST_STEP * Iz:
@@ -127,26 +129,43 @@ class _Stencil:
         """
         count = len(self._times)
         found, done = np.empty((count, 2, 3, 9)), np.zeros((count, 2, 9), np.bool_)
-        left = np.arange(count)
+        last, left = np.full(found.shape, np.nan), np.arange(count)
         for _ in range(MOST_ROUNDS):
             columns = np.flatnonzero(~done.all(axis=(0, 1)))
             derivatives, responses, are_curved, roughness = self._differentiate(left, columns)
             found[left] = np.where(done[left][:, :, None], found[left], derivatives)
-            done[left] |= ~_spread_over_blocks(are_curved | (roughness > 1))
+            are_unsure = self._are_unsure(derivatives, last[left], left)
+            last[left] = derivatives
+            done[left] |= ~_spread_over_blocks(are_curved | (roughness > 1) | are_unsure)
             are_open = ~done[left]
             left = np.flatnonzero(~done.all(axis=(1, 2)))
+            faults = responses, are_curved, roughness, are_unsure
             if not len(left) or not self._adapt(
-                *((each * are_open).max(axis=(0, 1)) for each in (responses, are_curved, roughness))
+                *((each * are_open).max(axis=(0, 1)) for each in faults)
             ):
                 break
         return found.reshape(count, 6, 9), left
 
-    def _adapt(self, responses: Real, are_curved: Truths, roughness: Real) -> bool:
+    def _are_unsure(self, new: Real, last: Real, some: NDArray[np.intp]) -> Truths:
+        """Return which derivatives another step has to confirm, (m, 2, 9).
+
+        If a step turns a phase by whole turns, states that are moved by it look smooth. A small
+        nutation shows no other sign of that.
+        """
+        turned = 3 * self._steps / self._sizes * self._winding[some, None]
+        least = SMALLEST * self._units[:, None] / self._sizes
+        largest = np.maximum(_spread_over_blocks(np.abs(new).max(axis=2)), least)
+        confirmed = np.abs(new - last).max(axis=2) <= 10 * PROMISED * largest
+        return np.asarray((turned > 1)[:, None] & ~confirmed)
+
+    def _adapt(
+        self, responses: Real, are_curved: Truths, roughness: Real, are_unsure: Truths
+    ) -> bool:
         """Change the steps of columns, (9,); return False if none changes."""
         self._targets[are_curved & (responses < 2 * self._targets)] /= 2
         shorter = np.minimum(self._targets / np.maximum(responses, SHORTEST), 0.5)
         longer = np.clip(2 * roughness, 1.0, 1 / SHORTEST)
-        longer[roughness <= 1] = 1.0
+        longer[roughness <= 1] = np.where(are_unsure, OTHER, 1.0)[roughness <= 1]
         steps = np.minimum(self._steps * np.where(are_curved, shorter, longer), self._longest)
         self._longest[are_curved] = steps[are_curved]
         changes = bool((steps != self._steps).any())

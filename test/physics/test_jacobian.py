@@ -167,6 +167,19 @@ def test_derivatives_are_exact_after_an_unstable_place(tilt, friction):
     assert find_errors(motion, motion.jacobian(times), right).max() < PROMISED
 
 
+@pytest.mark.parametrize("t", [1.0, 10.0, 1000.0])
+def test_a_step_that_turns_a_phase_by_whole_turns_is_not_taken_for_a_smooth_one(t):
+    # A nutation of 1e-5 rad, of which a phase turns by 2500 rad in a second.
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=1e4))
+    try:
+        found = motion.jacobian([t])
+    except ValueError as refusal:
+        assert "at which double precision resolves" in str(refusal)  # noqa: PT017
+    else:
+        right = differentiate(motion, [t], digits=50)
+        assert find_errors(motion, found, right).max() < PROMISED
+
+
 @pytest.mark.parametrize("tilt", [1e-8, 1e-10, 1e-12])
 def test_what_doubles_do_not_resolve_is_refused(tilt):
     motion = near_the_vertical(tilt)
