@@ -238,9 +238,10 @@ class _Stencil:
         """Return which derivatives are curved too much, and how much too rough by rounding."""
         largest = _spread_over_blocks(np.abs(sixth).max(axis=2))
         spins = np.abs(self._base.angular_velocity[some]).max(axis=-1)
-        sizes = np.stack((np.ones(len(some)), np.maximum(spins, TINY)), axis=-1)[
-            ..., None
-        ]  # of what is rounded
+        spins = np.maximum(
+            spins, self._units[1] * 1e-3
+        )  # a body that comes to rest has a size, too
+        sizes = np.stack((np.ones(len(some)), spins), axis=-1)[..., None]  # of what is rounded
         weights = self._schemes[:, 1]
         norms = np.sqrt(np.square(weights).sum(axis=1)) / self._steps
         lost = STATE_ERROR * norms * sizes
