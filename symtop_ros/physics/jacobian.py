@@ -48,12 +48,15 @@ LARGEST_DIFFERENCE = 3e-7
 STATE_ERROR = 2 * EPS  # of the states in a difference, which are rounded at random
 LARGEST_ROUNDING = 5e-10  # of a derivative, in units of the largest of its block
 PROMISED = 1e-8  # error of a derivative, in units of the largest of its block
-SMALLEST = 1e-3  # effect, of that on the whole state or of that of all of a parameter
-UPRIGHT = 1e-7  # rad
+# Smaller effects are measured by this one, in units of the effect on the whole state, or of the one
+# of a change by all of a parameter.
+SMALLEST = 1e-3
+UPRIGHT = 1e-7  # rad; a smaller tilt hardly feels its moments
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
-TINY = 1e-300  # no zero is divided by
-MOST_ROUNDS, SHORTEST = 30, 1e-6  # the factor of a step in a round
-OTHER = 0.618  # the factor of a step that confirms another one
+TINY = 1e-300  # added to divisors that may be zero
+MOST_ROUNDS = 30
+SHORTEST = 1e-6  # smallest factor of a step from one round to the next
+OTHER = 0.618  # factor of a step by which a derivative is confirmed
 UNRESOLVED = (
     "a time at which double precision resolves the derivatives (the start is too near the vertical "
     "or the separatrix)"
@@ -238,10 +241,9 @@ class _Stencil:
         """Return which derivatives are curved too much, and how much too rough by rounding."""
         largest = _spread_over_blocks(np.abs(sixth).max(axis=2))
         spins = np.abs(self._base.angular_velocity[some]).max(axis=-1)
-        spins = np.maximum(
-            spins, self._units[1] * 1e-3
-        )  # a body that comes to rest has a size, too
-        sizes = np.stack((np.ones(len(some)), spins), axis=-1)[..., None]  # of what is rounded
+        # What is rounded: 1 in a quaternion, and the spin. A body at rest has a size, too.
+        spins = np.maximum(spins, self._units[1] * 1e-3)
+        sizes = np.stack((np.ones(len(some)), spins), axis=-1)[..., None]
         weights = self._schemes[:, 1]
         norms = np.sqrt(np.square(weights).sum(axis=1)) / self._steps
         lost = STATE_ERROR * norms * sizes
@@ -264,7 +266,7 @@ class _Stencil:
             PROMISED * np.maximum(largest, least),
         )
         if self._is_upright:
-            # It hardly feels its moments, and the rounding of the spin's angle remains.
+            # Of the moments the rounding of the spin's angle remains.
             wanted[..., :3] = PROMISED * largest[..., :3].max(axis=-1, keepdims=True)
         roughness = lost / np.maximum(wanted, SHORTEST * lost + TINY)
         return are_curved, np.where(are_noisy & ~has_moved, 10.0, roughness)
