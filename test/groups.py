@@ -44,9 +44,8 @@ JUDGE = ("test/judge", "test/imu", "test/check")
 NUMBERS = ("test/physics", "test/simulation", "test/check")
 NOT_TWICE = (
     *("test/physics/kernel", "test/physics/reference", "test/physics/test_jacobian.py"),
-    *("test/physics/test_hard_cases.py", "test/physics/test_interrupts.py"),
-    *("test/physics/test_rods.py", "test/physics/test_separatrix.py"),
-    *("test/physics/test_taylor.py", "test/simulation/test_exact_stamps.py"),
+    *("test/physics/test_exact_motions.py", "test/physics/test_interrupts.py"),
+    "test/simulation/test_exact_stamps.py",
 )
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")

@@ -2,22 +2,17 @@ import contextlib
 import os
 import re
 import shlex
-import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
-from unittest.mock import Mock
 
 import pytest
 from exact_log import assert_no_deviation
 from listening import udp_addresses
-from log_files import Run
 from programs import running_node
 from waiting import until
 
-from symtop_ros.distribution import VARIABLES
-from symtop_ros.playback import viewer
 from workshop import demo
 from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
@@ -136,74 +131,3 @@ def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
         _, errors = process.communicate(timeout=60)
     assert (process.returncode, other_than_delays(errors)) == (130, [])
     assert listening_in(domain_of(line)) == set()
-
-
-@pytest.fixture
-def here(tmp_path, monkeypatch, signals_as_before):
-    """A folder, and an environment that the demonstration may change."""
-    for name in ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_DOMAIN_ID", *VARIABLES):
-        monkeypatch.setenv(name, "LOCALHOST" if name.endswith("RANGE") else "")
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-@pytest.mark.usefixtures("here")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_while_the_node_is_started_leaves_none_behind(number, monkeypatch):
-    started, start = [], subprocess.Popen
-
-    def start_and_signal(command):
-        started.append(start(command))
-        signal.raise_signal(number)
-        return started[0]
-
-    # A shell starts programs in the background with SIGINT ignored.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    monkeypatch.setattr(demo, "NODE", "import time; time.sleep(60)")
-    monkeypatch.setattr(demo.subprocess, "Popen", start_and_signal)
-    assert demo.main() == demo.INTERRUPTED
-    (node,) = started
-    assert node.returncode == -signal.SIGTERM
-
-
-@pytest.mark.usefixtures("here")
-def test_a_node_that_does_not_start_is_reported(monkeypatch, capsys):
-    monkeypatch.setattr(demo, "NODE", "pass")
-    assert demo.main() == 1
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("demo: top_node ")
-
-
-def test_a_log_that_cannot_be_replayed_is_reported(here, monkeypatch, capsys):
-    monkeypatch.setattr(demo, "_run", lambda _: here / "none.mcap")
-    assert demo.main() == 1
-    assert capsys.readouterr().err.endswith("none.mcap: No such file or directory\n")
-
-
-def test_a_log_that_a_full_disk_has_ended_is_reported():
-    top = Mock()
-    top.switch.return_value = True, "not recording"
-    top.spin_until = lambda condition, _: condition()
-    with pytest.raises(demo.DemoError, match="the log must be complete, got: not recording"):
-        demo._end_log(top, [])
-    top.switch.assert_called_once_with("record", False)
-
-
-def test_a_disk_that_has_no_place_for_the_replay_is_reported(here, monkeypatch, capsys):
-    log = Run(seconds=0.5).write(here)
-    usage = shutil.disk_usage(here)._replace(free=log.stat().st_size)
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
-    monkeypatch.setattr(demo, "_run", lambda _: log)
-    assert demo.main() == 1
-    target = log.with_suffix(".rrd")
-    assert capsys.readouterr().err == f"demo: cannot write {target}: No space left on device\n"
-
-
-def test_on_a_screen_the_replay_is_shown(here, monkeypatch, capsys):
-    shown = []
-    monkeypatch.setattr(viewer, "has_screen", lambda: True)
-    monkeypatch.setattr(viewer, "show", lambda *files, web: shown.append((files, web)) or 0)
-    log = Run(seconds=0.5).write(here)
-    assert demo._replay(log) == 0
-    assert shown == [((log.with_suffix(".rrd"),), False)]
-    assert "the viewer is open" in capsys.readouterr().out

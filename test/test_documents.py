@@ -143,16 +143,6 @@ def test_the_commands_of_the_page_give_a_first_score(language, name, program, te
     assert found == pytest.approx(wanted, rel=0.1)
 
 
-def test_the_readme_activates_an_environment_with_its_programs():
-    (words,) = (words for words, _ in commands(ROOT / "README.md") if words[0] == "source")
-    used = {words[0] for words, _ in commands(ROOT / "README.md")} & {*MODULES, "top_node"}
-    assert used == {"top_node", "top_ctl"}
-    line = f"source {words[1]} && which {' '.join(sorted(used))} python"
-    found = execute(["bash", "-c", line], cwd=ROOT, env={"PATH": "/usr/bin:/bin"}, check=True)
-    folders = {Path(line).parent.resolve() for line in found.stdout.splitlines()}
-    assert folders == {(ROOT / words[1]).parent.resolve()}
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with the files that the commands name, while a node runs."""

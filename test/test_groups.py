@@ -53,27 +53,6 @@ def test_every_group_runs_and_failures_are_summed_up_at_the_end(monkeypatch, cap
     assert (folder / "first.txt").read_text() == "oh\nfine\n"
 
 
-def test_counts_are_found_before_what_python_prints_at_its_end(monkeypatch, capsys, folder):
-    (folder / "conftest.py").write_text("import atexit\natexit.register(print, 'after all')\n")
-    (folder / "test_of_group.py").write_text(TESTS.replace("a - b [c]", "d"))
-    run(monkeypatch, {"one": [groups.pytest(str(folder), options=["-p", "no:cacheprovider"])]})
-    assert (folder / "one.txt").read_text().endswith("after all\n")
-    assert "  one          2 passed, 0 failed, 1 skipped" in capsys.readouterr().out
-
-
-def test_without_a_failure_the_status_is_zero(monkeypatch, capsys):
-    commands = {name: [script("")] for name in ("one", "realtime")}
-    assert run(monkeypatch, commands) == 0
-    assert capsys.readouterr().out.splitlines()[-1] == "2 passed, 0 failed"
-
-
-def test_the_tests_of_real_time_run_alone_after_all_others(monkeypatch, folder):
-    slow = script("import time, pathlib; time.sleep(0.3); pathlib.Path('done').touch()")
-    late = script("import sys, pathlib; sys.exit(not pathlib.Path('done').exists())")
-    assert run(monkeypatch, {"realtime": [late], "slow": [slow]}) == 0
-    assert (folder / "done").exists()
-
-
 def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypatch, capsys, folder):
     (folder / "test_some.py").write_text(TESTS)
     tests = groups.pytest("test_some.py", options=("-p", "no:cacheprovider"))
@@ -85,16 +64,3 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
     alone = [sys.executable, *again[1:]]
     result = subprocess.run(alone, cwd=folder, capture_output=True, text=True, check=False)
     assert "1 failed in" in result.stdout
-
-
-def test_a_run_of_tests_that_crashes_is_a_failure(monkeypatch, capsys, folder):
-    (folder / "test_some.py").write_text("import os\ndef test_one():\n    os.abort()\n")
-    assert run(monkeypatch, {"some": [groups.pytest("test_some.py")]}) == 1
-    assert capsys.readouterr().out.splitlines()[-1] == "0 passed, 1 failed"
-
-
-def test_a_group_that_is_unknown_is_refused(monkeypatch, capsys):
-    with pytest.raises(SystemExit) as stopped:
-        run(monkeypatch, {"one": [script("")]}, "two")
-    assert stopped.value.code == 2
-    assert "GROUP must be one of one, got two" in capsys.readouterr().err

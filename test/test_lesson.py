@@ -8,23 +8,18 @@ import shlex
 from itertools import pairwise
 from pathlib import Path
 
-import numpy as np
 import pytest
 from node.listener import Listener
 from programs import running_node
 from shown_pictures import assert_same_picture
-from test_lesson_numbers import PUSH
 
 from symtop_ros.client import main as client
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.main import parse_values
 from symtop_ros.live import main as live
 from symtop_ros.panel import main as panel
-from symtop_ros.physics import Motion, State
 from symtop_ros.web.lesson import read_lesson
 from workshop import main as report
-from workshop.article.answers.ledger import hold_decides
-from workshop.article.motions import HANGING_DISC, TOP
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import DRAWS, picture_of, run_step, write_lesson
 from workshop.load.domains import claim_domain
@@ -72,29 +67,6 @@ def test_the_page_has_the_steps_of_the_data():
     """Otherwise: make pictures."""
     assert write_page() == LESSON
     assert [tuple(typed(part)) for part in PARTS] == [tuple(step.commands) for step in STEPS]
-
-
-def test_the_angle_that_is_computed_by_hand_is_that_of_the_motion():
-    factor = (TOP.Iz * 200.0) ** 2 / (2 * TOP.Ix * TOP.Mgl)
-    u = min(np.roots([1.0, -factor, factor * np.cos(0.5) - 1.0]))
-    (_, lowest) = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0)).turning_angles
-    assert np.arccos(u) == pytest.approx(lowest, abs=1e-14)  # rounding of a root and arccos
-
-
-def test_the_numbers_of_the_push_that_makes_cusps_are_those_of_the_motion():
-    p_psi = TOP.Iz * (200.0 + PUSH * np.cos(0.5))
-    u = np.cos(0.5) + TOP.Ix * PUSH * np.sin(0.5) ** 2 / p_psi
-    motion = Motion(TOP, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=PUSH))
-    assert np.arccos(u) == pytest.approx(motion.turning_angles[0], abs=1e-14)
-    assert motion.kind == "cusps"
-
-
-def test_the_accelerations_of_the_kicks_are_those_of_the_claims():
-    disc, words = hold_decides(HANGING_DISC), STEPS[10].seen
-    assert disc.holds
-    for number in ("-592 rad/s^2", "+901 rad/s^2"):
-        assert number in disc.measured
-        assert number in words
 
 
 def test_the_commands_that_need_no_ros_are_options_of_their_programs():
@@ -145,12 +117,6 @@ def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, m
             assert text in teacher
             assert (text in worksheet) == (text in given)
     assert teacher.count("<img ") == len(STEPS)
-
-
-def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
-    (tmp_path / "file").write_text("in the way")
-    assert report.main(["lesson", str(tmp_path / "file")]) == 1
-    assert capsys.readouterr().err == f"workshop: {tmp_path / 'file'}: File exists\n"
 
 
 def test_every_step_names_a_plot_that_there_is():

@@ -1,6 +1,5 @@
 """colcon and pip install the files that `ros2 run` looks for."""
 
-import ast
 import os
 import re
 import shutil
@@ -173,55 +172,3 @@ def test_nothing_but_the_extra_brings_ros_from_pypi():
     text = (ROOT / "setup.py").read_text()
     required = text.split("install_requires=[")[1].split("]")[0]
     assert "ros-" not in required
-
-
-def is_own(node):
-    return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
-
-
-def attributes_of(methods):
-    """Names of the attributes of `self` that methods assign, by the name of the method."""
-    return {
-        method.name: {
-            node.attr
-            for node in ast.walk(method)
-            if is_own(node) and isinstance(node.ctx, ast.Store) and node.value.id == "self"
-        }
-        for method in methods
-    }
-
-
-# Scratch arrays of the numerical code, which its methods prepare once.
-PREPARED = {"Stepper", "Phases"}
-
-
-def test_attributes_are_made_in_the_constructor():
-    """In that of the class, or of its base."""
-    classes = []
-    for path in sorted((ROOT / "symtop_ros").rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ClassDef) and node.name not in PREPARED:
-                methods = [each for each in node.body if isinstance(each, ast.FunctionDef)]
-                bases = [each.id for each in node.bases if isinstance(each, ast.Name)]
-                made = attributes_of(methods)
-                classes.append((path, node.name, bases, made.pop("__init__", None), made))
-    constructed = {name: first or set() for _, name, _, first, _ in classes}
-    for path, name, bases, first, made in classes:
-        if first is not None:
-            inherited = (constructed.get(base, set()) for base in bases)
-            assert set().union(*made.values()) <= first.union(*inherited), (path, name)
-
-
-# Files that look names of other programs up: message classes and fields of ROS.
-FOREIGN = {"node/services.py", "simulation/topics.py"}
-
-
-def test_no_name_of_this_package_is_looked_up_by_a_string_that_is_computed():
-    for path in sorted((ROOT / "symtop_ros").rglob("*.py")):
-        name = path.relative_to(ROOT / "symtop_ros").as_posix()
-        if name in FOREIGN or name.startswith("physics/"):
-            continue
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-                constant = len(node.args) > 1 and isinstance(node.args[1], ast.Constant)
-                assert node.func.id != "getattr" or constant, (name, node.lineno)

@@ -6,12 +6,9 @@ import io
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.physics import HurryEffect, Motion, State, hurry, regular_precession_rates
-from workshop import main as report
+from symtop_ros.physics import Motion, State, hurry, regular_precession_rates
 from workshop.article import maps
 
 SIDES = ("highest", "lowest")
@@ -58,21 +55,6 @@ def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
             assert changes[row]
 
 
-# Highest and lowest tilt without the kick, with it, and what became of the height.
-OUTCOME_OF = {
-    "higher": ((0.5, 0.7), (0.4, 0.7)),
-    "lower": ((0.5, 0.7), (0.5, 0.9)),
-    "as before": ((0.5, 0.7), (0.5, 0.7 + 0.5 * maps.SAME_ANGLE)),
-}
-
-
-def test_the_third_panel_names_what_becomes_of_both_turning_points():
-    before, after = (np.array([pair[k] for pair in OUTCOME_OF.values()]).T for k in (0, 1))
-    everywhere = np.ones(len(OUTCOME_OF), dtype=bool)
-    effect = HurryEffect(before, after, everywhere, everywhere)
-    assert [list(maps.OUTCOMES)[k] for k in maps.find_outcome(effect)] == list(OUTCOME_OF)
-
-
 @pytest.mark.parametrize("name", ["spin", "tilt"])
 def test_the_outcomes_of_a_table_are_those_of_its_turning_points(written, name):
     table = pq.read_table(written[0] / f"perry_{name}.parquet").to_pylist()
@@ -88,22 +70,6 @@ def test_the_outcomes_of_a_table_are_those_of_its_turning_points(written, name):
             assert max(map(abs, lifts)) <= maps.SAME_ANGLE
 
 
-def test_the_third_panel_paints_the_outcomes_and_says_where_the_rule_misleads():
-    found = maps.map_spin(40)
-    axes = Figure().subplots()
-    maps._draw_outcome(axes, found)
-    (image,) = axes.images
-    outcome = maps.find_outcome(found.effect)
-    assert np.array_equal(image.get_array(), outcome)
-    for k, color in enumerate(maps.OUTCOMES.values()):
-        assert to_hex(image.cmap(image.norm(k))) == color
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels == list(maps.OUTCOMES)
-    misled = found.effect.rule_holds & (outcome == list(maps.OUTCOMES).index("lower"))
-    assert 0 < misled.mean() < found.effect.rule_holds.mean()
-    assert f"{misled.mean():.1%}" in axes.get_title()
-
-
 def test_all_files_are_written_and_pictures_are_not_blank(written):
     folder, printed = written
     assert {file.name for file in folder.iterdir()} == FILES
@@ -112,9 +78,3 @@ def test_all_files_are_written_and_pictures_are_not_blank(written):
             assert len(picture.convert("RGB").getcolors(1 << 24)) > 500
     assert printed.count("the rule holds on") == 2
     assert f"rerun {folder / 'perry.rrd'}" in printed
-
-
-def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
-    (tmp_path / "file").write_text("")
-    assert report.main(["maps", str(tmp_path / "file"), "--points", "4"]) == 1
-    assert capsys.readouterr().err == f"workshop: {tmp_path / 'file'}: File exists\n"

@@ -24,10 +24,6 @@ def missing_in(memory):
     return findings.missing
 
 
-def test_jumps_steps_and_changes_of_the_rate_are_no_gaps(memory):
-    assert missing_in(memory) == []
-
-
 @pytest.mark.parametrize("begin", [0.1, 0.5, 0.9])
 def test_eighty_messages_that_are_missing_in_a_row_are_counted(memory, begin):
     samples = memory.places("/top/orientation")

@@ -65,12 +65,6 @@ def test_a_refusal_is_one_line_and_status_1():
     assert result.stderr.count("\n") == 1
 
 
-def test_wrong_usage_is_status_2():
-    result = ctl("kick", "precession_rate")
-    assert result.returncode == 2
-    assert "Traceback" not in result.stderr
-
-
 def test_a_missing_node_is_reported_after_the_time_out():
     result = ctl("--node", "/missing", "--timeout", "1", "hurry")
     assert result.returncode == 1

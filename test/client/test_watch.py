@@ -1,9 +1,6 @@
-import sys
-
 import pytest
 from sensor_msgs.msg import JointState
 
-from symtop_ros.client import keys as module
 from symtop_ros.client.connection import UnreachableError
 from symtop_ros.client.keys import watch
 
@@ -28,16 +25,6 @@ class Top:
             self._left -= 1
             self._take(SAMPLE)
         return done()
-
-
-def test_on_a_terminal_there_is_one_line_that_changes(monkeypatch, capsys):
-    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
-    monkeypatch.setattr(module, "UPDATE_PERIOD", 0.0)
-    watch(Top(samples=10**9), seconds=0.01, timeout=1.0)
-    shown = capsys.readouterr().out
-    assert shown.count("\n") == 1
-    assert shown.startswith("theta 0.5000 rad [....|")
-    assert shown.endswith("rad/s\r\n")
 
 
 def test_missing_samples_are_reported():

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from judge.cases import SECOND, make_estimates, make_events, truth_and_stamps
-from judge.made import Made
 from physics.tops import EPS, seeds
 from scipy.spatial.transform import Rotation
 
@@ -61,16 +60,6 @@ def test_rotations_of_any_size_and_a_delay_are_found(seed):
     assert errors.rate.max() < 1e-3
     alone = explain(estimates, truth, rotations=False).offset
     assert alone.angles == (0.0, 0.0)
-
-
-def test_noise_is_measured_as_it_is():
-    truth, stamps = truth_and_stamps(4000)
-    noisy = Made(noise=1e-3).make(truth, stamps)
-    errors = compare(Estimates.of(stamps, noisy.orientations), truth)
-    rms = math.sqrt((errors.total**2).mean())
-    assert rms == pytest.approx(1e-3 * math.sqrt(3), rel=0.03)  # 12 000 numbers: 1 %, three sigma
-    assert errors.growth() == pytest.approx(np.full(10, rms), rel=0.2)
-    assert errors.rate is None
 
 
 def test_a_clock_that_jumps_back_replaces_what_it_repeats():

@@ -1,14 +1,11 @@
 """`top_judge` as its users call it."""
 
 import json
-import os
-import sqlite3
 from hashlib import sha256
 
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
-from programs import command, execute
 from python_runs import run_without
 from scipy.spatial.transform import Rotation
 from testset.test_scorers import make_table, write
@@ -69,22 +66,6 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
     write_csv(path, *truth_and_stamps(20))
     assert main([str(log), "--estimates", str(path), "--max-error", "1e-15"]) == 0
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
-
-
-def test_a_bag_of_sqlite3_is_judged_too(log, tmp_path, capsys):
-    from symtop_ros.log.reader import McapFile
-
-    file, path = McapFile(log), tmp_path / "bag.db3"
-    rows = [(m.channel_id, m.log_time, m.data) for chunk in file.chunks() for m in chunk]
-    with sqlite3.connect(path) as database:
-        database.execute("CREATE TABLE topics(id INTEGER, name, type, serialization_format)")
-        database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data)")
-        for number, channel in file.channels.items():
-            row = (number, channel.topic, file.schemas[channel.schema_id].name, "cdr")
-            database.execute("INSERT INTO topics VALUES (?, ?, ?, ?)", row)
-        insert = "INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)"
-        database.executemany(insert, rows)
-    assert main([str(path), "--topic", "/imu/data", "--max-error", "1e-14"]) == 0
 
 
 @pytest.mark.parametrize(
@@ -155,20 +136,6 @@ def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):
     assert capsys.readouterr().err.startswith("top_judge: scene must be one of ")
 
 
-def test_several_topics_give_one_table(log, capsys, tmp_path):
-    topics = ("--topic", "/imu/data", "--topic", "/filter")
-    assert main([str(log), *topics, "-o", str(tmp_path)]) == 0
-    table = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in table[:3]] == ["attitude", "/imu/data", "/filter"]
-    facts = json.loads((tmp_path / "judge.json").read_text())
-    assert [each["source"] for each in facts] == ["/imu/data", "/filter"]
-
-
-def test_a_wrong_frame_is_refused(log, capsys):
-    assert main([str(log), "--topic", "/imu/data", "--frame", "odd"]) == 1
-    assert "--frame must be the child frame of an estimate on /imu/data" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     "arguments", [["--help"], ["--testset"], ["--scene", "cusps", "--estimates", "mine.csv"]]
 )
@@ -178,17 +145,3 @@ def test_the_judge_works_without_mcap_and_matplotlib(arguments, tmp_path):
     done = run_without(missing, "top_judge", *arguments, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout
-
-
-def test_all_problems_are_copied_into_folders_of_their_own(tmp_path):
-    assert main(["--testset", "all", "-o", str(tmp_path)]) == 0
-    assert {path.name for path in tmp_path.iterdir()} == set(score.read_problems())
-    assert all((path / f"{path.name}.json").exists() for path in tmp_path.iterdir())
-
-
-def test_a_terminal_without_unicode_gets_the_test_set_with_escapes():
-    words = command("top_judge", "--testset")
-    done = execute(words, env={**os.environ, "PYTHONIOENCODING": "ascii"})
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.isascii()
-    assert "\\xfc" in done.stdout

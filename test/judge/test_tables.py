@@ -113,12 +113,6 @@ def test_what_is_no_attitude_is_left_out(tmp_path):
     assert found.left_out == 3
 
 
-def test_a_byte_order_mark_and_spaces_are_no_obstacle(tmp_path):
-    path = tmp_path / "spaces.csv"
-    path.write_text("\ufefft, w, x, y, z\n0, 1, 0, 0, 0\n", encoding="utf-8")
-    assert read_table(path).orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]]
-
-
 @pytest.mark.parametrize(
     ("rows", "note"),
     [
@@ -132,9 +126,3 @@ def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
     path.write_text(f"t,w,x,y,z\n{rows}")
     (found,) = read_table(path).notes
     assert re.search(note, found)
-
-
-def test_exact_epoch_seconds_are_not_odd(tmp_path):
-    path = tmp_path / "exact.csv"
-    path.write_text("t,w,x,y,z\n1700000000.123456789,1,0,0,0\n")
-    assert read_table(path).notes == ()

@@ -2,17 +2,11 @@
 
 import contextlib
 import socket
-import subprocess
-import time
-from types import SimpleNamespace
 
 import pytest
 from programs import PATIENT, command, run, running, running_node
 from waiting import until
 
-from symtop_ros.live import main as module
-from symtop_ros.log.batch import Batch
-from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
 from workshop.load.domains import claim_domain
 from workshop.pictures.viewer import running_viewer, views
@@ -95,25 +89,3 @@ def test_without_viewer_and_screen_the_message_names_the_option(monkeypatch):
     result = run("top_live", "--port", str(port), domain=DOMAIN)
     expected = f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
     assert (result.returncode, result.stderr) == (1, f"top_live: {expected}\n")
-
-
-def test_a_viewer_that_ends_at_once_is_told(monkeypatch):
-    monkeypatch.setattr(viewer, "start", lambda **_: subprocess.Popen(["false"]))
-    monkeypatch.setattr(module.rclpy, "ok", lambda: True)
-    with (
-        pytest.raises(LogError, match="the Rerun viewer did not start"),
-        module._viewer(viewer.free_port(), web=True),
-    ):
-        pass
-
-
-def test_without_a_node_it_says_once_what_is_missing(monkeypatch, capsys):
-    monkeypatch.setattr(module, "SILENCE", 0.05)
-    monkeypatch.setattr(module, "_connect", lambda *_: None)
-    monkeypatch.setattr(module, "_spin", lambda *_: time.sleep(0.02))
-    turns = iter([None] * 10)
-    process = SimpleNamespace(poll=lambda: next(turns, 0))
-    options = module._parser().parse_args(["--node", "lab2/top"])
-    module._stream(None, SimpleNamespace(batch=Batch), options, process)
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("top_live: nothing heard from /lab2/top for 0.05 s")

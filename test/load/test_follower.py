@@ -66,14 +66,6 @@ def test_samples_that_the_node_reports_as_missed_are_not_lost(top, follower):
     assert follower.balance == 1e-15
 
 
-def test_a_gap_counts_as_lost_only_with_the_diagnostics_that_come_after_it(top, follower):
-    top.sample(1, 4)
-    wait(follower, lambda: follower.samples == 2)
-    assert follower.lost == 0
-    top.report("/top", missed=3)
-    wait(follower, lambda: follower.lost == 2)
-
-
 def test_diagnostics_of_another_top_are_ignored(top, follower):
     top.sample(1, 4)
     wait(follower, lambda: follower.samples == 2)

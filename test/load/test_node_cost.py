@@ -39,28 +39,7 @@ def test_late_samples_and_jitter_are_counted_from_the_time_of_publishing():
     assert figures[node_cost.CPU] == pytest.approx(100 * 0.003 / 0.07)
 
 
-def test_a_rate_that_is_never_reached_is_said_to_be_below_the_lowest():
-    runs = {
-        node_cost.HIGHEST: {"a": [0.0, 0.0], "b": [0.0, 500.0, 1000.0]},
-        node_cost.LATE_SAMPLES: {"a": [0.0, 0.0], "b": [0.5, 1.5, 1.0]},
-    }
-    facts = {"machine": "a machine", "count": 3, "runs": runs}
-    lines = node_cost.format_sections(facts)[node_cost.NAME].splitlines()
-    cells = [line.split(" | ")[1:] for line in lines if line.startswith("| ")]
-    assert cells[2:] == [["below 500", "500 (below 500 to 1000) |"], ["0", "1 (0.5 to 1.5) |"]]
-    assert all(line.startswith("- ") for line in lines[: lines.index("")])
-
-
 def test_lost_samples_are_late():
     sent = np.arange(100) * 0.01
     figures = node_cost.summarize(Traffic(sent, 0.75, messages=100, cpu=0.0), 100.0, 1.0)
     assert figures[node_cost.LATE_SAMPLES] == pytest.approx(25.0)
-
-
-@pytest.mark.parametrize("runs", ["0", "-1", "1.5", "many"])
-def test_a_number_of_runs_that_is_none_is_refused_as_usage(runs, capsys):
-    with pytest.raises(SystemExit) as stopped:
-        node_cost.main([f"--runs={runs}"])
-    assert stopped.value.code == 2
-    message = f"--runs: must be a whole number above 0, got '{runs}'"
-    assert message in capsys.readouterr().err

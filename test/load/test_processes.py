@@ -1,12 +1,9 @@
-import subprocess
-import time
 from unittest.mock import Mock
 
 import pytest
 from programs import execute
 
-from symtop_ros.client.connection import UnreachableError
-from workshop.load import processes, usage
+from workshop.load import processes
 
 
 def run(work, *words):
@@ -26,24 +23,6 @@ def test_seconds_out_of_range_are_refused_as_usage(text, capsys):
 def test_the_status_says_if_the_figures_are_good():
     assert run(lambda options: options.seconds == 1.0) == 0
     assert run(lambda _: False) == 1
-
-
-def test_a_node_that_does_not_answer_is_one_line(capsys):
-    assert run(Mock(side_effect=UnreachableError("no sample from /top within 30 s"))) == 1
-    assert capsys.readouterr().err == "load.py: no sample from /top within 30 s\n"
-
-
-def test_an_interrupt_is_status_130():
-    assert run(Mock(side_effect=KeyboardInterrupt)) == 130
-
-
-def test_the_resources_of_a_process_are_measured():
-    with subprocess.Popen(["sleep", "30"]) as process:
-        time.sleep(0.1)
-        assert 0 <= usage.cpu_seconds(process.pid) < 0.1
-        assert 0.1 < usage.memory(process.pid) < 100
-        assert usage.descriptors(process.pid) >= 3
-        process.terminate()
 
 
 @pytest.mark.parametrize("name", ["stress", "soak", "node_cost"])

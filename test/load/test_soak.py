@@ -42,9 +42,3 @@ def test_a_line_comes_in_time_and_a_log_is_checked_as_soon_as_it_is_finished(mon
     assert len(logs) >= 5
     assert logs[-1] >= 2
     assert logs == sorted(logs)
-
-
-def test_a_reading_with_lost_samples_or_wrong_logs_is_not_good():
-    assert soak.Reading(missed=3, late=5).good
-    assert not any(soak.Reading(**{name: 1}).good for name in ("lost", "dropped", "wrong"))
-    assert len(soak.format_row(soak.Reading())) == len(soak.HEAD)

@@ -73,23 +73,6 @@ def test_files_in_any_order_are_one_run(storage, tmp_path):
         assert_complete(order)
 
 
-def test_a_split_bag_is_one_run(tmp_path):
-    folder = tmp_path / "bag"
-    folder.mkdir()
-    for file in parts(tmp_path, 4):
-        file.rename(folder / file.name)
-    assert_complete([folder])
-
-
-def test_files_of_the_recorder_that_begin_with_the_last_event_are_one_run(tmp_path):
-    half = RUN.messages[: len(RUN.messages) // 3]
-    event = next(each for each in half if each[0] == "events")
-    following = [("events", half[-1][1], event[2]), *RUN.messages[len(half) :]]
-    first = write(tmp_path / "a", half)
-    second = write(tmp_path / "b", following)
-    assert_complete([second, first])
-
-
 def test_the_default_node_does_not_depend_on_the_order_of_files(tmp_path):
     files = [write(tmp_path / name, RUN.messages, node=f"/{name}") for name in ("b", "a")]
     for order in itertools.permutations(files):

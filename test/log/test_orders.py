@@ -5,7 +5,6 @@ import re
 import pytest
 from exact_log import assert_agrees
 from log.test_bag import STORAGES, TYPES, write
-from rosbags.rosbag2 import StoragePlugin
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.bag import open_run
@@ -139,15 +138,3 @@ def test_a_wrong_number_is_found_although_the_clock_went_back(late, tmp_path, ca
     assert "the samples DO NOT agree" in capsys.readouterr().out
     deviations = checked(folder)
     assert [name for name, each in deviations.items() if each.differing] == ["orientation"]
-
-
-def test_a_sample_of_the_old_motion_after_a_kick_is_wrong(tmp_path):
-    messages = late_subscription()
-    recorder = Recorder()
-    recorder.run(100.0, 102.0)  # without the kick
-    other = {each[1]: each for each in recorder.messages if each[0] == "orientation"}
-    k = [k for k, each in enumerate(messages) if each[0] == "orientation"][150]
-    messages[k] = other[messages[k][1]]
-    deviations = checked(write(tmp_path / "bag", messages, StoragePlugin.SQLITE3))
-    assert not deviations["orientation"].is_rounding
-    assert deviations["orientation"].differing == 1

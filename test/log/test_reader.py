@@ -175,15 +175,3 @@ def test_a_chunk_whose_header_is_damaged_is_reported(good, tmp_path):
     file, messages = read(save(tmp_path, whole))
     assert 0 < len(messages) < len(RUN.messages)
     assert any(problem.endswith(" is damaged") for problem in file.problems)
-
-
-@pytest.mark.parametrize("name", ["_contents", "_decompress", "_parse"])
-def test_a_bug_in_the_reader_is_not_called_damage(tmp_path, monkeypatch, name):
-    path = Run(seconds=0.2).write(tmp_path)
-
-    def fail(*_):
-        raise TypeError("by a bug")
-
-    monkeypatch.setattr(f"symtop_ros.log.reader.{name}", fail)
-    with pytest.raises(TypeError, match="by a bug"):
-        list(McapFile(path).chunks())

@@ -1,6 +1,5 @@
 """One MCAP file: the quality of service of its channels, and names that are never reused."""
 
-import pytest
 from log_files import LAYOUTS, Run
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
@@ -22,16 +21,6 @@ def test_channels_store_the_quality_of_service_that_the_node_offers(tmp_path):
         assert profile.reliability == QosReliability.RELIABLE
         latched, volatile = QosDurability.TRANSIENT_LOCAL, QosDurability.VOLATILE
         assert profile.durability == (latched if topic.latched else volatile)
-
-
-def test_a_file_without_a_chunk_is_removed_when_it_is_abandoned(tmp_path, monkeypatch):
-    def fail(_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(LogFile, "flush", fail)
-    with pytest.raises(OSError, match="No space left"):
-        LogFile(tmp_path, [], {}, {})
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_distribution_is_written_where_ros2_bag_info_reads_it(tmp_path):

@@ -1,6 +1,5 @@
 """Models of the top in other engines: the inertia that they read, and the motion that follows."""
 
-import contextlib
 import re
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from symtop_ros.models.formats import FORMATS
-from symtop_ros.models.snippets import format_snippets
 from symtop_ros.models.urdf import MUJOCO_BOUND
 from symtop_ros.physics import Body, Motion, State, Top
 from symtop_ros.simulation.changes.initial import initial_state
@@ -96,51 +94,6 @@ def test_the_urdf_moves_in_mujoco_as_the_top_does(scene):
     mujoco.mj_kinematics(model, data)
     # RK4 with an eighth of a millisecond; at most 1.7e-9 is found
     assert angle(data.body("top").xquat, Motion(top, start).at(DURATION).orientation) < 1e-8
-
-
-@pytest.mark.parametrize("scene", SCENES)
-def test_the_urdf_moves_in_pybullet_as_the_top_does(scene, tmp_path):
-    pybullet = pytest.importorskip("pybullet")  # no test tool: rarely built for a new Python
-    top, start = read_scene(scene)
-    path = tmp_path / "top.urdf"
-    path.write_text(write("urdf", top, start))
-    text = format_snippets("top", start, Body.of(top), DURATION)
-    code = text.split("```python")[-1].partition("```")[0]
-    with contextlib.chdir(tmp_path):
-        errors = [run_pybullet(pybullet, code, 2.0**-k, Motion(top, start)) for k in (14, 15)]
-    # first order in the step, towards the closed form
-    assert errors[1] < 0.02
-    assert errors[1] < 0.55 * errors[0] + 1e-6
-
-
-def run_pybullet(pybullet, code, step, motion):
-    """Return the error in rad after a second."""
-    names = {}
-    exec(code, names)
-    pybullet.setTimeStep(step)
-    for _ in range(int(DURATION / step)):
-        pybullet.stepSimulation()
-    phi, theta, psi = (pybullet.getJointState(names["top"], joint)[0] for joint in range(3))
-    pybullet.disconnect()
-    found = State.from_euler(phi=phi, theta=theta, psi=psi)
-    return angle(found.orientation, motion.at(DURATION).orientation)
-
-
-@pytest.mark.parametrize("scene", SCENES)
-def test_drake_reads_the_inertia_and_the_start(scene, tmp_path):
-    parsing = pytest.importorskip("pydrake.multibody.parsing")
-    plants = pytest.importorskip("pydrake.multibody.plant")
-    top, start = read_scene(scene)
-    plant = plants.MultibodyPlant(time_step=0.0)
-    parsing.Parser(plant).AddModelsFromString(write("sdf", top, start), "sdf")
-    plant.Finalize()
-    context = plant.CreateDefaultContext()
-    body = plant.GetBodyByName("top")
-    inertia = body.CalcSpatialInertiaInBodyFrame(context).CalcRotationalInertia()
-    assert inertia.get_moments() == pytest.approx([top.Ix, top.Ix, top.Iz], rel=1e-12)
-    rotation = body.EvalPoseInWorld(context).rotation().matrix()
-    assert rotation @ [0, 0, 1] == pytest.approx(start.to_world([0, 0, 1]), abs=1e-12)
-    assert plant.gravity_field().gravity_vector()[2] == -9.81
 
 
 @pytest.mark.parametrize("form", sorted(FORMATS))

@@ -21,14 +21,6 @@ def measure_mujoco(names):
     return matrix, velocity[:3], matrix @ data.qacc
 
 
-def measure_pydrake(names):
-    plant, context = names["plant"], names["context"]
-    body = plant.GetBodyByName("top")
-    velocity = plant.EvalBodySpatialVelocityInWorld(context, body).rotational()
-    acceleration = plant.EvalBodySpatialAccelerationInWorld(context, body).rotational()
-    return plant.EvalBodyPoseInWorld(context, body).rotation().matrix(), velocity, acceleration
-
-
 def measure_pinocchio(names):
     pinocchio, model, q, v = (names[each] for each in ("pinocchio", "model", "q", "v"))
     data = model.createData()
@@ -38,25 +30,7 @@ def measure_pinocchio(names):
     return matrix, matrix @ data.v[1].angular, matrix @ acceleration
 
 
-def measure_pybullet(names):
-    pybullet, top = names["pybullet"], names["top"]
-    found = [pybullet.getJointState(top, joint)[:2] for joint in range(3)]
-    pybullet.disconnect()
-    (phi, phi_dot), (theta, theta_dot), (psi, psi_dot) = found
-    state = State.from_euler(
-        phi=phi, theta=theta, psi=psi, phi_dot=phi_dot, theta_dot=theta_dot, psi_dot=psi_dot
-    )
-    return state.matrix, state.to_world(state.angular_velocity), None
-
-
-# pydrake and pybullet are not among the test tools (Drake has 300 MB, pybullet is rarely built for
-# a new Python): these run where somebody has installed them.
-MEASURE = {
-    "mujoco": measure_mujoco,
-    "pydrake": measure_pydrake,
-    "pinocchio": measure_pinocchio,
-    "pybullet": measure_pybullet,
-}
+MEASURE = {"mujoco": measure_mujoco, "pinocchio": measure_pinocchio}
 
 
 def find_blocks(folder):
@@ -75,15 +49,14 @@ def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_p
     matrix, rate, acceleration = MEASURE[engine](names)
     facts = read_problems()[name].facts
     start = State(facts["orientation"], facts["angular_velocity"])
-    # Doubles, and the functions of three angles for Drake and pybullet: 2e-15 are found.
+    # doubles: 2e-15 are found
     assert matrix == pytest.approx(start.matrix, abs=1e-14)
     assert rate == pytest.approx(
         start.to_world(start.angular_velocity), abs=1e-13 * np.abs(start.angular_velocity).max()
     )
-    if acceleration is not None:
-        exact = start.to_world([float(x) for x in facts["angular_accelerations"][0]])
-        # sums of moments times rates squared, some hundred times the result
-        assert acceleration == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
+    exact = start.to_world([float(x) for x in facts["angular_accelerations"][0]])
+    # sums of moments times rates squared, some hundred times the result
+    assert acceleration == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
 
 
 def test_the_trajectory_of_mujoco_is_scored(tmp_path, monkeypatch, capsys):

@@ -73,80 +73,65 @@ def list_requests() -> dict[str, Build]:
 
 
 def _list_named() -> dict[str, Build]:
+    def ask(service: str, parameters: Any) -> tuple[Any, str, Any]:
+        kind = SetParameters if service == "set_parameters" else SetParametersAtomically
+        return kind, service, kind.Request(parameters=parameters)
+
     found: dict[str, Build] = {}
     for service, name in NAMED.items():
-        kind = SetParameters if service == "set_parameters" else SetParametersAtomically
         for hard, build in VALUES.items():
-            found[f"{service}, {hard}"] = (
-                lambda kind=kind, service=service, name=name, build=build: (
-                    kind,
-                    service,
-                    kind.Request(parameters=[Parameter(name=name, value=build())]),
-                )
+            found[f"{service}, {hard}"] = lambda service=service, name=name, build=build: ask(
+                service, [Parameter(name=name, value=build())]
             )
         for hard, crowd in CROWDS.items():
-            found[f"{service}, {hard}"] = (
-                lambda kind=kind, service=service, name=name, crowd=crowd: (
-                    kind,
-                    service,
-                    kind.Request(parameters=crowd(name)),
-                )
+            found[f"{service}, {hard}"] = lambda service=service, name=name, crowd=crowd: ask(
+                service, crowd(name)
             )
     return found
 
 
 def _list_of_names() -> dict[str, Build]:
     names = [f"top.{k}" for k in range(MANY)]
-    return {
-        "get_parameters": lambda: (
-            GetParameters,
-            "get_parameters",
-            GetParameters.Request(names=names),
-        ),
-        "get_parameter_types": lambda: (
-            GetParameterTypes,
-            "get_parameter_types",
-            GetParameterTypes.Request(names=names),
-        ),
-        "describe_parameters": lambda: (
-            DescribeParameters,
-            "describe_parameters",
-            DescribeParameters.Request(names=names),
-        ),
-        "list_parameters": lambda: (
-            ListParameters,
-            "list_parameters",
-            ListParameters.Request(prefixes=names[:1000]),
-        ),
+    kinds = (GetParameters, GetParameterTypes, DescribeParameters)
+    services = ("get_parameters", "get_parameter_types", "describe_parameters")
+    found: dict[str, Build] = {
+        service: lambda kind=kind, service=service: (kind, service, kind.Request(names=names))
+        for kind, service in zip(kinds, services, strict=True)
     }
+    few = ListParameters.Request(prefixes=names[:1000])
+    return {**found, "list_parameters": lambda: (ListParameters, "list_parameters", few)}
 
 
 def _list_standard() -> dict[str, Build]:
-    srv = importlib.import_module("simulation_interfaces.srv")
-    msg = importlib.import_module("simulation_interfaces.msg")
+    def build(package: str, name: str) -> Any:
+        return getattr(importlib.import_module(f"simulation_interfaces.{package}"), name)
 
     def filter_by(**fields: Any) -> tuple[Any, str, Any]:
-        filters = msg.EntityFilters(**fields)
-        return srv.GetEntities, "get_entities", srv.GetEntities.Request(filters=filters)
+        kind, filters = build("srv", "GetEntities"), build("msg", "EntityFilters")(**fields)
+        return kind, "get_entities", kind.Request(filters=filters)
 
     def set_state() -> tuple[Any, str, Any]:
-        request = srv.SetEntityState.Request(entity="top", set_pose=True)
+        kind = build("srv", "SetEntityState")
+        request = kind.Request(entity="top", set_pose=True)
         request.state.header.frame_id = "w" * 10 * MILLION
-        return srv.SetEntityState, "set_entity_state", request
+        return kind, "set_entity_state", request
 
-    found: dict[str, Build] = {
-        f"filter, {name}": lambda pattern=pattern: filter_by(filter=pattern)
-        for name, pattern in FILTERS.items()
+    def get_state() -> tuple[Any, str, Any]:
+        kind = build("srv", "GetEntityState")
+        return kind, "get_entity_state", kind.Request(entity="t" * 10 * MILLION)
+
+    return {
+        **{
+            f"filter, {name}": lambda pattern=pattern: filter_by(filter=pattern)
+            for name, pattern in FILTERS.items()
+        },
+        "filter, tags": lambda: filter_by(tags=build("msg", "TagsFilter")(tags=["a"] * MANY)),
+        "filter, categories": lambda: filter_by(
+            categories=[build("msg", "EntityCategory")()] * MANY
+        ),
+        "entity of a long name": get_state,
+        "frame of a long name": set_state,
     }
-    found["filter, tags"] = lambda: filter_by(tags=msg.TagsFilter(tags=["a"] * MANY))
-    found["filter, categories"] = lambda: filter_by(categories=[msg.EntityCategory()] * MANY)
-    found["entity of a long name"] = lambda: (
-        srv.GetEntityState,
-        "get_entity_state",
-        srv.GetEntityState.Request(entity="t" * 10 * MILLION),
-    )
-    found["frame of a long name"] = set_state
-    return found
 
 
 def _list_plain() -> dict[str, Build]:

@@ -3,13 +3,12 @@
 import sys
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.running_top import events_named, torque_of
 from programs import environment, execute, set_parameters
 
-from symtop_ros.session.outputs import Output, Outputs
+from symtop_ros.session.outputs import Outputs
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.wording import write
@@ -66,41 +65,6 @@ def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
     assert_keeps_running(run)
 
 
-def test_one_after_a_torque_was_applied_leaves_the_log_exact(run, failures, monkeypatch):
-    def apply_then_fail(simulation, change):
-        simulation.timeline = change.following
-        fail()
-
-    monkeypatch.setattr(Simulation, "_apply_torque", apply_then_fail)
-    push(run)
-    run.spin_until(failures)
-    monkeypatch.undo()
-    assert_keeps_running(run)
-
-
-def test_one_in_each_of_the_diagnostics_is_reported_once(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.session.session.collect_statuses", fail)
-    run.spin_until(failures)
-    for _ in range(3):
-        run.top.session.keep_up()
-    heard = run.collect(DiagnosticArray, "/diagnostics")
-    monkeypatch.undo()
-    run.spin_until(lambda: heard)
-    assert failures() == [report_of("/diagnostics")]
-    assert_keeps_running(run)
-
-
-def test_one_in_the_check_of_parameters_refuses_them(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.session.session.Settings.from_values", fail)
-    report = report_of("a check of parameters")
-    assert run.change({"hurry_factor": 1.2}) == (False, report)
-    run.spin_until(failures)
-    monkeypatch.undo()
-    assert failures() == [report]
-    assert run.change({"hurry_factor": 1.2})[0]
-    assert_keeps_running(run)
-
-
 def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
     run, failures, monkeypatch
 ):
@@ -121,25 +85,6 @@ def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, m
     assert run.top.simulation.segment is not before
     monkeypatch.undo()
     assert_keeps_running(run)
-
-
-def test_the_log_has_the_sample_complete_in_which_ros_ends(run, tmp_path, monkeypatch):
-    heard = run.collect(QuaternionStamped, "/top/orientation")
-    run.wait_for(heard, 10)
-    first = run.top.session._outputs._samples["orientation"][0]
-    send = Output.send
-
-    def send_and_end(output, stamp, data):
-        send(output, stamp, data)
-        if output is first and run.context.ok():
-            run.context.handle.shutdown()
-
-    monkeypatch.setattr(Output, "send", send_and_end)
-    while run.context.ok():
-        run.set_clock(run.now + 2_000_000)
-    run.top.close()
-    (path,) = tmp_path.iterdir()
-    assert_exact(path)
 
 
 # As processes, in which a patched method raises

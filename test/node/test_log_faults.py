@@ -14,7 +14,6 @@ from node.running_top import facts, status_of
 from programs import environment, set_parameters
 from sensor_msgs.msg import JointState
 
-from symtop_ros.session.recording import Answer
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 
@@ -103,21 +102,6 @@ def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_p
     assert "the file was removed" in status_of(diagnostics[-1], "top: log").message
     recording.assert_works()
     assert recording.errors == [f"{path}: the file was removed"]
-
-
-def test_each_of_two_failures_in_a_second_is_reported_once(start_top, tmp_path):
-    recording = Recording(start_top, tmp_path)
-    recorder = recording.run.top.session._recorder
-    paths = []
-    for _ in range(2):
-        paths.append(recording.switch(True))
-        paths[-1].unlink()
-        recording.run.spin_until(lambda: recorder.failure)
-    assert not recorder.running
-    assert recording.run.switch("record", False) == (True, str(Answer("not_recording")))
-    recording.run.spin_until(lambda: len(recording.errors) == 2)
-    assert recording.errors == [(f"{path}: the file was removed") for path in paths]
-    recording.assert_works()
 
 
 def test_a_recording_whose_end_fails_is_refused_and_one_error(start_top, tmp_path, monkeypatch):

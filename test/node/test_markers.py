@@ -42,14 +42,6 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
     assert np.diff(stamps // markers.PERIOD).tolist() == [1] * (len(seen) - 1)
 
 
-def test_without_a_subscriber_nothing_is_drawn(start_top, monkeypatch):
-    drawn = []
-    monkeypatch.setattr(markers.Markers, "_line", lambda *_: drawn.append(True))
-    run = start_top(publish_markers=True, publish_rate=500.0)
-    run.spin_until(lambda: run.top.simulation.ticker._next > 100)
-    assert drawn == []
-
-
 def test_by_default_there_is_no_such_topic(start_top):
     run = start_top()
     assert run.user.count_publishers("/top/markers") == 0

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from node.odd_messages import parameters
 from node.running_top import RunningTop, stamp_of, torque_of
 from odd_values import CONTROL, NUMBERS, SIZES, assert_one_sentence, deterministic, trials
-from rcl_interfaces.msg import Parameter, ParameterValue
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 from symtop_ros.check.samples import check_log
@@ -145,12 +145,21 @@ def test_more_parameters_than_any_file_has_are_refused(run, service):
     assert set(run.ask(service, messages)) == {(False, reason)}
 
 
-@pytest.mark.parametrize("service", list(NAMES))
-def test_a_type_that_ros_does_not_have_is_refused(run, service):
+ONE = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=1.0)
+NO_TYPE, TWICE = "type of '{}' must be ", "'{}' must be given once, got it more than once"
+ODD = [
+    *((service, ParameterValue(type=77), 1, NO_TYPE + "0 to 9, got 77") for service in NAMES),
+    *((service, ONE, 2, TWICE) for service in (START, "kick")),
+    (START, ParameterValue(), 1, NO_TYPE + "1 to 9 (3 for a double), got 0"),
+]
+
+
+@pytest.mark.parametrize(("service", "value", "times", "reason"), ODD)
+def test_fields_that_cannot_be_read_are_refused(run, service, value, times, reason):
     before = run.top.simulation.segment.motion
-    message = Parameter(name="top.Ix", value=ParameterValue(type=77))
-    expected = (False, "type of 'top.Ix' must be 0 to 9, got 77")
-    assert run.ask(service, [message, message])[0] == expected
+    name = NAMES[service][0]
+    found = run.ask(service, [Parameter(name=name, value=value)] * times)
+    assert found[0] == (False, reason.format(name))
     assert run.top.simulation.segment.motion is before
 
 

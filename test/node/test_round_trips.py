@@ -88,19 +88,6 @@ def test_a_value_without_a_type_is_the_one_field_that_is_set(start_top, value, g
         assert result.reason.startswith("type of 'precession_rate' must be ")
 
 
-def test_a_reset_starts_from_initial_conditions_that_were_set_later(start_top):
-    run = start_top()
-    assert run.change({"initial.theta": 0.8})[0]
-    assert run.trigger("reset")[0]
-    angles = run.top.simulation.segment.motion.start.euler_angles
-    assert angles.theta == pytest.approx(0.8, abs=4e-16)
-    half = 0.5**0.5
-    assert run.change({"initial.orientation": [half, 0.0, 0.0, half]})[0]
-    assert run.trigger("reset")[0]
-    start = run.top.simulation.segment.motion.start
-    assert start.angular_velocity.tolist() == [0.0, 0.0, 0.0]
-
-
 @pytest.mark.wording
 def test_the_answers_of_a_recording_name_an_absolute_path(start_top, tmp_path, monkeypatch):
     pytest.importorskip("mcap")

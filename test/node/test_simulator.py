@@ -19,8 +19,6 @@ from programs import execute
 from rclpy.action import ActionClient
 from rosgraph_msgs.msg import Clock
 
-from symtop_ros.physics import Motion, Top
-
 MS = 1_000_000
 PERIOD = 5 * MS  # ns, at the 200 Hz of the scenes
 UNSUPPORTED, OK, NOT_FOUND, FAILED = 0, 1, 2, 4
@@ -216,12 +214,6 @@ def test_entities_are_filtered_by_name(client):
     assert client.entities(bounds={"type": 3}).result.result == UNSUPPORTED
 
 
-def test_a_filter_that_no_backtracking_ends_is_answered(client):
-    answer = client.entities(filter=".?" * 900 + "z")
-    assert (answer.result.result, answer.entities) == (OK, [])
-    assert client.entities(filter=".?" * 900 + "p").entities == ["top"]
-
-
 def test_messages_without_flags_set_pose_and_twist():
     """Those before 2.1, which Humble, Jazzy and Kilted have; in a process of their own."""
     find_messages(WITHOUT_FLAGS)
@@ -354,19 +346,6 @@ def test_the_action_is_cancelled_and_refused(client):
     assert none.result().result.result.error_message == "steps must be at least 1, got 0"
 
 
-def test_a_mistake_of_ours_is_an_answer_and_the_motion_goes_on(client, monkeypatch):
-    simulator = importlib.import_module("symtop_ros.node.simulator")
-
-    def fail(*_):
-        raise KeyError("by a bug")
-
-    monkeypatch.setattr(simulator, "angular_acceleration", fail)
-    found = client.entity().result
-    assert found.result == FAILED
-    assert "by a bug" in found.error_message
-    assert client.state() == PLAYING
-
-
 def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, tmp_path):
     run = start_top(scene="cusps", record=tmp_path)
     client = Client(run)
@@ -390,13 +369,3 @@ def test_the_commands_and_the_table_of_the_page_on_ros_are_those_of_the_node(cli
     pairs = client.run.user.get_service_names_and_types_by_node("top", "/")
     found = {name for name, (kind,) in pairs if kind.startswith("simulation_interfaces/srv")}
     assert listed == found | {"/top/simulate_steps"}
-
-
-def test_the_motion_of_the_library_is_that_of_the_steps(client):
-    """From the start of the scene, by the steps alone."""
-    client.set_state(STOPPED)
-    client.step(25)
-    simulation = client.run.top.simulation
-    motion = simulation.segment.motion
-    same = Motion(Top(*motion.top.moments), motion.start).at(0.125)
-    assert np.abs(same.orientation - simulation.state.orientation).max() < 1e-15

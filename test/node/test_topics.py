@@ -2,12 +2,10 @@
 
 from xml.etree import ElementTree
 
-import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from node.running_top import LATCHED, facts, segment_of, stamp_of
-from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import String
 
@@ -66,29 +64,6 @@ def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
             assert message.header.frame_id == "world"
 
 
-def test_a_rate_that_does_not_divide_a_second_does_not_drift(start_top):
-    run = start_top(publish_rate=30.0)
-    messages = run.collect(QuaternionStamped, "/top/orientation")
-    run.spin_until(lambda: len(messages) > 12)
-    first = stamp_of(messages[0])
-    for k, message in enumerate(messages):
-        assert abs(stamp_of(message) - first - k * 1e9 / 30) <= 1  # ns: each stamp is rounded once
-
-
-def test_a_topic_without_a_subscriber_is_not_computed(start_top, monkeypatch):
-    run = start_top(publish_rate=500.0)
-    computed = []
-    original = type(run.top.simulation.segment).state_at
-    monkeypatch.setattr(
-        type(run.top.simulation.segment),
-        "state_at",
-        lambda segment, stamp: computed.append(stamp) or original(segment, stamp),
-    )
-    handed_out = run.top.simulation.ticker._next
-    run.spin_until(lambda: run.top.simulation.ticker._next > handed_out + 50)
-    assert computed == []
-
-
 def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles(start_top):
     run = start_top()
     late = run.collect(String, "/robot_description", LATCHED)
@@ -124,14 +99,6 @@ def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top
     balance = facts(messages[-1], "top: balance")
     assert balance["power"] == "0.0"
     assert abs(float(balance["energy.balance"])) < 1e-14  # 24 terms, each with the rounding of 1 J
-
-
-def test_the_clock_is_published_if_the_parameter_asks_for_it(start_top):
-    run = start_top(realtime=True, publish_clock=True)
-    clocks = run.collect(Clock, "/clock")
-    run.spin_until(lambda: len(clocks) > 3)
-    times = [message.clock.sec * 10**9 + message.clock.nanosec for message in clocks]
-    assert set(np.diff(times)) == {5_000_000}
 
 
 def test_the_sensor_may_have_the_topic_of_rep_145(start_top):

@@ -18,7 +18,6 @@ from symtop_ros.physics import Friction
 
 VERTICAL = 2e-4  # N m
 TIMEOUT = 0.1  # s, the default
-BOTH = ("before", "after")
 EPS = 2.0**-52
 
 
@@ -57,17 +56,6 @@ def test_a_torque_acts_from_its_sample_until_it_has_run_out(start_top):
     # a difference of numbers of 1e-2, each with the rounding of a thousand pushes and products
     assert after[0] - before == pytest.approx(VERTICAL * TIMEOUT, abs=1e-2 * 100 * EPS)
     assert_recomputed(events, orientations)
-
-
-def test_there_is_no_jump_where_a_torque_begins_and_ends(start_top):
-    run, events = start(start_top)
-    Hand(run).push(x=1e-3, y=-1e-3)
-    run.spin_until(lambda: len(events_named(events, "torque")) == 2)
-    for event in events_named(events, "torque"):
-        values = facts(event)
-        for name, size in (("orientation", 1.0), ("angular_velocity", 200.0)):
-            before, after = (np.array(values[f"{at}.{name}"].split(), float) for at in BOTH)
-            assert np.abs(after - before).max() <= 4 * size * EPS  # a start is good to rounding
 
 
 def test_samples_that_repeat_themselves_hold_the_torque_without_events(start_top):
@@ -120,7 +108,6 @@ NUMBERS = "applied_torque must be 3 numbers from -1e+30 to 1e+30 (N m, world fra
     ("message", "sentence"),
     [
         (torque_of(x=np.nan), NUMBERS),
-        (torque_of(z=np.inf), "(N m, world frame), got [0.0, 0.0, inf]"),
         (torque_of(z=1.0, frame="top"), """frame_id must be "world" or empty, got 'top'"""),
         (BY_FORCE, "applied_torque force must be 0 (only the torque acts), got (1.0, 0.0, 0.0)"),
     ],
@@ -147,15 +134,3 @@ def test_energy_and_momentum_balances_are_in_diagnostics(start_top, scene):
     assert abs(float(values["energy.balance"])) < 20 * EPS * 1.5
     momentum = [float(part) for part in values["angular_momentum.balance"].split()]
     assert np.abs(momentum).max() < 20 * EPS * 0.02
-
-
-def test_a_step_that_would_take_minutes_to_integrate_is_refused(start_top):
-    run = start_top(scene="friction")
-    run.switch("pause", True)
-    before = run.state()
-    granted, reason = run.set("step", duration=1e9)
-    assert not granted
-    assert reason.startswith("duration must be up to ")
-    assert run.state()["time"] == before["time"]
-    assert run.set("step", duration=1.0)[0]
-    assert run.state()["time"] == before["time"] + 1.0

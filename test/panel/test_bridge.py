@@ -140,6 +140,8 @@ def test_what_the_node_refuses_is_its_answer(node, page):
         ({"service": "kick", "argument": {"precession_rate": None}}, ""),
         ({"torque": [0, 0]}, "torque must have 3 "),
         ({"torque": [0, 0, "x"]}, "torque must be "),
+        ({"torque": [10**400, 0, 0]}, "torque must be "),
+        ({"service": "kick", "argument": {"precession_rate": 10**400}}, "precession_rate must "),
     ],
 )
 def test_a_request_that_is_none_is_one_message(node, request_, start):
@@ -244,20 +246,6 @@ def test_of_a_long_run_the_last_events_are_kept(node, page):
     other.until(lambda: other.events)
     assert len(other.events) == KEPT
     other.close()
-
-
-@pytest.mark.parametrize(
-    "request_",
-    [
-        {"service": "kick", "argument": {"precession_rate": 10**400}},
-        {"service": "step", "argument": {"duration": -(10**400)}},
-        {"torque": [10**400, 0, 0]},
-    ],
-)
-def test_a_number_of_400_digits_gets_an_answer(node, request_):
-    answer = node[1].answer(request_)
-    assert not answer["granted"]
-    assert " must be " in answer["answer"]
 
 
 def test_a_missing_node_is_one_message():

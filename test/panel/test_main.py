@@ -86,14 +86,6 @@ def test_it_runs_where_there_is_no_ros_and_no_mcap():
         assert "<title>" in load(url)
 
 
-def test_a_node_without_ros_is_one_message(monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "rclpy", None)
-    assert module.main(["--node", "/top"]) == 1
-    assert capsys.readouterr().err == (
-        "top_panel: rclpy is missing: source a ROS 2, or pip install '.[ros]' in the checkout\n"
-    )
-
-
 def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(module.webbrowser, "open", lambda url: opened.append(url) or True)
@@ -102,12 +94,6 @@ def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys
     assert opened == [Path("top.html").absolute().as_uri()]
     assert capsys.readouterr().out == "wrote top.html, and opened it in a browser\n"
     assert Path("top.html").read_text() == write_file()
-
-
-def test_without_a_screen_it_says_which_file_is_to_be_opened(monkeypatch, capsys):
-    monkeypatch.setattr(module, "_has_screen", lambda: False)
-    assert module.main([]) == 0
-    assert capsys.readouterr().out == "wrote top.html, open it in a browser\n"
 
 
 def test_a_saved_run_of_the_same_name_is_kept():
@@ -124,31 +110,11 @@ def test_the_lesson_is_opened_by_the_file_itself():
     assert '"opening": "lesson=1"' in Path("lesson.html").read_text()
 
 
-def test_a_file_is_written_and_the_program_ends(capsys):
-    assert module.main(["--write", "page.html"]) == 0
-    assert capsys.readouterr().out == "wrote page.html; open it in a browser\n"
-    assert Path("page.html").stat().st_size < 700_000
-
-
 @pytest.mark.parametrize("name", ["run.txt", "missing/run.html"])
 def test_a_file_that_cannot_be_written_is_refused(name, capsys):
     assert module.main(["--write", name]) == 1
     sentence = f"--write must be a name that ends in .html in a folder, got {name}"
     assert capsys.readouterr().err == f"top_panel: {sentence}\n"
-
-
-def test_a_served_page_is_opened_where_there_is_a_screen(monkeypatch, capsys):
-    opened = []
-
-    def open_browser(url):
-        opened.append(url)
-        signal.raise_signal(signal.SIGTERM)
-
-    monkeypatch.setattr(module.webbrowser, "open", open_browser)
-    monkeypatch.setattr(module, "_has_screen", lambda: True)
-    assert module.main(["--port", "0"]) == 0
-    (line,) = capsys.readouterr().out.splitlines()
-    assert line == f"a top for each page: open {opened[0]} in a browser; Ctrl-C ends it"
 
 
 @pytest.mark.parametrize(

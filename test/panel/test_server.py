@@ -109,14 +109,6 @@ def test_head_is_the_same_answer_without_its_content(live, path, status):
     assert (again, others["Content-Length"], nothing) == (status, headers["Content-Length"], b"")
 
 
-def test_one_connection_serves_several_requests(live):
-    connection = http.client.HTTPConnection(address(live), timeout=TIMEOUT)
-    with contextlib.closing(connection):
-        for _ in range(3):
-            connection.request("GET", "/")
-            assert connection.getresponse().read() == PAGE.encode()
-
-
 def test_a_page_of_a_node_stands_in_no_frame_and_connects_to_its_server_only(live):
     policy = ask(live)[1]["Content-Security-Policy"]
     assert "frame-ancestors 'none'" in policy
@@ -238,8 +230,3 @@ def test_an_unexpected_exception_is_one_line(capsys):
     with serving(Broken()) as server, pytest.raises(http.client.RemoteDisconnected):
         kick(server)
     assert capsys.readouterr().err == "top_panel: a request failed: RuntimeError('a bug')\n"
-
-
-def test_a_port_that_is_taken_is_an_error_and_not_another_port():
-    with socket.create_server((LOCAL_HOST, 0)) as taken, pytest.raises(OSError, match="in use"):
-        PageServer(LOCAL_HOST, taken.getsockname()[1], PAGE)

@@ -17,11 +17,10 @@ from mcap.writer import Writer
 from odd_values import CONTROL, assert_one_sentence, deterministic, trials
 
 from symtop_ros.check.samples import check_log
-from symtop_ros.log.reader import MAGIC, MAX_RECORD, LogError, McapFile, list_problems
+from symtop_ros.log.reader import MAGIC, MAX_RECORD, McapFile, list_problems
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction
 from symtop_ros.playback import main as module
-from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY, decode_statuses, encode_statuses
 
@@ -121,16 +120,6 @@ def test_any_numbers_in_an_event_are_checked_or_refused(examples, tmp_path_facto
         assert all(map(str.isprintable, list_problems(log.problems)))
 
     check()
-
-
-def test_the_motion_before_a_log_is_integrated_up_to_the_step_limit(tmp_path, monkeypatch):
-    path = with_event(tmp_path, {"motion.elapsed_ns": "50000000000"})
-    assert not any(each.unreached for each in check_log(TopLog(McapFile(path))).values())
-    budget = StepBudget(spare=1000)
-    (batch,) = TopLog(McapFile(path)).batches()
-    segment = batch.events[0][1].segment()
-    assert not budget.reach(segment.motion, 5000.0, free=1500)
-    assert budget.reach(segment.motion, 1.0, free=1500)
 
 
 def test_samples_that_are_no_numbers_are_told_and_drawn_without_warnings(tmp_path, capsys):
@@ -284,25 +273,3 @@ def test_topics_and_events_of_control_characters_are_escaped(tmp_path, capsys):
     event = encode_statuses(0, "w", [status._replace(name=CONTROL * 10_000, values={})])
     path = write(tmp_path / "events.mcap", DIAGNOSTIC_ARRAY, "/top/events", [event])
     assert asked(capsys, path, "--check")[0] == 1
-
-
-@pytest.mark.parametrize("kind", ["", "other", "geometry_msgs/msg/TwistStamped"])
-def test_a_topic_of_another_type_is_not_the_tops(kind, tmp_path):
-    data = [messages.QUATERNION.layout("world").encode(0, [0.0, 0, 0, 1])]
-    path = write(tmp_path / "log.mcap", kind, "/top/orientation", data)
-    with pytest.raises(LogError, match=r"no run of a top in .*: topics /top/orientation"):
-        list(TopLog(McapFile(path)).batches())
-
-
-def test_a_file_that_is_removed_while_it_is_read_is_reported(tmp_path):
-    file = McapFile(Run(seconds=0.1).write(tmp_path))
-    file.path.unlink()
-    with pytest.raises(LogError, match="No such file or directory"):
-        list(file.chunks())
-
-
-@pytest.mark.parametrize("name", [CONTROL, "x" * 100_000, "/dev/zero", "/dev/null", ""])
-def test_a_file_that_is_no_log_is_refused_in_one_line(name, capsys):
-    status, lines = asked(capsys, name, "--check")
-    assert status == 1
-    assert len(lines) == 1

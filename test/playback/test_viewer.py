@@ -16,9 +16,3 @@ def test_in_a_venv_its_settings_are_there_without_statistics(tmp_path, monkeypat
     config = execute(words, env=viewer.settings(), check=True).stdout
     assert '"analytics_enabled": false' in config
     assert not (tmp_path / "home").exists()
-
-
-def test_without_a_venv_its_environment_is_that_of_the_user(monkeypatch):
-    monkeypatch.setattr(sys, "prefix", sys.base_prefix)
-    monkeypatch.setenv("XDG_CONFIG_HOME", "/of/the/user")
-    assert viewer.settings()["XDG_CONFIG_HOME"] == "/of/the/user"

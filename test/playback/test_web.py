@@ -39,15 +39,3 @@ def test_the_page_asks_no_other_host(address):
         assert {host for host in asked if host} == {"127.0.0.1"}
         assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
         tab.close()
-
-
-@pytest.mark.long
-def test_the_viewer_runs_and_asks_no_other_host(address):
-    with running_browser() as browser:
-        tab, asked, _ = open_viewer(browser, address)
-        started = "window._handle !== undefined"
-        until(lambda: tab.evaluate(started), lambda: tab.wait_for_timeout(100), TIMEOUT)
-        tab.wait_for_timeout(10_000)  # in which telemetry and the log-in would be asked for
-        assert {host for host in asked if host} == {"127.0.0.1"}
-        tab.screenshot(path="/tmp/rerun.png")
-        tab.close()

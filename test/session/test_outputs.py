@@ -109,8 +109,14 @@ def test_without_a_root_the_parameters_are_refused():
 
 def test_the_urdf_moves_by_tf_while_that_is_published():
     host = Program()
-    session, _ = start(host)
+    session, clock = start(host)
+    transforms = host.publishers["tf"]
+    transforms.has_subscriber = True
+    advance(session, clock, 0.1)
     session.apply_settings({"publish_tf": False})
+    count = len(transforms.sent)
+    advance(session, clock, 0.1)
+    assert len(transforms.sent) == count >= 20
     with_tf, without = host.publishers["robot_description"].sent
     assert b"floating" in with_tf
     assert b"floating" not in without

@@ -9,34 +9,6 @@ from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.changes.outcomes import Pause, Step
 from symtop_ros.wording import write
 
-# More requests are refused in test/node/test_refusals.py.
-FIELDS = (
-    "field name must be one of theta, phi, psi, theta_dot, phi_dot, psi_dot, orientation, "
-    "angular_velocity, precession, got 'thetta'"
-)
-TOO_STRONG = (
-    "precession_rate must be such that the top stays below 1e+09 rad/s, got 1000000000000.0"
-)
-
-
-@pytest.mark.parametrize(
-    ("name", "values", "sentence"),
-    [
-        ("set_initial_conditions", {"thetta": 0.5}, FIELDS),
-        ("kick", {"precession_rate": 1e12}, TOO_STRONG),
-        ("step", {"duration": 1.0}, "step must be requested while paused"),
-    ],
-)
-def test_a_refused_request_changes_nothing(name, values, sentence):
-    run = Run()
-    run.advance(0.1)
-    before = run.simulation.segment
-    granted, reason = run.ask(name, values)
-    assert not granted
-    assert sentence in reason
-    assert run.simulation.segment is before
-    assert [event.name for event in run.sink.events] == ["start"]
-
 
 def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
     run = Run()
@@ -69,16 +41,6 @@ def test_a_rate_that_is_asked_for_takes_the_place_of_a_root_of_the_parameters(re
     # rounding of 200 rad/s, over sin(0.5)
     for name, rate in zip(("phi", "theta", "psi"), rates, strict=True):
         assert rate is None or getattr(found, name) == pytest.approx(rate, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("request_", "other"),
-    [({"theta_dot": 1.0}, "theta_dot"), ({"phi_dot": 0.0, "theta_dot": 0.0}, "phi_dot")],
-)
-def test_a_root_is_refused_together_with_a_rate(request_, other):
-    granted, reason = Run().ask("set_initial_conditions", {"precession": "slow", **request_})
-    assert not granted
-    assert reason.startswith(f"precession must be given without {other}, got both")
 
 
 def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():
@@ -114,14 +76,6 @@ def test_a_step_under_friction_that_takes_too_long_is_refused():
     assert "s in one step under friction or an applied torque, got 1000000000.0" in reason
 
 
-def test_the_state_is_json():
-    run = Run("sleeping")
-    granted, text = run.ask("get_state")
-    state = json.loads(text)
-    assert granted
-    assert (state["kind"], state["mean_precession_rate"]) == ("sleeping", None)
-
-
 def test_the_state_says_since_when_its_time_counts():
     run = Run("cusps", publish_rate=100.0)
 
@@ -146,3 +100,13 @@ def test_reset_starts_from_initial_parameters_that_were_set_after_the_last_start
     run.change({"initial.theta": 0.75})
     assert run.ask("reset")[0]
     assert run.simulation.state.euler_angles.theta == 0.75
+
+
+def test_a_hurry_is_by_the_factor_that_is_set():
+    run = Run("hurry_slow", hurry_factor=2.0)
+    assert run.ask("hurry_precession")[0]
+    assert run.sink.events[-1].outcome().factor == pytest.approx(2.0, rel=1e-14)
+    run.change({"hurry_factor": 0.5})
+    assert run.ask("reset")[0]
+    assert run.ask("hurry_precession")[0]
+    assert run.sink.events[-1].outcome().factor == pytest.approx(0.5, rel=1e-14)  # of two rates

@@ -6,15 +6,36 @@ import numpy as np
 import pytest
 from physics.tops import EPS
 
-from symtop_ros.physics import Motion
-from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
+
+KINDS = {  # scenes by the kind of their motion
+    "regular": "regular_precession fast_precession hurry_slow hurry_fast perry_fails "
+    "conical_pendulum",
+    "cusps": "cusps sleeping_unstable closed_cusps gray_fall",
+    "looping": "looping backward_start",
+    "unidirectional": "unidirectional hanging disc free spin_reversal spherical_pendulum",
+    "sleeping": "sleeping",
+    "through the pole": "through_the_pole",
+    "asymptotic": "separatrix",
+    "driven": "friction sleeping_wakes vertical_torque",
+}
 
 
 def motion_of(scene):
-    settings = Settings.from_scene(scene)
-    start = initial_state(settings.top, settings.initial, {})
-    return Motion(settings.top, start, settings.friction)
+    return start_motion(Settings.from_scene(scene))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_scene_starts_the_motion_that_its_name_promises(kind):
+    for scene in KINDS[kind].split():
+        motion = motion_of(scene)
+        assert (scene, "driven" if motion.is_driven else motion.kind) == (scene, kind)
+
+
+def test_every_scene_has_a_kind():
+    assert set(scene_names()) == set(" ".join(KINDS.values()).split())
 
 
 def test_a_sleeping_top_wakes_at_the_critical_spin():

@@ -13,13 +13,10 @@ from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
 from symtop_ros.session.outputs import list_fixed_frames
-from symtop_ros.simulation import sensor
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor import EXACT, Imu, Rig, find_body, random_walks
-from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
-from symtop_ros.simulation.validation import RefusedError
 
 MOTION = Motion(ARTICLE, CUSPS)
 MOUNT = Rotation.from_euler("xyz", (0.3, -1.1, 2.0))
@@ -149,13 +146,6 @@ def test_noise_shows_in_the_covariances():
     assert numbers[0, 4] == EXACT  # the attitude is still exact
 
 
-def test_an_event_brings_back_the_sensor_bit_for_bit():
-    segment = segment_of(NOISY)
-    again = Event.of(0, "start", None, {}, MOTION.start, segment).segment()
-    assert again.rig == segment.rig
-    assert (measured("imu", again) == measured("imu", segment)).all()
-
-
 @pytest.mark.parametrize(
     "values",
     [
@@ -172,27 +162,6 @@ def test_a_damaged_event_is_refused(values):
         replace(event, values={**event.values, **values}).segment()
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "reason"),
-    [
-        ("gravity", 0.0, "gravity must be 0.001 to 1000 m/s^2, got 0.0"),
-        ("imu.position", [1.0, 2.0], "imu.position must have 3 elements (m), got 2"),
-        ("imu.orientation", [0.0, 0.0, 0.0, 0.5], "imu.orientation must be a quaternion of norm 1"),
-        (
-            "imu.orientation",
-            [0.0, 0.0, 0.0, 2.5],
-            "imu.orientation must be 4 numbers from -2 to 2 (x, y, z, w), got ",
-        ),
-        ("imu.noise.gyroscope_noise_density", -1.0, "imu.noise.gyroscope_noise_density must be 0 "),
-        ("imu.noise.seed", 0.5, "imu.noise.seed must be a whole number"),
-    ],
-)
-def test_a_bad_parameter_is_refused(name, value, reason):
-    with pytest.raises(RefusedError) as refused:
-        Settings.from_values({name: value})
-    assert str(refused.value).startswith(reason)
-
-
 def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     run = Run(**{"imu.enabled": True, "imu.position": list(PLACE), "odometry.enabled": True})
     settings = run.sink.descriptions[0]
@@ -205,17 +174,3 @@ def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     assert run.simulation.segment.rig.imu.rate == 50.0
     assert run.simulation.segment.motion.top.Mgl == 0.05
     assert list_fixed_frames("top", Run().simulation.settings.imu, None) == []
-
-
-def test_a_random_walk_computes_what_neighbouring_samples_share_once(monkeypatch):
-    counts, compute = [], sensor._normals
-
-    def count(seed, streams, counters):
-        counts.append(np.size(counters))
-        return compute(seed, streams, counters)
-
-    monkeypatch.setattr(sensor, "_normals", count)
-    sensor.random_walks(1, [0], np.arange(10_000) * 1_000_000)
-    # Of 24 levels of bridges three are shorter than a sample, one has its length, and each level
-    # above it has half as many: below 3 + 2 for each sample.
-    assert sum(counts) < 5 * 10_000

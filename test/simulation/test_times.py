@@ -9,7 +9,6 @@ from simulation.runs import SECOND, Run
 
 from symtop_ros.arrays import compose, invert
 from symtop_ros.check.events import find_mismatches
-from symtop_ros.simulation.validation import RefusedError
 
 MS = SECOND // 1000
 PERIOD = 5 * MS
@@ -143,11 +142,6 @@ def test_the_time_waits_for_a_process_that_was_stopped():
     run.advance(0.1)
     assert set(np.diff(run.stamps)) == {MS}
     assert run.simulation.ticker.missed == 0
-
-
-def test_more_samples_than_can_be_sent_are_refused():
-    with pytest.raises(RefusedError, match="publish_rate times real_time_factor must be at most"):
-        start(publish_rate=1000.0, real_time_factor=5.0)
 
 
 def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered():

@@ -5,8 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from workshop.speed import many
-from workshop.speed.many import Motions, compute_exact, find_programs, measure_many
+from workshop.speed.many import find_programs, measure_many
 from workshop.speed.peers import CLOSED_FORM
 
 COUNT, SPAN = 3, 1.0
@@ -35,23 +34,3 @@ def test_the_errors_of_the_package_are_those_from_an_independent_method():
 def test_an_error_is_the_angle_from_the_exact_attitude():
     cost = measure_many("turned", program(turn=1e-9)[0], COUNT, SPAN)
     assert cost.error == pytest.approx(1e-9, rel=1e-5)  # the package's own error is 1e-15
-
-
-def test_every_program_computes_all_motions_as_often_as_the_others():
-    costs = []
-    for name in (CLOSED_FORM, "another"):
-        compute, calls = program()
-        costs.append(measure_many(name, compute, COUNT, SPAN))
-        assert calls == [COUNT] * (1 + many.RUNS)
-    assert len({(each.motions, each.compared, each.runs) for each in costs}) == 1
-
-
-def test_the_time_is_a_median():
-    slow = [0.0, 0.5, 0.5, *[0.0] * (many.RUNS - 2)]
-    assert measure_many("slow at times", program(delays=slow)[0], COUNT, SPAN).seconds < 0.1
-
-
-def test_the_exact_motions_are_those_that_the_programs_compute():
-    motion = Motions.draw(COUNT).task(1)
-    high, _ = compute_exact(COUNT, 0.0)
-    assert high[1] == pytest.approx(motion.start.orientation, abs=1e-16)

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from workshop.main import main
 from workshop.speed import measure as report
 from workshop.speed.benchmarks import (
     LARGEST_DRIVEN_ERROR,
@@ -132,35 +131,3 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
     progress, failure = capsys.readouterr().err.splitlines()
     assert progress == "1 of 1: a peer: model"
     assert failure.startswith("workshop: above the limit: a peer: ")
-
-
-def test_a_folder_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys):
-    (tmp_path / "file").write_text("in the way")
-    assert main(["speed", str(tmp_path / "file")]) == 1
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line == f"workshop: {tmp_path / 'file'}: File exists"
-
-
-def test_progress_is_printed_and_each_table_is_written_as_soon_as_it_is_measured(
-    tmp_path, monkeypatch, capsys
-):
-    monkeypatch.setattr("workshop.speed.peers.peer.RECORDED", 16)
-    seen = []
-
-    def list_some(scope, peers, results):
-        for name, work in report_steps(scope, peers, results):
-            if name in ("footprint", *(f"{CLOSED_FORM}: {each}" for each in ("model", "cusps"))):
-                yield name, work
-        yield "the end", lambda: seen.append((tmp_path / "report.md").read_text())
-        yield "no more", lambda: pytest.fail("as if it were interrupted")
-
-    report_steps = report.list_steps
-    monkeypatch.setattr(report, "list_steps", list_some)
-    with pytest.raises(pytest.fail.Exception):
-        measure(tmp_path, SMALL, "make report")
-    lines = capsys.readouterr().err.splitlines()
-    assert lines[0] == "1 of 5: footprint"
-    assert lines[-1] == "5 of 5: no more"
-    (text,) = seen
-    assert f"| {CLOSED_FORM} |" in text
-    assert "## Long times" not in text

@@ -16,11 +16,6 @@ SECTIONS = (
 )
 
 
-def test_a_table_has_as_many_cells_in_each_row():
-    lines = publish.format_table(["", "a"], [["b", "1"], ["c", "2"]]).splitlines()
-    assert lines == ["|  | a |", "| --- | --: |", "| b | 1 |", "| c | 2 |"]
-
-
 def read_tables(text):
     """The cells of each table of a text."""
     return [
@@ -68,7 +63,3 @@ def test_sections_are_written_into_the_pages_that_have_them(docs):
     publish.publish({"chapters": "new", "summary": "other"}, docs)
     assert page.read_text() == text.replace("old", "new")
     assert (docs.parent / "README.md").read_text() == "no section\n"
-
-
-def test_a_text_without_the_section_is_unchanged():
-    assert publish.replace_section("a text", "summary", "new") == "a text"

@@ -1,11 +1,8 @@
 """The Taylor integration agrees with formulas that are independent of it, to 20 digits."""
 
-import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from symtop_ros.physics import Friction, State, Top
-from workshop.speed.peers.peer import Task
 from workshop.speed.reference import Reference, integrate, read_entries, split_orientations
 
 ARTICLE = Reference.read().article
@@ -37,35 +34,3 @@ def test_the_articles_motions_have_the_digits_that_were_stored(number):
         exact = [[mpf(each) for each in q] for q in DIGITS[number]["exact"][:2]]
     motion = integrate(ARTICLE[number].task)
     assert largest_difference(motion, ARTICLE[number].times[:2], exact) < SMALLEST
-
-
-def test_a_sphere_without_weight_turns_evenly():
-    omega = (1.0, 2.0, -2.0)  # rad/s, of size 3
-    motion = integrate(Task(Top(0.5, 0.5, 0.0), State((1.0, 0.0, 0.0, 0.0), omega)))
-    with mp.workdps(40):
-        half = mpf(3) * 7 / 2
-        exact = [[mp.cos(half), *(mp.sin(half) * rate / 3 for rate in map(mpf, omega))]]
-        assert largest_difference(motion, [7.0], exact) < SMALLEST
-
-
-def test_friction_alone_slows_the_spin_exponentially():
-    task = Task(Top(1.0, 0.5, 0.0), State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 4.0)), Friction(0.25))
-    with mp.workdps(40):
-        half = 2 * (1 - mp.exp(mpf(-1) / 2 * 3)) / (mpf(1) / 2)
-        exact = [[mp.cos(half), mpf(0), mpf(0), mp.sin(half)]]
-        assert largest_difference(integrate(task), [3.0], exact) < SMALLEST
-
-
-def test_times_may_come_in_any_order_and_again():
-    motion = integrate(ARTICLE[0].task)
-    late, early, again = np.transpose(split_orientations(motion, [0.2, 0.01, 0.2]), (1, 0, 2))
-    assert (late == again).all()
-    alone = split_orientations(integrate(ARTICLE[0].task), [0.01])
-    assert (early == np.transpose(alone, (1, 0, 2))[0]).all()
-
-
-def test_a_top_that_rests_on_the_vertical_stays():
-    task = Task(Top(1.0, 0.5, 2.0), State((1.0, 0.0, 0.0, 0.0), (0.0,) * 3))
-    high, low = split_orientations(integrate(task), [50.0])
-    assert high.tolist() == [[1.0, 0.0, 0.0, 0.0]]
-    assert (low == 0).all()

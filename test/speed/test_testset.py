@@ -56,11 +56,6 @@ def test_the_best_run_within_the_limit_of_time_counts(clock):
     assert entry.limits == pytest.approx(max(limits), rel=1e-3)
 
 
-def test_a_peer_that_is_too_slow_or_fails_has_no_entry(clock):
-    assert find_best_run(make_peer(clock, s1=(1e-9, 0.05)), CUSPS, limit=0.01) == []
-    assert find_best_run(make_peer(clock, s1=(None, 0.0)), CUSPS, limit=0.01) == []
-
-
 def test_a_table_and_the_entries_are_written(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(testset, "read_testset", lambda: PROBLEMS[:2])
     monkeypatch.setattr(testset, "PROGRAMS", testset.PROGRAMS[:1])

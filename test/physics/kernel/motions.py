@@ -1,21 +1,27 @@
-"""Random motions of all families, as bytes for a program, and what Python says of them."""
+"""Motions of all families, as bytes for a program, and what Python says of them."""
 
 import struct
 from fractions import Fraction
 from functools import cache
 
 import numpy as np
-from physics.driven_families import FAMILIES as DRIVEN_FAMILIES
-from physics.driven_families import DrivenCase
-from physics.tops import FAMILIES, random_case
+from physics.exact_motions import read_motions
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Motion
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.door import KINDS
 from symtop_ros.physics.kicks import FACTOR_OF_RATE
 from symtop_ros.physics.rule.kick_effect import FACTS, LIFTS
 from symtop_ros.physics.rule.perry import DIRECTIONS, PLACES, REASONS, RULES, SUBJECTS
 
+MOTIONS = read_motions()
+# But for weights of 1e-100 J, of which short times are refused.
+UNDER_GRAVITY = [
+    each
+    for each in MOTIONS
+    if not each.motion.is_driven and each.family != "a weight however small moves an axis at rest"
+]
+DRIVEN = [each for each in MOTIONS if each.motion.is_driven]
 # of the time of a case; less than 1e15 turns, which is what the kernel serves
 TIMES = np.array([0.0, 1e-9, -1e-4, 1e-3, -1e-2, 0.1, 0.02, -0.03, 0.04, 0.05, -0.06, 0.07])
 STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64)
@@ -41,8 +47,8 @@ class Sample:
     def __init__(self, motion, times, torque=None):
         self.motion, self.times, self.torque = motion, times, torque
         self.clock = ExactTimes(STAMPS, 1 / 3, ELAPSED)
-        if motion.is_driven:  # stamps within the times
-            t = float(times.max())
+        if motion.is_driven or motion.farthest_time < LONGEST:  # stamps within the times
+            t = float(np.abs(times).max())
             self.clock = ExactTimes(STAMPS[[0, 1, 6, 3, 4]], 0.3 * t, Fraction(0.01 * t) * 10**9)
 
     def encode(self):
@@ -106,34 +112,27 @@ def flatten(numbers):
             yield each
 
 
-def list_gravity(seeds):
-    """Motions under gravity: of each family, weightless ones, and sleeping ones."""
-    for family in FAMILIES:
-        for seed in seeds:
-            case = random_case(50_000 + seed, family)
-            yield Sample(Motion(case.top, case.start), case.t * TIMES)
-    for seed in seeds:
-        case = random_case(60_000 + seed, "any")
-        top = Top(case.top.Ix, case.top.Iz, 0.0)
-        yield Sample(Motion(top, case.start), case.t * TIMES)
-        asleep = State((1, 0, 0, 0), (0, 0, case.start.angular_velocity[2]))
-        if seed % 4 == 0:
-            yield Sample(Motion(case.top, asleep), case.t * TIMES)
+def list_gravity(numbers):
+    """Motions under gravity: eight of the table for each number, later at other times."""
+    for number in numbers:
+        earlier, first = divmod(8 * number, len(UNDER_GRAVITY))
+        for each in UNDER_GRAVITY[first : first + 8]:
+            t = max(each.times, key=abs) / (1 + earlier / 8)
+            yield Sample(each.motion, t * TIMES)
 
 
-def list_driven(seeds):
+def list_driven(numbers):
     """Motions with friction or an applied torque, which changes in some of them."""
-    for family in DRIVEN_FAMILIES:
-        for seed in seeds:
-            case = DrivenCase(family, 700 + seed)
-            t = min(case.t, LONGEST)
-            torque = (1e-3 * case.top.Mgl, 0.0, 0.0) if seed % 2 else None
+    for number in numbers:
+        for each in DRIVEN[number % 34 :: 34]:
+            motion, t = each.motion, min(max(each.times), LONGEST)
+            torque = (1e-3 * motion.top.Mgl, 0.0, 0.0) if number % 2 else None
             # Back in time friction drives a top: it soon becomes too fast.
-            before = 0.0 if case.friction else -0.1
-            yield Sample(case.motion, t * np.array([0.0, before, 0.01, 0.4, 1.0]), torque)
-    gravity = random_case(0, "pendulum")
-    pushed = (0.0, 0.01 * gravity.top.Mgl, 0.0)
-    yield Sample(Motion(gravity.top, gravity.start, Friction()), gravity.t * TIMES[:7], pushed)
+            before = 0.0 if motion.friction else -0.1
+            yield Sample(motion, t * np.array([0.0, before, 0.01, 0.4, 1.0]), torque)
+    motion = UNDER_GRAVITY[0].motion
+    pushed = (0.0, 0.01 * motion.top.Mgl, 0.0)
+    yield Sample(motion, UNDER_GRAVITY[0].times[0] * TIMES[:7], pushed)
 
 
 def encode(samples):
@@ -153,9 +152,9 @@ def normalize(numbers):
 
 @cache
 def list_many():
-    """About two thousand samples, as bytes for a program and as what it writes."""
-    samples = list_samples(range(210), range(34))
-    assert len(samples) >= 2000
+    """The motions of the table, as bytes for a program and as what it writes."""
+    samples = list_samples(range(216), range(34))
+    assert len(samples) > 1800
     return encode(samples), expect(samples)
 
 

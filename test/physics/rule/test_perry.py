@@ -348,18 +348,6 @@ def test_where_the_rate_changes_nothing_the_verdict_does_not_depend_on_rounding(
         assert said(answer(before, top=top)) is None
 
 
-def test_a_large_factor_next_to_the_vertical_is_judged_by_exact_rates():
-    number = float.fromhex
-    moments = "0x1.95ec3f27829bfp-7", "0x1.6f07769c3f3d3p-6", "0x1.b7034667e3d6bp+1"
-    q = "0x1.a67d6ea156f68p-1", "0x1.e374d1127075ap-28", "0x1.8a9746143dc64p-27"
-    omega = "0x1.8cfc071e6bf5cp-6", "0x1.6366847e6323fp-7", "0x1.850c5f45dc636p+0"
-    top = Top(*map(number, moments))
-    state = State([*map(number, q), number("0x1.2137714bba92ap-1")], list(map(number, omega)))
-    with mp.workdps(60):
-        assert exact_change(top, state, 1000.0, "spin_rate") < 0
-    assert perrys_rule(top, state, 1000.0).rule_holds is True
-
-
 def state_next_to_the_vertical(rng):
     """A tilt of 1e-3 to 1e-12, with phi' of which the two terms nearly cancel."""
     return State.from_euler(

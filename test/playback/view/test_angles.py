@@ -44,11 +44,6 @@ def test_an_arc_is_a_part_of_a_circle_as_long_as_its_angle():
         assert np.abs(turned - angles[name]).max() <= POINTS * ROUNDING
 
 
-def test_on_the_vertical_there_is_no_angle_but_no_error_either():
-    arcs = draw_arcs(np.zeros(1), np.zeros(1), np.array([0.3]))
-    assert np.isfinite([*arcs.values()]).all()
-
-
 def test_the_axes_of_the_body_turn_with_it_and_the_letters_are_greek(tmp_path):
     run = Run(seconds=0.5, hurried=False)
     recording = record(run, tmp_path, angles=True)

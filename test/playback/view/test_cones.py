@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-import rerun as rr
 from log_files import ARTICLE, Run
-from playback.view.rows import arrows, entities_of, record, rows, strict
+from playback.view.rows import arrows, entities_of, record, rows
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import cones, entities
-from symtop_ros.playback.view.stream import Stream
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 STARTS = {
@@ -51,18 +49,3 @@ def test_only_a_motion_without_any_torque_has_cones(tmp_path):
     assert cones.has_cones(Motion(free, start))
     assert not cones.has_cones(Motion(ARTICLE, start))
     assert not cones.has_cones(Motion(free, start, torque=(0, 0, 1e-4)))
-
-
-@pytest.mark.parametrize("spin", [0.0, 60.0])
-def test_omega_along_the_axis_has_no_cone_and_no_error(spin):
-    motion = Motion(Top(1.0, 0.5, 0.0), State.from_euler(theta=0.5, psi_dot=spin))
-    with strict():
-        cones.log_cones(Stream(rr.RecordingStream("test")), motion, motion.start, 50.0)
-
-
-def test_cones_end_when_gravity_begins():
-    stream, logged = Stream(rr.RecordingStream("test")), []
-    stream.log = lambda entity, *values, static=False: logged.append((entity, values))
-    cones.clear_cones(stream)
-    assert [entity for entity, _ in logged] == [entities.POLHODE, entities.HERPOLHODE]
-    assert all(isinstance(values[0], rr.Clear) for _, values in logged)

@@ -48,15 +48,6 @@ def test_what_friction_takes_is_booked_as_lost(tmp_path):
     assert np.ptp(done) == 0.0
 
 
-def test_the_work_of_a_torque_is_that_of_its_power(tmp_path):
-    torque = (0.0, 0.0, 1e-3)
-    rows, _ = read(Run(seconds=1.0, hurried=False, torque=torque), tmp_path)
-    _, stacked, with_lost, done = rows.T
-    assert np.ptp(done) > 0.01 * SIZE
-    assert np.abs(done - stacked).max() <= ROUNDING
-    assert np.array_equal(stacked, with_lost)
-
-
 def test_with_both_the_sum_is_still_start_and_work(tmp_path):
     friction, torque = Friction(axial=1e-5, transverse=1e-5), (0.0, 0.0, 1e-3)
     run = Run(seconds=1.0, rate=1000.0, hurried=False, friction=friction, torque=torque)

@@ -1,13 +1,12 @@
 """Arrows of the torques in the precessing frame: their sum turns the axis up or down."""
 
 import numpy as np
-import pytest
-from log_files import ARTICLE, CUSPS, REGULAR, Run
+from log_files import ARTICLE, CUSPS, Run
 from playback.view.rows import arrows, record, rows
 
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.fictitious import DEPTHS, LENGTH, LONGEST, find_scale
+from symtop_ros.playback.view.fictitious import DEPTHS, LONGEST, find_scale
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 
@@ -39,22 +38,9 @@ def test_on_cusps_the_fourth_arrow_is_the_angular_acceleration(tmp_path):
     assert np.abs((tips[2] - tips[3])[:, :2]).max() <= FLOAT
 
 
-def test_in_regular_precession_the_fourth_arrow_has_no_length(tmp_path):
-    _, found = drawn(REGULAR, tmp_path)
-    assert np.abs(found["sum"][1]).max() <= FLOAT
-    sizes = np.linalg.norm(found["gravity"][1], axis=1)
-    assert sizes == pytest.approx(LENGTH * np.sin(0.5), rel=0.05)  # a scale has two digits
-
-
 def test_through_the_vertical_no_arrow_is_too_long_and_the_others_are_drawn(tmp_path):
     _, found = drawn(State.from_euler(theta=0.4, theta_dot=12.0, psi_dot=5.0), tmp_path)
     lengths = np.array([np.linalg.norm(vectors, axis=1) for _, vectors in found.values()])
     assert np.isfinite(lengths).all()
     assert lengths.max() <= LONGEST
     assert (lengths[0] > 0).mean() > 0.5
-
-
-def test_the_panel_has_the_scale_of_the_arrows(tmp_path):
-    target = record(Run(), tmp_path, fictitious=True)
-    _, texts = rows(target, entities.PANEL, "TextDocument:text")
-    assert f"1 unit {find_scale(ARTICLE, CUSPS):g} N m" in texts[0][0]

@@ -1,6 +1,5 @@
 """The ghost is the run without its last kick, at the same stamps."""
 
-from dataclasses import replace
 from unittest.mock import Mock
 
 import numpy as np
@@ -33,13 +32,6 @@ def assert_same(state, expected):
     """Both are one motion, evaluated from two starts or as one: up to the rounding of a start."""
     difference = np.abs(state.orientation - expected.orientation).max()
     assert difference <= 64 * EPS
-
-
-def test_there_is_none_before_a_kick():
-    ghost = GhostView(Mock())
-    ghost.follow("start", None, BEGIN)
-    assert ghost.segment is None
-    assert len(ghost.states_at(np.arange(10))[0]) == 0
 
 
 def test_it_continues_the_motion_before_the_kick_to_the_last_bit(ghost):
@@ -90,27 +82,6 @@ def test_a_jump_of_the_clock_leaves_it_where_it_is(ghost):
     ghost, after = ghost
     ghost.follow("clock", after, after.move(2 * SECOND, 50 * SECOND))
     assert_same(ghost.segment.state_at(51 * SECOND), BEGIN.state_at(3 * SECOND))
-
-
-def test_a_paused_ghost_has_one_state_for_all_stamps(ghost):
-    ghost, after = ghost
-    ghost.follow("pause", after, after.pause(2 * SECOND))
-    stamps, quaternions = ghost.states_at(2 * SECOND + np.arange(5) * SECOND)
-    assert quaternions.shape == (len(stamps), 4)
-    assert len(np.unique(quaternions, axis=0)) == 1
-
-
-def test_dense_samples_are_thinned(ghost):
-    ghost, _ = ghost
-    stamps = SECOND + np.arange(0, SECOND, 100_000)  # 10 kHz
-    assert 100 <= len(ghost.states_at(stamps)[0]) <= 130
-
-
-def test_a_slower_factor_of_the_run_is_that_of_the_ghost(ghost):
-    ghost, after = ghost
-    slowed = replace(after, factor=0.1)
-    ghost.follow("pace", after, slowed)
-    assert ghost.segment.factor == 0.1
 
 
 def test_a_motion_that_is_too_long_to_integrate_has_no_ghost():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from log_files import ARTICLE, CUSPS, REGULAR, Run
+from log_files import ARTICLE, CUSPS, Run
 from playback.view.rows import arrows, record, rows
 
 from symtop_ros.physics import Motion
@@ -15,13 +15,6 @@ FLOAT = 4 * float(np.finfo(np.float32).eps)
 def read(start, folder):
     (batch,) = Run(start=start, seconds=0.5, hurried=False).open(folder).batches()
     return Torques.of(batch.columns)
-
-
-def test_in_regular_precession_the_frame_of_the_nodes_needs_no_change_of_L(tmp_path):
-    _, torques = read(REGULAR, tmp_path)
-    size = np.abs(torques.total).max()
-    # the root is a double, and L a sum of products of doubles; a few roundings
-    assert np.abs(torques.precession - torques.total).max() <= 1e-15 * size
 
 
 def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):

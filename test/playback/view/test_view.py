@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, Run
 from playback.view.rows import arrows, entities_of, record, recording_to, rows, strict
-from rerun.chunk import RrdReader
 
 from symtop_ros.log.batch import Batch, Columns
-from symtop_ros.physics import ExactTimes, Motion, State, specific_force
+from symtop_ros.physics import ExactTimes, Motion, specific_force
 from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import View
@@ -93,14 +92,6 @@ def test_events_and_turning_circles_are_on_the_time_line(recording):
     assert heights == pytest.approx(np.cos([low, high]), abs=FLOAT)
 
 
-def test_what_is_missing_in_the_log_is_told_among_the_events(tmp_path):
-    path = RUN.write(tmp_path)
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    _, texts = rows(record(path, tmp_path), entities.EVENTS, "TextLog:text")
-    assert "messages after" in texts[-1][0]
-
-
 @pytest.mark.parametrize("missing", ["events", "orientation", "angular_momentum", "euler_angles"])
 def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
     log, target = Run().without(missing).open(tmp_path), tmp_path / "part.rrd"
@@ -108,11 +99,6 @@ def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
         replay(log, target)
     assert f"the log has no {missing}" in log.problems
     assert len(rows(target, entities.BODY, "Transform3D:quaternion")[0]) == 400
-
-
-def test_a_top_at_rest_is_drawn_too(tmp_path):
-    run = Run(start=State.from_euler(theta=0.0), hurried=False)
-    assert not arrows(record(run, tmp_path), entities.TORQUE).any()
 
 
 def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
@@ -156,20 +142,6 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
     scale = np.linalg.norm(world, axis=1).max() / np.linalg.norm(drawn, axis=1).max()
     # the scale is rounded to two digits for the panel
     assert np.abs(drawn * float(f"{scale:.2g}") - world).max() <= 2 * FLOAT * np.abs(world).max()
-
-
-@pytest.mark.parametrize("torques", [False, True])
-def test_every_arrow_that_is_drawn_has_a_colour_and_a_label(torques, tmp_path):
-    target = record(Run(), tmp_path, torques=torques)
-    drawn, styled = set(), set()
-    for chunk in RrdReader(target).stream():
-        columns = chunk.to_record_batch().schema.names
-        if "Arrows3D:vectors" in columns:
-            drawn |= {chunk.entity_path, f"{chunk.entity_path}/name"}
-        if chunk.is_static and {"Arrows3D:colors", "Points3D:labels"} & set(columns):
-            styled.add(chunk.entity_path)
-    assert len(drawn) == (12 if torques else 6)
-    assert drawn <= styled
 
 
 @pytest.mark.parametrize(

@@ -51,17 +51,6 @@ def test_finer_settings_are_better(peer):
 
 
 @pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.name)
-def test_a_peer_starts_anew_each_time(peer):
-    problem = RUBBING if peer.friction == "only" else CUSPS
-    solution = peer.prepare(problem.task, peer.settings[0])
-    first = solution.reach(0.125)
-    solution.record(0.25)
-    # Drake with error control chooses its first step by the last one of before.
-    close = 0.1 if "three angles" in peer.name else 0.0
-    np.testing.assert_allclose(solution.reach(0.125), first, rtol=0, atol=close)
-
-
-@pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.name)
 def test_the_recorded_motion_is_the_one_that_is_timed(peer):
     problem = RUBBING if peer.friction == "only" else CUSPS
     solution = peer.prepare(problem.task, peer.settings[1 % len(peer.settings)])

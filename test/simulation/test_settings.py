@@ -1,0 +1,112 @@
+"""Parameters by their own table: defaults, ranges, and refusals in words."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from odd_values import VALUES, assert_one_sentence, deterministic, trials
+
+from symtop_ros.simulation.settings import PARAMETERS, Settings
+from symtop_ros.simulation.validation import RefusedError
+
+RANGED = [name for name, parameter in PARAMETERS.items() if parameter.limits]
+VECTORS = {name: p.condition[0] for name, p in PARAMETERS.items() if p.default == []}
+# Of no parameter: numbers that are none, and text that cannot be printed or stand in a message.
+WRONG = (None, math.nan, [None], "\x1b[31m", "a\nb", "\udcff", b"\xff", "x" * 1_000_000, object())
+
+
+def refusal(values):
+    """The sentence of a refusal; empty if the values are granted."""
+    try:
+        Settings.from_values(values)
+    except RefusedError as refused:
+        assert_one_sentence(str(refused))
+        return str(refused)
+    return ""
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_the_default_of_a_parameter_is_valid_and_what_no_parameter_takes_is_refused(name):
+    parameter = PARAMETERS[name]
+    clean = parameter.validate(name, parameter.default)
+    assert parameter.validate(name, clean) == clean
+    for value in WRONG:
+        assert refusal({name: value}).startswith(f"{name} must "), value
+
+
+@pytest.mark.parametrize("name", RANGED)
+def test_a_number_may_be_at_the_limits_of_its_range_and_is_refused_beyond_them(name):
+    parameter = PARAMETERS[name]
+    low, high = parameter.limits
+    is_whole = isinstance(parameter.default, int)
+    for value in (low, high):
+        assert parameter.validate(name, value) == value
+    beyond = math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
+    for value in (*beyond, math.inf, -math.inf, 10**400, True, "much"):
+        said = "0 to " if is_whole else f"{parameter.condition}, got "
+        assert refusal({name: value}).startswith(f"{name} must be {said}"), value
+    if is_whole:
+        assert refusal({name: 0.5}) == f"{name} must be {parameter.condition}, got 0.5"
+
+
+@pytest.mark.parametrize("name", VECTORS)
+def test_a_vector_has_its_size_of_numbers_and_may_be_text_or_empty(name):
+    validate, size = PARAMETERS[name].validate, int(VECTORS[name])
+    ones = [0] * (size - 1) + [1]
+    assert validate(name, ones) == validate(name, str(ones)) == tuple(ones)
+    assert validate(name, []) == validate(name, ()) == ()
+    for value in ([1.0] * (size - 1), [1.0] * (size + 1), 5, 0, True, "abc", b"abcd"[:size]):
+        assert refusal({name: value}).startswith(f"{name} must have {size} elements ("), value
+    for odd in (math.nan, math.inf, 1e31, "a"):
+        assert refusal({name: [odd, *ones[1:]]}).startswith(f"{name} must be {size} numbers from ")
+
+
+ALONE = "initial.angular_velocity must be set together with initial.orientation, got none"
+UNIT = [0.0, 0.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"top.Iz": 1.0}, "top.Iz must be > 0 and <= 2 Ix = 0.000456 kg m^2, got 1"),
+        ({"initial.angular_velocity": [0.0, 0.0, 1.0]}, ALONE),
+        ({"imu.orientation": [0.0, 0.0, 0.0, 0.5]}, "imu.orientation must be a quaternion of norm"),
+        ({"initial.precession": "odd"}, 'initial.precession must be "" or "slow" or "fast", got '),
+        ({"publish_tf": 1}, "publish_tf must be true or false, got 1"),
+        ({"top_frame": "/top"}, "top_frame must be 'top', without the leading slash, got '/top'"),
+        ({"world_frame": " "}, "world_frame must be the name of a frame (1 to 200 printable "),
+        ({"world_frame": "w" * 201}, "world_frame must be the name of a frame (1 to 200 printable"),
+        (
+            {"publish_clock": True, "publish_rate": 1000.0, "real_time_factor": 2.001},
+            "publish_rate times real_time_factor must be at most 2000 Hz with publish_clock, got ",
+        ),
+    ],
+)
+def test_values_that_do_not_fit_are_refused(values, sentence):
+    assert refusal(values).startswith(sentence)
+
+
+def test_an_exponent_makes_text_a_number_as_in_yaml():
+    assert PARAMETERS["hurry_factor"].validate("hurry_factor", "2e0") == 2.0
+    assert refusal({"hurry_factor": "2"}).endswith(", got '2'")
+
+
+def test_values_next_to_those_that_do_not_fit_are_granted():
+    for values in (
+        {"initial.angular_velocity": [0.0, 0.0, 1.0], "initial.orientation": UNIT},
+        {"publish_clock": True, "publish_rate": 1000.0, "real_time_factor": 2.0},
+        {"publish_rate": 2000.0, "real_time_factor": 100.0},
+        {"world_frame": "w" * 200, "top.Iz": 2 * 2.28e-4},
+    ):
+        assert refusal(values) == ""
+
+
+@pytest.mark.parametrize("examples", trials(300, 1000))
+def test_parameters_of_any_value_are_taken_or_refused_in_one_sentence(examples):
+    @deterministic(examples)
+    @given(st.dictionaries(st.sampled_from(list(PARAMETERS)), VALUES, max_size=4))
+    def check(changes):
+        refusal(changes)
+
+    check()
