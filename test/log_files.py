@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from mcap.writer import Writer
 
 from symtop_ros.arrays import Real
 from symtop_ros.log.reader import McapFile
@@ -125,3 +127,24 @@ class Run:
             log.write(CHANNELS[name], stamp, data)
         log.finish({"dropped": "0"})
         return log.path
+
+
+def write_mcap(
+    path: Path,
+    topics: Iterable[tuple[str, str, Iterable[tuple[int, bytes]]]],
+    encoding: str = "cdr",
+    **options: Any,
+) -> Path:
+    """Write a log as another program would: names, types, and messages with their log times."""
+    messages = []
+    with path.open("wb") as stream:
+        writer = Writer(stream, **options)
+        writer.start("ros2")
+        for name, kind, sent in topics:
+            schema = writer.register_schema(kind, "ros2msg", b"")
+            channel = writer.register_channel(name, encoding, schema)
+            messages += [(stamp, channel, data) for stamp, data in sent]
+        for stamp, channel, data in sorted(messages, key=lambda each: each[0]):
+            writer.add_message(channel, stamp, data, stamp)
+        writer.finish()
+    return path

@@ -10,10 +10,7 @@ from pathlib import Path
 import pytest
 from exact_log import assert_no_deviation
 from listening import udp_addresses
-from programs import running_node
-from waiting import until
 
-from workshop import demo
 from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
 
@@ -102,25 +99,6 @@ def test_two_demonstrations_choose_different_domains_and_print_the_same(tmp_path
         printed = [each.communicate(timeout=120)[0] for each in (one, other)]
     numbers = [[line for line in each.splitlines() if "theta" in line] for each in printed]
     assert numbers[0] == numbers[1] != []
-
-
-def test_a_domain_with_a_node_of_someone_else_is_not_chosen(monkeypatch):
-    free, claim = demo.claim_domain()
-    claim.close()
-    monkeypatch.setattr(demo, "DOMAINS", range(free, free + 1))
-    with running_node(free):
-        until(lambda: listening_in(free))
-        with pytest.raises(demo.DemoError, match=f"domains {free} to {free} must be free, got no"):
-            demo.claim_domain()
-
-
-@pytest.mark.wording
-def test_another_top_in_the_domain_does_not_answer_in_the_place_of_its_own(tmp_path):
-    """A user may start one there while the demonstration runs."""
-    with running_demo(tmp_path) as (process, line), running_node(domain_of(line), "scene:=looping"):
-        printed, errors = process.communicate(timeout=120)
-    assert process.returncode == 0, errors
-    assert_rises(*[each for each in printed.splitlines() if "answer:" in each or "after" in each])
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -16,12 +16,11 @@ from shown_pictures import assert_same_picture
 from symtop_ros.client import main as client
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.main import parse_values
-from symtop_ros.live import main as live
 from symtop_ros.panel import main as panel
 from symtop_ros.web.lesson import read_lesson
 from workshop import main as report
 from workshop.lesson.page import PAGE, write_page
-from workshop.lesson.pictures import DRAWS, picture_of, run_step, write_lesson
+from workshop.lesson.pictures import picture_of, run_step, write_lesson
 from workshop.load.domains import claim_domain
 
 ROOT = Path(__file__).parents[1]
@@ -30,7 +29,6 @@ STEPS = read_lesson()
 DOMAIN = claim_domain()
 NAMES = ("/top", "/disc")
 BEFORE, *PARTS = re.split(r"^## \d+\. ", LESSON, flags=re.MULTILINE)
-LIVE = [word.rstrip("`") for word in re.findall(r"top_live --[^`\n]+", LESSON)]
 
 
 def typed(text):
@@ -89,13 +87,6 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
     assert state["turning_angles"] == pytest.approx(motion.turning_angles, abs=1e-12)
 
 
-@pytest.mark.parametrize("line", sorted({*LIVE, *(x for x in typed(BEFORE) if "top_live" in x)}))
-def test_every_view_is_one_that_there_is(line):
-    """test/live runs the program."""
-    options = live._parser().parse_args(shlex.split(line)[1:])
-    assert options.node in NAMES
-
-
 @pytest.mark.parametrize(
     "number",
     [1, 8, *(pytest.param(k, marks=pytest.mark.long) for k in (2, 3, 4, 5, 6, 7, 9, 10, 11))],
@@ -117,9 +108,3 @@ def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, m
             assert text in teacher
             assert (text in worksheet) == (text in given)
     assert teacher.count("<img ") == len(STEPS)
-
-
-def test_every_step_names_a_plot_that_there_is():
-    plots = {step.title: step.plot for step in STEPS}
-    assert set(plots.values()) == set(DRAWS)
-    assert plots["Three numbers that stay"] == "momentum"

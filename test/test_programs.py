@@ -1,12 +1,9 @@
-import builtins
 import os
-import signal
-import sys
 
 import pytest
+from python_runs import run_without
 
 from symtop_ros import programs
-from workshop import main as report
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")
 
@@ -23,44 +20,18 @@ ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
 @pytest.mark.parametrize(
     ("program", "missing", "remedy"),
     [
-        (programs.top_node, "rclpy", ROS),
-        (programs.top_ctl, "rclpy", ROS),
-        (programs.top_live, "rclpy", ROS),
-        (programs.top_live, "rerun", "pip install '.[playback]' in the checkout"),
-        (programs.top_panel, "yaml", "pip install pyyaml"),
-        (programs.top_replay, "mcap", "pip install mcap"),
+        ("top_node", "rclpy", ROS),
+        ("top_ctl", "rclpy", ROS),
+        ("top_live", "rclpy", ROS),
+        ("top_live", "rerun", "pip install '.[playback]' in the checkout"),
+        ("top_panel", "yaml", "pip install pyyaml"),
+        ("top_replay", "mcap", "pip install mcap"),
     ],
 )
-def test_a_program_says_what_is_missing(program, missing, remedy, monkeypatch, capsys):
-    original = builtins.__import__
-
-    def without(name, *rest):
-        if name.split(".")[0] == missing:
-            raise ModuleNotFoundError(name=missing)
-        return original(name, *rest)
-
-    for name in [name for name in sys.modules if name.startswith("symtop_ros.")]:
-        if name not in ("symtop_ros.programs",) and ".physics" not in name:
-            monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setattr(builtins, "__import__", without)
-    monkeypatch.setattr(sys, "argv", [program.__name__])
-    assert program() == 1
-    assert f"{missing} is missing: {remedy}" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_is_status_130_after_the_program_has_tidied_up(number, monkeypatch):
-    tidied = []
-
-    def main():
-        try:
-            signal.raise_signal(number)
-        finally:
-            tidied.append(number)
-
-    monkeypatch.setattr(report, "main", main)
-    assert programs.run("workshop", "workshop.main", interruptible=True) == 130
-    assert tidied == [number]
+def test_a_program_says_what_is_missing(program, missing, remedy, tmp_path):
+    done = run_without((missing,), program, cwd=tmp_path)
+    assert done.returncode == 1
+    assert f"{missing} is missing: {remedy}" in done.stderr
 
 
 @pytest.mark.parametrize(

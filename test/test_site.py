@@ -45,13 +45,6 @@ def test_the_pages_of_the_library_and_the_article_have_a_live_top(site):
     assert '<a href="../top.html#scene=disc">' in page
 
 
-def test_formulas_are_left_to_mathjax(site):
-    page = (site / "docs" / "derivation.html").read_text()
-    assert "mathjax" in page
-    assert page.count('class="math notranslate') > 100
-    assert "$$" not in page
-
-
 def test_each_public_name_of_the_library_is_described(site):
     page = (site / "docs" / "site" / "api.html").read_text()
     described = (inspect.isclass, inspect.isroutine)  # constants and names of types have no text

@@ -3,12 +3,11 @@
 import contextlib
 import io
 
-import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from PIL import Image
 
-from symtop_ros.physics import Motion, State, hurry, regular_precession_rates
+from symtop_ros.physics import Motion, State, hurry
 from workshop.article import maps
 
 SIDES = ("highest", "lowest")
@@ -35,24 +34,6 @@ def test_the_points_of_a_table_are_those_of_the_closed_form(written):
         found = [row[f"{which}_{when}"] for when in ("before", "after") for which in SIDES]
         # an angle near a pole is the square root of what is good to rounding
         assert found == pytest.approx([*before.turning_angles, *after.turning_angles], abs=1e-7)
-
-
-@pytest.mark.parametrize("make", [maps.map_spin, maps.map_tilt])
-def test_the_curves_of_regular_precession_are_where_their_rates_are(make):
-    found = make(201)
-    for k in range(0, 201, 10):
-        theta, psi_dot = (
-            (maps.THETA, found.across[k])
-            if make is maps.map_spin
-            else (found.across[k], maps.PSI_DOT)
-        )
-        rates = regular_precession_rates(maps.TOP, theta=theta, psi_dot=psi_dot)
-        inside = [each for each in rates if found.phi_dot[0] < each < found.phi_dot[-1]]
-        changes = np.diff(np.sign(found.torque[:, k])) != 0
-        assert changes.sum() == len(inside)
-        for rate in inside:
-            row = np.searchsorted(found.phi_dot, rate) - 1
-            assert changes[row]
 
 
 @pytest.mark.parametrize("name", ["spin", "tilt"])

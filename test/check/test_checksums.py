@@ -4,9 +4,9 @@ import random
 import struct
 
 import pytest
-from log_files import Run
+from log_files import Run, write_mcap
 from mcap.opcode import Opcode
-from mcap.writer import CompressionType, Writer
+from mcap.writer import CompressionType
 from physics.tops import seeds
 
 from symtop_ros.check.checksums import find_damage
@@ -85,16 +85,9 @@ def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
 
 @pytest.mark.parametrize("compression", list(CompressionType))
 def test_files_of_another_writer_are_whole(tmp_path, compression):
-    path = tmp_path / "other.mcap"
-    with path.open("wb") as file:
-        writer = Writer(file, chunk_size=100, compression=compression, enable_data_crcs=True)
-        writer.start()
-        schema = writer.register_schema("s", "ros2msg", b"")
-        channel = writer.register_channel("/c", "cdr", schema)
-        for time in range(50):
-            writer.add_message(channel, time, b"0123456789", time)
-        writer.finish()
-    assert find_damage(path) == []
+    topics = [("/c", "s", [(time, b"0123456789") for time in range(50)])]
+    options = {"chunk_size": 100, "compression": compression, "enable_data_crcs": True}
+    assert find_damage(write_mcap(tmp_path / "other.mcap", topics, **options)) == []
 
 
 def test_a_check_of_a_run_names_the_damage(log, tmp_path):

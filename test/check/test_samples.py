@@ -92,14 +92,6 @@ def test_an_angle_that_is_a_turn_off_is_the_same_angle_in_a_driven_motion_alone(
     assert deviations_of(run, tmp_path)["euler_angles"].is_rounding == is_driven
 
 
-def test_samples_before_the_first_event_are_counted_and_not_checked(tmp_path):
-    run = Run()
-    del run.messages[0]
-    deviations = deviations_of(run, tmp_path)
-    assert {each.unchecked for each in deviations.values()} == {200}
-    assert {each.samples for each in deviations.values()} == {200}
-
-
 def test_an_event_that_arrives_after_its_first_samples_still_governs_them(tmp_path):
     run = Run()
     k = run.places("events")[1]

@@ -9,7 +9,6 @@ from check.run_log import Memory
 from physics.tops import seeds
 
 from symtop_ros import __version__
-from symtop_ros.check.events import Mismatch
 from symtop_ros.check.texts import find_mismatches
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.wire.diagnostics import decode_statuses
@@ -96,18 +95,6 @@ def test_a_message_that_cannot_be_read_is_named(changed):
     (place, *_) = changed.places("/diagnostics")
     (found,) = swap(changed, place, changed.messages[place].data[:-2])
     assert (found.topic, found.field, found.expected) == ("/diagnostics", "message", "readable")
-
-
-def test_diagnostics_name_the_topic_the_time_and_the_field(changed):
-    place = changed.places("/diagnostics")[-1]
-    message = changed.messages[place]
-    (status,) = (each for each in decode_statuses(message.data) if each.name == STATUS)
-    text = status.values["kind"]
-    (k, *_) = places_of(text, message.data)
-    data = message.data[:k] + message.data[k:].replace(text.encode(), text[::-1].encode(), 1)
-    assert swap(changed, place, data) == [
-        Mismatch("/diagnostics", status.stamp, "kind", text, text[::-1])
-    ]
 
 
 def test_descriptions_of_a_run_of_another_version_are_not_judged(changed):

@@ -1,9 +1,17 @@
+"""Parts of top_ctl without a node: words, samples, and a service that is silent."""
+
+import subprocess
+import sys
+
 import pytest
 import rclpy
 from node.listener import Listener
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.client.keys import watch
+from symtop_ros.client.main import UsageError, parse_values
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
@@ -15,3 +23,61 @@ def test_a_service_that_does_not_answer_is_reported_after_the_time_out():
         silent.create_service(Trigger, "~/reset", lambda _, response: response)
         with pytest.raises(UnreachableError, match=r"/silent/reset did not answer within 3 s"):
             Connection(user.node, "/silent", timeout=3.0).trigger("reset")
+
+
+def test_words_become_numbers_lists_and_text():
+    assert parse_values(["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow"]) == {
+        "a": 9.0,
+        "b": -1e-3,
+        "c": [0.0, 0.0, 1e-4],
+        "d": [1.0, 2.0],
+        "e": "slow",
+    }
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["precession_rate"], "argument must be NAME=VALUE, got 'precession_rate'"),
+        (["=3"], "argument must be NAME=VALUE, got '=3'"),
+        (["a=1", "a=2"], "a must be given once"),
+    ],
+)
+def test_invalid_words_are_refused(words, sentence):
+    with pytest.raises(UsageError) as error:
+        parse_values(words)
+    assert sentence in str(error.value)
+
+
+def test_it_is_imported_where_there_are_no_terminals():
+    """As on Windows: only `top_ctl keys` needs them."""
+    code = "import sys; sys.modules.update(termios=None, tty=None); import symtop_ros.client.main"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+SAMPLE = JointState(position=[0.1, 0.5, 0.2], velocity=[9.0, 0.0, 200.0])
+
+
+class Top:
+    """A connection that delivers some samples, one for each call."""
+
+    name = "/top"
+
+    def __init__(self, samples):
+        self._left = samples
+        self._take = None
+
+    def subscribe(self, kind, topic, take):
+        assert (kind, topic) == (JointState, "euler_angles")
+        self._take = take
+
+    def spin_until(self, done, timeout):
+        if self._left:
+            self._left -= 1
+            self._take(SAMPLE)
+        return done()
+
+
+def test_missing_samples_are_reported():
+    with pytest.raises(UnreachableError, match="no samples from /top within 1 s"):
+        watch(Top(samples=4), seconds=60.0, timeout=1.0)

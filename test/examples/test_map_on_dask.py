@@ -40,14 +40,3 @@ def test_a_cluster_of_workers_computes_the_map(workers, tmp_path):
     tilts = np.load(path)
     assert tilts.shape == (SIZE, SIZE)
     assert (tilts[150:160] == compute_rows(150, 160, SIZE, 10.0)).all()
-
-
-@pytest.mark.long
-def test_the_address_of_a_scheduler_is_all_that_changes(tmp_path):
-    from distributed import LocalCluster
-
-    path = tmp_path / "map.npy"
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        text = run("--motions", SIZE**2, "--scheduler", cluster.scheduler_address, "-o", path)
-    assert " on 2 workers, " in text
-    assert (np.load(path)[:5] == compute_rows(0, 5, SIZE, 10.0)).all()

@@ -1,5 +1,7 @@
 """Measurements of the sensor, compared with 50 digits."""
 
+import csv
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -7,9 +9,13 @@ import pytest
 from mpmath import mp, mpf
 from physics.test_body import differentiate
 from physics.tops import ARTICLE, CUSPS, Case, cross, turn
+from python_runs import run_without
 
-from symtop_ros.imu import CONSUMER, Imu, record_imu
+from symtop_ros.imu import Imu, record_imu
+from symtop_ros.imu.main import main
+from symtop_ros.judge.main import main as judge
 from symtop_ros.physics import Motion
+from symtop_ros.playback.main import main as replay
 
 MOTION = Motion(ARTICLE, CUSPS)
 GRAVITY = 9.81
@@ -70,26 +76,12 @@ def test_means_are_the_integrals_over_the_interval(rate, points):
     assert (record.measured == record.means).all()
 
 
-def test_noise_depends_on_seed_and_stamp_alone():
-    sensor = replace(CONSUMER, rate=1000.0, seed=3)
-    long, short = (record_imu(MOTION, sensor, seconds) for seconds in (1.0, 0.5))
-    assert (long.measured[:500] == short.measured).all()
-    errors = long.measured[:, :3] - long.rates
-    # 3000 normal numbers: 1.3 %, four sigma
-    assert errors.std() == pytest.approx(2.4e-4 * np.sqrt(1000.0), rel=0.055)
-    other = record_imu(MOTION, replace(sensor, seed=4), 0.5)
-    assert (other.measured != short.measured).all()
-
-
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
         ({"rate": 0.0}, "rate must be 0.001 to 1e\\+06 Hz, got 0"),
         ({"rate": float("nan")}, "rate must be"),
-        ({"position": (0, 0)}, "position must have 3 elements"),
         ({"orientation": (0, 0, 0, 0)}, "orientation must be a quaternion of norm 1"),
-        ({"seed": -1}, "seed must be"),
-        ({"gyroscope_random_walk": -1.0}, "gyroscope_random_walk must be"),
         ({"seconds": 0.0}, "seconds must"),
         ({"seconds": 1e9}, "seconds times"),
     ],
@@ -99,3 +91,77 @@ def test_a_sensor_or_a_length_that_cannot_be_is_refused(changes, reason):
     seconds = arguments.pop("seconds")
     with pytest.raises(ValueError, match=reason):
         record_imu(MOTION, replace(SENSOR, **arguments), seconds)
+
+
+SHORT = "--scene", "cusps", "--seconds", "0.5", "--rate", "500"
+MOUNTED = "--position", "0", "0", "0.02", "--orientation", "0.5", "0.5", "0.5", "0.5"
+NOISY = "--noise", "consumer", "--seed", "7"
+
+
+def read(path):
+    with path.open(newline="") as file:
+        head, *rows = csv.reader(file)
+    return head, rows
+
+
+def test_a_log_is_judged_and_computed_again(tmp_path, capsys):
+    path = tmp_path / "run.mcap"
+    assert main([*SHORT, *MOUNTED, *NOISY, "--average", "-o", str(path)]) == 0
+    assert [each.name for each in tmp_path.iterdir()] == ["run.mcap"]
+    for topic in ("imu", "imu_exact", "imu_average", "orientation"):
+        # exact attitudes: the products with the mount are the same
+        assert judge([str(path), "--topic", f"/top/{topic}", "--max-error", "1e-15"]) == 0
+    capsys.readouterr()
+    assert replay([str(path), "--check"]) == 0
+    assert "250 samples, largest difference 0" in capsys.readouterr().out
+
+
+def test_a_table_is_judged_with_its_events(tmp_path, capsys):
+    path = tmp_path / "run.csv"
+    assert main([*SHORT, *MOUNTED, *NOISY, "-o", str(path)]) == 0
+    arguments = [str(tmp_path / "run.json"), "--estimates", str(path), "--json"]
+    capsys.readouterr()
+    assert judge([*arguments, "--attitude-of", "sensor"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["estimates"], facts["angular_velocity"]["p100"]) == (250, 0.0)
+    assert facts["attitude"]["p100"] < 1e-15  # numbers are written so that they read back
+    head, rows = read(path)
+    assert head[:5] == ["stamp", "w", "x", "y", "z"]
+    assert len(rows) == 250
+    assert {len(row) for row in rows} == {len(head)}
+
+
+def test_the_folder_has_the_columns_of_euroc_and_tum(tmp_path):
+    assert main([*SHORT, *NOISY, "-o", str(tmp_path / "run")]) == 0
+    head, rows = read(tmp_path / "run/imu0/data.csv")
+    assert head[0] == "#timestamp [ns]"
+    assert (len(head), len(rows), rows[1][0]) == (7, 250, "2000000")
+    head, truth = read(tmp_path / "run/state_groundtruth_estimate0/data.csv")
+    assert (len(head), len(truth)) == (17, 250)
+    poses = np.loadtxt(tmp_path / "run/poses.tum")
+    assert poses.shape == (250, 8)
+    exact = np.array(truth, dtype=float)
+    assert (poses[:, [7, 4, 5, 6]] == exact[:, 4:8]).all()
+    events = json.loads((tmp_path / "run/events.json").read_text())
+    assert events["end"] == int(rows[-1][0])
+
+
+def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
+    noise = tmp_path / "imu.yaml"
+    noise.write_text("rostopic: /imu0\naccelerometer_noise_density: 0.01\nupdate_rate: 200.0\n")
+    assert main([*SHORT, "--noise", str(noise), "-o", str(tmp_path / "run.csv")]) == 0
+    _, rows = read(tmp_path / "run.csv")
+    table = np.array(rows, dtype=float)
+    rates, forces = table[:, -6:-3] - table[:, -12:-9], table[:, -3:] - table[:, -9:-6]
+    assert not rates.any()
+    # 750 normal numbers: 2.6 %, four sigma
+    assert forces.std() == pytest.approx(0.01 * np.sqrt(500.0), rel=0.11)
+    noise.write_text("- 1\n")
+    assert main(["--noise", str(noise), "-o", str(tmp_path / "run.csv")]) == 1
+    assert capsys.readouterr().err.startswith("top_imu: --noise must be consumer or YAML")
+
+
+def test_a_table_needs_neither_ros_nor_mcap(tmp_path):
+    missing = "mcap", "rclpy", "matplotlib", "rerun"
+    done = run_without(missing, "top_imu", *SHORT, "-o", "run.csv", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")

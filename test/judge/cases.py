@@ -1,7 +1,6 @@
 """Runs and estimates for the tests of `top_judge`: logs written without ROS."""
 
 import numpy as np
-from mcap.well_known import MessageEncoding
 from physics.tops import ARTICLE, CUSPS
 from scipy.spatial.transform import Rotation
 
@@ -48,21 +47,11 @@ def truth_and_stamps(count=3000, seed=1):
 
 def write_log(path, topics):
     """Write a log with the events and, for each topic, its type and its messages (stamp, bytes)."""
-    from mcap.writer import Writer
+    from log_files import write_mcap  # it needs mcap
 
     events = [(event.stamp, event.encode("world")) for event in make_events()]
     content = {"/top/events": ("diagnostic_msgs/msg/DiagnosticArray", events), **topics}
-    with path.open("wb") as file:
-        writer, messages = Writer(file), []
-        writer.start(profile="ros2")
-        for name, (kind, sent) in content.items():
-            schema = writer.register_schema(kind, "ros2msg", b"")
-            channel = writer.register_channel(name, MessageEncoding.CDR, schema)
-            messages += [(stamp, channel, data) for stamp, data in sent]
-        for stamp, channel, data in sorted(messages, key=lambda each: each[0]):
-            writer.add_message(channel, stamp, data, stamp)
-        writer.finish()
-    return path
+    return write_mcap(path, [(name, *each) for name, each in content.items()])
 
 
 def encode(kind, estimates):

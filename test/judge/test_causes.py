@@ -8,53 +8,37 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.causes.causes import find_causes
 from symtop_ros.judge.judgement import judge
-from symtop_ros.judge.truth import Truth, scene_truth
-from symtop_ros.physics import Motion, State, Top
-from symtop_ros.simulation.events import start_event
+from symtop_ros.judge.truth import scene_truth
 
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)
-FIRST_SEED = 951_001  # of the logs of any top; chosen before they were drawn
 STEADY = ("hanging", "regular_precession", "sleeping")
 N = 5e-3  # rad of noise in each component
 # scene, what is wrong, and what is named: the change, the rotations, and the other causes
 LOGS = [
     ("cusps", Made(), "", "none", ()),
-    ("sleeping", Made(noise=N), "", "none", ()),
     ("cusps", Made(change="order"), "order", "none", ()),
     ("looping", Made(change="conjugate", noise=N), "conjugate", "none", ()),
     ("cusps", Made(change="conjugate_order", noise=N), "conjugate_order", "none", ()),
-    ("sleeping", Made(change="order"), "order", "none", ()),
     ("regular_precession", Made(change="conjugate"), "conjugate", "none", ()),
     ("cusps", Made(heading(1.2), change="conjugate"), "conjugate", "heading", ()),
-    ("looping", Made(heading(-2.0), change="conjugate", noise=N), "conjugate", "heading", ()),
-    ("cusps", Made(heading(0.7), change="order", noise=N), "order", "heading", ()),
     ("cusps", Made(delay=0.03, change="conjugate"), "conjugate", "none", ("delay",)),
-    ("looping", Made(delay=-0.02, change="order", noise=N), "order", "none", ("delay",)),
     ("cusps", Made(heading(1.0)), "", "heading", ()),
-    ("hanging", Made(heading(-0.5), noise=N), "", "heading", ()),
     ("cusps", Made(TILT, noise=N), "", "world", ()),
     ("looping", Made(body=MOUNT), "", "body", ()),
-    ("cusps", Made(body=MOUNT, noise=N), "", "body", ()),
     ("cusps", Made(TILT, MOUNT), "", "both", ()),
     ("cusps", Made(NED), "ned", "none", ()),
     ("looping", Made(body=FRD, noise=N), "frd", "none", ()),
     ("sleeping", Made(NED, FRD), "ned_frd", "none", ()),
-    ("cusps", Made(NED, FRD, noise=N), "ned_frd", "none", ()),
     ("cusps", Made(delay=0.08), "", "none", ("delay",)),
-    ("cusps", Made(delay=0.25, noise=N), "", "none", ("delay",)),
-    ("looping", Made(delay=-0.08, noise=N), "", "none", ("delay",)),
     ("cusps", Made(heading(0.8), delay=0.05, noise=N), "", "heading", ("delay",)),
     ("cusps", Made(body=MOUNT, delay=0.012), "", "body", ("delay",)),
     ("cusps", Made(drift=0.05), "", "none", ("drift",)),
     ("regular_precession", Made(drift=0.05, noise=N), "", "none", ("drift",)),
-    ("looping", Made(heading(1.0), drift=-0.1, noise=N), "", "heading", ("drift",)),
     ("cusps", Made(delay=0.02, drift=0.05), None, None, None),  # two parameters
     ("cusps", Made(clock=1e-4), "", "none", ("clock",)),
-    ("looping", Made(heading(0.3), clock=-2e-4, noise=N), "", "heading", ("clock",)),
     ("cusps", Made(spin=0.2, noise=N), "", "none", ("spin",)),
     ("regular_precession", Made(spin=-2.0), "", "none", ("spin",)),
     ("cusps", Made(scale=1e-3), "", "none", ("scale",)),
-    ("looping", Made(heading(0.5), scale=-2e-3, noise=N), "", "heading", ("scale",)),
     ("cusps", Made(other="random"), None, None, None),
     ("cusps", Made(other="walk"), None, None, None),
     ("looping", Made(other="wave", noise=N), None, None, None),
@@ -94,57 +78,6 @@ def test_the_cause_of_a_made_log_is_named_and_nothing_else(log):
     for name in parameters:
         # Noise of 5e-3 rad in 500 estimates: 1e-3 of each value; others are exact to 1e-9.
         assert getattr(cause.offset, name) == pytest.approx(getattr(made, name), rel=5e-3)
-
-
-def draw_any(seed):
-    """A motion of any top, stamps, and errors, by a seed."""
-    random = np.random.default_rng(seed)
-    Ix, sign = 10 ** random.uniform(-4, 0), random.choice([-1, 1])
-    spin = sign * 10 ** random.uniform(1, 2.6)
-    weight = random.choice([-1, 1], p=[0.25, 0.75]) * Ix * 10 ** random.uniform(1, 2.7)
-    top = Top(Ix, Ix * random.uniform(0.1, 1.7), weight)
-    rates = random.normal(size=2) * (0.05, 0.02) * abs(spin)
-    theta = random.uniform(0.15, 2.9)
-    start = State.from_euler(theta=theta, phi_dot=rates[0], theta_dot=rates[1], psi_dot=spin)
-    truth = Truth([start_event(Motion(top, start))])
-    rates, noises = [50, 100, 200, 500], [0, 1e-4, 3e-3, 1e-2, 2e-2]
-    return truth, *draw_errors(random, rates, (1.5, 12), (0.03, 0.4), noises)
-
-
-def draw_errors(random, rates, lengths, drifts, noises):
-    """Stamps, and one or two errors with noise."""
-    rate, length = random.choice(rates), random.uniform(*lengths)
-    stamps = (np.arange(int(rate * length)) * (SECOND / rate)).astype(np.int64) + SECOND
-    sign = random.choice([-1, 1])
-    choices = {
-        "world": heading(sign * random.uniform(0.2, 3)),
-        "body": Rotation.from_rotvec(random.normal(size=3) * 0.3),
-        "delay": sign * random.uniform(0.005, 0.2),
-        "drift": sign * random.uniform(*drifts),
-        "spin": sign * random.uniform(0.05, 1),
-        "clock": sign * random.uniform(1e-4, 1e-3),
-        "scale": sign * 10 ** random.uniform(-4, -2),
-        "change": str(random.choice(["order", "conjugate", "conjugate_order"])),
-    }
-    chosen = random.choice([*choices], int(random.integers(1, 3)), replace=False)
-    noise = float(random.choice(noises))
-    return stamps, Made(**{name: choices[name] for name in chosen}, noise=noise)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(FIRST_SEED, FIRST_SEED + 40))
-def test_nothing_false_is_named_for_a_drawn_log(seed):
-    truth, stamps, made = draw_any(seed)
-    found = find_causes(made.make(truth, stamps, seed), truth)
-    if not found.explained or found.best.kind == ("", "none", ()):
-        return
-    level = {(True, False): "heading", (False, True): "body", (True, True): "both"}.get(
-        (made.world is not None, made.body is not None), "none"
-    )
-    names = tuple(n for n in ("clock", "delay", "drift", "scale", "spin") if getattr(made, n))
-    kinds = [each.kind for each in (found.best, *found.others)]
-    # Causes that a motion cannot tell from others are named as hidden; then rotations stand for it.
-    assert (made.change, level, names) in kinds or found.hidden
 
 
 @pytest.mark.wording

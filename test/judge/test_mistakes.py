@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from judge.cases import SECOND, make_estimates
-from judge.made import Made
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import rotate
@@ -19,26 +18,11 @@ def to_world(estimates):
     return rotate(*estimates.orientations.T, estimates.angular_velocities)
 
 
-ATTITUDES = {
-    "order x, y, z, w": "order",
-    "conjugate: world to body": "conjugate",
-    "conjugate, in the order x, y, z, w": "conjugate_order",
-}
 RATES = {
     "in deg/s": lambda e: np.degrees(e.angular_velocities),
     "in the world frame": to_world,
     "in deg/s, in the world frame": lambda e: np.degrees(to_world(e)),
 }
-
-
-@pytest.mark.wording
-@pytest.mark.parametrize("scene", ["cusps", "regular_precession"])
-@pytest.mark.parametrize("mistake", ATTITUDES)
-def test_a_mistake_of_the_attitude_is_named(scene, mistake):
-    truth = scene_truth(scene)
-    (note,) = judge(Made(change=ATTITUDES[mistake]).make(truth, STAMPS), truth, "x").notes
-    assert note.startswith("likely mistake: the quaternions ")
-    assert note.endswith(mistake)
 
 
 @pytest.mark.parametrize("heading", [0.0, 1.0])

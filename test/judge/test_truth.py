@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from judge.cases import SECOND, make_estimates
 from physics.tops import ARTICLE, CUSPS
+from programs import run, running_node
 
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
@@ -17,6 +18,7 @@ from symtop_ros.simulation.sensor import Imu, Rig
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import IMU
+from workshop.load.domains import claim_domain
 
 STAMPS = np.arange(0, SECOND, SECOND // 200)
 
@@ -52,3 +54,14 @@ def test_a_refusal_has_both_spans_of_time():
     estimates = make_estimates(scene_truth("cusps"), STAMPS)
     with pytest.raises(RefusedError, match=r"within the run, 17.* s to 17.* s, got 0\.0"):
         judge(estimates, Truth(events, begin + SECOND), "x")
+
+
+DOMAIN = claim_domain()
+
+
+def test_the_nodes_own_attitude_is_exact_while_it_runs():
+    with running_node(DOMAIN, "scene:=looping"):
+        arguments = ("--live", "--topic", "/top/orientation", "--max-error", "1e-15")
+        done = run("top_judge", *arguments, "--seconds", "2.5", domain=DOMAIN)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert " estimates: attitude " in done.stdout

@@ -64,12 +64,3 @@ def test_samples_that_the_node_reports_as_missed_are_not_lost(top, follower):
     wait(follower, lambda: follower.missed == 2)
     assert follower.lost == 1
     assert follower.balance == 1e-15
-
-
-def test_diagnostics_of_another_top_are_ignored(top, follower):
-    top.sample(1, 4)
-    wait(follower, lambda: follower.samples == 2)
-    top.report("/top2/top", missed=100)
-    top.report("/top", missed=4)
-    wait(follower, lambda: follower.missed == 1)
-    assert follower.lost == 1

@@ -83,13 +83,6 @@ def test_the_default_node_does_not_depend_on_the_order_of_files(tmp_path):
         assert note.endswith(": /b")
 
 
-def test_the_node_top_is_the_default_wherever_it_stands(tmp_path):
-    files = [write(tmp_path / name, RUN.messages, node=f"/{name}") for name in ("lab", "top")]
-    log = TopLog(open_run(files))
-    list(log.batches())
-    assert log.node == "/top"
-
-
 def test_damage_is_reported_with_the_name_of_its_file(tmp_path):
     first, second = parts(tmp_path, 2)
     second.write_bytes(second.read_bytes()[: second.stat().st_size // 2])
@@ -121,14 +114,6 @@ def test_a_file_of_another_kind_is_refused(name, content, sentence, tmp_path):
     for path in (tmp_path, tmp_path / name):
         with pytest.raises(LogError, match=f"cannot open \\S+{name}: {sentence}"):
             open_run([path])
-
-
-def test_a_database_with_other_columns_is_refused(tmp_path):
-    with sqlite3.connect(tmp_path / "a.db3") as database:
-        database.execute("CREATE TABLE topics (id TEXT, name, type, serialization_format)")
-        database.execute("INSERT INTO topics VALUES ('one', NULL, 3, x'00')")
-    with pytest.raises(LogError, match="not a bag of rosbag2"):
-        open_run([tmp_path / "a.db3"])
 
 
 def test_a_folder_without_files_is_refused(tmp_path):

@@ -1,66 +1,45 @@
 """Recordings of other programs: in another order than the run, and in time that goes back."""
 
 import re
+from types import SimpleNamespace
 
 import pytest
 from exact_log import assert_agrees
 from log.test_bag import STORAGES, TYPES, write
+from session.test_outputs import SECOND, Program, advance, start
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.bag import open_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import main as module
-from symtop_ros.session.session import Session
-from symtop_ros.simulation.settings import Settings
-
-SECOND = 1_000_000_000
 
 
-class Recorder:
+class Recorder(Program):
     """A host whose messages are recorded with the times of its clock, as `ros2 bag` does it."""
 
-    is_open, has_subscriber = True, True
-
-    def __init__(self, **changes):
-        self.now, self.is_simulated = 0, True
+    def __init__(self):
+        super().__init__()
+        self.session = None
         self.messages = []  # name of the topic, time of the clock, bytes
-        settings = Settings.from_scene("hurry_slow", publish_rate=100.0, **changes)
-        self.session = Session(settings, self, self, "hurry_slow", {})
-
-    def resolve(self, topic):
-        return topic.resolve("/top")
+        self.session, self.clock = start(self, "hurry_slow", publish_rate=100.0)
 
     def create_publisher_of(self, topic):
-        return Publisher(self, topic.name) if topic.name in TYPES else None
+        def keep(data):
+            self.messages.append((topic.name, self.clock.now if self.session else 0, data))
 
-    def watch_sample(self, stamp, block):
-        pass
-
-    def inform(self, text):
-        pass
+        return SimpleNamespace(has_subscriber=True, publish=keep) if topic.name in TYPES else None
 
     def run(self, begin, end):
         """Set the clock to a time in s, and let it run to a later time."""
         for time in range(round(begin * SECOND), round(end * SECOND), SECOND // 100):
-            jumped = not 0 <= time - self.now < SECOND
+            jumped = not 0 <= time - self.clock.now < SECOND
             self.session.simulation.begin_jump()
-            self.now = time
+            self.clock.now = time
             self.session.simulation.end_jump(jumped)
-            while (wait := self.session.simulation.tick()) is not None and wait <= 0:
-                pass
+            advance(self.session, self.clock, 0.0)
 
     def kick(self):
         assert self.session.answer("hurry_precession", dict)[0]
-
-
-class Publisher:
-    has_subscriber = True
-
-    def __init__(self, recorder, name):
-        self._recorder, self._name = recorder, name
-
-    def publish(self, data):
-        self._recorder.messages.append((self._name, self._recorder.now, data))
 
 
 def delay(messages, name, count):

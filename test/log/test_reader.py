@@ -10,10 +10,10 @@ import pytest
 import zstandard
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from log_files import BEGIN, Run
+from log_files import BEGIN, Run, write_mcap
 from mcap.data_stream import RecordBuilder
 from mcap.records import Chunk
-from mcap.writer import CompressionType, Writer
+from mcap.writer import CompressionType
 
 from symtop_ros.log import reader
 from symtop_ros.log.reader import LogError, McapFile
@@ -138,23 +138,12 @@ def test_a_chunk_that_unpacks_to_far_more_than_it_says_is_damaged(compression, t
     assert any("a chunk is damaged" in problem for problem in file.problems)
 
 
-def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path):
-    path = save_chunk(tmp_path, Chunk("", b"x", 0, 1, 0, 2**62))
-    assert any("a chunk is damaged" in problem for problem in read(path)[0].problems)
-
-
 @pytest.mark.parametrize("chunked", [True, False])
 @pytest.mark.parametrize("compression", list(CompressionType))
 def test_files_of_other_writers_are_read(chunked, compression, tmp_path):
-    path = tmp_path / "other.mcap"
-    with path.open("wb") as stream:
-        writer = Writer(stream, compression=compression, use_chunking=chunked)
-        writer.start("ros2")
-        schema = writer.register_schema("std_msgs/msg/String", "ros2msg", b"string data")
-        channel = writer.register_channel("/a/words", "cdr", schema)
-        for k in range(100):
-            writer.add_message(channel, k, b"%d" % k, k)
-        writer.finish()
+    words = [(k, b"%d" % k) for k in range(100)]
+    topics, options = [("/a/words", "std_msgs/msg/String", words)], {"compression": compression}
+    path = write_mcap(tmp_path / "other.mcap", topics, use_chunking=chunked, **options)
     file, messages = read(path)
     assert messages == [("words", k, b"%d" % k) for k in range(100)]
     assert file.problems == []

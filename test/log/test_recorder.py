@@ -62,17 +62,6 @@ def test_all_messages_are_in_the_file_in_order(tmp_path):
     assert file.problems == []
 
 
-def test_nothing_is_recorded_before_the_start_or_after_the_end(tmp_path):
-    recorder = create(tmp_path)
-    recorder.add(1, 1, b"before")
-    path = recorder.start({})
-    recorder.add(1, 2, b"within")
-    recorder.stop()
-    recorder.add(1, 3, b"after")
-    assert not recorder.running
-    assert contents(path) == [("/plain", 2, b"within")]
-
-
 def test_a_file_begins_with_the_current_latched_messages(tmp_path):
     recorder = create(tmp_path)
     recorder.add(0, 1, b"old")
@@ -96,17 +85,6 @@ def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp
     assert [data for _, _, data in contents(first)] == [b"latched", b"one", b"one"]
     begin = 1_200_000_000
     assert contents(second) == [("/latched", begin, b"latched"), ("/plain", begin, b"two")]
-
-
-def test_a_recording_that_ends_between_two_files_leaves_none_without_messages(tmp_path):
-    recorder = create(tmp_path, max_duration=1.0)
-    path = recorder.start({})
-    for stamp in (0, 2 * 10**9):
-        recorder.add(1, stamp, b"x")
-    until(lambda: is_finished(path))
-    recorder.stop()
-    assert recorder.failure == ""
-    assert list(tmp_path.iterdir()) == [path]
 
 
 def is_finished(path):

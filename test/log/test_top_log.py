@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from log_files import Run, topic
-from mcap.writer import Writer
+from log_files import Run, topic, write_mcap
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import LogError, McapFile
@@ -14,34 +13,16 @@ RUN = Run(seconds=1.0)
 TYPES = {each.name: each.type for each in (EVENTS, *STATE_TOPICS.values())}
 
 
-def write(folder, runs, node=None, encoding="cdr", others=()):
+def write(folder, runs, node=None, others=()):
     """A log by another program: tops by the names of their nodes, and other messages between."""
-    path = folder / "a.mcap"
-    with path.open("wb") as stream:
-        writer = Writer(stream)
-        writer.start("ros2")
-
-        def channel(name, kind):
-            schema = writer.register_schema(kind, "ros2msg", b"")
-            return writer.register_channel(name, encoding, schema)
-
-        ids = {
-            (node, name): channel(topic(name, node), kind)
-            for node in runs
-            for name, kind in TYPES.items()
-        }
-        strangers = [channel(name, kind) for name, kind, _ in others]
-        merged = [
-            (stamp, ids[node, name], data)
-            for node, run in runs.items()
-            for name, stamp, data in run.messages
-        ]
-        for stamp, number, data in sorted(merged, key=lambda each: each[0]):
-            writer.add_message(number, stamp + 1234, data, stamp + 1234)
-            for stranger, (_, _, noise) in zip(strangers, others, strict=True):
-                writer.add_message(stranger, stamp + 2000, noise, stamp)
-        writer.finish()
-    return TopLog(McapFile(path), node)
+    kinds = [(place, name, kind) for place in runs for name, kind in TYPES.items()]
+    topics = [
+        (topic(name, place), kind, [(t + 1234, d) for n, t, d in runs[place].messages if n == name])
+        for place, name, kind in kinds
+    ]
+    stamps = {stamp + 2000 for run in runs.values() for _, stamp, _ in run.messages}
+    topics += [(name, kind, [(stamp, noise) for stamp in stamps]) for name, kind, noise in others]
+    return TopLog(McapFile(write_mcap(folder / "a.mcap", topics)), node)
 
 
 def columns_of(log):
@@ -93,11 +74,6 @@ def test_a_log_without_a_top_is_refused_with_a_list_of_its_topics(tmp_path):
     log = write(tmp_path, {"/top": RUN}, "/missing")
     with pytest.raises(LogError, match=r"no run of a top /missing in \S+: topics /tf, /top/"):
         list(log.batches())
-
-
-def test_messages_of_another_encoding_are_not_decoded(tmp_path):
-    with pytest.raises(LogError, match="no run of a top"):
-        list(write(tmp_path, {"/top": RUN}, encoding="json").batches())
 
 
 def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(tmp_path):

@@ -1,15 +1,19 @@
 """Models of the top in other engines: the inertia that they read, and the motion that follows."""
 
 import re
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from physics.tops import ARTICLE
 from scipy.integrate import solve_ivp
 
 from symtop_ros.models.formats import FORMATS
-from symtop_ros.models.urdf import MUJOCO_BOUND
-from symtop_ros.physics import Body, Motion, State, Top
+from symtop_ros.models.main import main
+from symtop_ros.models.urdf import MUJOCO_BOUND, robot_description
+from symtop_ros.physics import Body, Motion
 from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
 
 SCENES = ["cusps", "fast_precession", "perry_fails", "disc", "free", "hanging"]
@@ -96,14 +100,6 @@ def test_the_urdf_moves_in_mujoco_as_the_top_does(scene):
     assert angle(data.body("top").xquat, Motion(top, start).at(DURATION).orientation) < 1e-8
 
 
-@pytest.mark.parametrize("form", sorted(FORMATS))
-def test_the_file_says_which_body_it_holds(form):
-    assert "0.481931 kg, 0.0143832 m" in write(form, *read_scene("cusps"))
-    top, start = Top(15.234375, 0.46875, 147.15), State.from_euler(theta=1.0)
-    text = FORMATS[form](top, start, Body(15.0, 1.0, 0.234375, 0.46875, 9.81))
-    assert "15 kg, 1 m" in text
-
-
 def test_sdf_and_urdf_say_how_the_motion_starts():
     top, start = read_scene("cusps")
     found = re.findall("(\\S+ \\S+ \\S+) rad/s", write("sdf", top, start))
@@ -115,3 +111,67 @@ def test_sdf_and_urdf_say_how_the_motion_starts():
     ]
     assert list(map(float, place.split())) == list(start.euler_angles)
     assert list(map(float, rate.split())) == list(start.euler_rates)
+
+
+@pytest.mark.parametrize("form", sorted(FORMATS))
+def test_every_scene_can_be_written(form, tmp_path):
+    for scene in scene_names():
+        path = tmp_path / f"{scene}.{form}"
+        assert main(["--format", form, "--scene", scene, "-o", str(path)]) == 0
+        assert ElementTree.parse(path).getroot().tag in ("robot", "sdf", "mujoco")
+
+
+def test_the_model_goes_to_standard_output(capsys):
+    assert main(["--format", "mjcf"]) == 0
+    assert capsys.readouterr().out.endswith("</mujoco>\n")
+
+
+def test_what_a_model_leaves_out_is_told(capsys):
+    assert main(["--format", "urdf", "--scene", "friction"]) == 0
+    assert capsys.readouterr().err == "top_model: left out: friction\n"
+
+
+FRAMES = [("world", "top"), ("map", "a/top"), ('w"&<', "gyro's")]
+
+
+def joints(text):
+    """Type, parent and child of each joint."""
+    robot = ElementTree.fromstring(text)
+    return [
+        (each.get("type"), each.find("parent").get("link"), each.find("child").get("link"))
+        for each in robot.iter("joint")
+    ]
+
+
+def published(text, world, top, with_tf, with_state_publisher):
+    """Parent and child of each transform; robot_state_publisher leaves out floating joints."""
+    own = [(world, top)] if with_tf else []
+    others = [(parent, child) for kind, parent, child in joints(text) if kind != "floating"]
+    return own + (others if with_state_publisher else [])
+
+
+@pytest.mark.parametrize(("world", "top"), FRAMES)
+@pytest.mark.parametrize(
+    ("with_tf", "with_state_publisher"), [(True, True), (True, False), (False, True)]
+)
+def test_the_body_hangs_from_the_world(world, top, with_tf, with_state_publisher):
+    text = robot_description(ARTICLE, world, top, tf_moves_it=with_tf)
+    (body,) = ElementTree.fromstring(text).iterfind("link[visual]")
+    parents = {
+        child: parent
+        for parent, child in published(text, world, top, with_tf, with_state_publisher)
+    }
+    frame = body.get("name")
+    assert frame == top
+    while frame in parents:
+        frame = parents[frame]
+    assert frame == world
+
+
+@pytest.mark.parametrize("with_tf", [True, False])
+def test_the_urdf_is_one_tree(with_tf):
+    text = robot_description(ARTICLE, "world", "top", tf_moves_it=with_tf)
+    links = {each.get("name") for each in ElementTree.fromstring(text).iterfind("link")}
+    children = [child for _, _, child in joints(text)]
+    assert links - set(children) == {"world"}
+    assert sorted(children) == sorted(links - {"world"})

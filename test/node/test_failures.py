@@ -8,7 +8,6 @@ from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.running_top import events_named, torque_of
 from programs import environment, execute, set_parameters
 
-from symtop_ros.session.outputs import Outputs
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.wording import write
@@ -62,17 +61,6 @@ def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
     monkeypatch.undo()
     push(run)
     run.spin_until(lambda: run.top.simulation.segment.motion.is_driven)
-    assert_keeps_running(run)
-
-
-def test_one_in_a_change_of_parameters_is_reported_and_the_motion_keeps_running(
-    run, failures, monkeypatch
-):
-    monkeypatch.setattr(Outputs, "send_description", fail)
-    run.change({"top.Mgl": 0.05})
-    run.spin_until(failures)
-    monkeypatch.undo()
-    assert failures() == [report_of("a change of parameters")]
     assert_keeps_running(run)
 
 

@@ -42,11 +42,6 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
     assert np.diff(stamps // markers.PERIOD).tolist() == [1] * (len(seen) - 1)
 
 
-def test_by_default_there_is_no_such_topic(start_top):
-    run = start_top()
-    assert run.user.count_publishers("/top/markers") == 0
-
-
 def test_a_missing_package_is_one_warning(start_top, monkeypatch, capfd):
     monkeypatch.setattr(markers, "MarkerArray", None)
     run = start_top(publish_markers=True)

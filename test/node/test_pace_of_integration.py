@@ -54,20 +54,6 @@ def test_a_motion_too_fast_for_the_budget_is_slowed_down_and_reported(start_top,
     assert_recomputed(events, orientations)
 
 
-def test_without_friction_the_motion_returns_to_the_real_time_factor_of_the_settings(start_top):
-    run = start_top(realtime=True, **HOPELESS)
-    events = run.collect_events()
-    run.spin_until(lambda: events_named(events, "pace"))
-    assert run.change({"friction.transverse": 0.0})[0]
-    run.spin_until(
-        lambda: (
-            float(facts(events[-1])["motion.real_time_factor"]) == 100.0
-            and facts(events[-1])["engine"] == "closed form"
-        )
-    )
-    assert run.state()["engine"] == "closed form"
-
-
 def test_a_stopped_process_continues_where_the_clock_is_and_reports_the_gap():
     with running_node(DOMAIN, "publish_rate:=200") as node, Listener(DOMAIN) as listener:
         orientations = listener.collect(QuaternionStamped, "/top/orientation")

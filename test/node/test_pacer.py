@@ -1,6 +1,10 @@
-"""The thread that calls for ticks."""
+"""The thread that calls for ticks, and its real-time scheduling."""
 
+import os
 import threading
+
+import pytest
+from geometry_msgs.msg import QuaternionStamped
 
 from symtop_ros.node.pacer import Pacer
 
@@ -77,3 +81,19 @@ def test_an_error_ends_it_and_is_told():
     pacer.stop()
     pacer.stop()
     assert ticks.count == 2
+
+
+@pytest.mark.parametrize("granted", [True, False])
+def test_the_node_runs_with_and_without_the_right(monkeypatch, start_top, capfd, granted):
+    asked = []
+
+    def set_scheduler(thread, policy, parameters):
+        asked.append((thread, policy, parameters.sched_priority))
+        if not granted:
+            raise PermissionError
+
+    monkeypatch.setattr(os, "sched_setscheduler", set_scheduler)
+    top = start_top(scheduling_priority=50)
+    top.wait_for(top.collect(QuaternionStamped, "/top/orientation"))
+    assert asked == [(0, os.SCHED_FIFO, 50)]
+    assert ("scheduling_priority 50 has no effect" in capfd.readouterr().err) == (not granted)

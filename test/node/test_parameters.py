@@ -6,7 +6,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_no_deviation
 from geometry_msgs.msg import QuaternionStamped
-from node.running_top import LATCHED, segment_of, stamp_of
+from node.running_top import LATCHED
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import (
@@ -160,18 +160,6 @@ def test_the_qos_of_a_topic_can_be_overridden(start_top):
     run = start_top(**{"qos_overrides./top/orientation.publisher.reliability": "best_effort"})
     info = run.top.get_publishers_info_by_topic("/top/orientation")[0]
     assert info.qos_profile.reliability == QoSReliabilityPolicy.BEST_EFFORT
-
-
-def test_a_run_starts_from_the_initial_parameters(start_top):
-    start = {"theta": 0.7, "phi": 0.2, "psi": -0.3}
-    start |= {"theta_dot": 0.4, "phi_dot": 3.0, "psi_dot": 9.0}
-    run = start_top(**{f"initial__{name}": value for name, value in start.items()})
-    (first,) = run.collect_events()
-    state = segment_of(first).state_at(stamp_of(first))
-    # a quaternion and back: a few ulp, more where rates are divided by sin 0.7
-    for name in ("phi", "theta", "psi"):
-        assert getattr(state.euler_angles, name) == pytest.approx(start[name], abs=1e-14)
-        assert getattr(state.euler_rates, name) == pytest.approx(start[f"{name}_dot"], abs=1e-13)
 
 
 def test_messages_and_description_bear_the_frames_that_were_asked_for(start_top):

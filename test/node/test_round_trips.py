@@ -86,14 +86,3 @@ def test_a_value_without_a_type_is_the_one_field_that_is_set(start_top, value, g
         assert rate == pytest.approx(9.0, rel=1e-13)  # rounding of psi' = 200 rad/s
     else:
         assert result.reason.startswith("type of 'precession_rate' must be ")
-
-
-@pytest.mark.wording
-def test_the_answers_of_a_recording_name_an_absolute_path(start_top, tmp_path, monkeypatch):
-    pytest.importorskip("mcap")
-    monkeypatch.chdir(tmp_path)
-    run = start_top()
-    granted, answer = run.switch("record", True)
-    assert granted
-    assert answer.startswith(f"recording to {tmp_path}/logs/top_")
-    assert run.switch("record", False)[1].startswith(f"recorded to {tmp_path}/logs/top_")

@@ -323,14 +323,6 @@ def test_the_action_steps_with_feedback_and_leaves_the_node_free(client):
     assert client.state() == PAUSED
 
 
-def test_the_action_does_not_wait_for_other_work_between_its_steps(client):
-    client.set_state(STOPPED)
-    client.run.freeze()  # spins wait for 0.05 s: 2000 of them would end by the time-out
-    result = client.simulate(2000).get_result_async()
-    client.run.spin_until(result.done)
-    assert result.result().result.result.result == OK
-
-
 def test_the_action_is_cancelled_and_refused(client):
     run = client.run
     refused = client.simulate(3).get_result_async()  # it runs

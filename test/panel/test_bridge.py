@@ -198,16 +198,6 @@ def test_a_node_without_pages_sends_events_only(node):
     until(lambda: count() == 0)
 
 
-def test_two_pages_see_the_same_run(node, page):
-    _, bridge = node
-    assert ask(bridge, "reset")[0]
-    page.until(lambda: len(page.events) == 2)
-    other = Page(bridge)
-    other.until(lambda: len(other.events) == 2)
-    assert other.events == page.events
-    other.close()
-
-
 def test_silence_is_told_and_its_end(node, page):
     running, bridge = node
     running.top._pacer.stop()  # no samples: as after its end

@@ -110,13 +110,6 @@ def test_the_lesson_is_opened_by_the_file_itself():
     assert '"opening": "lesson=1"' in Path("lesson.html").read_text()
 
 
-@pytest.mark.parametrize("name", ["run.txt", "missing/run.html"])
-def test_a_file_that_cannot_be_written_is_refused(name, capsys):
-    assert module.main(["--write", name]) == 1
-    sentence = f"--write must be a name that ends in .html in a folder, got {name}"
-    assert capsys.readouterr().err == f"top_panel: {sentence}\n"
-
-
 @pytest.mark.parametrize(
     ("platform", "display", "expected"),
     [("linux", "", False), ("linux", ":0", True), ("darwin", "", True), ("win32", "", True)],

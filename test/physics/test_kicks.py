@@ -2,9 +2,18 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS
 
-from symtop_ros.physics import State, apply_impulse, hurry, set_precession_rate
+from symtop_ros.physics import (
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    hurry,
+    regular_precession_rates,
+    set_precession_rate,
+)
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 ROUNDING = 8 * EPS * 210.0  # of the largest rate, rad/s
@@ -53,3 +62,68 @@ def test_a_kick_at_the_smallest_tilt_needs_no_division():
 def test_on_the_vertical_an_impulse_is_not_refused(q):
     start = State(q, (0.0, 0.0, 200.0))
     assert apply_impulse(ARTICLE, start, [1e-4, 0.0, 0.0]).angular_velocity[2] == 200.0
+
+
+@pytest.mark.parametrize("psi_dot", [-1e9, -200.0, 150.0, 1e5, 1e9])
+@pytest.mark.parametrize("theta", [0.1, 0.5, 2.0, 3.0])
+@pytest.mark.parametrize("Mgl", [0.068, -0.068])
+def test_a_root_is_a_root_to_rounding(psi_dot, theta, Mgl):
+    top = Top(0.000228, 0.0000572, Mgl)
+    for root in regular_precession_rates(top, theta=theta, psi_dot=psi_dot):
+        a, b = (top.Ix - top.Iz) * math.cos(theta), top.Iz * psi_dot
+        terms = abs(a) * root**2 + abs(b * root) + abs(Mgl)
+        assert abs(a * root**2 - b * root + Mgl) <= 8 * EPS * terms
+
+
+def test_degenerate_cases_have_one_root_or_none():
+    sphere = Top(0.001, 0.001, 0.05)
+    assert regular_precession_rates(sphere, theta=0.5, psi_dot=100.0) == (0.05 / (0.001 * 100.0),)
+    assert regular_precession_rates(sphere, theta=0.5, psi_dot=0.0) == ()
+    assert regular_precession_rates(ARTICLE, theta=0.5, psi_dot=50.0) == ()
+    weightless = Top(0.001, 0.0005, 0.0)
+    slow, fast = regular_precession_rates(weightless, theta=0.5, psi_dot=10.0)
+    assert slow == 0.0
+    assert fast == pytest.approx(10.0 * 0.0005 / (0.0005 * math.cos(0.5)))
+
+
+@pytest.mark.parametrize("theta", [math.pi / 2, -math.pi / 2, math.pi / 2 + 2e-16])
+def test_an_axis_horizontal_to_rounding_has_the_slow_rate_alone(theta):
+    (slow,) = regular_precession_rates(ARTICLE, theta=theta, psi_dot=200.0)
+    assert slow == pytest.approx(0.068 / (5.72e-05 * 200.0), rel=2 * EPS)
+
+
+@pytest.mark.parametrize("steps", range(-4, 5))
+@pytest.mark.parametrize("theta", [0.0, 0.5, 1.4, 1.5707])
+def test_merging_roots_are_those_of_the_exact_quadratic(steps, theta):
+    with mp.workdps(60):
+        Ix, Iz, Mgl = map(mpf, ARTICLE.moments)
+        a = (Ix - Iz) * mp.cos(theta)
+        psi_dot = float(2 * mp.sqrt(a * Mgl) / Iz)  # within half an ulp of merging
+        for _ in range(abs(steps)):
+            psi_dot = math.nextafter(psi_dot, math.copysign(math.inf, steps))
+        half = Iz * mpf(psi_dot) / 2
+        discriminant = half**2 - a * Mgl
+        found = regular_precession_rates(ARTICLE, theta=theta, psi_dot=psi_dot)
+        assert len(found) == (2 if discriminant >= 0 else 0)
+        for sign, rate in zip((-1, 1), found, strict=False):
+            assert rate == float((half + sign * mp.sqrt(discriminant)) / a)
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_a_start_on_a_root_keeps_its_tilt(which):
+    rate = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[which]
+    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=rate))
+    assert motion.kind == "regular"
+    theta = motion.at([0.01 * k for k in range(10_000)]).euler_angles.theta
+    assert abs(theta - 0.5).max() <= 16 * EPS
+    assert motion.mean_precession_rate == pytest.approx(rate, rel=16 * 261 / rate * EPS)  # of omega
+
+
+def test_a_tilt_may_be_of_many_turns():
+    assert len(regular_precession_rates(ARTICLE, theta=1e15, psi_dot=200.0)) == 2
+
+
+def test_a_spin_of_minus_zero_is_no_spin():
+    top = Top(2.28e-4, 5.72e-5, -0.068)
+    found = [regular_precession_rates(top, theta=0.5, psi_dot=spin) for spin in (0.0, -0.0)]
+    assert found[0] == found[1] == (-found[0][1], found[0][1])

@@ -101,13 +101,6 @@ def test_quantities_of_broadcast_motions_belong_to_their_tops(name):
         assert np.array_equal(found[row, column], getattr(owner, name)(member.at(times)))
 
 
-def test_tops_with_states_of_another_shape_are_refused():
-    tops = Top(1.0, 1.0, [1.0, 2.0])
-    states = Motions(tops, CUSPS).at([0.0, 1.0])  # as many times as motions
-    with refused("top and state", "one of each for each other"):
-        tops.energy(states)
-
-
 def test_motions_are_indexed_and_counted_as_arrays():
     motions = Motions(Top(0.000228, 0.0000572, np.arange(1, 7).reshape(2, 3) / 64), CUSPS)
     assert (len(motions), len(motions[1]), motions[:, 1:].shape) == (2, 3, (2, 2))

@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, random_states
 
-from symtop_ros.physics import Motion, Motions, State, Top
+from symtop_ros.physics import Friction, Motion, Motions, State, Top
 
 
 def test_an_orientation_is_normalised_once_and_then_stays_bit_for_bit():
@@ -27,20 +27,6 @@ def test_a_state_cannot_be_written_to():
         state.orientation[0] = 2.0
 
 
-@pytest.mark.parametrize("theta", [1e-12, 1e-3, 0.5, math.pi / 2, 3.0])
-def test_euler_angles_and_rates_come_back(theta):
-    given = {"theta_dot": -3.0, "phi_dot": 0.7, "psi_dot": 11.0}
-    state = State.from_euler(theta=theta, phi=0.4, psi=-2.0, **given)
-    phi, tilt, psi = state.euler_angles
-    assert tilt == pytest.approx(theta, rel=8 * EPS)
-    assert (phi, psi) == pytest.approx((0.4, -2.0), abs=8 * EPS)
-    rates = state.euler_rates
-    rounding = 16 * EPS * 12 / math.sin(theta)  # phi' is a rate across the axis over sin(theta)
-    assert rates.theta == pytest.approx(-3.0, rel=16 * EPS)
-    assert rates.phi == pytest.approx(0.7, abs=rounding)
-    assert rates.psi == pytest.approx(11.0, abs=rounding)
-
-
 @pytest.mark.parametrize(("q", "psi"), [((0.8, 0, 0, 0.6), 1.287), ((0, 0.8, 0.6, 0), -1.287)])
 def test_on_the_vertical_all_turning_is_spin(q, psi):
     state = State(q, (0.3, 0.4, 7.0))
@@ -48,38 +34,6 @@ def test_on_the_vertical_all_turning_is_spin(q, psi):
     assert phi == 0.0
     assert spin == pytest.approx(psi, abs=1e-3)
     assert state.euler_rates == (0.0, 0.5, 7.0)
-
-
-def test_turning_to_the_world_and_back_is_nothing():
-    states = random_states(100)
-    vectors = states.angular_velocity
-    there = states.to_world(vectors)
-    assert np.abs(states.to_body(there) - vectors).max() <= 16 * EPS * np.abs(vectors).max()
-
-
-def test_the_vertical_is_z_turned_into_the_body():
-    states = random_states(100)
-    assert np.abs(states.to_body([0.0, 0.0, 1.0]) - states.vertical).max() <= 8 * EPS
-
-
-@pytest.fixture(scope="module")
-def alone():
-    """Orientations and angular velocities, and the angles and rates of each computed alone."""
-    chance = Numbers(1)
-    orientation, omega = chance.quaternions(2048), chance.normals(2048, 3)
-    each = [State(q, w) for q, w in zip(orientation, omega, strict=True)]
-    angles = [[*state.euler_angles, *state.euler_rates] for state in each]
-    return orientation, omega, np.array(angles)
-
-
-@pytest.mark.parametrize("size", [2, 3, 4, 7, 16, 64])
-def test_the_angles_of_a_state_do_not_depend_on_the_states_computed_with_it(size, alone):
-    orientation, omega, angles = alone
-    for first in range(0, 2048 - size + 1, size):
-        some = slice(first, first + size)
-        states = State(orientation[some], omega[some])
-        together = np.stack([*states.euler_angles, *states.euler_rates], axis=-1)
-        assert together.tolist() == angles[some].tolist()
 
 
 def find_turn(state, phi, theta, psi):
@@ -185,3 +139,28 @@ def test_a_table_has_a_column_for_each_quantity_of_many_states():
         states.table(times[1:])
     with refused("states", "of shape (n,)", "shape ()"):
         states[0].table(0.0)
+
+
+def test_what_follows_from_a_state_is_what_the_formulae_say():
+    top = Top(Ix=2.0, Iz=1.0, Mgl=3.0)
+    state = State.from_euler(theta=math.pi / 2, phi=0.0, phi_dot=4.0, psi_dot=5.0)
+    # a few roundings of numbers of this size, cos(pi/2) = 6e-17 included
+    assert top.energy(state) == pytest.approx(2.0 * 16 / 2 + 25 / 2, rel=1e-15)
+    assert top.axial_momentum(state) == pytest.approx(5.0, rel=1e-15)
+    assert top.vertical_momentum(state) == pytest.approx(8.0, rel=1e-15)
+
+
+def test_only_an_upright_weight_needs_spin_to_sleep():
+    assert Top(1.0, 0.5, 4.0).critical_spin == 8.0
+    assert Top(1.0, 0.5, -4.0).critical_spin == 0.0
+
+
+def test_the_torque_of_friction_is_against_each_rate():
+    state = State((1.0, 0.0, 0.0, 0.0), (1.0, -2.0, 4.0))
+    assert Friction(axial=0.5, transverse=0.25).torque(state).tolist() == [-0.25, 0.5, -2.0]
+
+
+def test_a_friction_without_a_coefficient_is_false():
+    assert not Friction()
+    assert Friction(axial=1e-9)
+    assert Friction(transverse=1e-9)

@@ -53,15 +53,6 @@ def test_one_time_and_many_give_the_same_bits(name, factor):
         assert alone == states[k]
 
 
-@pytest.mark.parametrize("step", [1, 3])
-def test_an_elapsed_time_and_a_stamp_are_one_time(step):
-    motion = Motion(ARTICLE, CUSPS)
-    whole = motion.at(ExactTimes(YEAR + step))
-    parts = motion.at(ExactTimes(step, elapsed=Fraction(YEAR)))
-    # the same exact phases, truncated to 2^-62 of a turn in two ways
-    assert np.abs(whole.orientation - parts.orientation).max() <= 2 * EPS
-
-
 def test_a_driven_motion_at_exact_times_that_are_doubles_is_that_at_these_doubles():
     motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
     ticks = 1_953_125 * np.array([0, 1, 77, 512])  # of 1/512 s

@@ -12,8 +12,7 @@ import pytest
 import zstandard
 from hypothesis import given
 from hypothesis import strategies as st
-from log_files import LAYOUTS, Run
-from mcap.writer import Writer
+from log_files import LAYOUTS, Run, write_mcap
 from odd_values import CONTROL, assert_one_sentence, deterministic, trials
 
 from symtop_ros.check.samples import check_log
@@ -57,37 +56,28 @@ def asked(capsys, path, *way):
 
 
 TOO_LONG = "120 samples cannot be checked: the motion is too fast or too long to integrate"
+NS, FACTOR, TURNED = "motion.elapsed_ns", "motion.real_time_factor", "motion.orientation"
+BAD_FACTOR, BAD_NS = f"{FACTOR} must be 1e-300 to 1e+06, got ", f"{NS} must be a whole number of ns"
+BAD_SHAPE = "orientation must be of shape (..., 4), got shape"
 ABSURD = {
-    ("motion.elapsed_ns", "1" + "0" * 21): TOO_LONG,
-    ("motion.elapsed_ns", "-1" + "0" * 21): TOO_LONG,
+    (NS, "1" + "0" * 21): TOO_LONG,
+    (NS, "-1" + "0" * 21): TOO_LONG,
     ("motion.stamp", "0"): TOO_LONG,
     ("friction", "1e30 0.0"): TOO_LONG,
     ("applied_torque", "1e300 0 0"): TOO_LONG,
-    ("motion.elapsed_ns", "nan"): "motion.elapsed_ns must be a whole number of ns or a fraction",
-    ("motion.elapsed_ns", "x" * 100_000): "motion.elapsed_ns must be a whole number of ns",
-    (
-        "motion.stamp",
-        "9" * 4000,
-    ): "event 'start' must describe a motion, its numbers are out of range",
+    (NS, "nan"): f"{BAD_NS} or a fraction",
+    (NS, "x" * 100_000): BAD_NS,
+    ("motion.stamp", "9" * 4000): "'start' must describe a motion, its numbers are out of range",
     ("motion.stamp", "9" * 5000): "Exceeds the limit (4300 digits)",
-    ("motion.real_time_factor", "0"): "motion.real_time_factor must be 1e-300 to 1e+06, got 0",
-    ("motion.real_time_factor", "inf"): "motion.real_time_factor must be 1e-300 to 1e+06, got inf",
-    (
-        "motion.orientation",
-        "1e300 0 0 0",
-    ): "orientation must be a quaternion of norm 1 within 0.001, got a norm of inf",
-    (
-        "motion.orientation",
-        " 1" * 100_000,
-    ): "orientation must be of shape (..., 4), got shape (100000,)",
-    ("motion.orientation", CONTROL): "could not convert string to float: '\\x1b[31m",
-    (
-        "motion.angular_velocity",
-        "1e101 0 0",
-    ): "angular_velocity must be at most 1e+100 rad/s, got 1e+101",
+    (FACTOR, "0"): f"{BAD_FACTOR}0",
+    (FACTOR, "inf"): f"{BAD_FACTOR}inf",
+    (TURNED, "1e300 0 0 0"): "must be a quaternion of norm 1 within 0.001, got a norm of inf",
+    (TURNED, " 1" * 100_000): f"{BAD_SHAPE} (100000,)",
+    (TURNED, CONTROL): "could not convert string to float: '\\x1b[31m",
+    ("motion.angular_velocity", "1e101 0 0"): "must be at most 1e+100 rad/s, got 1e+101",
     ("top", "nan nan nan"): "Ix must be a finite number (kg m^2), got nan",
     ("top", None): "event 'start' must have all values, 'top' is missing or incomplete",
-    ("after.orientation", None): "orientation must be of shape (..., 4), got shape (0,)",
+    ("after.orientation", None): f"{BAD_SHAPE} (0,)",
 }
 RARELY = (1, 2)  # as 0: a time that is too long
 ABSURD_CASES = [
@@ -193,13 +183,22 @@ def test_a_chunk_of_records_that_are_none_is_damaged_at_once(one, count, tmp_pat
     assert any(DAMAGED in line for line in lines)
 
 
-def test_chunks_that_unpack_to_ever_more_schemas_are_refused(tmp_path, capsys):
-    text = struct.pack("<I", 2**20) + bytes(2**20)
-    schemas = [
-        repeated(record(3, struct.pack("<HI", number, 1) + b"a" + struct.pack("<I", 0) + text), 1)
-        for number in range(80)
-    ]
-    path = file_of(tmp_path, *schemas)
+def text(data):
+    return struct.pack("<I", len(data)) + data
+
+
+def schema(number):
+    return record(3, struct.pack("<HI", number, 1) + b"a" + text(b"") + text(bytes(2**20)))
+
+
+def channel(number):
+    names = text(b"/a%d" % number) + text(b"cdr")
+    return record(4, struct.pack("<HH", number, 0) + names + text(text(b"k") + text(b"v" * 2**20)))
+
+
+@pytest.mark.parametrize("make", [schema, channel])
+def test_chunks_that_unpack_to_ever_more_descriptions_are_refused(make, tmp_path, capsys):
+    path = file_of(tmp_path, *(repeated(make(number), 1) for number in range(1, 80)))
     for way in (["--check"], ["--repair", tmp_path / "whole.mcap"]):
         status, (line,) = asked(capsys, path, *way)
         assert status == 1
@@ -232,15 +231,7 @@ def test_ten_thousand_problems_are_told_in_some_lines(tmp_path, capsys):
 
 def write(path, kind, topic, contents):
     """A log of another writer, of one topic."""
-    with path.open("wb") as stream:
-        writer = Writer(stream)
-        writer.start("ros2")
-        schema = writer.register_schema(kind, "ros2msg", b"")
-        channel = writer.register_channel(topic, "cdr", schema)
-        for stamp, data in enumerate(contents):
-            writer.add_message(channel, stamp, data, stamp)
-        writer.finish()
-    return path
+    return write_mcap(path, [(topic, kind, enumerate(contents))])
 
 
 def test_joints_that_are_not_three_are_not_those_of_a_top(tmp_path, capsys):

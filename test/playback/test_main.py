@@ -113,13 +113,18 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
         (["{log}", "--save", "none/out.html"], "cannot write none/out.html: No such file or dir"),
         (["{log}", "--repair", "{log}"], "must not exist (nothing is overwritten)"),
         (["{log}", "--node", "/x", "--check"], "no run of a top /x in"),
+        (["{run}", "--mcap", "run.log"], "--mcap must be a name that ends in .mcap in a folder,"),
+        (["{run}", "--mcap", "run.mcap", "--rate", "5000"], "--rate must be 1 to 2000 Hz, got 5"),
+        (["{run}", "x.mcap", "--mcap", "run.mcap"], "a run of the page must be one file, got 2"),
     ],
 )
 def test_a_refusal_is_one_line_and_status_1(
-    arguments, sentence, log, tmp_path, capsys, monkeypatch
+    arguments, sentence, log, run_file, tmp_path, capsys, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    assert module.main([each.format(log=log) for each in arguments]) == 1
+    before = set(tmp_path.iterdir())
+    assert module.main([each.format(log=log, run=run_file) for each in arguments]) == 1
+    assert set(tmp_path.iterdir()) == before
     error = capsys.readouterr().err
     assert error.startswith("top_replay: ")
     assert sentence in error
@@ -160,21 +165,3 @@ def test_a_run_of_the_page_is_checked_saved_and_becomes_a_log(run_file, capsys):
     assert capsys.readouterr().err == ""
     events = json.loads(run_file.read_text())["events"]
     assert read_page(page)["events"] == read_page(again)["events"] == events
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (
-            ["--mcap", "run.log"],
-            "--mcap must be a name that ends in .mcap in a folder, got run.log",
-        ),
-        (["--mcap", "run.mcap", "--rate", "5000"], "--rate must be 1 to 2000 Hz, got 5000.0"),
-        (["x.mcap", "--mcap", "run.mcap"], "a run of the page must be one file, got 2"),
-    ],
-)
-def test_a_log_that_cannot_be_made_is_one_message(words, message, run_file, capsys, monkeypatch):
-    monkeypatch.chdir(run_file.parent)
-    assert module.main(["run.json", *words]) == 1
-    assert capsys.readouterr().err == f"top_replay: {message}\n"
-    assert [path.name for path in run_file.parent.iterdir()] == ["run.json"]

@@ -1,10 +1,19 @@
 """The Rerun viewer: it leaves the home of the user unchanged."""
 
+import re
 import sys
+from urllib.parse import urlsplit
 
+import pytest
+from browser import running_browser
+from log_files import ARTICLE
 from programs import execute
+from waiting import until
 
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback import viewer
+from symtop_ros.playback.panel import describe_motion
+from symtop_ros.simulation.segment import Segment
 
 
 def test_in_a_venv_its_settings_are_there_without_statistics(tmp_path, monkeypatch):
@@ -16,3 +25,55 @@ def test_in_a_venv_its_settings_are_there_without_statistics(tmp_path, monkeypat
     config = execute(words, env=viewer.settings(), check=True).stdout
     assert '"analytics_enabled": false' in config
     assert not (tmp_path / "home").exists()
+
+
+def facts(motion, equations=()):
+    text = describe_motion(Segment.begin(motion, 0, 1.0), motion.start, {}, dict(equations))
+    rows = [row.strip("| ").split(" | ") for row in text.splitlines()[2:]]
+    return {name: value.strip("*") for name, value in rows}
+
+
+def test_exact_rates_stand_next_to_those_of_the_fast_top():
+    found = facts(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
+    assert found["nutation"] == "0.15954 s, 39.382 rad/s (p_psi/Ix: 50.175)"
+    assert found["mean precession"] == "6.6381 rad/s (Mgl/p_psi: 5.9441)"
+    assert found["in a nutation"] == "0.16856 turns"
+
+
+@pytest.mark.parametrize("top", [ARTICLE, Top(1.0, 0.5, 0.0)])
+def test_what_is_undefined_for_a_sleeping_top_is_a_dash(top):
+    found = facts(Motion(top, State.from_euler(theta=0.0)))
+    assert found["mean precession"] == "- (Mgl/p_psi: -)"
+    assert found["in a nutation"] == "-"
+
+
+TIMEOUT = 120.0
+
+
+@pytest.fixture(name="address")
+def _address(capsys):
+    process = viewer.start(web=True)
+    try:
+        yield re.search(r"open (\S+) in", capsys.readouterr().out)[1]
+    finally:
+        process.terminate()
+        process.wait(timeout=TIMEOUT)
+
+
+def open_viewer(browser, address):
+    """The hosts that the page asks, and those that its policy refuses, until the viewer runs."""
+    tab = browser.new_page()
+    asked, refused = [], []
+    tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
+    tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
+    tab.on("console", lambda line: refused.append(line.text))
+    until(lambda: tab.goto(f"{address}&renderer=webgl").status != 503, timeout=TIMEOUT)
+    return tab, asked, [text for text in refused if "Content Security Policy" in text]
+
+
+def test_the_page_asks_no_other_host(address):
+    with running_browser() as browser:
+        tab, asked, refused = open_viewer(browser, address)
+        assert {host for host in asked if host} == {"127.0.0.1"}
+        assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
+        tab.close()

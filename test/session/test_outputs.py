@@ -1,15 +1,18 @@
 """Topics of a run: who gets which bytes."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.session.diagnostics import _log_status, _pace_status
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wire.diagnostics import ERROR, OK, WARN
 from symtop_ros.wire.messages import CLOCK
 
 SECOND = 1_000_000_000
@@ -158,3 +161,39 @@ def test_a_refused_torque_is_named_and_leaves_the_motion():
     reason = session.hold_torque((0.0, 0.0, float("nan")))
     assert reason.startswith("applied_torque must be 3 numbers")
     assert session.simulation.segment is before
+
+
+@pytest.mark.parametrize(
+    ("kept", "running", "missed", "level", "text"),
+    [
+        (2.0, True, 0, OK, ""),
+        (0.5, True, 0, WARN, "too fast for the compute budget"),
+        (2.0, False, 0, OK, ""),
+        (2.0, True, 19, OK, "19 ticks missed"),  # less than a tenth of a second
+        (2.0, True, 20, WARN, "20 ticks missed"),
+    ],
+)
+def test_a_slower_pace_and_missed_ticks_are_a_warning(kept, running, missed, level, text):
+    simulation = SimpleNamespace(
+        factor=kept,
+        segment=SimpleNamespace(running=running),
+        settings=SimpleNamespace(real_time_factor=2.0),
+        ticker=SimpleNamespace(late=2, missed=missed, rate=200.0),
+    )
+    status = _pace_status(simulation)
+    assert status.level == level
+    assert text in status.message
+    assert status.values["real_time_factor.achieved"] == str(kept if running else 0.0)
+
+
+@pytest.mark.parametrize(
+    ("dropped", "failure", "level"), [(7, "a: no space", ERROR), (7, "", WARN), (0, "", OK)]
+)
+def test_a_recording_that_failed_is_an_error_and_dropped_messages_are_a_warning(
+    dropped, failure, level
+):
+    recorder = SimpleNamespace(path="a", dropped=dropped, failure=failure, running=not failure)
+    status = _log_status(recorder)
+    facts = {"file": "a", "dropped": str(dropped)}
+    assert (status.level, status.values) == (level, facts)
+    assert failure in status.message

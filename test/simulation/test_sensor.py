@@ -52,12 +52,6 @@ def test_an_exact_sensor_has_the_attitude_the_rates_and_the_force_of_its_place()
         assert (numbers[:, first : first + 9] == EXACT * np.eye(3).reshape(-1)).all()
 
 
-def test_a_sensor_at_rest_feels_gravity_upwards():
-    hanging = Motion(ARTICLE, State((0, 1, 0, 0), (0, 0, 0)))
-    numbers = measured("imu", segment_of(Imu(), hanging), STAMPS[:1])
-    assert numbers[0, 25:28].tolist() == [0.0, 0.0, -9.81]  # the body's z axis points down
-
-
 def test_odometry_is_the_motion_of_the_centre_of_mass():
     segment, step = segment_of(), 1000  # ns
     numbers = measured("odometry", segment)

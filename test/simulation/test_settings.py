@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from odd_values import VALUES, assert_one_sentence, deterministic, trials
 
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.simulation.validation import MAX_SENTENCE, RefusedError, one_line
 
 RANGED = [name for name, parameter in PARAMETERS.items() if parameter.limits]
 VECTORS = {name: p.condition[0] for name, p in PARAMETERS.items() if p.default == []}
@@ -110,3 +110,17 @@ def test_parameters_of_any_value_are_taken_or_refused_in_one_sentence(examples):
         refusal(changes)
 
     check()
+
+
+def test_lines_become_one_and_control_characters_are_escaped():
+    assert one_line("a\n  b\r\n\x1b[31m\udcff") == "a b \\x1b[31m\\udcff"
+    assert one_line("θ' = 0.5") == "θ' = 0.5"
+
+
+def test_long_text_is_shortened_in_its_middle_and_soon():
+    for text in ("x" * 10_000_000, "\x1b" * 10_000_000, "a b " * 1_000_000):
+        line = one_line(f"begin {text} end")
+        assert len(line) == MAX_SENTENCE
+        assert line.startswith("begin ")
+        assert line.endswith(" end")
+        assert "..." in line

@@ -1,11 +1,11 @@
-from dataclasses import fields
+from pathlib import Path
 
 import pytest
 
-from workshop.speed import document
-from workshop.speed.ahead import FRICTION, TABLES
-from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
-from workshop.speed.many import ManyCost
+from workshop.load import node_cost, stress
+from workshop.speed import derivatives, document, filters, publish, testset
+from workshop.speed.ahead import FRICTION
+from workshop.speed.benchmarks import Results
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.reference import Reference
 from workshop.speed.sweep import Curve, Measurement
@@ -31,34 +31,36 @@ def test_a_report_can_be_written_after_each_curve(by):
     assert text.count("\n| b |") >= 3
 
 
-def results_of(ours, peer):
-    """Results in which the package and a peer each have one number for all errors and times."""
-    pairs = {CLOSED_FORM: ours, "peer": peer}
-    driven = {TAYLOR: ours, "peer": peer}
-    return Results(
-        checks=pairs,
-        curves=[
-            Curve(name, "cusps", 10.0, (Measurement(1.0, n, n, 9, n, n),), "finest")
-            for name, n in pairs.items()
-        ],
-        growth=[Growth(name, 0.0, (10.0,), (n,), (n,)) for name, n in pairs.items()],
-        states=[ArrayCost(name, (1,), (n,), n) for name, n in pairs.items()],
-        many=[ManyCost(name, 9, n, n, 9, 5) for name, n in pairs.items()],
-        hard=[HardCase("tilt", 0.1, 1.0, ours, {"peer": peer})],
-        driven=[DrivenCase("plain", driven, driven)],
-    )
+ROOT = Path(__file__).parents[2]
+TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
+PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+SECTIONS = (
+    *("chapters", "summary"),
+    *(each.NAME for each in (derivatives, filters, testset, node_cost, stress)),
+)
 
 
-@pytest.mark.parametrize("name", TABLES)
-def test_a_peer_that_is_ahead_in_a_table_is_named(name):
-    lines = [*TABLES[name](results_of(2e-3, 1e-3))]
-    assert lines
-    assert all("peer" in line for line in lines)
+def read_tables(text):
+    """The cells of each table of a text."""
+    return [
+        [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines()]
+        for table in text.split("\n\n")
+        if table.startswith("|")
+    ]
 
 
-def test_every_table_is_looked_at():
-    assert {each.name for each in fields(Results)} == {*TABLES, "footprint"}
+def test_each_table_of_a_command_stands_in_one_page():
+    texts = [page.read_text(encoding="utf-8") for page in PAGES]
+    for name in SECTIONS:
+        (table,) = filter(None, (publish.find_section(text, name) for text in texts))
+        assert read_tables(table)
+    assert sum(text.count("<!-- figures: ") for text in texts) == len(SECTIONS)
 
 
-def test_a_peer_that_is_nowhere_ahead_is_not_named():
-    assert document._format_ahead(results_of(1e-3, 2e-3)).endswith("- None.")
+def test_sections_are_written_into_the_pages_that_have_them(docs):
+    page = docs / "accuracy_tables.md"
+    text = "# Title\n\n<!-- figures: chapters -->\nold\n<!-- end of figures -->\nend\n"
+    page.write_text(text)
+    publish.publish({"chapters": "new", "summary": "other"}, docs)
+    assert page.read_text() == text.replace("old", "new")
+    assert (docs.parent / "README.md").read_text() == "no section\n"

@@ -2,13 +2,14 @@
 
 import json
 
-import numpy as np
 import pytest
+from physics.differences import differentiate
 
-from symtop_ros.judge.estimates import Estimates
 from workshop import main as report
-from workshop.speed import filters
-from workshop.speed.filters import MOUNTS, format_trials, judge_filters, record, run_filter
+from workshop.main import main
+from workshop.speed import derivatives, filters
+from workshop.speed.derivatives import derive_by_package, find_error, read_case
+from workshop.speed.filters import MOUNTS, format_trials, judge_filters
 
 
 @pytest.fixture
@@ -16,24 +17,6 @@ def short(monkeypatch):
     for name, value in {"SPAN": 1, "SCENES": ("conical_pendulum",)}.items():
         monkeypatch.setattr(filters, name, value)
     monkeypatch.setattr(filters, "FILTERS", ("AngularRate", "Mahony"))
-
-
-def test_a_sensor_in_the_pivot_feels_gravity_alone(short):
-    recording = record("cusps", MOUNTS["in the pivot"])
-    # white noise of 1.7e-3 sqrt(1000 Hz) = 0.054 m/s^2 in each of 1000 samples, five sigma
-    assert np.abs(np.linalg.norm(recording.forces, axis=1) - 9.81).max() < 5 * 0.054
-    beside = record("cusps", MOUNTS["1 cm beside the axis"])
-    assert np.linalg.norm(beside.forces, axis=1).min() > 300  # 200^2 rad^2/s^2 at 1 cm
-    own = Estimates.of(recording.stamps, recording.orientations)
-    assert filters.compare(own, recording.truth).total.max() < 1e-15
-
-
-def test_without_spin_the_integrated_gyroscope_is_good_for_a_second(short):
-    pytest.importorskip("ahrs")
-    errors = run_filter("AngularRate", record("conical_pendulum", MOUNTS["in the pivot"]))
-    # A rate from one end of a step is half a step late: as it turns by up to twice its 3 rad/s, the
-    # error is at most 3e-3 rad. The noise adds 2.4e-4 rad/sqrt(s), three sigma. 2e-3 is found.
-    assert errors.total.max() < 3.7e-3
 
 
 def test_tables_and_plot_are_written(short, tmp_path, capsys):
@@ -48,3 +31,30 @@ def test_tables_and_plot_are_written(short, tmp_path, capsys):
     file.write_text("")
     assert report.main(["filters", str(file)]) == 1
     assert capsys.readouterr().err.startswith(f"workshop: {file}: ")
+
+
+CASE = read_case()
+
+
+def test_the_reference_is_made_again():
+    found = differentiate(CASE.motion, CASE.times[:1])
+    # rounded to doubles, both
+    assert find_error(found[0], CASE.exact[0]) < 1e-15
+
+
+def test_the_package_is_as_exact_as_it_says():
+    for t, exact in zip(CASE.times, CASE.exact, strict=True):
+        assert find_error(derive_by_package(CASE.motion, t), exact) < 2e-12
+
+
+def test_a_table_is_written(tmp_path, monkeypatch):
+    monkeypatch.setattr(derivatives, "RUNS", 1)
+    short = CASE._replace(times=CASE.times[:2], exact=CASE.exact[:2])
+    monkeypatch.setattr(derivatives, "read_case", lambda: short)
+    assert main(["derivatives", str(tmp_path)]) == 0
+    facts = json.loads((tmp_path / "derivatives.json").read_text())
+    names = {each["program"] for each in facts["entries"]}
+    assert "symtop_ros, Motion.jacobian" in names
+    assert len(facts["entries"]) == len(names) * len(short.times)
+    assert all(each["error"] < 1e-8 and each["seconds"] > 0 for each in facts["entries"])
+    assert (tmp_path / "derivatives.md").read_text().startswith("| error, time | 0.1 s |")

@@ -11,7 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import facts
-from programs import PATIENT, command, run, running, running_node, set_parameters
+from programs import running_node
 from sensor_msgs.msg import JointState
 
 from symtop_ros.log.reader import McapFile
@@ -22,11 +22,6 @@ pytestmark = [pytest.mark.untraced, pytest.mark.realtime]
 
 DOMAIN = claim_domain()
 MS = 1_000_000
-DUPLICATE = "another node has the name /top, and a request reaches any of them: rename this one"
-SEVERAL = (
-    "top_ctl: 2 nodes have the name /top, and one of them has answered (a killed node is listed "
-    "for 20 s)\n"
-)
 
 
 def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(tmp_path):
@@ -60,23 +55,3 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
     assert missed == (until - begin) // MS - sum(each < until for each in stamps) > 800
     assert abs(stamps[-1] - asked) < 5_000 * MS  # where the clock is
     assert_exact(path)
-
-
-def test_two_nodes_of_one_name_warn_once_each_and_top_ctl_has_one_answer():
-    words = command("top_node", *set_parameters())
-    with running(words, DOMAIN) as first, running(words, DOMAIN) as second:
-        nodes = first, second
-        lines = [
-            next(each for each in iter(node.stderr.readline, "") if DUPLICATE in each)
-            for node in nodes
-        ]
-        result = run("top_ctl", *PATIENT, "hurry", domain=DOMAIN)
-        for node in nodes:
-            node.terminate()
-        rest = [node.communicate(timeout=60)[1] for node in nodes]
-    assert all("-r __node:=" in line for line in lines)
-    assert not any(DUPLICATE in each for each in rest)
-    assert result.returncode == 0
-    # The client may have answered before it knows of both.
-    assert result.stderr in ("", SEVERAL)
-    assert len(result.stdout.splitlines()) == 1

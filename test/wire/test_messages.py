@@ -132,6 +132,15 @@ def test_doubles_are_aligned_to_eight_from_the_end_of_the_header():
     assert packed[28:] == np.float64(1.0).tobytes()
 
 
+FORMATS = [each for each in vars(messages).values() if isinstance(each, messages.Format)]
+
+
+@pytest.mark.parametrize("form", FORMATS, ids=lambda form: form.type)
+def test_the_quantities_of_a_message_follow_one_another_and_are_all_of_it(form):
+    places = [range(form.width)[place] for place in form.quantities.values()]
+    assert [number for place in places for number in place] == list(range(form.width))
+
+
 @pytest.mark.parametrize(
     ("parts", "count"), [([Doubles(1)], 0), ([Stamp(), Doubles(1), Stamp()], 2)]
 )

@@ -13,7 +13,6 @@ from physics.tops import ARTICLE, precess
 from symtop_ros.physics import (
     KickVerdict,
     Motion,
-    Top,
     hurry,
     kick_verdict,
     perrys_rule,
@@ -26,8 +25,6 @@ from symtop_ros.wording import write
 from symtop_ros.wording.templates import FILE, PLACEHOLDER, TEMPLATES
 
 pytestmark = pytest.mark.wording
-
-DISC = Top(Ix=0.000228, Iz=0.000456, Mgl=-0.068)
 
 
 def words_of(hint):
@@ -104,14 +101,6 @@ def test_a_top_that_moves_is_not_said_to_stay(off):
     for variant in ("radians", "degrees"):
         low, high = read_numbers(write("verdict", verdict, variant).partition(". ")[0])
         assert low < high
-
-
-def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
-    before = precess(5.0, psi_dot=-120.0)
-    kicked = kick_verdict(Motion(DISC, hurry(before)), before, "spin_rate")
-    for text in (str(perrys_rule(DISC, before)), str(kicked)):
-        assert "The axis falls (and the centre of mass rises)" in text
-        assert "for the axis and" in text
 
 
 def test_angles_are_written_in_degrees_on_request():

@@ -58,14 +58,6 @@ def test_friction_alone_slows_the_spin_exponentially():
         assert_same(found, (mp.cos(half), 0, 0, mp.sin(half)), (0, 0, 4 * left), 40)
 
 
-def test_a_torque_about_the_vertical_hastens_a_top_that_sleeps():
-    start = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 2.0))
-    found = exact_state(Top(1.0, 0.5, 0.3), start, 3.0, 40, torque=(0.0, 0.0, 0.25))
-    with mp.workdps(60):  # it turns by 2 t + t^2/4
-        half = mpf("4.125")
-        assert_same(found, (mp.cos(half), 0, 0, mp.sin(half)), (0, 0, 3.5), 40)
-
-
 def test_a_friction_that_is_too_weak_to_be_felt_gives_the_closed_form():
     free = exact_state(ARTICLE, CUSPS, 0.3, 30)
     assert_same(exact_state(ARTICLE, CUSPS, 0.3, 30, Friction(0.0, 1e-60)), *free, 30)

@@ -7,7 +7,7 @@ from rerun.chunk import RrdReader
 
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.angles import POINTS, RADII, draw_arcs
+from symtop_ros.playback.view.angles import RADII, draw_arcs
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
 # of a point: sums of four rounded products of numbers up to 1.1
@@ -32,16 +32,6 @@ def test_each_arc_begins_at_one_axis_and_ends_at_the_other():
             arc = arcs[name][k] / RADII[name]
             assert np.abs(arc[0] - first).max() <= ROUNDING
             assert np.abs(arc[-1] - last).max() <= ROUNDING
-
-
-def test_an_arc_is_a_part_of_a_circle_as_long_as_its_angle():
-    angles = dict(zip(("phi", "theta", "psi"), random_angles(), strict=True))
-    for name, arcs in draw_arcs(*angles.values()).items():
-        assert np.abs(np.linalg.norm(arcs, axis=2) / RADII[name] - 1).max() <= ROUNDING
-        chords = np.linalg.norm(np.diff(arcs, axis=1), axis=2) / RADII[name]
-        turned = (2 * np.arcsin(chords / 2)).sum(axis=1)
-        # sums of 32 chords, each a difference of points
-        assert np.abs(turned - angles[name]).max() <= POINTS * ROUNDING
 
 
 def test_the_axes_of_the_body_turn_with_it_and_the_letters_are_greek(tmp_path):

@@ -1,7 +1,6 @@
 """Arrows of the inertial torque: their sums are the torque, in either frame."""
 
 import numpy as np
-import pytest
 from log_files import ARTICLE, CUSPS, Run
 from playback.view.rows import arrows, record, rows
 
@@ -25,12 +24,6 @@ def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
     # a central difference: its error is (200 rad/s step)^2 / 6, about 1e-6
     assert np.abs(found - torques.body).max() <= 2e-6 * np.abs(torques.body).max()
     assert np.abs(torques.precession - torques.total).max() > 0.5 * np.abs(torques.total).max()
-
-
-@pytest.mark.parametrize("missing", ["angular_velocity", "torque", "euler_angles"])
-def test_without_a_topic_there_are_no_arrows(missing, tmp_path):
-    target = record(Run(hurried=False).without(missing), tmp_path, torques=True)
-    assert not len(rows(target, f"{entities.INERTIAL}/body", "Arrows3D:vectors")[0])
 
 
 def test_the_second_arrow_begins_below_the_tip_of_the_first_and_ends_below_the_torque(tmp_path):

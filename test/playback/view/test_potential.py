@@ -1,12 +1,15 @@
 """The charts show the constants of the motion: lines, marks and dots are where the numbers say."""
 
 import math
+from itertools import combinations
 
 import numpy as np
 import pytest
+from colours import VISIONS, perceive
 from log_files import ARTICLE, CUSPS, REGULAR
 
 from symtop_ros.physics import EffectivePotential, Motion, State, Top
+from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.potential import HEIGHT, WIDTH, Chart, frame_cubic, frame_potential
 
 MOTIONS = {
@@ -55,3 +58,14 @@ def test_a_point_is_placed_in_proportion_and_outside_at_the_edge():
     chart = Chart(left=0.0, right=4.0, bottom=-1.0, top=1.0)
     assert chart.place(1.0, 0.0).tolist() == [WIDTH / 4, -HEIGHT / 2]
     assert chart.place(9.0, -9.0).tolist() == [WIDTH, 0.0]
+
+
+COLORS = ("BLUE", "GREEN", "RED", "GOLD", "ORANGE", "VIOLET", "WHITE")
+APART = 25.0  # CIE 1976 units; 2.3 are just noticeable, and lines are thin
+
+
+@pytest.mark.parametrize("name", VISIONS)
+def test_any_two_colours_differ(name):
+    seen = {color: perceive(getattr(entities, color), name) for color in COLORS}
+    for one, other in combinations(COLORS, 2):
+        assert np.linalg.norm(seen[one] - seen[other]) > APART, (one, other)
