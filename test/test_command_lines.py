@@ -35,7 +35,7 @@ MAINS = {
 FAILED = {
     "top_ctl": "--ros-args -p bad | --ros-args --remap | --node CONTROL hurry | "
     "--node LONG hurry | --node BYTES hurry | --node '' hurry | kick BYTES=1 | "
-    "--node /missing --timeout 1e-9 kick CONTROL=CONTROL | "
+    "--node /missing --timeout 1e-9 kick CONTROL=CONTROL | --node /missing --timeout 1e-9 watch | "
     "--node /missing --timeout 1e-9 kick angular_impulse=nan,inf,1e999",
     "top_live": "--ros-args -p bad | --ros-args --remap | --node BYTES",
     # 192.0.2.1 is of TEST-NET: of no machine

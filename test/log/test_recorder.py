@@ -93,20 +93,6 @@ def is_finished(path):
         return file.read()[8:].endswith(MAGIC)
 
 
-def test_a_file_that_is_large_enough_is_followed_by_another(tmp_path):
-    recorder = create(tmp_path, max_size=20_000)
-    recorder.start({})
-    count = 0
-    while len(list(tmp_path.iterdir())) < 3:
-        recorder.add(1, count, os.urandom(100))
-        count += 1
-        time.sleep(0.0005)
-        assert count < 20_000
-    recorder.stop()
-    found = [stamp for path in tmp_path.iterdir() for _, stamp, _ in contents(path)]
-    assert sorted(found) == list(range(count))
-
-
 def test_a_limit_below_the_size_of_an_empty_file_loses_nothing_and_ends(tmp_path):
     recorder = create(tmp_path, max_size=1)
     recorder.start({})

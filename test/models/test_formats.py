@@ -6,7 +6,6 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from physics.tops import ARTICLE
-from scipy.integrate import solve_ivp
 
 from symtop_ros.models.formats import FORMATS
 from symtop_ros.models.main import main
@@ -54,34 +53,6 @@ def test_mujoco_reads_the_inertia_and_follows_the_closed_form(scene):
     mujoco.mj_step(model, data, nstep=int(DURATION * 2**14))
     # RK4 at 200 rad/s with steps of 0.012 rad; 1e-6 is asked for, at most 2e-7 is found.
     assert angle(data.qpos, Motion(top, start).at(DURATION).orientation) < 1e-6
-
-
-@pytest.mark.parametrize("scene", SCENES)
-def test_pinocchio_reads_the_inertia_and_follows_the_closed_form(scene):
-    pinocchio = pytest.importorskip("pinocchio")
-    top, start = read_scene(scene)
-    model = pinocchio.buildModelFromXML(write("urdf", top, start))
-    data = model.createData()
-    about_pivot = model.inertias[model.njoints - 1].matrix()[3:, 3:]
-    assert about_pivot == pytest.approx(
-        np.diag([top.Ix, top.Ix, top.Iz]), rel=1e-12, abs=1e-12 * top.Ix
-    )
-
-    def turned(angles):
-        """The configuration of continuous joints: cosines and sines."""
-        return np.ravel(np.transpose((np.cos(angles), np.sin(angles))))
-
-    def slope(_, y):
-        acceleration = pinocchio.aba(model, data, turned(y[:3]), y[3:], np.zeros(3))
-        return np.concatenate((y[3:], acceleration))
-
-    begin = (*start.euler_angles, *start.euler_rates)
-    found = solve_ivp(slope, (0.0, DURATION), begin, "DOP853", rtol=1e-11, atol=1e-11)
-    pinocchio.framesForwardKinematics(model, data, turned(found.y[:3, -1]))
-    rotation = data.oMf[model.getFrameId("top")].rotation
-    x, y, z, w = pinocchio.Quaternion(rotation).coeffs()
-    # 1e-6 is asked for, at most 2e-11 is found
-    assert angle(np.array((w, x, y, z)), Motion(top, start).at(DURATION).orientation) < 1e-6
 
 
 # Of these scenes none is so near to the vertical, or so small, that the links count.

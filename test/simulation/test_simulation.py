@@ -129,20 +129,6 @@ def test_a_torque_in_another_frame_is_refused():
         run.simulation.hold_torque((0.0, 0.0, 1.0), "top")
 
 
-def test_other_settings_continue_from_the_current_state():
-    run = Run()
-    run.advance(0.2)
-    before = run.simulation.state
-    run.change({"top.Mgl": -0.05, "real_time_factor": 0.5})
-    event = run.sink.events[-1]
-    assert event.request == {"top.Mgl": "-0.05", "real_time_factor": "0.5"}
-    assert run.simulation.segment.motion.start == before
-    assert run.simulation.segment.factor == 0.5
-    assert len(run.sink.descriptions) == 2
-    run.advance(0.2)
-    run.assert_recomputed()
-
-
 def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running():
     run = Run()
     for _ in range(2):

@@ -99,41 +99,6 @@ def test_a_torque_that_ends_in_a_step_acts_until_then():
     run.assert_recomputed()
 
 
-@pytest.mark.parametrize("paused", [False, True])
-def test_no_request_sets_the_time_back(paused):
-    run = start("hurry_slow", real_time_factor=0.5)
-    run.advance(0.313)
-    in_between = [("hurry_precession",), ("step", {"duration": 0.001}), ("reset",)]
-    requests = [
-        ("hurry_precession",),
-        ("pause", True),
-        *([*in_between, ("step", {"duration": 0.1})] if paused else []),
-        ("set_initial_conditions", {"theta": 0.7, "psi_dot": 150.0}),
-        ("pause", False),
-        ("reset",),
-    ]
-    for request in requests:
-        granted, answer = run.ask(*request)
-        assert granted, answer
-        run.advance(0.004, step=0.002)
-    run.advance(0.1)
-    assert min(np.diff(run.stamps)) > 0
-    assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
-    run.assert_recomputed()
-
-
-def test_another_factor_and_rate_continue_on_the_same_time():
-    run = start(real_time_factor=0.1)
-    run.advance(1.0)
-    for changes in ({"real_time_factor": 5.0}, {"publish_rate": 100.0}):
-        run.change(changes)
-        run.advance(1.0)
-    assert run.simulation.factor == 5.0
-    assert run.stamps[-1] == pytest.approx(10.1 * SECOND, abs=10 * MS)
-    assert {each.segment().factor for each in run.sink.events} == {1.0}
-    run.assert_recomputed()
-
-
 def test_the_time_waits_for_a_process_that_was_stopped():
     run = start(publish_rate=1000.0, real_time_factor=2.0)
     run.advance(0.1)

@@ -1,35 +1,7 @@
 from pathlib import Path
 
-import pytest
-
 from workshop.load import node_cost, stress
-from workshop.speed import derivatives, document, filters, publish, testset
-from workshop.speed.ahead import FRICTION
-from workshop.speed.benchmarks import Results
-from workshop.speed.peers import CLOSED_FORM, TAYLOR
-from workshop.speed.reference import Reference
-from workshop.speed.sweep import Curve, Measurement
-
-
-def curve(peer, motion):
-    return Curve(peer, motion, 10.0, (Measurement(0.0, 1e-9, 1e-9, 9, 1e-3, 0.0),), "finest")
-
-
-@pytest.mark.parametrize("by", ["peer", "motion"])
-def test_a_report_can_be_written_after_each_curve(by):
-    motion = Reference.read().article[0]
-    names = [motion.name, "looping", "regular", FRICTION]
-    pairs = [(CLOSED_FORM, name) for name in names[:-1]] + [(TAYLOR, FRICTION)]
-    curves = [curve(*each) for each in [*pairs, *((peer, n) for peer in "ab" for n in names)]]
-    curves.sort(key=lambda each: 0 if by == "peer" else names.index(each.motion))
-    where = document.Environment("make report", "a machine", {}, [], 4.0)
-    for count in range(1, len(curves) + 1):
-        checks = dict.fromkeys((CLOSED_FORM, TAYLOR, "a", "b"), 0.0)
-        text = document.format_document(Results(checks, curves[:count]), motion, where)
-        assert "## Where a peer is ahead" in text
-    assert "## Other motions" in text
-    assert text.count("\n| b |") >= 3
-
+from workshop.speed import derivatives, filters, publish, testset
 
 ROOT = Path(__file__).parents[2]
 TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"

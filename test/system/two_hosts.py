@@ -91,10 +91,6 @@ class Host:
         done = subprocess.run(self.words(*command), check=True, capture_output=True, text=True)
         return done.stdout
 
-    def link(self, state: str) -> None:
-        """Take its network up or down."""
-        self.run("ip", "link", "set", LINK, state)
-
     def close(self) -> None:
         self._keeper.kill()
         self._keeper.communicate()
@@ -145,7 +141,7 @@ def _plug(host: Host) -> int:
     move = ["ip", "link", "set", name, "netns", str(host.pid), "name", LINK]
     subprocess.run(move, check=True, capture_output=True)
     host.run("ip", "address", "add", f"{host.address}/24", "dev", LINK)
-    host.link("up")
+    host.run("ip", "link", "set", LINK, "up")
     return end
 
 

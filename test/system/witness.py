@@ -15,7 +15,6 @@ from functools import partial
 from itertools import pairwise
 from typing import Any
 
-import numpy as np
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.srv import SetParametersAtomically
@@ -38,12 +37,10 @@ class Samples:
 
     def __init__(self) -> None:
         self.stamps: list[int] = []
-        self.delays: list[float] = []
 
     def take(self, data: bytes) -> None:
         stamp = deserialize_message(data, Header).stamp
         self.stamps.append(stamp.sec * SECOND + stamp.nanosec)
-        self.delays.append((time.time_ns() - self.stamps[-1]) / SECOND)
 
     def report(self) -> dict[str, Any]:
         steps = [b - a for a, b in pairwise(self.stamps)]
@@ -51,8 +48,6 @@ class Samples:
             "count": len(self.stamps),
             "lost": sum(step // PERIOD - 1 for step in steps if step > 0),
             "unordered": sum(step <= 0 for step in steps),
-            "longest_gap": max(steps, default=0) / SECOND,
-            "delay": np.quantile(self.delays, (0.5, 0.99, 1.0)).tolist(),
         }
 
 
