@@ -2,6 +2,8 @@
 
 import random
 import re
+import time
+import warnings
 
 import pytest
 
@@ -95,6 +97,37 @@ def test_what_posix_leaves_undefined_is_refused_with_its_reason(pattern, reason)
     with pytest.raises(ExpressionError) as refused:
         search(pattern, "top")
     assert str(refused.value).startswith(reason)
+
+
+HARD = [
+    ".?" * 60 + "z",
+    ".?" * 900 + "z",
+    "(a|a)*" * 50 + "z",
+    "((a*)*)*z",
+    "(" * 99 + "a*" + ")*" * 99 + "z",
+    "(.|.)" * 1500,
+    "((((a{255}){255}){255}){255}){255}",
+    ".{0,255}" * 9 + "z",
+    "(.*){255}z",
+    "[[:alpha:]a-z]" * 700 + "$",
+    "." * 19_999,
+]
+
+
+@pytest.mark.parametrize("pattern", HARD, ids=range(len(HARD)))
+@pytest.mark.parametrize("text", ["top", "a" * 200])
+def test_no_pattern_takes_longer_than_a_tenth_of_a_second(pattern, text):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        took = []
+        for _ in range(3):  # another process may have the processor meanwhile
+            began = time.thread_time()
+            try:
+                assert search(pattern, text) is False or "z" not in pattern
+            except ExpressionError as refused:
+                assert "it has too many parts, " in str(refused)  # noqa: PT017
+            took.append(time.thread_time() - began)
+        assert min(took) < 0.1
 
 
 def test_the_most_work_is_what_is_promised():
