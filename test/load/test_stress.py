@@ -3,7 +3,7 @@
 import pytest
 from programs import execute
 
-from workshop.load import soak, stress
+from workshop.load import calls, soak, stress
 from workshop.load.processes import script
 from workshop.load.stress import HEAD, Outcome
 
@@ -76,3 +76,9 @@ def test_a_line_comes_in_time_and_a_log_is_checked_as_soon_as_it_is_finished(mon
     assert len(logs) >= 5
     assert logs[-1] >= 2
     assert logs == sorted(logs)
+
+
+def test_every_call_is_answered(capsys):
+    assert calls.main(["--seconds", "2"]) in (0, 1)  # 1: one has taken a second
+    _, row = capsys.readouterr().out.splitlines()
+    assert int(row.split()[0]) > 0

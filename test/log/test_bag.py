@@ -5,6 +5,7 @@ import itertools
 import shutil
 import sqlite3
 import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -114,6 +115,14 @@ def test_a_file_of_another_kind_is_refused(name, content, sentence, tmp_path):
     for path in (tmp_path, tmp_path / name):
         with pytest.raises(LogError, match=f"cannot open \\S+{name}: {sentence}"):
             open_run([path])
+
+
+@pytest.mark.parametrize(
+    ("count", "reason"), [(10_000, "cannot open 0.mcap"), (10_001, "must have at most 10000 files")]
+)
+def test_a_run_has_at_most_ten_thousand_files(count, reason):
+    with pytest.raises(LogError, match=reason):
+        open_run([Path(f"{number}.mcap") for number in range(count)])
 
 
 def test_a_folder_without_files_is_refused(tmp_path):

@@ -62,16 +62,6 @@ def test_the_cubic_vanishes_at_its_three_roots(top, start):
         assert abs(potential.cubic(root)) <= 64 * EPS * scale * max(1.0, abs(root)) ** 3
 
 
-def test_outside_the_turning_angles_the_potential_is_above_the_energy():
-    start = STARTS["cusps"]
-    potential = EffectivePotential.of(ARTICLE, start)
-    low, high = Motion(ARTICLE, start).turning_angles
-    outside = np.concatenate([np.linspace(0.01, low - 0.001, 50), np.linspace(high + 0.001, 3, 50)])
-    assert (potential.at(outside) > potential.energy).all()
-    inside = np.linspace(low + 0.001, high - 0.001, 50)
-    assert (potential.at(inside) < potential.energy).all()
-
-
 def test_a_top_without_weight_has_no_third_root():
     start = STARTS["looping"]
     top = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)

@@ -1,7 +1,40 @@
 from pathlib import Path
 
+import pytest
+
 from workshop.load import node_cost, stress
 from workshop.speed import derivatives, filters, publish, testset
+from workshop.speed.ahead import TABLES
+from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
+from workshop.speed.many import ManyCost
+from workshop.speed.peers import CLOSED_FORM, TAYLOR
+from workshop.speed.sweep import Curve, Measurement
+
+
+def results_of(ours, peer):
+    """Results in which the package and a peer each have one number for all errors and times."""
+    pairs = {CLOSED_FORM: ours, "peer": peer}
+    driven = {TAYLOR: ours, "peer": peer}
+    return Results(
+        checks=pairs,
+        curves=[
+            Curve(name, "cusps", 10.0, (Measurement(1.0, n, n, 9, n, n),), "finest")
+            for name, n in pairs.items()
+        ],
+        growth=[Growth(name, 0.0, (10.0,), (n,), (n,)) for name, n in pairs.items()],
+        states=[ArrayCost(name, (1,), (n,), n) for name, n in pairs.items()],
+        many=[ManyCost(name, 9, n, n, 9, 5) for name, n in pairs.items()],
+        hard=[HardCase("tilt", 0.1, 1.0, ours, {"peer": peer})],
+        driven=[DrivenCase("plain", driven, driven)],
+    )
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_peer_that_is_ahead_in_a_table_is_named(name):
+    lines = [*TABLES[name](results_of(2e-3, 1e-3))]
+    assert lines
+    assert all("peer" in line for line in lines)
+
 
 ROOT = Path(__file__).parents[2]
 TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"

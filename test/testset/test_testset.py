@@ -17,8 +17,9 @@ from symtop_ros.physics.reference import ClosedForm, Inputs
 from symtop_ros.testset.packed import FORCES, STATES, WORLD
 from symtop_ros.testset.score import main, read_problems
 from workshop.testset.exact import DIGITS
+from workshop.testset.links import find_link_effect
 from workshop.testset.problems import COUNT, SETTINGS
-from workshop.testset.write import PACKED, describe, list_all
+from workshop.testset.write import EPS_32, PACKED, describe, limits, list_all
 
 PROBLEMS = {name: each.facts for name, each in read_problems().items()}
 # Of SHA256SUMS: the files have these bytes until the data change, and then the set a new version.
@@ -46,6 +47,17 @@ def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
     for name, rows in list_all(setting, [(q, omega)]).items():
         # the lists of what follows from states begin with the start
         assert rows == [facts[name][place] for place in ((k,) if name in STATES else (0, k + 1))]
+
+
+@pytest.mark.parametrize("setting", SETTINGS[1::12], ids=lambda each: each.name)
+def test_limits_in_single_precision_are_those_of_larger_roundings(setting):
+    facts = PROBLEMS[setting.name]
+    k = COUNT - 1
+    exact = ClosedForm(read_inputs(facts), DIGITS).at(facts["times"][k])
+    found = limits(setting, facts["times"][k], exact, EPS_32)
+    # three digits are stored
+    stored = [facts[f"{n}_limits_float32"][k] for n in ("orientation", "angular_velocity")]
+    assert found == pytest.approx(stored, rel=0.006)
 
 
 def test_inputs_rounded_to_single_precision_err_by_no_more_than_their_limits_allow():
@@ -100,6 +112,12 @@ def test_the_package_has_the_same_forces_energies_accelerations_and_states_in_th
     )
     found = np.cross(rate, position)
     assert velocity == pytest.approx(found, abs=16 * 2.0**-52 * fastest * arm)
+
+
+@pytest.mark.parametrize("name", ["cusps", "spherical_pendulum", "upper_pole"])
+def test_the_effect_of_links_in_mujoco_is_made_again(name):
+    (setting,) = (each for each in SETTINGS if each.name == name)
+    assert find_link_effect(setting) == PROBLEMS[name]["mujoco_urdf_effect"]
 
 
 @pytest.mark.long

@@ -192,6 +192,7 @@ def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
     holds, direction = said(found), perrys_rule(ARTICLE, hurry(before, factor)).direction
     assert found.direction == direction
     against = found.contradiction.facts if found.contradiction else ()
+    assert bool(against) is bool(found.contradiction)
     up = holds is (factor > 1)  # theta'' is lower with the kick
     assert (direction in against) is (direction == ("falls" if up else "rises"))
     for name, point in (("highest", found.highest), ("lowest", found.lowest)):

@@ -33,22 +33,6 @@ def test_a_kind_is_the_same_upside_down(kind, start):
     assert motion.turning_angles == pytest.approx((math.pi - high, math.pi - low), abs=1e-15)
 
 
-def test_an_exactly_vertical_axis_at_rest_stays_whatever_its_spin():
-    for spin in (0.0, 50.0, 500.0):
-        motion = Motion(ARTICLE, State.from_euler(theta=0.0, psi_dot=spin))
-        assert motion.kind == "sleeping"
-        assert motion.engine == "free"
-        assert motion.at(1e6).euler_angles.theta == 0.0
-
-
-def test_sleeping_is_stable_from_the_critical_spin_on():
-    spin = ARTICLE.critical_spin
-    assert spin == pytest.approx(137.675, abs=1e-3)
-    for factor, far in ((1.05, False), (0.95, True)):
-        start = State((1.0, 0.0, 0.0, 0.0), (1e-3, 0.0, spin * factor))
-        assert (Motion(ARTICLE, start).turning_angles[1] > 0.1) is far
-
-
 @pytest.mark.parametrize(
     ("Mgl", "upright", "factor", "stable"),
     [
