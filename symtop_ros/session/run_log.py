@@ -16,7 +16,7 @@ from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.run_file import RunEvent
-from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import Status
@@ -190,15 +190,7 @@ def _start_values(event: RunEvent) -> dict[str, Any]:
 
 def _list_values(motion: Motion) -> dict[str, Any]:
     """Return the parameters that say what moves, and what acts on it."""
-    Ix, Iz, Mgl = motion.top.moments
-    return {
-        "top.Ix": Ix,
-        "top.Iz": Iz,
-        "top.Mgl": Mgl,
-        "friction.axial": motion.friction.axial,
-        "friction.transverse": motion.friction.transverse,
-        "steady_torque": list(motion.applied_torque),
-    }
+    return {**list_body(motion), "steady_torque": list(motion.applied_torque)}
 
 
 def _list_changes(before: Motion, after: Motion) -> dict[str, Any]:

@@ -38,8 +38,8 @@ class Session:
         self._outputs = Outputs(settings, host, self._recorder, name)
         self.simulation = Simulation(settings, clock, self._outputs, host)
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
-        start = self.simulation.timeline.verdict
-        verdict = self.simulation.report("start", start, {"scene": scene})
+        first = self.simulation.timeline.announce(self.simulation.stamp, scene)
+        verdict = self.simulation.apply(first)
         metadata = {"scene": scene, **environment}
         self.recording = Recording(self._recorder, self.simulation, metadata)
         self._requests = Requests(self.simulation, self.recording.switch)

@@ -8,14 +8,15 @@ takes effect, and what is published.
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 from symtop_ros.physics import State
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
+from symtop_ros.simulation.changes.follow import Act, Request
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome
-from symtop_ros.simulation.changes.timeline import Change, Request, Timeline
+from symtop_ros.simulation.changes.timeline import Change, Timeline
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
@@ -155,8 +156,8 @@ class Simulation:
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
             self.host.report_error(write("failure", failure))
-            change = self.timeline.report("failure", failure, {}, stamp)
-            self.apply(replace(change, before=before.segment.state_at(stamp)))
+            act = Act("failure", stamp, {}, told=failure)
+            self.apply(self.timeline.fail(act, before.segment))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
         """Carry out a request in a turn; return success and the answer.
@@ -275,29 +276,21 @@ class Simulation:
 
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
-        event = self._number_event(change)
+        event = change.event(self._events + 1)
         self.timeline = change.following
+        self._events += 1
         self._sink.send_event(event)
         return event.verdict
 
-    def _number_event(self, change: Change) -> Event:
-        """Return the event of a change with the next number; the change may fail."""
-        event = change.event(self._events + 1)
-        self._events += 1
-        return event
-
     def apply_at_once(self, change: Change) -> str:
-        """Like `apply`, but publish the first sample before the verdict is computed.
+        """Like `apply`, but publish the first sample before the event is written.
 
         In the log the event still precedes its samples.
         """
         self.timeline = change.following
         with self._sink.put_events_first():
             self.publish()
-            event = self._number_event(change)
-            self.publish()
-            self._sink.send_event(event)
-        return event.verdict
+            return self.apply(change)
 
     def pause(self, paused: bool) -> str:
         """Stop the motion, or continue it."""

@@ -69,7 +69,7 @@ class Run:
         self.clock, self.sink = HandClock(), ListSink()
         settings = Settings.from_scene(scene, **changes)
         self.simulation = Simulation(settings, self.clock, self.sink, self.sink)
-        self.simulation.report("start", self.simulation.timeline.verdict)
+        self.simulation.apply(self.simulation.timeline.announce(self.simulation.stamp, "test"))
         self.requests = Requests(self.simulation, lambda on: "not recording")
 
     def advance(self, seconds: float, step: float = 0.005) -> None:

@@ -75,7 +75,7 @@ class Told:
     def __init__(self, **values):
         settings = Settings.from_scene("cusps", **values)
         self.timeline, self.events = Timeline.begin(settings, SECOND), []
-        self.do(self.timeline.report("start", self.timeline.verdict, {}, SECOND))
+        self.do(self.timeline.announce(SECOND, "cusps"))
 
     def do(self, change):
         self.timeline = change.following
