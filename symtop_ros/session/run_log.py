@@ -96,6 +96,7 @@ class _Again:
         )
         self._simulation = self._session.simulation
         self._told = 0  # s of the last diagnostics
+        self._clock.now = -1  # events at one time come before the sample at that time
 
     def go(self, time: int) -> None:
         """Publish what is due before a time in ns, with diagnostics once a second."""
@@ -123,7 +124,6 @@ class _Again:
         """Do what an event says, at its time."""
         before = self._simulation.segment
         if not is_first:
-            self._clock.now = event.time
             self._simulation.restart_grid(event.time)
             if changes := _list_changes(before.motion, event.motion):
                 self._session.apply_settings(changes)
@@ -142,8 +142,11 @@ class _Again:
             raise RefusedError(f"{name}: {answer}")
 
     def _compare(self, event: RunEvent, name: str) -> None:
-        """Refuse an event whose motion is not the one that follows."""
-        right, given = self._simulation.segment.motion.start, event.motion.start
+        """Refuse an event whose motion is not the one that follows.
+
+        What was changed and changed back while the motion stood still is no change here.
+        """
+        right, given = self._simulation.segment.state_at(event.time), event.motion.start
         rate = float(np.abs(right.angular_velocity).max())
         near = ROUNDING + HALF_NANOSECOND * rate
         turned = min(

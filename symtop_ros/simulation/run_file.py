@@ -6,7 +6,7 @@ top is watched leave no trace in it.
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from fractions import Fraction
 from math import inf
 from pathlib import Path
@@ -107,7 +107,8 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
     for event in filter(None, map(recorder.add, events)):
         # A change of several parameters at once is a sequence of events; the last one holds.
         if len(found) > 1 and found[-1].time == event.time and found[-1].kind not in ACTS:
-            found.pop()
+            same = found.pop().kind == event.kind or event.kind in ACTS
+            event = event if same else replace(event, kind="change")
         found.append(event)
     return found, max(recorder.time_at(stamp), *(event.time for event in found[-1:]), 0)
 

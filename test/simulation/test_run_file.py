@@ -107,7 +107,7 @@ def test_of_changes_at_one_instant_the_last_one_holds():
     assert len(told.events) == 3
     events, _ = record_run(told.events, 2 * SECOND)
     (_, changed) = events
-    assert (changed.kind, changed.motion.applied_torque) == ("torque", (0.0, 0.0, 1e-4))
+    assert (changed.kind, changed.motion.applied_torque) == ("change", (0.0, 0.0, 1e-4))
     assert changed.motion.friction.axial == 1e-6
 
 
