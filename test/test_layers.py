@@ -27,8 +27,8 @@ TABLE = {
     "playback": "check log physics session simulation web | numpy rerun rerun_cli",
     "session": "__init__ log models physics simulation wire wording | numpy",
     "node": "__init__ distribution models physics session shutdown simulation wire | "
-    "builtin_interfaces geometry_msgs numpy rcl_interfaces rclpy simulation_interfaces std_srvs "
-    "visualization_msgs",
+    "builtin_interfaces geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces "
+    "std_srvs visualization_msgs",
     # of session only the table of services, which imports nothing
     "client": "session shutdown simulation | rcl_interfaces rclpy sensor_msgs std_srvs",
     "live": "log playback shutdown simulation | rclpy rerun",

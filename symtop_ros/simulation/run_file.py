@@ -105,11 +105,11 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
     """Return the run of the events of a log, and the time in ns that it has at a stamp (ns)."""
     recorder, found = RunRecorder(), list[RunEvent]()
     for event in filter(None, map(recorder.add, events)):
+        kind = event.kind
         # A change of several parameters at once is a sequence of events; the last one holds.
         if len(found) > 1 and found[-1].time == event.time and found[-1].kind not in ACTS:
-            same = found.pop().kind == event.kind or event.kind in ACTS
-            event = event if same else replace(event, kind="change")
-        found.append(event)
+            kind = kind if found.pop().kind == kind or kind in ACTS else "change"
+        found.append(replace(event, kind=kind))
     return found, max(recorder.time_at(stamp), *(event.time for event in found[-1:]), 0)
 
 
