@@ -32,6 +32,7 @@ from symtop_ros import __version__
 from symtop_ros.arrays import Real
 from symtop_ros.physics import State, angular_acceleration
 from symtop_ros.session.session import Session
+from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.validation import MAX_RATE, RefusedError, one_line, reject, vector
 from symtop_ros.wire.layout import NANOSECONDS
@@ -116,15 +117,17 @@ class Simulator:
         """Return the handler of a service; `act` returns what is to be said of a success."""
 
         def handle(request: Any, response: Any) -> Any:
-            result = Result(result=Result.RESULT_OK)
-            with self._simulation.turn(f"~/{name}") as turn:
+            def attempt() -> Result:
                 try:
-                    result.error_message = act(request, response) or ""
+                    said = act(request, response) or ""
+                    return Result(result=Result.RESULT_OK, error_message=said)
                 except RefusedError as refusal:
-                    code = refusal.code if isinstance(refusal, ResultError) else FAILED
-                    result = Result(result=code, error_message=str(refusal))
-            if turn.failure:
-                result = Result(result=FAILED, error_message=turn.failure)
+                    code = getattr(refusal, "code", FAILED)
+                    return Result(result=code, error_message=str(refusal))
+
+            result = self._simulation.take_turn(f"~/{name}", attempt)
+            if isinstance(result, Failure):
+                result = Result(result=FAILED, error_message=str(result))
             if not isinstance(response, GetSimulatorFeatures.Response):  # it has no result
                 response.result = result
             return response

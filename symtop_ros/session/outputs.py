@@ -12,9 +12,9 @@ from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Body
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.host import Host
 from symtop_ros.simulation.sensor import ALONG, Imu, find_body
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
     APPLIED_TORQUE,
     CLOCK,

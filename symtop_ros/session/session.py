@@ -4,6 +4,7 @@ The node and the page are hosts of a session. They translate: ROS, or what is pr
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
@@ -13,10 +14,11 @@ from symtop_ros.session.recording import Recording
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
 from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.changes.outcomes import Failure
+from symtop_ros.simulation.host import Clock
+from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.simulation.times import Clock
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.simulation.validation import attempt
 
 Answer = tuple[bool, str]  # success, and the sentence or the reason
 
@@ -36,7 +38,7 @@ class Session:
         self._host = host
         self._recorder = Recorder(settings.record)
         self._outputs = Outputs(settings, host, self._recorder, name)
-        self.simulation = Simulation(settings, clock, self._outputs, host)
+        self.simulation = simulate(settings, clock, self._outputs, host)
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
         first = self.simulation.timeline.announce(self.simulation.stamp, scene)
         verdict = self.simulation.apply(first)
@@ -54,17 +56,14 @@ class Session:
 
     def log_torque(self, data: bytes) -> None:
         """Log the bytes of an applied torque, accepted or not."""
-        with self.simulation.turn("~/applied_torque"):
-            self._outputs.log_torque(self.simulation.stamp, data)
+        log, simulation = self._outputs.log_torque, self.simulation
+        simulation.take_turn("~/applied_torque", lambda: log(simulation.stamp, data))
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> str:
         """Apply a torque (N m) until its time-out; return the reason if it is refused."""
-        with self.simulation.turn("~/applied_torque"):
-            try:
-                self.simulation.hold_torque(torque, frame)
-            except RefusedError as refusal:
-                return str(refusal)
-        return ""
+        hold = partial(self.simulation.hold_torque, torque, frame)
+        found = self.simulation.take_turn("~/applied_torque", partial(attempt, hold))
+        return "" if isinstance(found, Failure) else found[1]
 
     def plan_settings(self, changes: Mapping[str, Any]) -> Settings:
         """Return the settings with changed values; raise RefusedError if they do not fit."""
@@ -83,16 +82,18 @@ class Session:
 
     def keep_up(self) -> None:
         """Do what is due once a second: pace, failed recordings, diagnostics."""
-        with self.simulation.turn("/diagnostics"):
-            own = self._host.update_statuses()
-            self.simulation.speed_up()
-            self.recording.report_failure()
-            if not self.simulation.segment.running:
-                # for those who came while it stands still
-                self._outputs.send_clock(self.simulation.now)
-            if self._outputs.need_diagnostics:
-                statuses = [*collect_statuses(self.simulation, self._recorder), *own]
-                self._outputs.send_diagnostics(self.simulation.stamp, statuses)
+        self.simulation.take_turn("/diagnostics", self._keep_up)
+
+    def _keep_up(self) -> None:
+        own = self._host.update_statuses()
+        self.simulation.speed_up()
+        self.recording.report_failure()
+        if not self.simulation.segment.running:
+            # for those who came while it stands still
+            self._outputs.send_clock(self.simulation.now)
+        if self._outputs.need_diagnostics:
+            statuses = [*collect_statuses(self.simulation, self._recorder), *own]
+            self._outputs.send_diagnostics(self.simulation.stamp, statuses)
 
     def await_recorder(self) -> None:
         """Wait while the recorder lags behind: for a run that is faster than its clock."""
