@@ -188,6 +188,9 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "*kick": (_BYTES, _BYTES, _BYTES, c_int, c_int, _BYTES, _SIZE, Numbers, _DONE),
     "*judge": (_BYTES, _BYTES, _SIZE, c_int, _VERDICT, _DONE),
     "*judge_kick": (_BYTES, _BYTES, c_int, _VERDICT),
+    "*compare_hurried": (
+        *(_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, c_double, c_int, Numbers, POINTER(c_uint8)),
+    ),
 }
 
 
@@ -525,6 +528,19 @@ def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
     verdict = VerdictRecord()
     demand(open_door().judge_kick(before, after, hold, verdict))
     return verdict
+
+
+def compare_hurried(
+    tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real, factor: float, hold: int
+) -> tuple[Real, NDArray[np.uint8]]:
+    """Return the other turning angles without a kick and with it, (n, 2), and the rule, (n,)."""
+    angles, rules = np.empty((len(tops), 2)), np.empty(len(tops), np.uint8)
+    for part in _list_blocks(len(tops)):
+        given = [read_from(each[part]) for each in (tops, thetas, phi_dots, psi_dots)]
+        count = part.stop - part.start
+        to = write_to(angles[part], 2 * count), write_to(rules[part], count, "B")
+        demand(open_door().compare_hurried(*given, count, factor, hold, *to))
+    return angles, rules
 
 
 def kernel_version() -> str:
