@@ -6,7 +6,6 @@ stamps at every factor. The factor of its segments is 1.
 """
 
 from symtop_ros.simulation.block import CATCH_UP
-from symtop_ros.simulation.changes.outcomes import Step
 from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
@@ -156,8 +155,8 @@ class OwnTimeSimulation(Simulation):
         """Advance a paused motion and its time, with one sample at the end."""
         now = self.now + round(duration * NANOSECONDS)
         if now == self.now:
-            return self.report("step", Step("none"))
-        verdict = self.apply(self.timeline.step_clock(self.stamp, now))
+            return self.do("step", {})
+        verdict = self.do("step", {"to": now})
         self._clock.stop(now)
         self.restart_grid(now)
         self.settle()  # a torque may end meanwhile

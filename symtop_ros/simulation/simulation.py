@@ -231,7 +231,7 @@ class Simulation:
 
     def _stop_at(self, reached: float) -> None:
         """Pause a motion that cannot continue at the time (s) that it has reached."""
-        verdict = self.apply(self.timeline.stop(self.stamp, reached))
+        verdict = self.do("pause", {"reached": reached})
         self.host.warn(f"the motion has no state any further ({WHY_IT_ENDS}): {verdict}")
 
     def _integrate_to(self, stamp: int) -> bool:
@@ -278,17 +278,17 @@ class Simulation:
             self.publish()
             return self.apply(change)
 
+    def do(self, name: str, request: Request, told: Outcome | None = None) -> str:
+        """Carry out an act at the next stamp; return the verdict."""
+        return self.apply(self.timeline.follow(Act(name, self.stamp, request, told=told)))
+
     def pause(self, paused: bool) -> str:
         """Stop the motion, or continue it; return the verdict."""
-        return self.apply(self.timeline.pause(self.stamp, paused))
+        return self.do("pause" if paused else "resume", {})
 
     def step(self, duration: float) -> str:
         """Advance a paused motion by a duration in s; return the verdict."""
-        return self.apply(self.timeline.step(self.stamp, duration))
-
-    def report(self, name: str, outcome: Outcome, request: Request | None = None) -> str:
-        """Announce an event that changes nothing of the motion; return the verdict."""
-        return self.apply(self.timeline.report(name, outcome, request or {}, self.stamp))
+        return self.do("step", {"duration": duration})
 
     def begin_jump(self) -> None:
         """Publish nothing from before the clock is set until `end_jump`, in the same thread.

@@ -1,7 +1,8 @@
 """The timeline of a run: what holds at a stamp, and what each command makes of it.
 
 A command is an `Act`, and gives a `Change`: the timeline that follows, and the event that reports
-it. Nothing here has a clock, a lock or a side effect; `simulation` decides at which stamp a change
+it. Here are those that ask more than `follow` knows: settings, and what was held or started before.
+Nothing here has a clock, a lock or a side effect; `simulation` decides at which stamp a change
 takes effect.
 """
 
@@ -14,7 +15,7 @@ from symtop_ros.physics import State
 from symtop_ros.simulation.budget import Shortfall
 from symtop_ros.simulation.changes.follow import Act, Following, Request, demand_a_day, follow
 from symtop_ros.simulation.changes.initial import initial_state, start_motion
-from symtop_ros.simulation.changes.outcomes import Outcome, Pace, Start, Torque
+from symtop_ros.simulation.changes.outcomes import Pace, Start, Torque
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
@@ -48,52 +49,37 @@ class Timeline:
         outcome = Start.of(self.segment.motion)
         return Change(self, act, Following(self.segment.state_at(stamp), self.segment, outcome))
 
-    def report(self, name: str, outcome: Outcome, request: Request, stamp: int) -> "Change":
-        """Return a change of nothing: an event that only reports."""
-        return self._follow(Act(name, stamp, request, told=outcome))
+    def follow(self, act: Act) -> "Change":
+        """Return the change by an act."""
+        found = follow(self.segment, act)
+        since = self.since
+        if found.segment.motion is not self.segment.motion:
+            since = _describe_origin(act.name, act.stamp)
+        is_new = found.segment is not self.segment
+        return Change(replace(self, segment=found.segment, since=since), act, found, is_new)
 
     def restart(self, stamp: int, values: Request | None = None) -> "Change":
         """Restart from named initial conditions, or without them from the last ones."""
         if values is None:
-            return self._follow(Act("reset", stamp, {}, start=self.start))
+            return self.follow(Act("reset", stamp, {}, start=self.start))
         start = initial_state(self.settings.top, self.settings.initial, values)
-        return replace(self, start=start)._follow(Act("start", stamp, values, start=start))
-
-    def kick(self, stamp: int, values: Request) -> "Change":
-        """Kick by named values; see `plan_kick`."""
-        return self._follow(Act("kick", stamp, values))
-
-    def pause(self, stamp: int, paused: bool) -> "Change":
-        """Stop the motion, or continue it from where it stopped."""
-        return self._follow(Act("pause" if paused else "resume", stamp, {}))
-
-    def stop(self, stamp: int, reached: float) -> "Change":
-        """Pause a motion that cannot continue, at the time in s that it has reached."""
-        return self._follow(Act("pause", stamp, {"reached": reached}))
-
-    def step(self, stamp: int, duration: float) -> "Change":
-        """Advance a paused motion by a duration in s."""
-        return self._follow(Act("step", stamp, {"duration": duration}))
-
-    def step_clock(self, stamp: int, now: int) -> "Change":
-        """Let a paused motion run together with its clock, to the stamp `now`."""
-        return self._follow(Act("step", stamp, {"to": now}))
+        return replace(self, start=start).follow(Act("start", stamp, values, start=start))
 
     def move(self, stamp: int, now: int) -> "Change":
         """Continue the state of a stamp at the time (ns) to which the clock jumped."""
         moved = replace(self, torque_end=self.torque_end + now - stamp)
-        return moved._follow(Act("clock", now, {"from": stamp, "to": now}))
+        return moved.follow(Act("clock", now, {"from": stamp, "to": now}))
 
     def slow_down(self, stamp: int, shortfall: Shortfall) -> "Change":
         """Continue at a real-time factor that can be kept, from the time that was reached."""
         reached, factor = shortfall
         told = Pace("slowed", self.segment.factor, factor)
-        return self._follow(Act("pace", stamp, {"reached": reached}, factor=factor, told=told))
+        return self.follow(Act("pace", stamp, {"reached": reached}, factor=factor, told=told))
 
     def set_pace(self, stamp: int, current: float, factor: float) -> "Change":
         """Continue at another real-time factor than the current one."""
         told = Pace("slowed" if factor < current else "changed", current, factor)
-        return self._follow(Act("pace", stamp, {}, factor=self._find_factor(factor), told=told))
+        return self.follow(Act("pace", stamp, {}, factor=self._find_factor(factor), told=told))
 
     def _find_factor(self, factor: float) -> float:
         """Return the factor of a segment; with publish_clock the clock has it."""
@@ -117,7 +103,7 @@ class Timeline:
     def _apply_torque(self, stamp: int, kind: Literal["applied", "released", "steady"]) -> "Change":
         (a, b, c), (x, y, z) = self.settings.steady_torque, self.held_torque
         total = (a + x, b + y, c + z)
-        return self._follow(Act("torque", stamp, {"torque": total}, told=Torque(kind, total)))
+        return self.follow(Act("torque", stamp, {"torque": total}, told=Torque(kind, total)))
 
     def change_settings(self, settings: Settings, stamp: int) -> list["Change"]:
         """Continue from the current state with other settings."""
@@ -131,21 +117,13 @@ class Timeline:
             start = initial_state(settings.top, settings.initial, {})
         factor = self._find_factor(settings.real_time_factor)
         changed = replace(self, settings=settings, start=start)
-        first = changed._follow(Act("parameters", stamp, changes, factor=factor))
+        first = changed.follow(Act("parameters", stamp, changes, factor=factor))
         torque = first.following._apply_torque(stamp, "steady")
         return [first, torque] if torque.is_new else [first]
 
     def fail(self, act: Act, before: Segment) -> "Change":
         """Return the event of an action that failed, whatever it has left of the segment before."""
         return Change(self, act, follow(before, replace(act, left=self.segment)))
-
-    def _follow(self, act: Act) -> "Change":
-        found = follow(self.segment, act)
-        since = self.since
-        if found.segment.motion is not self.segment.motion:
-            since = _describe_origin(act.name, act.stamp)
-        is_new = found.segment is not self.segment
-        return Change(replace(self, segment=found.segment, since=since), act, found, is_new)
 
 
 @dataclass(frozen=True)
