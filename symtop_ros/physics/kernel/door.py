@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from struct import Struct
 from types import SimpleNamespace
-from typing import Any, ClassVar, Literal, NamedTuple, get_args
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +60,7 @@ class Clock(Structure):
 
 
 class RatesRecord(Structure):
-    """`symtop_rates`."""
+    """`symtop_rates`: what is the same in every nutation."""
 
     _fields_: ClassVar = [
         ("nutation_period", c_double),
@@ -126,18 +126,7 @@ class VerdictRecord(Structure):
     ]
 
 
-class Rates(NamedTuple):
-    """What is the same in every nutation."""
-
-    nutation_period: float  # s; infinite if theta does not return
-    mean_precession_rate: float  # rad/s; nan where the axis meets the vertical
-    mean_spin_rate: float
-    precession_per_nutation: float  # turns
-    spin_reverses: bool
-
-
 _unpack_start, _unpack_state = Struct(f"{START}d").unpack, Struct(f"{STATE}d").unpack
-_unpack_rates = Struct("4di4x").unpack
 
 
 class ConstantsRecord(Structure):
@@ -395,12 +384,11 @@ class KernelMotion:
         return angles[0], angles[1]
 
     @property
-    def rates(self) -> "Rates":
+    def rates(self) -> RatesRecord:
         """Nutation period, mean rates, and whether the spin reverses."""
         found = RatesRecord()
         self._door.find_rates(self._handle, found)
-        period, precession, spin, turns, reverses = _unpack_rates(found)
-        return Rates(period, precession, spin, turns, bool(reverses))
+        return found
 
     @property
     def farthest_time(self) -> float:
