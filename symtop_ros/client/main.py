@@ -15,11 +15,10 @@ from rclpy.utilities import remove_ros_args
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.keys import follow_keys, watch
 from symtop_ros.command import positive
-from symtop_ros.session.services import SERVICES
+from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import one_line
 
-Answer = tuple[bool, str]
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
 MAX_SHOWN = 60  # characters of a word in a message
@@ -86,7 +85,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Answer:
+def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Response:
     if options.command == "keys":
         follow_keys(top)
         return True, ""

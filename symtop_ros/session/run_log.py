@@ -28,7 +28,7 @@ NODE, RATE = "/top", 200.0  # name of the node that would have written the log, 
 ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9
 
 
-class RunClock:
+class SetClock:
     """The time of the run, which the writer sets."""
 
     now, is_simulated = 0, True
@@ -89,7 +89,7 @@ class _Again:
     """A run that is done again."""
 
     def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
-        self._clock, self._host = RunClock(), Silent()
+        self._clock, self._host = SetClock(), Silent()
         settings = Settings.from_values(_initial_values(first, rate, folder))
         self._session = Session(
             settings, self._clock, self._host, "run.json", {"program": "top_replay"}, NODE

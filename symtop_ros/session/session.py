@@ -12,15 +12,13 @@ from symtop_ros.session.diagnostics import collect_statuses
 from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.recording import Recording
 from symtop_ros.session.requests import Requests
-from symtop_ros.session.services import SERVICES
+from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.host import Clock
 from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import attempt
-
-Answer = tuple[bool, str]  # success, and the sentence or the reason
 
 
 class Session:
@@ -49,7 +47,7 @@ class Session:
             self.recording.begin()
         host.inform(f"scene {scene}: {verdict}")
 
-    def answer(self, service: str, read: Callable[[], Any]) -> Answer:
+    def answer(self, service: str, read: Callable[[], Any]) -> Response:
         """Carry out a request; `read` returns its argument, or raises RefusedError."""
         act = SERVICES[service].act
         return self.simulation.answer(service, lambda: act(self._requests, read()))

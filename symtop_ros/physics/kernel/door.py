@@ -53,7 +53,7 @@ Numbers = POINTER(c_double)
 State, Pair = c_double * STATE, c_double * 2
 
 
-class Clock(Structure):
+class ClockRecord(Structure):
     """`symtop_clock`."""
 
     _fields_: ClassVar = [("factor", c_double), ("elapsed", c_double * 4)]
@@ -143,7 +143,7 @@ class ConstantsRecord(Structure):
 CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of arrays
 # In the order of the header: start, clock, rates, constants, top, place, ...
 SIZES = (
-    *(8 * START, ctypes.sizeof(Clock), ctypes.sizeof(RatesRecord), CONSTANTS.itemsize, 8 * 3),
+    *(8 * START, ctypes.sizeof(ClockRecord), ctypes.sizeof(RatesRecord), CONSTANTS.itemsize, 8 * 3),
     *(ctypes.sizeof(each) for each in (PlaceRecord, ReasonRecord, AverageRecord, LiftRecord)),
     VERDICTS.itemsize,
 )
@@ -163,7 +163,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "find_farthest_time": (_HANDLE, POINTER(c_double)),
     "*states": (_HANDLE, _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
     "*states_of_clock": (
-        *(_HANDLE, POINTER(Clock), _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
+        *(_HANDLE, POINTER(ClockRecord), _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
     ),
     "*reach": (_HANDLE, c_double, c_double, Numbers),
     "*states_of_many": (_BYTES, _SIZE, _BYTES, _SIZE, Numbers, Numbers, POINTER(c_uint8)),
@@ -348,7 +348,7 @@ class KernelMotion:
             return 0, OK
         status = self._door.states_of_clock(
             self._handle,
-            Clock(factor, elapsed),
+            ClockRecord(factor, elapsed),
             read_from(stamps, INT64),
             count,
             steps,
