@@ -117,7 +117,7 @@ class Motion:
             parts += [self.friction, self.applied_torque]
         return f"Motion({', '.join(map(repr, parts))})"
 
-    @property
+    @cached_property
     def is_driven(self) -> bool:
         """True if friction or an applied torque acts: there is no closed form, only series."""
         return bool(self.friction) or any(self.applied_torque)

@@ -3,10 +3,12 @@
 A topic without a subscriber is not computed unless it is logged.
 """
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import partial
 from typing import Protocol
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Body
@@ -79,11 +81,16 @@ class Output:
         """True if there is a subscriber or a recording."""
         return self._recorder.running or self._has_subscriber
 
-    def send(self, stamp: int, data: bytes) -> None:
-        """Publish and log an encoded message with its stamp (ns)."""
-        if self._publisher and (self._latched or self._has_subscriber):
-            self._publisher.publish(data)
-        self._recorder.add(self.channel, stamp, data)
+    def send(self, stamp: int, encode: Callable[[], bytes]) -> None:
+        """Publish and log a message with its stamp (ns); it is encoded if it is needed."""
+        is_heard = self._publisher is not None and (self._latched or self._has_subscriber)
+        is_kept = self._latched or self._recorder.running
+        if is_heard or is_kept:
+            data = encode()
+            if self._publisher and is_heard:
+                self._publisher.publish(data)
+            if is_kept:
+                self._recorder.add(self.channel, stamp, data)
 
     @property
     def _has_subscriber(self) -> bool:
@@ -99,11 +106,9 @@ class Outputs:
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
         self._events, self._description = add(EVENTS), add(choose_description(name))
-        self._samples = {
-            name: (add(topic), topic.layout(*frames))
-            for name, topic in SAMPLE_TOPICS.items()
-            if settings.enables(topic.switch)
-        }
+        topics = {n: each for n, each in SAMPLE_TOPICS.items() if settings.enables(each.switch)}
+        self._samples = {name: add(topic) for name, topic in topics.items()}
+        self._layouts = {name: topic.layout(*frames) for name, topic in topics.items()}
         has_frames = bool(settings.imu or settings.odometry)
         self._fixed_frames = add(TF_STATIC) if has_frames else None
         self._diagnostics = add(DIAGNOSTICS)
@@ -113,20 +118,23 @@ class Outputs:
 
     def enable_tf(self, enabled: bool) -> None:
         """Publish /tf or not; it is always logged."""
-        self._samples["tf"][0].enabled = enabled
+        self._samples["tf"].enabled = enabled
+
+    def encode(self, topic: str, stamps: Stamps, numbers: Real) -> list[bytes]:
+        """Encode samples of a topic from their stamps (n,) in ns and their doubles (n, width)."""
+        return self._layouts[topic].encode_many(stamps, numbers)
 
     def send_sample(self, stamp: int, block: Block) -> None:
         """Publish and log the sample of a stamp (ns) on the topics that are needed."""
-        for name, (output, layout) in self._samples.items():
-            if output.is_needed:
-                output.send(stamp, layout.encode(stamp, block.numbers(name, stamp)))
+        for name, output in self._samples.items():
+            output.send(stamp, partial(block.message, name, stamp))
         self.send_clock(stamp)
         self._host.watch_sample(stamp, block)
 
     def send_clock(self, now: int) -> None:
         """Publish and log /clock (ns), if that is asked for."""
         if self._clock:
-            self._clock.send(now, messages.CLOCK.encode(now, ()))
+            self._clock.send(now, lambda: messages.CLOCK.encode(now, ()))
 
     def log_torque(self, stamp: int, data: bytes) -> None:
         """Log an encoded torque that was received."""
@@ -134,7 +142,7 @@ class Outputs:
 
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""
-        self._events.send(event.stamp, event.encode(self._frame, self._name))
+        self._events.send(event.stamp, lambda: event.encode(self._frame, self._name))
 
     def send_description(self, stamp: int, settings: Settings) -> None:
         """Publish and log the URDF of the top, and the frames on its body."""
@@ -142,14 +150,14 @@ class Outputs:
             settings.top,
             settings.world_frame,
             settings.top_frame,
-            tf_moves_it=self._samples["tf"][0].is_published,
+            tf_moves_it=self._samples["tf"].is_published,
             body=find_body(settings.top, settings.gravity),
         )
-        self._description.send(stamp, encode_string(urdf))
+        self._description.send(stamp, lambda: encode_string(urdf))
         if self._fixed_frames:
             body = settings.odometry and find_body(settings.top, settings.gravity)
             transforms = list_fixed_frames(settings.top_frame, settings.imu, body or None)
-            self._fixed_frames.send(stamp, messages.encode_transforms(stamp, transforms))
+            self._fixed_frames.send(stamp, lambda: messages.encode_transforms(stamp, transforms))
 
     @property
     def need_diagnostics(self) -> bool:
@@ -161,7 +169,9 @@ class Outputs:
         named = [
             status._replace(name=f"{self._name.lstrip('/')}: {status.name}") for status in statuses
         ]
-        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, named, self._name))
+        self._diagnostics.send(
+            stamp, lambda: encode_statuses(stamp, self._frame, named, self._name)
+        )
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""

@@ -3,6 +3,7 @@
 from contextlib import AbstractContextManager
 from typing import Protocol
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.settings import Settings
@@ -39,6 +40,9 @@ class Host(Protocol):
 
 class Sink(Protocol):
     """Destination of samples and events."""
+
+    def encode(self, topic: str, stamps: Stamps, numbers: Real) -> list[bytes]:
+        """Encode samples of a topic from their stamps (n,) in ns and their doubles (n, width)."""
 
     def send_sample(self, stamp: int, block: Block) -> None:
         """Send the sample of a stamp (ns) on all topics that somebody needs."""

@@ -52,7 +52,7 @@ class Simulation:
         # stamp of the last warning (ns), and samples that were missed since then
         self._gap_reported: int | None = None
         self._unreported = 0
-        self._block = Block(self.segment, [])
+        self._block = Block(self.segment, [], sink.encode)
         sink.send_description(self.stamp, settings)
 
     @property
@@ -168,11 +168,12 @@ class Simulation:
 
     def _work_on_block(self) -> bool:
         """Work towards the samples of the next stamps; return True when they are ready."""
+        segment, stamp = self.timeline.segment, self.ticker.next_stamp
         for block in (self._block, self._block.next):
-            if block and block.covers(self.segment, self.stamp):
+            if block and block.covers(segment, stamp):
                 self._block = block.compute()
                 return True
-        stamps = self._list_stamps(self.stamp)
+        stamps = self._list_stamps(stamp)
         if not stamps:  # the torque ends with the next turn
             return False
         ready = self._prepare(stamps[-1])
@@ -344,4 +345,6 @@ class Simulation:
     def restart_grid(self, stamp: int) -> None:
         """Continue with a grid of stamps that begins at a stamp."""
         self.ticker.restart(self.settings.publish_rate, stamp)
-        self._block = Block(self.segment, [])  # its stamps belong to the old grid
+        self._block = Block(
+            self.segment, [], self._sink.encode
+        )  # its stamps belong to the old grid

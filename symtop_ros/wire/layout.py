@@ -84,6 +84,21 @@ class Layout:
             first += count
         return bytes(message)
 
+    def encode_many(self, stamps: NDArray[np.int64], numbers: NDArray[np.float64]) -> list[bytes]:
+        """Encode messages from their stamps (n,) in ns and their doubles (n, width), together."""
+        if len(stamps) == 1:  # NumPy takes twice the time for one
+            return [self.encode(int(stamps[0]), numbers[0].tolist())]
+        rows = np.tile(np.frombuffer(self._template, np.uint8), (len(stamps), 1))
+        seconds, nanoseconds = np.divmod(stamps[:, np.newaxis], NANOSECONDS)
+        parts = [(self._stamp, seconds.astype("<i4")), (self._stamp + 4, nanoseconds.astype("<u4"))]
+        ends = np.cumsum([count for _, count in self._blocks])
+        columns = np.split(np.asarray(numbers, "<f8"), ends[:-1], axis=1)
+        parts += zip((offset for offset, _ in self._blocks), columns, strict=True)
+        for offset, part in parts:
+            data = np.ascontiguousarray(part).view(np.uint8)
+            rows[:, offset : offset + data.shape[1]] = data
+        return [row.tobytes() for row in rows]
+
     def match(self, rows: Bytes) -> NDArray[np.bool_]:
         """Return which messages (n, size) have the constant bytes of this layout, (n,).
 

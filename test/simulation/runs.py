@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Iterator
 from typing import Any
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
 from symtop_ros.simulation.block import Block
@@ -34,6 +35,9 @@ class ListSink:
         self.descriptions: list[Settings] = []
         self.warnings: list[str] = []
         self.errors: list[str] = []
+
+    def encode(self, topic: str, stamps: Stamps, numbers: Real) -> list[bytes]:
+        return [b""] * len(stamps)
 
     def send_sample(self, stamp: int, block: Block) -> None:
         self.samples.append((stamp, block.numbers("orientation", stamp)))
