@@ -76,25 +76,17 @@ class Output:
         """True if it has a publisher and is enabled."""
         return self.enabled and self._publisher is not None
 
-    @property
-    def is_needed(self) -> bool:
-        """True if there is a subscriber or a recording."""
-        return self._recorder.running or self._has_subscriber
-
     def send(self, stamp: int, encode: Callable[[], bytes]) -> None:
         """Publish and log a message with its stamp (ns); it is encoded if it is needed."""
-        is_heard = self._publisher is not None and (self._latched or self._has_subscriber)
-        is_kept = self._latched or self._recorder.running
-        if is_heard or is_kept:
+        to, is_kept = self._publisher, self._latched or self._recorder.running
+        if to and not (self._latched or (self.enabled and to.has_subscriber)):
+            to = None
+        if to or is_kept:
             data = encode()
-            if self._publisher and is_heard:
-                self._publisher.publish(data)
+            if to:
+                to.publish(data)
             if is_kept:
                 self._recorder.add(self.channel, stamp, data)
-
-    @property
-    def _has_subscriber(self) -> bool:
-        return bool(self.enabled and self._publisher and self._publisher.has_subscriber)
 
 
 class Outputs:
@@ -159,19 +151,15 @@ class Outputs:
             transforms = list_fixed_frames(settings.top_frame, settings.imu, body or None)
             self._fixed_frames.send(stamp, lambda: messages.encode_transforms(stamp, transforms))
 
-    @property
-    def need_diagnostics(self) -> bool:
-        """True if diagnostics have a subscriber or are logged."""
-        return self._diagnostics.is_needed
+    def send_diagnostics(self, stamp: int, collect: Callable[[], list[Status]]) -> None:
+        """Publish and log diagnostics if needed; each status bears the name of the node."""
+        prefix = self._name.lstrip("/")
 
-    def send_diagnostics(self, stamp: int, statuses: list[Status]) -> None:
-        """Publish and log diagnostics; each status bears the name of the node."""
-        named = [
-            status._replace(name=f"{self._name.lstrip('/')}: {status.name}") for status in statuses
-        ]
-        self._diagnostics.send(
-            stamp, lambda: encode_statuses(stamp, self._frame, named, self._name)
-        )
+        def encode() -> bytes:
+            named = [each._replace(name=f"{prefix}: {each.name}") for each in collect()]
+            return encode_statuses(stamp, self._frame, named, self._name)
+
+        self._diagnostics.send(stamp, encode)
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""

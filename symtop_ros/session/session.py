@@ -89,9 +89,10 @@ class Session:
         if not self.simulation.segment.running:
             # for those who came while it stands still
             self._outputs.send_clock(self.simulation.now)
-        if self._outputs.need_diagnostics:
-            statuses = [*collect_statuses(self.simulation, self._recorder), *own]
-            self._outputs.send_diagnostics(self.simulation.stamp, statuses)
+        self._outputs.send_diagnostics(
+            self.simulation.stamp,
+            lambda: [*collect_statuses(self.simulation, self._recorder), *own],
+        )
 
     def await_recorder(self) -> None:
         """Wait while the recorder lags behind: for a run that is faster than its clock."""
