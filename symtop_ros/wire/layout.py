@@ -9,7 +9,7 @@ once as a two-dimensional array of bytes.
 """
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -174,11 +174,13 @@ class Writer:
         """Append a double."""
         self._data += bytes(-(len(self._data) - len(HEADER)) % 8) + struct.pack("<d", value)
 
-    def string(self, text: str) -> None:
-        """Append a string with its length and its terminating zero."""
-        encoded = text.encode() + b"\0"
-        self.integer(len(encoded))
-        self._data += encoded
+    def strings(self, texts: Iterable[str]) -> None:
+        """Append strings, each with its length and its terminating zero."""
+        data = self._data
+        for text in texts:
+            encoded = text.encode() + b"\0"
+            data += bytes(-(len(data) - len(HEADER)) % 4) + len(encoded).to_bytes(4, "little")
+            data += encoded
 
 
 class Reader:
@@ -249,5 +251,5 @@ class Reader:
 def encode_string(text: str) -> bytes:
     """Encode a std_msgs/String."""
     writer = Writer()
-    writer.string(text)
+    writer.strings([text])
     return writer.data

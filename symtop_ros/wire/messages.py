@@ -141,8 +141,7 @@ def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
     writer.integer(len(transforms))
     for each in transforms:
         writer.stamp(stamp)
-        writer.string(each.parent)
-        writer.string(each.child)
+        writer.strings([each.parent, each.child])
         for number in (*each.translation, *each.rotation):
             writer.number(number)
     return writer.data
