@@ -26,9 +26,8 @@ TABLE = {
     # of session the log that a node would have written of a run of the page
     "playback": "check command log physics session simulation web | numpy rerun rerun_cli",
     "session": "__init__ log models physics simulation wire wording | numpy",
-    "node": "__init__ distribution models physics session shutdown simulation wire | "
-    "builtin_interfaces geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces "
-    "std_srvs visualization_msgs",
+    "node": "__init__ distribution physics session shutdown simulation wire | "
+    "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
     # of session only the table of services, which imports nothing
     "client": "command session shutdown simulation | rcl_interfaces rclpy sensor_msgs std_srvs",
     "live": "command log playback shutdown simulation | rclpy rerun",

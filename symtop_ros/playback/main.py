@@ -58,6 +58,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="top_replay",
         description="Play a log of top_node, or a run of the page, in the Rerun viewer; or save, "
         "check, repair or convert it.",
+        epilog="Plain `rerun FILE.mcap` draws the top as well, on the timeline that it opens.",
     )
     parser.add_argument(
         "files",

@@ -12,6 +12,7 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Body
+from symtop_ros.session.markers import Markers
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.host import Host
@@ -22,6 +23,7 @@ from symtop_ros.simulation.topics import (
     CLOCK,
     DIAGNOSTICS,
     EVENTS,
+    MARKERS,
     SAMPLE_TOPICS,
     TF_STATIC,
     Topic,
@@ -54,9 +56,6 @@ class OutputHost(Host, Protocol):
 
     def create_publisher_of(self, topic: Topic) -> Publisher | None:
         """Return a publisher, or None if the topic is only logged."""
-
-    def watch_sample(self, stamp: int, block: Block) -> None:
-        """Take note of the sample of a stamp (ns)."""
 
     def update_statuses(self) -> list[Status]:
         """Bring its own part of the diagnostics up to date, and return it."""
@@ -94,7 +93,7 @@ class Outputs:
 
     def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder, name: str) -> None:
         add = partial(Output, host=host, recorder=recorder)
-        self._host, self._recorder, self._name = host, recorder, name
+        self._recorder, self._name = recorder, name
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
         self._events, self._description = add(EVENTS), add(choose_description(name))
@@ -105,6 +104,8 @@ class Outputs:
         self._fixed_frames = add(TF_STATIC) if has_frames else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
+        self._markers = Markers(settings.world_frame)
+        self._marker_output = add(MARKERS) if settings.publish_markers else None
         self._torque = recorder.add_channel(host.resolve(APPLIED_TORQUE), APPLIED_TORQUE)
         self.enable_tf(settings.publish_tf)
 
@@ -120,8 +121,9 @@ class Outputs:
         """Publish and log the sample of a stamp (ns) on the topics that are needed."""
         for name, output in self._samples.items():
             output.send(stamp, partial(block.message, name, stamp))
+        if self._marker_output and self._markers.is_due(stamp):
+            self._marker_output.send(stamp, partial(self._markers.encode, stamp, block))
         self.send_clock(stamp)
-        self._host.watch_sample(stamp, block)
 
     def send_clock(self, now: int) -> None:
         """Publish and log /clock (ns), if that is asked for."""

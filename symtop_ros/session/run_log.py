@@ -14,7 +14,6 @@ import numpy as np
 
 from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
-from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.run_file import RunEvent
 from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
@@ -48,9 +47,6 @@ class Silent:
 
     def create_publisher_of(self, topic: Topic) -> None:
         """Return None: topics are only logged."""
-
-    def watch_sample(self, stamp: int, block: Block) -> None:
-        """Do nothing."""
 
     def update_statuses(self) -> list[Status]:
         """Return no statuses."""

@@ -170,9 +170,12 @@ class Writer:
         self.integer(seconds, "i")
         self.integer(nanoseconds)
 
-    def number(self, value: float) -> None:
-        """Append a double."""
-        self._data += bytes(-(len(self._data) - len(HEADER)) % 8) + struct.pack("<d", value)
+    def numbers(self, values: Sequence[float], code: str = "d") -> None:
+        """Append numbers; `code` is their format character of the struct module."""
+        if values:
+            size = struct.calcsize(f"<{code}")
+            self._data += bytes(-(len(self._data) - len(HEADER)) % size)
+            self._data += struct.pack(f"<{len(values)}{code}", *values)
 
     def strings(self, texts: Iterable[str]) -> None:
         """Append strings, each with its length and its terminating zero."""

@@ -142,8 +142,7 @@ def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
     for each in transforms:
         writer.stamp(stamp)
         writer.strings([each.parent, each.child])
-        for number in (*each.translation, *each.rotation):
-            writer.number(number)
+        writer.numbers((*each.translation, *each.rotation))
     return writer.data
 
 

@@ -34,9 +34,6 @@ class Recorder:
     def create_publisher_of(self, topic):
         return Publisher(self, topic.name) if topic.name in TYPES else None
 
-    def watch_sample(self, stamp, block):
-        pass
-
     def inform(self, text):
         pass
 
