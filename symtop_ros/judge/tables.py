@@ -122,9 +122,12 @@ def _read_rows(
             numbers.append([float(cells[place]) for place in columns.numbers])
             lines.append(line)
             decimals = max(decimals, len(time.strip().partition(".")[2]))
-        except (IndexError, ValueError, InvalidOperation, OverflowError):
+        except (IndexError, ValueError, InvalidOperation, OverflowError) as error:
+            condition = (
+                "have all columns" if isinstance(error, IndexError) else "consist of numbers"
+            )
             raise RefusedError(
-                f"line {line} of {path} must consist of numbers, got {one_line(row)}"
+                f"line {line} of {path} must {condition}, got {one_line(row)}"
             ) from None
     table = np.array(numbers, dtype=float).reshape(-1, len(columns.numbers))
     notes = _describe_rows(table, lines) + _describe_times(stamps, columns.in_seconds, decimals)

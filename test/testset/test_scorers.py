@@ -102,6 +102,7 @@ def make_files():
         "a word": text.replace(lines[4].split(",")[2], "one"),
         "a hexadecimal number": text.replace(lines[4].split(",")[2], "0x1p-3"),
         "underscores": text.replace(lines[4].split(",")[2], "1_0"),
+        "a row without its end": text.replace(lines[4], ",".join(lines[4].split(",")[:3])),
         "short row": text.replace(lines[4], "1.75,1,2"),
         "not text": "\x00\x01\u00e9\u0416",
     }
@@ -223,6 +224,7 @@ def test_a_mistake_of_convention_is_named(kind, tmp_path, capsys):
         ("other times", "got none at 0.5 s; the nearest is 0.5000005 s"),
         ("half of the times", "got none at 5.5 s; the nearest is 5 s"),
         ("a word", "line 5 must consist of numbers, got 2.0,"),
+        ("a row without its end", "line 5 must have all columns, got 2.0,"),
     ],
 )
 def test_a_refusal_says_what_was_found(kind, reason, tmp_path, capsys):
