@@ -85,9 +85,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--aligned",
-        choices=tuple(MODELS),
+        choices=MODELS,
         metavar="MODEL",
-        help=f"align by a stated model and look for nothing else: {', '.join(MODELS)}",
+        help="align by a stated model and look for nothing else: none, heading, world or "
+        "world-and-body, and with +delay, +clock or +delay+clock what the stamps are off by",
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(

@@ -226,3 +226,22 @@ def test_a_stated_model_is_aligned_without_a_search(model, error):
     assert found.found is None
     assert found.largest == pytest.approx(error, abs=1e-12)
     assert f"aligned by {model}, nothing else was looked for" in found.format()
+
+
+@pytest.mark.parametrize("model", ["none+delay", "heading+delay+clock"])
+def test_a_stated_delay_comes_back_within_its_deviation_in_noise(model):
+    truth, pulls = scene_truth("cusps"), []
+    for seed in range(20):
+        made = Made(delay=2e-6, noise=1e-3).make(truth, STAMPS, seed)
+        fitted = judge(made, truth, "x", (), model).fitted
+        pulls.append((fitted.offset.delay - 2e-6) / fitted.deviations[0])
+    # Of 20 normal numbers the mean square is 0.26 to 2.4 with a probability of 0.999 (chi squared).
+    assert 0.26 < np.mean(np.square(pulls)) < 2.4
+
+
+@pytest.mark.wording
+def test_an_estimate_at_the_very_start_does_not_disturb_a_delay():
+    truth, stamps = scene_truth("cusps"), STAMPS - SECOND
+    exact, *_ = truth.states_at(np.maximum(stamps - 5000, 0))  # late by 5 us, but for the first
+    text = judge(Estimates.of(stamps, exact), truth, "x", (), "none+delay").format()
+    assert "nothing else was looked for: a delay of 0.005 ms" in text

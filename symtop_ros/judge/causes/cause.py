@@ -28,8 +28,9 @@ class Cause:
     parameters: tuple[str, ...]
     offset: Offset
     cost: float  # mean square of the distances of quaternions
-    # standard deviation of the parameter and of the rotations (rad), if what is left is noise
-    deviation: float = 0.0
+    # standard deviations of the parameters and of the rotations (rad), if what is left is noise;
+    # none if they were not asked for
+    deviations: tuple[float, ...] = ()
     turn_deviation: float = 0.0
 
     @property
