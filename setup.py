@@ -28,6 +28,7 @@ def ros(distro: str, rclpy: str, rmw: str, messages: str) -> list[str]:
         *(f"ros-{distro}-{name}-msgs{messages}" for name in MESSAGES),
         f"ros-{distro}-std-srvs{messages}",
         "mcap>=1.5",  # logs; from 1.5 on the writer can flush a chunk
+        "google-re2>=1.1",  # filters of ~/get_entities, in linear time
     ]
 
 

@@ -20,7 +20,7 @@ from symtop_ros.wire.messages import JOINTS
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config"
-NAMES = {topic.resolve("/top") for topic in TOPICS.values()} | {"/top/markers"}
+NAMES = {topic.resolve("/top") for topic in TOPICS.values()}
 MODULES = (
     *("launch", "launch.actions", "launch.conditions", "launch.substitutions", "launch_ros"),
     *(f"launch_ros.{name}" for name in ("actions", "parameter_descriptions", "substitutions")),

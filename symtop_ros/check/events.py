@@ -1,36 +1,17 @@
-"""Events, each compared with what it makes of the segment that the event before it began.
+"""Events, each compared with what follows from its act on the segment of the event before it."""
 
-What a request leaves open is taken from the event itself: initial conditions that come from
-parameters, the paths of logs, factors of real time, and what a bug of the node left.
-"""
-
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
 from symtop_ros import __version__
-from symtop_ros.physics import (
-    Friction,
-    State,
-    Top,
-    kick_verdict,
-)
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
-from symtop_ros.simulation.changes.kick import plan_kick, read_kick
-from symtop_ros.simulation.changes.outcomes import (
-    ClockJump,
-    Outcome,
-    Parameters,
-    Pause,
-    Setting,
-    Start,
-    Step,
-    Torque,
-)
+from symtop_ros.simulation.changes.follow import RULES, Act, follow
+from symtop_ros.simulation.changes.kick import read_kick
+from symtop_ros.simulation.changes.outcomes import Start
 from symtop_ros.simulation.events import RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
@@ -38,7 +19,6 @@ from symtop_ros.simulation.validation import one_line
 
 NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity")
-MOMENTS = ("top.Ix", "top.Iz", "top.Mgl", "friction.axial", "friction.transverse")
 
 
 def is_of_this_version(event: Event) -> bool:
@@ -88,8 +68,8 @@ def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:
 def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator[Mismatch]:
     """Yield the fields of one event; nothing is known before it if `previous` is None."""
     got = {**event.values, "name": event.name, "message": event.verdict}
-    if event.name not in FOLLOW:
-        yield Mismatch(EVENTS.name, event.stamp, "name", ", ".join(FOLLOW), event.name)
+    if event.name not in RULES:
+        yield Mismatch(EVENTS.name, event.stamp, "name", ", ".join(RULES), event.name)
         return
     try:
         event.outcome()
@@ -107,162 +87,52 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator
 
 def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
     """Return the event as a node reports it."""
-    following = event.segment()
-    outcome = Start.of(following.motion) if event.name in RESTARTS else event.outcome()
-    before = _state_before(previous, event, budget) if previous else None
-    if previous and before:
-        following, outcome = FOLLOW[event.name](Known(previous, event, before, following))
-    elif event.number == 1:
-        before = following.state_at(event.stamp)
+    act, is_known = read_act(event), event.number == 1
+    if previous and _is_near(previous, act, budget):
+        before, following, outcome = follow(previous, act)
+        is_known = True
+    else:
+        before, following, outcome = event.state_before(), event.segment(), act.told
+        if event.name in RESTARTS:
+            outcome = Start.of(following.motion)
+        if is_known:
+            before = following.state_at(event.stamp)
     frame = event.values.get("top_frame", "")
-    state = before or event.state_before()
-    # A jump of the clock takes effect at the time that the clock has then.
-    request = event.request | ({"to": str(event.stamp)} if event.name == "clock" else {})
     found = Event.of(
-        event.stamp, event.name, outcome, request, state, following, frame, event.number
+        event.stamp, event.name, outcome, act.request, before, following, frame, event.number
     )
-    own = () if before else BEFORE
-    given = {name: event.values[name] for name in own if name in event.values}
+    given = {} if is_known else {n: event.values[n] for n in BEFORE if n in event.values}
     return replace(found, values={**found.values, **given})
 
 
-def _state_before(previous: Segment, event: Event, budget: StepBudget) -> State | None:
-    """Return the state before an event; None if it takes too long to compute."""
-    if "reached" in event.request:  # a motion that was slowed down, or that could not continue
-        reached = float(event.request["reached"])
-        is_near = budget.reach(previous.motion, reached, FREE_STEPS)
-        return previous.motion.at(reached) if is_near else None
-    stamp = event.previous_end
-    is_near = budget.reach_stamps(previous, np.array([stamp]))
-    return previous.state_at(stamp) if is_near else None
+def read_act(event: Event) -> Act:
+    """Return what an event says was done.
+
+    What a request leaves open is taken from the event itself: initial conditions that come from
+    parameters, the paths of logs, factors of real time, and what a bug of the node left.
+    """
+    given = event.segment()
+    request: Mapping[str, Any] = event.request
+    if event.name == "kick":
+        request = read_kick(request)
+    elif event.name == "torque":
+        request = {"torque": tuple(map(float, request.get("torque", "").split()))}
+    elif event.name == "clock":  # a jump takes effect at the time that the clock has then
+        request = {"from": event.previous_end, "to": event.stamp}
+    return Act(
+        event.name,
+        event.stamp,
+        request,
+        given.motion.start,
+        given.factor,
+        event.outcome(),
+        given if event.name == "failure" else None,
+    )
 
 
-class Known(NamedTuple):
-    """An event before it is computed, with its past."""
-
-    previous: Segment
-    event: Event
-    before: State
-    given: Segment  # the one of the event
-
-
-Following = tuple[Segment, Outcome | None]  # the segment that follows, and what is said of it
-
-
-def _restart(known: Known) -> Following:
-    following = known.previous.restart(known.given.motion.start, known.event.stamp)
-    return following, Start.of(following.motion)
-
-
-def _kick(known: Known) -> Following:
-    motion, hold = plan_kick(known.previous.motion, known.before, read_kick(known.event.request))
-    following = known.previous.replace_motion(motion, known.event.stamp)
-    return following, kick_verdict(motion, known.before, hold)
-
-
-def _pause(known: Known) -> Following:
-    following, request = known.previous, known.event.request
-    if "reached" in request:
-        reached = float(request["reached"])
-        following = following.slow_down(reached, following.factor, known.event.stamp)
-    following = following.pause(known.event.stamp)
-    return following, Pause(following.begin_time)
-
-
-def _resume(known: Known) -> Following:
-    following = known.previous.resume(known.event.stamp)
-    return following, Pause(following.begin_time)
-
-
-def _step(known: Known) -> Following:
-    previous, event = known.previous, known.event
-    if "to" in event.request:  # the motion runs together with its clock
-        following = previous.resume(event.stamp)
-        return following, Step("stepped", float(following.time_at(int(event.request["to"]))))
-    if not event.request:
-        return previous, Step("none")
-    following = previous.step(float(event.request["duration"]), event.stamp)
-    return following, Step("stepped", following.begin_time)
-
-
-def _move_clock(known: Known) -> Following:
-    before, after = known.event.previous_end, known.event.stamp
-    return known.previous.move(before, after), ClockJump(before, after)
-
-
-def _change_pace(known: Known) -> Following:
-    previous, event, factor = known.previous, known.event, known.given.factor
-    if "reached" in event.request:
-        reached = float(event.request["reached"])
-        return previous.slow_down(reached, factor, event.stamp), event.outcome()
-    if factor != previous.factor:
-        previous = previous.set_factor(factor, event.stamp)
-    return previous, event.outcome()
-
-
-def _change_torque(known: Known) -> Following:
-    previous, outcome = known.previous, known.event.outcome()
-    x, y, z = map(float, known.event.request.get("torque", "").split())
-    if (x, y, z) != previous.motion.applied_torque:
-        previous = previous.change(known.event.stamp, torque=(x, y, z))
-    return previous, replace(outcome, torque=(x, y, z)) if isinstance(outcome, Torque) else None
-
-
-def _change_parameters(known: Known) -> Following:
-    previous, given, stamp = known.previous, known.given, known.event.stamp
-    request, following, friction = known.event.request, previous, previous.motion.friction
-    before = (*previous.motion.top.moments, friction.axial, friction.transverse)
-    after = [float(request.get(name, each)) for name, each in zip(MOMENTS, before, strict=True)]
-    if tuple(after) != before:
-        following = previous.change(stamp, Top(*after[:3]), Friction(*after[3:]))
-    if "real_time_factor" in request and given.factor != previous.factor:
-        # With a published clock the factor stays 1, whatever is asked.
-        following = following.set_factor(float(request["real_time_factor"]), stamp)
-    if "publish_rate" in request and previous.rig.imu:
-        imu = replace(previous.rig.imu, rate=float(request["publish_rate"]))
-        following = replace(following, rig=replace(previous.rig, imu=imu))
-    return following, _list_changes(known.event)
-
-
-def _list_changes(event: Event) -> Outcome | None:
-    """Return the outcome of changed parameters; lists and flags are written in two ways."""
-    given = event.outcome()
-    if not isinstance(given, Parameters):
-        return given
-    pairs = zip(event.request.items(), given.changes, strict=True)
-    numbers = [
-        Setting(name, text if _is_number(text) else each.value) for (name, text), each in pairs
-    ]
-    return Parameters(tuple(numbers))
-
-
-def _is_number(text: str) -> bool:
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
-
-
-def _change_nothing(known: Known) -> Following:
-    return known.previous, known.event.outcome()
-
-
-def _fail(known: Known) -> Following:
-    # A request with a bug may have taken effect before it failed.
-    return known.given, known.event.outcome()
-
-
-FOLLOW: dict[str, Callable[[Known], Following]] = {
-    "start": _restart,
-    "reset": _restart,
-    "kick": _kick,
-    "pause": _pause,
-    "resume": _resume,
-    "step": _step,
-    "clock": _move_clock,
-    "pace": _change_pace,
-    "torque": _change_torque,
-    "parameters": _change_parameters,
-    "record": _change_nothing,
-    "failure": _fail,
-}
+def _is_near(previous: Segment, act: Act, budget: StepBudget) -> bool:
+    """Return False if the state before an act takes too long to compute."""
+    if "reached" in act.request:
+        return budget.reach(previous.motion, float(act.request["reached"]), FREE_STEPS)
+    stamp = act.request["from"] if act.name == "clock" else act.stamp
+    return budget.reach_stamps(previous, np.array([stamp]))

@@ -27,7 +27,7 @@ from symtop_ros.wire.diagnostics import Status, decode_statuses
 from symtop_ros.wire.layout import DecodeError, Reader
 from symtop_ros.wire.messages import encode_transforms
 
-Kind = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame
+Described = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame
 FIRST_LINK = re.compile(r'<link name="([^"]*)"/>')  # that of the world
 QUOTES = {"&quot;": '"'}
 STATUSES = {"motion": motion_status, "balance": balance_status}
@@ -125,7 +125,7 @@ class TextCheck:
         return [each for each in dict.fromkeys((place - 1, owner, owner - 1)) if each >= 0]
 
 
-def _kind(event: Event) -> Kind:
+def _kind(event: Event) -> Described:
     segment = event.segment()
     return segment.motion.top, segment.rig, event.values.get("top_frame", "")
 

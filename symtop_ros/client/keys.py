@@ -14,8 +14,8 @@ import rclpy
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.session.services import Response
 
-Answer = tuple[bool, str]
 DELAY_FACTOR = 1 / 1.4  # of the precession rate; undoes a hurry with the default hurry_factor
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
@@ -38,22 +38,22 @@ def follow_keys(top: Connection) -> None:
                 print(f"{KEYS[key].name}: {'' if granted else 'refused: '}{text}", flush=True)
 
 
-def _toggle_pause(top: Connection) -> Answer:
+def _toggle_pause(top: Connection) -> Response:
     return top.switch("pause", json.loads(top.trigger("get_state")[1])["running"])
 
 
-def _push_along(change: float) -> Callable[[Connection], Answer]:
+def _push_along(change: float) -> Callable[[Connection], Response]:
     """Return a push on the axle that changes phi' (rad/s)."""
     return _kick(precession_rate_change=change, hold="spin_momentum")
 
 
-def _push_tilt(change: float) -> Callable[[Connection], Answer]:
+def _push_tilt(change: float) -> Callable[[Connection], Response]:
     """Return a push on the axle that changes theta' (rad/s).
 
     Its angular impulse is Ix times the change, about the line of nodes (cos phi, sin phi, 0).
     """
 
-    def push(top: Connection) -> Answer:
+    def push(top: Connection) -> Response:
         state = json.loads(top.trigger("get_state")[1])
         phi, size = state["euler_angles"]["phi"], state["top"]["Ix"] * change
         return top.set(
@@ -63,11 +63,11 @@ def _push_tilt(change: float) -> Callable[[Connection], Answer]:
     return push
 
 
-def _kick(**values: float | str) -> Callable[[Connection], Answer]:
+def _kick(**values: float | str) -> Callable[[Connection], Response]:
     return lambda top: top.set("kick", values)
 
 
-def _trigger(service: str) -> Callable[[Connection], Answer]:
+def _trigger(service: str) -> Callable[[Connection], Response]:
     return lambda top: top.trigger(service)
 
 
@@ -76,7 +76,7 @@ class Key(NamedTuple):
 
     name: str
     effect: str
-    act: Callable[[Connection], Answer]
+    act: Callable[[Connection], Response]
 
 
 # By the bytes that a terminal sends.

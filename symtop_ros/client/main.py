@@ -14,11 +14,11 @@ from rclpy.utilities import remove_ros_args
 
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.keys import follow_keys, watch
-from symtop_ros.session.services import SERVICES
+from symtop_ros.command import positive
+from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import one_line
 
-Answer = tuple[bool, str]
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
 MAX_SHOWN = 60  # characters of a word in a message
@@ -64,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Call the services of a running top_node; exit status 1 if it refuses.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
-    parser.add_argument("--timeout", type=_seconds, default=5.0, help="seconds to wait (default 5)")
+    parser.add_argument("--timeout", type=positive, default=5.0, help="seconds to wait (default 5)")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     parsers = {
         service.command: commands.add_parser(service.command, help=service.help)
@@ -80,19 +80,12 @@ def _parser() -> argparse.ArgumentParser:
     commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
     commands.add_parser("watch", help="show the motion in a line that is updated").add_argument(
-        "--seconds", type=_seconds, default=math.inf, help="how long (default: until Ctrl-C)"
+        "--seconds", type=positive, default=math.inf, help="how long (default: until Ctrl-C)"
     )
     return parser
 
 
-def _seconds(text: str) -> float:
-    value = float(text)
-    if not value > 0:
-        raise ValueError
-    return value
-
-
-def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Answer:
+def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Response:
     if options.command == "keys":
         follow_keys(top)
         return True, ""

@@ -1,13 +1,13 @@
 """Entry point of `top_imu`: a record of an inertial sensor on the top of a scene."""
 
 import argparse
-import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from symtop_ros.command import tell_failures
 from symtop_ros.imu.files import write_folder, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
 from symtop_ros.simulation.changes.initial import start_motion
@@ -24,16 +24,12 @@ files of EuRoC and poses as TUM has them. Stamps begin at 0."""
 def main(args: list[str] | None = None) -> int:
     """Write a record; return 0 (good), 1 (refused or failed) or 2 (usage)."""
     options = _parser().parse_args(args)
-    try:
-        record = make_record(options)
-        write(record, options.output)
-    except ValueError as error:
-        print(f"top_imu: {one_line(error)}", file=sys.stderr)
-        return 1
-    except OSError as error:
-        name = one_line(error.filename or options.output)
-        print(f"top_imu: {name}: {error.strerror}", file=sys.stderr)
-        return 1
+    return tell_failures("top_imu", lambda: _run(options))
+
+
+def _run(options: argparse.Namespace) -> int:
+    record = make_record(options)
+    write(record, options.output)
     print(f"{options.output}: {len(record.stamps)} samples at {record.imu.rate:g} Hz")
     return 0
 

@@ -6,14 +6,21 @@ delay, but for rotations of the world and of the body. The rank of the problem s
 
 from dataclasses import dataclass, replace
 
-from symtop_ros.judge.causes.causes import Search
+from symtop_ros.judge.causes.cause import Cause
+from symtop_ros.judge.causes.causes import MOST_SAMPLES, Search, refine
 from symtop_ros.judge.causes.search import fit_level
 from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import SAMPLES
+from symtop_ros.judge.fit import SAMPLES, Fit
 from symtop_ros.judge.truth import Truth
 
-MODELS = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
+LEVELS_OF = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
+# Rotations, and what the stamps may be off by.
+MODELS = [
+    f"{rotations}{times}"
+    for rotations in LEVELS_OF
+    for times in ("", "+delay", "+clock", "+delay+clock")
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +72,10 @@ def explain(
     return Explanation(best.offset, search.hidden, best.residual)
 
 
-def align(estimates: Estimates, truth: Truth, model: str) -> Offset:
+def align(estimates: Estimates, truth: Truth, model: str) -> Cause:
     """Return the least squares of a stated model, one of MODELS, without any search."""
-    run = truth.select(estimates)
-    exact, *_ = truth.states_at(run.stamps, run.of_sensor)
-    return fit_level(run.orientations, exact, MODELS[model])
+    rotations, *names = model.split("+")
+    fit, level = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth), LEVELS_OF[rotations]
+    exact, *_ = fit.exact(0.0)
+    start = replace(fit_level(fit.some.orientations, exact, level), begin=int(fit.some.stamps[0]))
+    return refine(fit, ("", level, tuple(names)), start, is_sure=True)

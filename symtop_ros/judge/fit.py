@@ -142,12 +142,16 @@ class Fit:
         return columns.reshape(-1, COLUMNS)
 
     def _find_speeds(self, offset: Offset) -> Real:
-        """Return the angular velocities in the world by the stamps, not by a run's slower time."""
+        """Return the angular velocities in the world by the stamps, not by a run's slower time.
+
+        They are zero, which says nothing of a delay, at the ends of the run.
+        """
         stamps, of_sensor = self.shift(offset.delay, offset.clock), self.some.of_sensor
-        earlier, later = (
-            self.truth.states_at(stamps + step, of_sensor)[0] for step in (-SPEED_STEP, SPEED_STEP)
+        (earlier, _, begun), (later, _, goes_on) = (
+            self.truth.states_at(stamps + step, of_sensor) for step in (-SPEED_STEP, SPEED_STEP)
         )
         moved = find_rotation_vectors(compose(later, invert(earlier)))
+        moved[~(begun & goes_on)] = 0.0
         return moved * ((1 + offset.scale) * NANOSECONDS / (2 * SPEED_STEP))
 
     def find_hidden(self) -> list[str]:

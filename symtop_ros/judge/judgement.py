@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,8 @@ class Judgement:
     source: str  # topic or file
     errors: Errors  # after what was removed
     found: Finding | None  # None: nothing was looked for
-    aligned: str | None  # the model that was stated in place of it
+    aligned: str | None  # the model that was stated in place of it, and its least squares
+    fitted: Cause | None
     removed: tuple[str, ...]  # "offset", "delay" and "drift", if they were taken away
     left_out: int  # messages without a readable attitude
     notes: tuple[str, ...]  # likely mistakes, and what is odd about the file
@@ -67,6 +69,7 @@ class Judgement:
             **{name: summarize(values) for name, values in quantities.items()},
             "growth_rms": [None if np.isnan(x) else float(x) for x in errors.growth()],
             "aligned": self.aligned,
+            "fitted": None if self.fitted is None else _describe_cause(self.fitted),
             "found": None if self.found is None else _describe_finding(self.found),
             "notes": list(self.notes),
         }
@@ -90,7 +93,10 @@ class Judgement:
         """Return what explains the errors, and what the motion hides, in sentences."""
         if self.found is None:
             rms = summarize(self.errors.total)["rms"]
-            return write("found.aligned", {"model": self.aligned, "residual": rms})
+            record: dict[str, Any] = {"model": self.aligned, "parts": None, "residual": rms}
+            if self.fitted and (parts := _list_parts(self.fitted)):
+                record["parts"] = {"several": parts}
+            return write("found.aligned", record)
         found, best = self.found, self.found.best
         parts = _list_parts(best)
         record = {"parts": parts, "residual": best.residual}
@@ -134,8 +140,10 @@ def judge(
     if not len(compare(estimates, truth).total):
         raise RefusedError(_describe_absence(estimates, truth, source))
     if aligned is not None:
-        errors = compare(estimates, truth, align(estimates, truth, aligned))
-        return Judgement(source, errors, None, aligned, (), estimates.left_out, estimates.notes)
+        fitted = align(estimates, truth, aligned)
+        errors = compare(estimates, truth, fitted.offset)
+        own = estimates.left_out, estimates.notes
+        return Judgement(source, errors, None, aligned, fitted, (), *own)
     found = find_causes(estimates, truth)
     wanted = {
         "rotations": "offset" in removed,
@@ -146,7 +154,7 @@ def judge(
     errors = compare(estimates, truth, taken)
     mistakes = find_mistakes(estimates, truth, found)
     notes = *(f"likely mistake: {each}" for each in mistakes), *estimates.notes
-    return Judgement(source, errors, found, None, removed, estimates.left_out, notes)
+    return Judgement(source, errors, found, None, None, removed, estimates.left_out, notes)
 
 
 def _choose_key(found: Finding) -> str:
@@ -159,47 +167,58 @@ def _choose_key(found: Finding) -> str:
     return "exact" if found.best.residual < NOTHING else "nothing"
 
 
+UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others are in SI units
+
+
 def _list_parts(cause: Cause) -> list[dict[str, Any]]:
     """Return the parts of an explanation as records for sentences."""
-    offset = cause.offset
-    world, body = offset.angles
-    values = {
-        "delay": 1e3 * offset.delay,
-        "drift": offset.drift,
-        "clock": 1e6 * offset.clock,
-        "spin": offset.spin,
-        "scale": 100 * offset.scale,
-    }
-    parts: list[dict[str, Any]] = [
-        {"kind": name, "value": values[name]} for name in cause.parameters
-    ]
+    world, body = cause.offset.angles
+    parts: list[dict[str, Any]] = []
+    for name, deviation in zip_longest(cause.parameters, cause.deviations):
+        unit, value = UNITS.get(name, 1.0), float(getattr(cause.offset, name))
+        parts.append({"kind": name, "value": unit * value, **_write_deviation(deviation, unit)})
     if cause.level != "none":
-        parts.append({"kind": cause.level, "world": world, "body": body})
+        deviation = _write_deviation(cause.turn_deviation)
+        parts.append({"kind": cause.level, "world": world, "body": body, **deviation})
     if cause.change:
         parts.insert(0, {"kind": "change"})
     return parts
 
 
-def _describe_finding(found: Finding) -> dict[str, Any]:
-    """Return what was found, for JSON."""
-    offset = found.best.offset
-    world, body = offset.angles
+def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:
+    return {"deviation": {"value": unit * deviation} if deviation else None}
+
+
+def _describe_cause(cause: Cause) -> dict[str, Any]:
+    """Return what was fitted, for JSON, with standard deviations."""
+    offset, (world, body) = cause.offset, cause.offset.angles
     return {
-        "explained": found.explained,
-        "estimates_move": not found.still,
-        "mistake": found.best.change or None,
-        "delay": None if "delay" in found.hidden else offset.delay,
-        "drift": None if "drift" in found.hidden else offset.drift,
+        "delay": offset.delay,
+        "drift": offset.drift,
         "body_drift": offset.spin,
         "clock_rate": offset.clock,
         "gyroscope_scale": offset.scale,
         "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
         "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
-        "parameter_deviation": found.best.deviation if found.best.parameters else None,
-        "rotation_deviation": found.best.turn_deviation if found.best.level != "none" else None,
+        "deviations": dict(zip(cause.parameters, cause.deviations, strict=False)),
+        "rotation_deviation": cause.turn_deviation if cause.level != "none" else None,
+    }
+
+
+def _describe_finding(found: Finding) -> dict[str, Any]:
+    """Return what was found, for JSON."""
+    best = found.best
+    hidden: dict[str, Any] = {name: None for name in ("delay", "drift") if name in found.hidden}
+    return {
+        "explained": found.explained,
+        "estimates_move": not found.still,
+        "mistake": best.change or None,
+        **_describe_cause(best),
+        **hidden,
+        "parameter_deviation": best.deviations[0] if best.deviations else None,
         "delay_period": found.period,
         "not_identifiable": list(found.hidden),
-        "residual_rms": found.best.residual,
+        "residual_rms": best.residual,
     }
 
 

@@ -2,12 +2,12 @@
 
 import argparse
 import json
-import math
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from symtop_ros.command import positive, tell_failures
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.explain import MODELS
 from symtop_ros.judge.judgement import Judgement, format_several, judge
@@ -43,15 +43,7 @@ def main(args: list[str] | None = None) -> int:
         parser.error("--live judges one --topic")
     if options.aligned and (options.remove or options.live):
         parser.error("--aligned states what is removed: no --remove, no --live")
-    try:
-        return _run(options, rest)
-    except ValueError as error:
-        print(f"top_judge: {one_line(error)}", file=sys.stderr)
-    except OSError as error:
-        print(
-            f"top_judge: {one_line(error.filename or 'output')}: {error.strerror}", file=sys.stderr
-        )
-    return 1
+    return tell_failures("top_judge", lambda: _run(options, rest))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -93,19 +85,20 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--aligned",
-        choices=tuple(MODELS),
+        choices=MODELS,
         metavar="MODEL",
-        help=f"align by a stated model and look for nothing else: {', '.join(MODELS)}",
+        help="align by a stated model and look for nothing else: none, heading, world or "
+        "world-and-body, and with +delay, +clock or +delay+clock what the stamps are off by",
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="for JSON, plots, problems"
     )
     parser.add_argument(
-        "--max-error", type=_angle, metavar="RAD", help="status 1 if the attitude is further off"
+        "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude is further off"
     )
     parser.add_argument("--live", action="store_true", help="a line each second, of a running node")
-    parser.add_argument("--seconds", type=_angle, help="end of --live")
+    parser.add_argument("--seconds", type=positive, help="end of --live")
     parser.add_argument(
         "--testset",
         nargs="?",
@@ -115,16 +108,6 @@ def _parser() -> argparse.ArgumentParser:
         "file (all: each PROBLEM/NAME.csv in the folder LOG), or copy it (all: each) to -o",
     )
     return parser
-
-
-def _angle(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a number above 0, got {one_line(text)}")
-    return value
 
 
 def _run(options: argparse.Namespace, rest: list[str]) -> int:

@@ -20,7 +20,7 @@ TABLES = (".csv", ".tum", ".txt")  # endings of files that are no logs
 SEPARATORS = (",", ";", "\t")  # else any white space
 COLUMNS, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
 STAMP, SECONDS = "stamp", "t"
-# Columns without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position,
+# ColumnPlaces without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position,
 # x, y, z, w; KITTI has twelve numbers of a matrix, and no time.
 EUROC, TUM, KITTI = 8, 8, 12
 # Seconds since 1970 as a double are off by 1e-7 s, and have up to seven decimals.
@@ -29,8 +29,8 @@ Row = Sequence[str]
 
 
 @dataclass(frozen=True)
-class Columns:
-    """Columns of a table with the time, the quaternion w, x, y, z, and the rates if given."""
+class ColumnPlaces:
+    """ColumnPlaces of a table with the time, the quaternion w, x, y, z, and the rates if given."""
 
     time: int
     numbers: tuple[int, ...]
@@ -77,7 +77,7 @@ def _is_named(head: Row) -> bool:
     return set(COLUMNS) <= set(names)
 
 
-def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> Columns:
+def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> ColumnPlaces:
     """Return where the columns are, from the first line."""
     names = [name.lstrip("# ") for name in head]
     if separator is None and names and not names[0]:  # "# t w x y z"
@@ -86,13 +86,13 @@ def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> C
         time = STAMP if STAMP in names else SECONDS
         wanted = [*COLUMNS, *(RATES if set(RATES) <= set(names) else ())]
         places = tuple(names.index(name) for name in wanted)
-        return Columns(names.index(time), places, time == SECONDS)
+        return ColumnPlaces(names.index(time), places, time == SECONDS)
     if separator == "," and len(head) >= EUROC and names[0].startswith("timestamp"):
-        return Columns(0, (4, 5, 6, 7), in_seconds=False)
+        return ColumnPlaces(0, (4, 5, 6, 7), in_seconds=False)
     if separator == "," and len(head) >= EUROC and names[0].isdecimal():
-        return Columns(0, (4, 5, 6, 7), in_seconds=False, has_names=False)
+        return ColumnPlaces(0, (4, 5, 6, 7), in_seconds=False, has_names=False)
     if separator is None and len(head) == TUM and _is_number(head[0]):
-        return Columns(0, (7, 4, 5, 6), in_seconds=True, has_names=False)
+        return ColumnPlaces(0, (7, 4, 5, 6), in_seconds=True, has_names=False)
     if separator is None and len(head) == KITTI and _is_number(head[0]):
         raise RefusedError(f"{path} must have times, got poses of KITTI, which lack them")
     raise RefusedError(
@@ -110,7 +110,7 @@ def _is_number(text: str) -> bool:
 
 
 def _read_rows(
-    path: Path, columns: Columns, rows: Iterable[tuple[int, str]], separator: str | None
+    path: Path, columns: ColumnPlaces, rows: Iterable[tuple[int, str]], separator: str | None
 ) -> Estimates:
     to_ns: Callable[[str], int] = _to_nanoseconds if columns.in_seconds else int
     stamps, numbers, lines, decimals = [], [], [], 0
@@ -122,9 +122,12 @@ def _read_rows(
             numbers.append([float(cells[place]) for place in columns.numbers])
             lines.append(line)
             decimals = max(decimals, len(time.strip().partition(".")[2]))
-        except (IndexError, ValueError, InvalidOperation, OverflowError):
+        except (IndexError, ValueError, InvalidOperation, OverflowError) as error:
+            condition = (
+                "have all columns" if isinstance(error, IndexError) else "consist of numbers"
+            )
             raise RefusedError(
-                f"line {line} of {path} must consist of numbers, got {one_line(row)}"
+                f"line {line} of {path} must {condition}, got {one_line(row)}"
             ) from None
     table = np.array(numbers, dtype=float).reshape(-1, len(columns.numbers))
     notes = _describe_rows(table, lines) + _describe_times(stamps, columns.in_seconds, decimals)

@@ -14,6 +14,7 @@ import rclpy
 import rerun as rr
 from rclpy.executors import SingleThreadedExecutor
 
+from symtop_ros.command import port
 from symtop_ros.live.feed import Feed
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
@@ -56,18 +57,11 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
     parser.add_argument(
-        "--port", type=_port, default=PORT, help=f"port of the viewer (default {PORT})"
+        "--port", type=port, default=PORT, help=f"port of the viewer (default {PORT})"
     )
     parser.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
     add_view_options(parser)
     return parser
-
-
-def _port(text: str) -> int:
-    port = int(text)
-    if not 0 < port < 2**16:
-        raise ValueError
-    return port
 
 
 @contextlib.contextmanager

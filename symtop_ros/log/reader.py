@@ -43,7 +43,7 @@ MESSAGE_START = struct.Struct("<HIQQ")  # channel, sequence, log and publish tim
 MAX_MESSAGES = 65_536  # in memory: a chunk of a few bytes may decompress to millions
 Description = Schema | Channel | Metadata
 Parse = Callable[[ReadDataStream], Description]
-Place = tuple[int, int, int]
+Span = tuple[int, int, int]
 PARSED_IN_CHUNK: dict[int, Parse] = {Opcode.SCHEMA: Schema.read, Opcode.CHANNEL: Channel.read}
 PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
 SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX)
@@ -72,7 +72,7 @@ DAMAGE = (
 )
 
 
-class Record(NamedTuple):
+class FileRecord(NamedTuple):
     """A record of the file and the offset of its end."""
 
     opcode: int
@@ -155,7 +155,7 @@ class McapFile(MessageSource):
             self._report_damage(damaged, lost)
         self._report_ending()
 
-    def _is_listed_as_chunk(self, record: Record) -> bool:
+    def _is_listed_as_chunk(self, record: FileRecord) -> bool:
         return record.end - len(record.data) - RECORD_START.size in self._chunk_offsets
 
     def since_start(self, log_time: int) -> float:
@@ -183,7 +183,7 @@ class McapFile(MessageSource):
                 else:
                     self._describe(_contents(record).descriptions)
 
-    def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[Record]:
+    def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[FileRecord]:
         """Yield the readable records with some opcodes from an offset on."""
         file.seek(offset)
         while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
@@ -192,10 +192,10 @@ class McapFile(MessageSource):
             if end > self.size or length > MAX_RECORD:
                 return
             if opcode in wanted:
-                yield Record(opcode, file.read(length), end)
+                yield FileRecord(opcode, file.read(length), end)
             file.seek(end)
 
-    def _records(self, file: BinaryIO) -> Iterator[Record]:
+    def _records(self, file: BinaryIO) -> Iterator[FileRecord]:
         """Yield all records of the data; damaged bytes are skipped with the help of the index."""
         while True:
             start = file.tell()
@@ -211,7 +211,7 @@ class McapFile(MessageSource):
                     return
                 file.seek(following[0])
             else:
-                yield Record(opcode, file.read(length), file.tell())
+                yield FileRecord(opcode, file.read(length), file.tell())
 
     def _describe(self, descriptions: Iterable[Description]) -> None:
         """Keep descriptions, within a limit: a small chunk may decompress to a lot of them."""
@@ -295,7 +295,7 @@ def _count_indexed(data: bytes) -> int:
     return max(0, len(data) - 6) // 16
 
 
-def _chunk_of(record: Record) -> list[Chunk]:
+def _chunk_of(record: FileRecord) -> list[Chunk]:
     """Return the chunk in a list, for its times, or an empty list for another record."""
     with suppress(*DAMAGE):
         if record.opcode == Opcode.CHUNK:
@@ -303,7 +303,7 @@ def _chunk_of(record: Record) -> list[Chunk]:
     return []
 
 
-def _contents(record: Record) -> Contents:
+def _contents(record: FileRecord) -> Contents:
     """Return the contents of a record that is sound as a whole."""
     if record.opcode != Opcode.CHUNK:
         return _parse(record.data, [(record.opcode, 0, len(record.data))], PARSED)
@@ -327,7 +327,7 @@ class Places:
 
     data: bytes
 
-    def __iter__(self) -> Iterator[Place]:
+    def __iter__(self) -> Iterator[Span]:
         """Iterate from the first record on."""
         end = 0
         while end < len(self.data):
@@ -338,7 +338,7 @@ class Places:
             yield opcode, begin, end
 
 
-def _parse(data: bytes, places: Iterable[Place], parsed: Mapping[int, Parse]) -> Contents:
+def _parse(data: bytes, places: Iterable[Span], parsed: Mapping[int, Parse]) -> Contents:
     """Parse the descriptions and check the messages; messages are then read lazily."""
     descriptions = []
     for opcode, begin, end in places:
@@ -349,7 +349,7 @@ def _parse(data: bytes, places: Iterable[Place], parsed: Mapping[int, Parse]) ->
     return Contents(descriptions, _messages(data, places))
 
 
-def _messages(data: bytes, places: Iterable[Place]) -> Iterator[Message]:
+def _messages(data: bytes, places: Iterable[Span]) -> Iterator[Message]:
     for opcode, begin, end in places:
         if opcode == Opcode.MESSAGE:
             channel, sequence, log_time, publish_time = MESSAGE_START.unpack_from(data, begin)

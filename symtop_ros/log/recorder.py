@@ -47,6 +47,7 @@ class Recorder:
         self._ending = threading.Event()
         # returns the samples that were missed, which no message shows
         self.count_missed: Callable[[], int] = lambda: 0
+        self.running = False  # True while a recording runs
         self.dropped = 0  # messages that did not fit into the queue since the recording began
         self.failure = ""  # reason why the last recording ended by itself; empty if it did not
 
@@ -54,11 +55,6 @@ class Recorder:
         """Add a topic before the first recording; return the index of its channel."""
         self._channels.append(Channel(name, topic))
         return len(self._channels) - 1
-
-    @property
-    def running(self) -> bool:
-        """True while a recording runs."""
-        return self._thread is not None and not self.failure
 
     @property
     def path(self) -> Path | None:
@@ -76,6 +72,7 @@ class Recorder:
         work = (file, metadata, latched)
         self._thread = threading.Thread(target=self._work, args=work, daemon=True)
         self._thread.start()
+        self.running = True
         return file.path
 
     def _open(self, metadata: Mapping[str, str], latched: Mapping[int, bytes]) -> "LogFile":
@@ -122,7 +119,7 @@ class Recorder:
         if self._thread:
             self._ending.set()
             self._thread.join()
-            self._thread = None
+            self._thread, self.running = None, False
 
     # The following methods run in the thread.
 
@@ -139,6 +136,7 @@ class Recorder:
         except Exception as error:
             file.abandon()
             self._queue.clear()
+            self.running = False
             # Set last: who reads it may open the file, which must be complete by then.
             self.failure = f"{file.path}: {describe_error(error)}"
 

@@ -4,11 +4,12 @@ import argparse
 import sys
 from pathlib import Path
 
+from symtop_ros.command import tell_failures
 from symtop_ros.models.formats import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import number, one_line
+from symtop_ros.simulation.validation import number
 
 LARGEST_GRAVITY = 1e3  # m/s^2
 
@@ -16,27 +17,21 @@ LARGEST_GRAVITY = 1e3  # m/s^2
 def main(args: list[str] | None = None) -> int:
     """Write a model; return 0 (good), 1 (refused or failed) or 2 (usage)."""
     options = _parser().parse_args(args)
-    try:
-        settings = Settings.from_scene(options.scene)
-        gravity = number("gravity", options.gravity, "m/s^2", 1e-3, LARGEST_GRAVITY)
-        start = initial_state(settings.top, settings.initial, {})
-        text = FORMATS[options.format](settings.top, start, Body.of(settings.top, gravity))
-        if options.output:
-            options.output.write_text(text, encoding="utf-8")
-        else:
-            print(text, end="")
-    except ValueError as error:
-        print(f"top_model: {one_line(error)}", file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f"top_model: {one_line(error.filename)}: {error.strerror}", file=sys.stderr)
-        return 1
-    for name, is_set in (
-        ("friction", bool(settings.friction)),
-        ("steady_torque", any(settings.steady_torque)),
-    ):
-        if is_set:
-            print(f"top_model: left out: {name}", file=sys.stderr)
+    return tell_failures("top_model", lambda: _write(options))
+
+
+def _write(options: argparse.Namespace) -> int:
+    settings = Settings.from_scene(options.scene)
+    gravity = number("gravity", options.gravity, "m/s^2", 1e-3, LARGEST_GRAVITY)
+    start = initial_state(settings.top, settings.initial, {})
+    text = FORMATS[options.format](settings.top, start, Body.of(settings.top, gravity))
+    if options.output:
+        options.output.write_text(text, encoding="utf-8")
+    else:
+        print(text, end="")
+    left_out = {"friction": settings.friction, "steady_torque": any(settings.steady_torque)}
+    for name in (name for name, is_set in left_out.items() if is_set):
+        print(f"top_model: left out: {name}", file=sys.stderr)
     return 0
 
 

@@ -1,4 +1,4 @@
-"""The node as the host of a session: publishers, messages to the user, markers, duplicate nodes."""
+"""The node as the host of a session: publishers, messages to the user, duplicate nodes."""
 
 import warnings
 from typing import Any
@@ -10,10 +10,8 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from symtop_ros.node.duplicates import find_duplicates
-from symtop_ros.node.markers import Markers
-from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.topics import Topic
+from symtop_ros.simulation.topics import MARKERS, SAMPLE_TOPICS, Topic
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.diagnostics import OK, Status
 
@@ -56,7 +54,6 @@ class NodeHost:
     def __init__(self, node: Node, settings: Settings) -> None:
         self._node, self._publishes_clock = node, settings.publish_clock
         self._levels: dict[str, int] = {}  # of the last statuses, by their names
-        self._markers = Markers(node, settings.world_frame) if settings.publish_markers else None
 
     @property
     def is_open(self) -> bool:
@@ -71,8 +68,9 @@ class NodeHost:
         """Return a publisher with the QoS of the topic, which ROS parameters may override."""
         message_class = topic.load_message_class()
         if message_class is None:
-            if topic.ros_name == "/tf":
-                self.inform("tf2_msgs is not installed: /tf is logged, not published")
+            if topic in (SAMPLE_TOPICS["tf"], MARKERS):
+                package = topic.type.partition("/")[0]
+                self.inform(f"{package} is not installed: {topic.ros_name} is only logged")
             return None
         latched, volatile = QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE
         qos = QoSProfile(depth=topic.depth, durability=latched if topic.latched else volatile)
@@ -87,11 +85,6 @@ class NodeHost:
             name = f"qos_overrides.{self.resolve(topic)}.publisher"
             raise RefusedError(f"{name} must be valid, got: {one_line(error)}") from None
         return NodePublisher(publisher, self._node)
-
-    def watch_sample(self, stamp: int, block: Block) -> None:
-        """Publish markers."""
-        if self._markers:
-            self._markers.send(stamp, block)
 
     def update_statuses(self) -> list[Status]:
         """Return statuses on duplicates; log when these appear and when they are gone."""

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from functools import partial
 from importlib.util import find_spec
 from typing import Any, cast
 
@@ -24,11 +25,11 @@ from symtop_ros.node.services import TYPES, fill_response
 from symtop_ros.physics import kernel_version
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
+from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.simulation.times import JUMP
+from symtop_ros.simulation.simulation import JUMP, Simulation
 from symtop_ros.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
-from symtop_ros.simulation.validation import RefusedError, one_line, reject
+from symtop_ros.simulation.validation import RefusedError, attempt, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
 
 SIM_TIME = "use_sim_time"
@@ -211,15 +212,14 @@ class TopNode(Node):
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         simulated = any(each.name == SIM_TIME and each.value for each in parameters)
-        reason = ""
-        with self.simulation.turn("a check of parameters") as turn:
-            try:
-                settings = self.session.plan_settings(_own_values(parameters))
-                self._refuse_own_clock(settings, simulated)
-            except RefusedError as refusal:
-                reason = str(refusal)
-        reason = reason or turn.failure
-        return SetParametersResult(successful=not reason, reason=reason)
+
+        def check() -> None:
+            settings = self.session.plan_settings(_own_values(parameters))
+            self._refuse_own_clock(settings, simulated)
+
+        found = self.simulation.take_turn("a check of parameters", partial(attempt, check))
+        granted, reason = (False, str(found)) if isinstance(found, Failure) else found
+        return SetParametersResult(successful=granted, reason=reason)
 
     def _refuse_own_clock(self, settings: Settings, simulated: Any) -> None:
         """Refuse to follow the /clock that the node itself publishes: it would stand still."""
@@ -227,9 +227,11 @@ class TopNode(Node):
             raise RefusedError("publish_clock must be false together with use_sim_time, got true")
 
     def _apply_parameters(self, parameters: list[Parameter]) -> None:
-        with self.simulation.turn("a change of parameters"):
+        def change() -> None:
             self.session.apply_settings(_own_values(parameters))
             self._pacer.wake()
+
+        self.simulation.take_turn("a change of parameters", change)
 
 
 def _own_values(parameters: list[Parameter]) -> dict[str, Any]:

@@ -8,6 +8,7 @@ import threading
 import webbrowser
 from pathlib import Path
 
+from symtop_ros.command import port
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import write_file
@@ -55,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--port",
-        type=_port,
+        type=port,
         help=f"serve the page on this port (with --host or --node {PORT} by default; 0: any)",
     )
     parser.add_argument(
@@ -65,12 +66,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--no-browser", action="store_true", help="open no browser")
     return parser
-
-
-def _port(text: str) -> int:
-    if not text.isdecimal() or int(text) >= 2**16:
-        raise argparse.ArgumentTypeError(f"must be 0 to 65535, got {one_line(text, 60)}")
-    return int(text)
 
 
 def _run(options: argparse.Namespace, arguments: list[str]) -> int:

@@ -20,7 +20,7 @@ from symtop_ros.physics.arguments import (
 )
 from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import states
-from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, Rates
+from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, RatesRecord
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -117,7 +117,7 @@ class Motion:
             parts += [self.friction, self.applied_torque]
         return f"Motion({', '.join(map(repr, parts))})"
 
-    @property
+    @cached_property
     def is_driven(self) -> bool:
         """True if friction or an applied torque acts: there is no closed form, only series."""
         return bool(self.friction) or any(self.applied_torque)
@@ -329,13 +329,13 @@ class Motion:
         return self._kernel.kind
 
     @cached_property
-    def _rates(self) -> Rates:
+    def _rates(self) -> RatesRecord:
         return self._kernel.rates
 
     @property
     def nutation_period(self) -> float:
         """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
-        return self._rates.nutation_period
+        return float(self._rates.nutation_period)
 
     @property
     def turning_angles(self) -> tuple[float, float]:
@@ -349,12 +349,12 @@ class Motion:
         It is nan for an axis that rests on the vertical, and for one that passes through a pole:
         there phi jumps by half a turn, to the left or to the right as rounding will have it.
         """
-        return self._rates.mean_precession_rate
+        return float(self._rates.mean_precession_rate)
 
     @property
     def mean_spin_rate(self) -> float:
         """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
-        return self._rates.mean_spin_rate
+        return float(self._rates.mean_spin_rate)
 
     @property
     def precession_per_nutation(self) -> float:
@@ -371,7 +371,7 @@ class Motion:
         >>> round(motion.precession_per_nutation, 6)
         0.168557
         """
-        return self._rates.precession_per_nutation
+        return float(self._rates.precession_per_nutation)
 
     @property
     def spin_reverses(self) -> bool:
@@ -385,7 +385,7 @@ class Motion:
         >>> Motion(top, start).spin_reverses
         True
         """
-        return self._rates.spin_reverses
+        return bool(self._rates.spin_reverses)
 
     @property
     def nutation_rate(self) -> float:

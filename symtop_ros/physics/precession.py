@@ -78,7 +78,7 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     """
     given = {"theta": theta, "psi_dot": psi_dot}
     theta, psi_dot = validate_together(given, ("rad", "rad/s"))
-    shape, (tops, thetas, spins) = _spread_tops(top, theta, psi_dot)
+    shape, (tops, thetas, spins) = spread_tops(top, theta, psi_dot)
     rates = door.find_regular_rates(tops, thetas, spins, hold=0)
     if not shape:
         return tuple(rate for rate in rates[0].tolist() if not math.isnan(rate))
@@ -86,7 +86,7 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     return slow, fast
 
 
-def _spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
+def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
     """Return the shape of all arguments together, the tops (n, 3), and the others (n,)."""
     if not top.shape and are_floats(columns):
         return (), [np.array([each]) for each in (top.moments, *columns)]
@@ -132,7 +132,7 @@ def _find_tilt_torques(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> list
         validate_rate("phi_dot", phi_dot),
         validate_rate("psi_dot", psi_dot),
     )
-    shape, columns = _spread_tops(top, *given)
+    shape, columns = spread_tops(top, *given)
     found = door.find_tilt_torques(*columns)
     return [np.ascontiguousarray(found[:, k]).reshape(shape) for k in range(4)]
 

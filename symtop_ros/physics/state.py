@@ -431,8 +431,8 @@ class State:
 
 
 def _flush_tiny(array: Real) -> Real:
-    """Set to zero, in place, the numbers whose squares would underflow."""
-    array[np.abs(array) < SMALLEST] = 0.0
+    """Set to zero, in place, the numbers whose squares would underflow; a zero keeps its sign."""
+    array[np.abs(array) < SMALLEST] *= 0.0
     return array
 
 

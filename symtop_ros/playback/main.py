@@ -8,13 +8,14 @@ from pathlib import Path
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
+from symtop_ros.command import tell_failures
 from symtop_ros.log.reader import LogError, McapFile, list_problems
 from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback.runs import open_file, save_page, write_mcap
 from symtop_ros.session.run_log import RATE
 from symtop_ros.simulation.topics import EVENTS
-from symtop_ros.simulation.validation import RefusedError, one_line
+from symtop_ros.simulation.validation import one_line
 
 
 def main(args: list[str] | None = None) -> int:
@@ -23,11 +24,7 @@ def main(args: list[str] | None = None) -> int:
     options = parser.parse_args(args)
     if options.rate is not None and not options.mcap:
         parser.error("--rate goes with --mcap")
-    try:
-        return _run(options)
-    except (LogError, RefusedError) as error:
-        print(f"top_replay: {one_line(error)}", file=sys.stderr)
-        return 1
+    return tell_failures("top_replay", lambda: _run(options))
 
 
 def add_view_options(parser: argparse.ArgumentParser) -> None:
@@ -61,6 +58,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="top_replay",
         description="Play a log of top_node, or a run of the page, in the Rerun viewer; or save, "
         "check, repair or convert it.",
+        epilog="Plain `rerun FILE.mcap` draws the top as well, on the timeline that it opens.",
     )
     parser.add_argument(
         "files",

@@ -3,23 +3,27 @@
 A topic without a subscriber is not computed unless it is logged.
 """
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import partial
 from typing import Protocol
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Body
+from symtop_ros.session.markers import Markers
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.host import Host
 from symtop_ros.simulation.sensor import ALONG, Imu, find_body
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.simulation import Host
 from symtop_ros.simulation.topics import (
     APPLIED_TORQUE,
     CLOCK,
     DIAGNOSTICS,
     EVENTS,
+    MARKERS,
     SAMPLE_TOPICS,
     TF_STATIC,
     Topic,
@@ -53,9 +57,6 @@ class OutputHost(Host, Protocol):
     def create_publisher_of(self, topic: Topic) -> Publisher | None:
         """Return a publisher, or None if the topic is only logged."""
 
-    def watch_sample(self, stamp: int, block: Block) -> None:
-        """Take note of the sample of a stamp (ns)."""
-
     def update_statuses(self) -> list[Status]:
         """Bring its own part of the diagnostics up to date, and return it."""
 
@@ -74,20 +75,17 @@ class Output:
         """True if it has a publisher and is enabled."""
         return self.enabled and self._publisher is not None
 
-    @property
-    def is_needed(self) -> bool:
-        """True if there is a subscriber or a recording."""
-        return self._recorder.running or self._has_subscriber
-
-    def send(self, stamp: int, data: bytes) -> None:
-        """Publish and log an encoded message with its stamp (ns)."""
-        if self._publisher and (self._latched or self._has_subscriber):
-            self._publisher.publish(data)
-        self._recorder.add(self.channel, stamp, data)
-
-    @property
-    def _has_subscriber(self) -> bool:
-        return bool(self.enabled and self._publisher and self._publisher.has_subscriber)
+    def send(self, stamp: int, encode: Callable[[], bytes]) -> None:
+        """Publish and log a message with its stamp (ns); it is encoded if it is needed."""
+        to, is_kept = self._publisher, self._latched or self._recorder.running
+        if to and not (self._latched or (self.enabled and to.has_subscriber)):
+            to = None
+        if to or is_kept:
+            data = encode()
+            if to:
+                to.publish(data)
+            if is_kept:
+                self._recorder.add(self.channel, stamp, data)
 
 
 class Outputs:
@@ -95,38 +93,42 @@ class Outputs:
 
     def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder, name: str) -> None:
         add = partial(Output, host=host, recorder=recorder)
-        self._host, self._recorder, self._name = host, recorder, name
+        self._recorder, self._name = recorder, name
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
         self._events, self._description = add(EVENTS), add(choose_description(name))
-        self._samples = {
-            name: (add(topic), topic.layout(*frames))
-            for name, topic in SAMPLE_TOPICS.items()
-            if settings.enables(topic.switch)
-        }
+        topics = {n: each for n, each in SAMPLE_TOPICS.items() if settings.enables(each.switch)}
+        self._samples = {name: add(topic) for name, topic in topics.items()}
+        self._layouts = {name: topic.layout(*frames) for name, topic in topics.items()}
         has_frames = bool(settings.imu or settings.odometry)
         self._fixed_frames = add(TF_STATIC) if has_frames else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
+        self._markers = Markers(settings.world_frame)
+        self._marker_output = add(MARKERS) if settings.publish_markers else None
         self._torque = recorder.add_channel(host.resolve(APPLIED_TORQUE), APPLIED_TORQUE)
         self.enable_tf(settings.publish_tf)
 
     def enable_tf(self, enabled: bool) -> None:
         """Publish /tf or not; it is always logged."""
-        self._samples["tf"][0].enabled = enabled
+        self._samples["tf"].enabled = enabled
+
+    def encode(self, topic: str, stamps: Stamps, numbers: Real) -> list[bytes]:
+        """Encode samples of a topic from their stamps (n,) in ns and their doubles (n, width)."""
+        return self._layouts[topic].encode_many(stamps, numbers)
 
     def send_sample(self, stamp: int, block: Block) -> None:
         """Publish and log the sample of a stamp (ns) on the topics that are needed."""
-        for name, (output, layout) in self._samples.items():
-            if output.is_needed:
-                output.send(stamp, layout.encode(stamp, block.numbers(name, stamp)))
+        for name, output in self._samples.items():
+            output.send(stamp, partial(block.message, name, stamp))
+        if self._marker_output and self._markers.is_due(stamp):
+            self._marker_output.send(stamp, partial(self._markers.encode, stamp, block))
         self.send_clock(stamp)
-        self._host.watch_sample(stamp, block)
 
     def send_clock(self, now: int) -> None:
         """Publish and log /clock (ns), if that is asked for."""
         if self._clock:
-            self._clock.send(now, messages.CLOCK.encode(now, ()))
+            self._clock.send(now, lambda: messages.CLOCK.encode(now, ()))
 
     def log_torque(self, stamp: int, data: bytes) -> None:
         """Log an encoded torque that was received."""
@@ -134,7 +136,7 @@ class Outputs:
 
     def send_event(self, event: Event) -> None:
         """Publish and log an event."""
-        self._events.send(event.stamp, event.encode(self._frame, self._name))
+        self._events.send(event.stamp, lambda: event.encode(self._frame, self._name))
 
     def send_description(self, stamp: int, settings: Settings) -> None:
         """Publish and log the URDF of the top, and the frames on its body."""
@@ -142,26 +144,24 @@ class Outputs:
             settings.top,
             settings.world_frame,
             settings.top_frame,
-            tf_moves_it=self._samples["tf"][0].is_published,
+            tf_moves_it=self._samples["tf"].is_published,
             body=find_body(settings.top, settings.gravity),
         )
-        self._description.send(stamp, encode_string(urdf))
+        self._description.send(stamp, lambda: encode_string(urdf))
         if self._fixed_frames:
             body = settings.odometry and find_body(settings.top, settings.gravity)
             transforms = list_fixed_frames(settings.top_frame, settings.imu, body or None)
-            self._fixed_frames.send(stamp, messages.encode_transforms(stamp, transforms))
+            self._fixed_frames.send(stamp, lambda: messages.encode_transforms(stamp, transforms))
 
-    @property
-    def need_diagnostics(self) -> bool:
-        """True if diagnostics have a subscriber or are logged."""
-        return self._diagnostics.is_needed
+    def send_diagnostics(self, stamp: int, collect: Callable[[], list[Status]]) -> None:
+        """Publish and log diagnostics if needed; each status bears the name of the node."""
+        prefix = self._name.lstrip("/")
 
-    def send_diagnostics(self, stamp: int, statuses: list[Status]) -> None:
-        """Publish and log diagnostics; each status bears the name of the node."""
-        named = [
-            status._replace(name=f"{self._name.lstrip('/')}: {status.name}") for status in statuses
-        ]
-        self._diagnostics.send(stamp, encode_statuses(stamp, self._frame, named, self._name))
+        def encode() -> bytes:
+            named = [each._replace(name=f"{prefix}: {each.name}") for each in collect()]
+            return encode_statuses(stamp, self._frame, named, self._name)
+
+        self._diagnostics.send(stamp, encode)
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""

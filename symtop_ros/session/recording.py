@@ -54,13 +54,13 @@ class Recording:
         if on == bool(path):
             return str(Answer("recording", str(path)) if path else Answer("not_recording"))
         if path:
-            self._simulation.report("record", Record("ended", str(path)))
+            self._simulation.do("record", {}, Record("ended", str(path)))
             self._recorder.stop()
             if self._recorder.failure:
                 self.report_failure()
                 raise RefusedError(f"recording failed: {self._recorder.failure}")
             return str(Answer("recorded", str(path)))
-        return self._simulation.report("record", Record("begun", str(self.begin())))
+        return self._simulation.do("record", {}, Record("begun", str(self.begin())))
 
     @property
     def unreported_failure(self) -> str:
@@ -72,7 +72,7 @@ class Recording:
         if self.unreported_failure:
             self._failure_reported = True
             outcome = Record("stopped", failure=self._recorder.failure)
-            self._host.report_error(self._simulation.report("record", outcome))
+            self._host.report_error(self._simulation.do("record", {}, outcome))
 
     def _metadata(self) -> dict[str, str]:
         values = self._simulation.settings.values

@@ -7,6 +7,7 @@ from typing import Any
 from symtop_ros.session.diagnostics import summarize_state
 from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.budget import StepBudget
+from symtop_ros.simulation.changes.follow import Act
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.validation import RefusedError, number, reject, validate_names
 
@@ -39,7 +40,8 @@ class Requests:
     def kick(self, values: Values) -> str:
         """Kick by named values; see `kick.plan_kick`."""
         simulation = self._simulation
-        return simulation.apply_at_once(simulation.timeline.kick(simulation.stamp, values))
+        change = simulation.timeline.follow(Act("kick", simulation.stamp, values))
+        return simulation.apply_at_once(change)
 
     def hurry_precession(self) -> str:
         """Multiply the precession rate by the parameter `hurry_factor`."""

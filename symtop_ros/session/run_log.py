@@ -14,9 +14,8 @@ import numpy as np
 
 from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
-from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.run_file import RunEvent
-from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import Status
@@ -28,7 +27,7 @@ NODE, RATE = "/top", 200.0  # name of the node that would have written the log, 
 ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9
 
 
-class RunClock:
+class SetClock:
     """The time of the run, which the writer sets."""
 
     now, is_simulated = 0, True
@@ -48,9 +47,6 @@ class Silent:
 
     def create_publisher_of(self, topic: Topic) -> None:
         """Return None: topics are only logged."""
-
-    def watch_sample(self, stamp: int, block: Block) -> None:
-        """Do nothing."""
 
     def update_statuses(self) -> list[Status]:
         """Return no statuses."""
@@ -89,13 +85,14 @@ class _Again:
     """A run that is done again."""
 
     def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
-        self._clock, self._host = RunClock(), Silent()
+        self._clock, self._host = SetClock(), Silent()
         settings = Settings.from_values(_initial_values(first, rate, folder))
         self._session = Session(
             settings, self._clock, self._host, "run.json", {"program": "top_replay"}, NODE
         )
         self._simulation = self._session.simulation
         self._told = 0  # s of the last diagnostics
+        self._clock.now = -1  # events at one time come before the sample at that time
 
     def go(self, time: int) -> None:
         """Publish what is due before a time in ns, with diagnostics once a second."""
@@ -123,7 +120,6 @@ class _Again:
         """Do what an event says, at its time."""
         before = self._simulation.segment
         if not is_first:
-            self._clock.now = event.time
             self._simulation.restart_grid(event.time)
             if changes := _list_changes(before.motion, event.motion):
                 self._session.apply_settings(changes)
@@ -142,8 +138,11 @@ class _Again:
             raise RefusedError(f"{name}: {answer}")
 
     def _compare(self, event: RunEvent, name: str) -> None:
-        """Refuse an event whose motion is not the one that follows."""
-        right, given = self._simulation.segment.motion.start, event.motion.start
+        """Refuse an event whose motion is not the one that follows.
+
+        What was changed and changed back while the motion stood still is no change here.
+        """
+        right, given = self._simulation.segment.state_at(event.time), event.motion.start
         rate = float(np.abs(right.angular_velocity).max())
         near = ROUNDING + HALF_NANOSECOND * rate
         turned = min(
@@ -190,15 +189,7 @@ def _start_values(event: RunEvent) -> dict[str, Any]:
 
 def _list_values(motion: Motion) -> dict[str, Any]:
     """Return the parameters that say what moves, and what acts on it."""
-    Ix, Iz, Mgl = motion.top.moments
-    return {
-        "top.Ix": Ix,
-        "top.Iz": Iz,
-        "top.Mgl": Mgl,
-        "friction.axial": motion.friction.axial,
-        "friction.transverse": motion.friction.transverse,
-        "steady_torque": list(motion.applied_torque),
-    }
+    return {**list_body(motion), "steady_torque": list(motion.applied_torque)}
 
 
 def _list_changes(before: Motion, after: Motion) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 if TYPE_CHECKING:
     from symtop_ros.session.requests import Requests
 
+Response = tuple[bool, str]  # success, and the sentence or the reason
 ServiceKind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument
 
 

@@ -8,26 +8,30 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 from symtop_ros.wire.layout import NANOSECONDS
 
+# encodes the messages of a topic, by its stamps (n,) in ns and its doubles (n, width)
+Encode = Callable[[str, Stamps, Real], list[bytes]]
 CATCH_UP = 0.1  # s; ticks that are later are dropped, so that a stopped process sends no burst
 
 
 class Block:
-    """The samples of a segment at some stamps.
+    """The samples of a segment at some stamps, as numbers and as encoded messages.
 
     A topic is computed when it is first asked for, if it is not computed before. `work_ahead`
     computes the next block piece by piece, so that no tick has to compute it as a whole.
     """
 
-    def __init__(self, segment: Segment, stamps: Sequence[int]) -> None:
-        self.segment = segment
+    def __init__(self, segment: Segment, stamps: Sequence[int], encode: Encode) -> None:
+        self.segment, self._encode = segment, encode
         self._stamps = np.array(stamps, dtype=np.int64)
         self.last, self.length = stamps[-1] if stamps else 0, len(stamps)
         self._row = {stamp: row for row, stamp in enumerate(stamps)}
-        self._numbers: dict[str, list[list[float]]] = {}
+        self._numbers: dict[str, Real] = {}  # by topic, (n, width)
+        self._messages: dict[str, list[bytes]] = {}
         self._requested: dict[str, None] = {}  # topics in their order
         self._due: list[str] = []  # topics that will be asked for
         self._samples: Samples | None = None  # once their states are computed
@@ -35,7 +39,7 @@ class Block:
 
     def continue_with(self, segment: Segment, stamps: Sequence[int]) -> "Block":
         """Return the next block; the topics that were requested from this one are due in it."""
-        block = Block(segment, stamps)
+        block = Block(segment, stamps, self._encode)
         block._due = list(self._requested)
         return block
 
@@ -60,18 +64,26 @@ class Block:
         """Return True if the block has the sample of a segment at a stamp."""
         return segment is self.segment and stamp in self._row
 
-    def numbers(self, topic: str, stamp: int) -> list[float]:
-        """Return the doubles of a topic (named as in `SAMPLE_TOPICS`) at a stamp."""
+    def message(self, topic: str, stamp: int) -> bytes:
+        """Return the message of a topic (named as in `SAMPLE_TOPICS`) at a stamp."""
         self._requested[topic] = None
+        if topic not in self._messages:
+            self._compute(topic)
+        return self._messages[topic][self._row[stamp]]
+
+    def numbers(self, topic: str, stamp: int) -> list[float]:
+        """Return the doubles of a topic at a stamp."""
         if topic not in self._numbers:
             self._compute(topic)
-        return self._numbers[topic][self._row[stamp]]
+        found: list[float] = self._numbers[topic][self._row[stamp]].tolist()
+        return found
 
     def _compute(self, topic: str) -> None:
         computed = SAMPLE_TOPICS[topic].compute(self._samples or self._compute_states())
         # A paused motion has one state for all stamps, and so has a block of one stamp.
-        shape = len(self._stamps), computed.shape[-1]
-        self._numbers[topic] = np.broadcast_to(computed, shape).tolist()
+        numbers = np.broadcast_to(computed, (len(self._stamps), computed.shape[-1]))
+        self._numbers[topic] = numbers
+        self._messages[topic] = self._encode(topic, self._stamps, numbers)
 
     def _compute_states(self) -> Samples:
         # One state as such takes a fifth of the time of an array of one; its bits are the same.
@@ -90,19 +102,16 @@ class Ticker:
     def __init__(self, rate: float, now: int) -> None:
         self.late = 0  # ticks that were published more than a period after their stamp
         self.missed = 0  # ticks that were dropped
-        self.rate = rate  # ticks per second
-        self._start, self._next = now, 0  # ns, and number of the next tick
-        self._ticks, self._nanoseconds = _ratio(rate)
+        self.restart(rate, now)
 
     def restart(self, rate: float, start: int) -> None:
         """Begin a new grid with its first tick at `start` (ns)."""
-        self.rate, self._start, self._next = rate, start, 0
+        self.rate, self._start = rate, start  # ticks per second, and ns
         self._ticks, self._nanoseconds = _ratio(rate)
+        self._go_to(0)
 
-    @property
-    def next_stamp(self) -> int:
-        """Stamp in ns of the next tick."""
-        return self._stamp(self._next)
+    def _go_to(self, number: int) -> None:
+        self._next, self.next_stamp = number, self._stamp(number)  # of the next tick, and in ns
 
     def due(self, now: int, catch_up: float, until: int, count_late: bool = True) -> list[int]:
         """Return the stamps that are due, in order, and count late and dropped ones."""
@@ -110,12 +119,12 @@ class Ticker:
         oldest = last - int(catch_up * self.rate)
         if oldest > self._next:
             self.missed += oldest - self._next
-            self._next = oldest
+            self._go_to(oldest)
+        stamps, latest = [], min(now, until)
         # A stamp is rounded, so the one of tick `last` may be half a nanosecond after `now`.
-        stamps = [
-            self._stamp(k) for k in range(self._next, last + 1) if self._stamp(k) <= min(now, until)
-        ]
-        self._next += len(stamps)
+        while self._next <= last and self.next_stamp <= latest:
+            stamps.append(self.next_stamp)
+            self._go_to(self._next + 1)
         if count_late:
             self.late += sum((now - stamp) * self._ticks > self._nanoseconds for stamp in stamps)
         return stamps

@@ -5,8 +5,8 @@ next to the fields from which it is made; nothing reads the sentence.
 """
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import astuple, dataclass
 from fractions import Fraction
 from typing import Any, TypeVar
 
@@ -42,6 +42,23 @@ MIN_FACTOR, MAX_FACTOR = 1e-300, 1e6
 WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 
 Number = TypeVar("Number", int, float, Fraction)
+
+# What an event says of the motion and of the segment that follow. It is the only list of them: of
+# it events are made and compared, and by it a run of the page is told from another.
+MOTION: dict[str, Callable[[Motion], Any]] = {
+    "top": lambda motion: astuple(motion.top),
+    "friction": lambda motion: astuple(motion.friction),
+    "applied_torque": lambda motion: motion.applied_torque,
+    "motion.orientation": lambda motion: motion.start.given_orientation.tolist(),
+    "motion.angular_velocity": lambda motion: motion.start.angular_velocity.tolist(),
+}
+SEGMENT: dict[str, Callable[[Segment], Any]] = {
+    "motion.stamp": lambda segment: segment.stamp,
+    "motion.elapsed": lambda segment: segment.begin_time,
+    "motion.elapsed_ns": lambda segment: segment.elapsed,
+    "motion.real_time_factor": lambda segment: segment.factor,
+    "motion.running": lambda segment: segment.running,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,20 +97,12 @@ class Event:
             "top_frame": top_frame,
             **{f"request.{key}": write_text(value) for key, value in request.items()},
             **(write_fields("outcome", outcome) if outcome else {}),
-            "top": write_text(motion.top.moments),
-            "friction": write_text((motion.friction.axial, motion.friction.transverse)),
-            "applied_torque": write_text(motion.applied_torque),
+            **{name: write_text(read(motion)) for name, read in MOTION.items()},
+            **{name: write_text(read(following)) for name, read in SEGMENT.items()},
             "before.orientation": write_text(before.orientation.tolist()),
             "before.angular_velocity": write_text(before.angular_velocity.tolist()),
             "after.orientation": write_text(after.orientation.tolist()),
             "after.angular_velocity": write_text(after.angular_velocity.tolist()),
-            "motion.orientation": write_text(motion.start.given_orientation.tolist()),
-            "motion.angular_velocity": write_text(motion.start.angular_velocity.tolist()),
-            "motion.stamp": write_text(following.stamp),
-            "motion.elapsed": write_text(following.time_at(following.stamp)),
-            "motion.elapsed_ns": str(following.elapsed),
-            "motion.real_time_factor": write_text(following.factor),
-            "motion.running": write_text(following.running),
             **following.rig.to_values(),
             "kind": motion.kind,
             "engine": motion.engine,

@@ -6,7 +6,7 @@ top is watched leave no trace in it.
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, replace
 from fractions import Fraction
 from math import inf
 from pathlib import Path
@@ -14,7 +14,7 @@ from typing import Any
 
 from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
 from symtop_ros.simulation.changes.kick import FIELDS, read_kick
-from symtop_ros.simulation.events import RESTARTS, Event
+from symtop_ros.simulation.events import MOTION, RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.validation import (
     RefusedError,
@@ -34,7 +34,6 @@ FORMAT: int = TABLE["format"]
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
 ACTS = ("start", "kick")
 MAX_BYTES = 100_000_000
-MOTION = ("top", "friction", "applied_torque", "motion.orientation", "motion.angular_velocity")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +56,7 @@ class RunEvent:
             "top": motion.top.moments,
             "orientation": start.given_orientation.tolist(),
             "angular_velocity": start.angular_velocity.tolist(),
-            "friction": (motion.friction.axial, motion.friction.transverse),
+            "friction": astuple(motion.friction),
             "torque": motion.applied_torque,
             **({"act": self.act, "hold": hold} if self.act else {}),
         }
@@ -106,10 +105,11 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
     """Return the run of the events of a log, and the time in ns that it has at a stamp (ns)."""
     recorder, found = RunRecorder(), list[RunEvent]()
     for event in filter(None, map(recorder.add, events)):
+        kind = event.kind
         # A change of several parameters at once is a sequence of events; the last one holds.
         if len(found) > 1 and found[-1].time == event.time and found[-1].kind not in ACTS:
-            found.pop()
-        found.append(event)
+            kind = kind if found.pop().kind == kind or kind in ACTS else "change"
+        found.append(replace(event, kind=kind))
     return found, max(recorder.time_at(stamp), *(event.time for event in found[-1:]), 0)
 
 

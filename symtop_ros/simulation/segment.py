@@ -76,23 +76,19 @@ class Segment:
         """Return the state at a stamp (ns) or an array of them; one state if paused."""
         return self.motion.at(self.times_at(stamp))
 
-    def restart(self, start: State, stamp: int) -> "Segment":
-        """Continue from another state."""
-        return self.change(stamp, start=start)
-
     def change(
         self,
         stamp: int,
+        start: State,
         top: Top | None = None,
         friction: Friction | None = None,
         torque: Sequence[float] | None = None,
-        start: State | None = None,
     ) -> "Segment":
-        """Continue with another top, friction, applied torque or state at a stamp."""
+        """Continue from a state at a stamp, with another top, friction or applied torque."""
         motion = self.motion
         following = Motion(
             motion.top if top is None else top,
-            self.state_at(stamp) if start is None else start,
+            start,
             motion.friction if friction is None else friction,
             motion.applied_torque if torque is None else torque,
         )

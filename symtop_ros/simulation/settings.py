@@ -3,12 +3,12 @@
 import json
 import math
 from collections.abc import Callable, Mapping, Sized
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any
 
 from symtop_ros.arrays import Vector
-from symtop_ros.physics import STANDARD_GRAVITY, Friction, Top
+from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
 from symtop_ros.simulation.presets import load_scene
 from symtop_ros.simulation.sensor import ALONG, CENTRE, MAX_NOISE, Imu, Rig
 from symtop_ros.simulation.validation import (
@@ -271,8 +271,8 @@ class Settings:
                 stamps,
             )
         try:
-            top = Top(**_group(clean, "top."))
-        except ValueError as error:
+            top, friction = read_body(clean)
+        except ValueError as error:  # of the moments together; a friction has its limits above
             raise RefusedError(f"top.{error}") from None
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
@@ -280,7 +280,7 @@ class Settings:
         return cls(
             values=clean,
             top=top,
-            friction=Friction(**_group(clean, "friction.")),
+            friction=friction,
             initial=InitialConditions(**_group(clean, "initial.")),
             record=RecordSettings(**_group(clean, "record.")),
             imu=_build_imu(clean),
@@ -302,6 +302,17 @@ class Settings:
         """Return the settings of a scene, with changes (`__` for the dots in their names)."""
         named = {key.replace("__", "."): value for key, value in changes.items()}
         return cls.from_values({**load_scene(name), **named})
+
+
+def list_body(motion: Motion) -> dict[str, float]:
+    """Return the parameters that say what moves: all numbers of its top and its friction."""
+    numbers = {"top": asdict(motion.top), "friction": asdict(motion.friction)}
+    return {f"{kind}.{name}": each[name] for kind, each in numbers.items() for name in each}
+
+
+def read_body(values: Mapping[str, Any]) -> tuple[Top, Friction]:
+    """Return the top and the friction that parameters describe."""
+    return Top(**_group(values, "top.")), Friction(**_group(values, "friction."))
 
 
 def _build_imu(clean: Mapping[str, Any]) -> Imu | None:

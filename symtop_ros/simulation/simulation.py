@@ -6,23 +6,21 @@ takes effect, and what is published.
 """
 
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, replace
-from typing import Protocol
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TypeVar
 
 from symtop_ros.physics import State
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
+from symtop_ros.simulation.changes.follow import Act, Request
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome
-from symtop_ros.simulation.changes.timeline import Change, Request, Timeline
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.changes.timeline import Change, Timeline
+from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.times import JUMP, Clock, RunTime, Time
-from symtop_ros.simulation.validation import RefusedError, one_line
+from symtop_ros.simulation.validation import attempt, one_line
 from symtop_ros.wire.layout import NANOSECONDS
-from symtop_ros.wording import write
 
 AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
 # Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
@@ -30,46 +28,9 @@ AHEAD = 0.05  # s of samples that are computed together; a kick makes them usele
 MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
 GAP_PERIOD = 60 * NANOSECONDS  # between two warnings of missed samples
-
-
-class Host(Protocol):
-    """The program around a run: the node, or the page."""
-
-    @property
-    def is_open(self) -> bool:
-        """False when the program is shutting down and nothing can be sent."""
-
-    def inform(self, text: str) -> None:
-        """Inform the user."""
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-
-    def report_error(self, text: str) -> None:
-        """Report an error to the user."""
-
-
-class Sink(Protocol):
-    """Destination of samples and events."""
-
-    def send_sample(self, stamp: int, block: Block) -> None:
-        """Send the sample of a stamp (ns) on all topics that somebody needs."""
-
-    def send_event(self, event: Event) -> None:
-        """Send an event."""
-
-    def send_description(self, stamp: int, settings: Settings) -> None:
-        """Send the description of the top and its fixed frames."""
-
-    def put_events_first(self) -> AbstractContextManager[None]:
-        """In the log, put the events sent in this context before its samples."""
-
-
-@dataclass
-class Turn:
-    """Result of a turn; `failure` describes an unexpected exception, else it is empty."""
-
-    failure: str = ""
+JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
+WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
+T = TypeVar("T")
 
 
 class Simulation:
@@ -79,10 +40,7 @@ class Simulation:
     """
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
-        self._sink, self.host = sink, host
-        self._time = Time(clock)
-        if settings.publish_clock:
-            self._time = RunTime(clock, settings.real_time_factor)
+        self._sink, self.host, self._clock = sink, host, clock
         self._lock = threading.RLock()
         self._failures: dict[str, Failure] = {}  # by the name of the turn
         self._events = 0  # events so far
@@ -94,13 +52,13 @@ class Simulation:
         # stamp of the last warning (ns), and samples that were missed since then
         self._gap_reported: int | None = None
         self._unreported = 0
-        self._block = Block(self.segment, [])
+        self._block = Block(self.segment, [], sink.encode)
         sink.send_description(self.stamp, settings)
 
     @property
     def now(self) -> int:
         """Current time of the clock in ns."""
-        return self._time.clock.now
+        return self._clock.now
 
     @property
     def stamp(self) -> int:
@@ -120,7 +78,7 @@ class Simulation:
     @property
     def factor(self) -> float:
         """The real-time factor that is kept when the motion runs."""
-        return self._time.factor(self.segment)
+        return self.segment.factor
 
     @property
     def state(self) -> State:
@@ -129,50 +87,45 @@ class Simulation:
 
     # Turns. Ticks, requests and timers run in different threads; each takes a turn.
 
-    @contextmanager
-    def turn(self, name: str) -> Iterator[Turn]:
-        """Take the lock, bring the run up to date and survive an unexpected exception.
+    def take_turn(self, name: str, act: Callable[[], T]) -> T | Failure:
+        """Take the lock, bring the run up to date, and return what an action returns.
 
-        An exception is reported as an error and as an event, once until the action `name` succeeds
-        again, and the motion keeps running. `RefusedError` is expected: handle it inside.
+        An unexpected exception becomes a failure, which is reported as an error and as an event,
+        once until the action `name` succeeds again; the motion keeps running. A request that may
+        be refused is an action of `attempt`.
         """
-        turn = Turn()
         with self._lock:
             self.settle()
             stamp, before = self.stamp, self.timeline
             try:
-                yield turn
-                self._failures.pop(name, None)
+                result = act()
             except Exception as error:
                 if not self.host.is_open:
                     raise
                 failure = Failure(name, type(error).__name__, one_line(error))
-                turn.failure = write("failure", failure)
                 self._report_failure(failure, stamp, before)
+                return failure
+            self._failures.pop(name, None)
+            return result
 
     def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
         name = failure.action
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
-            self.host.report_error(write("failure", failure))
-            change = self.timeline.report("failure", failure, {}, stamp)
-            self.apply(replace(change, before=before.segment.state_at(stamp)))
+            self.host.report_error(str(failure))
+            act = Act("failure", stamp, {}, told=failure)
+            self.apply(self.timeline.fail(act, before.segment))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
         """Carry out a request in a turn; return success and the answer.
 
         `act` returns the answer or raises RefusedError.
         """
-        granted, text = False, ""
         with self._lock:
-            with self.turn(f"~/{name}") as turn:
-                try:
-                    granted, text = True, act()
-                except RefusedError as refusal:
-                    granted, text = False, str(refusal)
+            found = self.take_turn(f"~/{name}", partial(attempt, act))
             # The first sample of the new motion need not wait for the pacing thread.
             self.tick()
-        return (False, turn.failure) if turn.failure else (granted, text)
+        return (False, str(found)) if isinstance(found, Failure) else found
 
     def tick(self) -> float | None:
         """Publish all samples that are due; return the seconds until the next call.
@@ -187,38 +140,47 @@ class Simulation:
                 return AT_ONCE
             if not self.segment.motion.is_driven:  # else a block takes some steps of integration
                 self._block.work_ahead(self._list_later_stamps)
-            return self._time.seconds_until(self.stamp)
+            return self._wait_for(self.stamp)
+
+    def _wait_for(self, stamp: int) -> float | None:
+        """Return the seconds of real time until a stamp; None if a change must wake the run."""
+        wait = (stamp - self.now) / NANOSECONDS
+        return None if self._clock.is_simulated and wait > 0 else wait
 
     # Samples
 
     def publish(self) -> bool:
         """Publish what is due; return False if the motion is not integrated up to there."""
-        self._time.hold(self.stamp)
         ready = self._work_on_block()
         if ready:
-            missed, is_real = self.ticker.missed, not self._time.clock.is_simulated
-            catch_up = self._time.catch_up
-            for stamp in self.ticker.due(self.now, catch_up, self._block.last, is_real):
+            missed, is_real = self.ticker.missed, not self._clock.is_simulated
+            for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, is_real):
                 self._sink.send_sample(stamp, self._block)
                 self.last = stamp
             if self.ticker.missed > missed:
                 self._report_gap(self.ticker.missed - missed)
         return ready
 
+    @property
+    def _catch_up(self) -> float:
+        """Seconds of samples that are sent late; older ones are dropped."""
+        return JUMP if self._clock.is_simulated else CATCH_UP
+
     def _work_on_block(self) -> bool:
         """Work towards the samples of the next stamps; return True when they are ready."""
+        segment, stamp = self.timeline.segment, self.ticker.next_stamp
         for block in (self._block, self._block.next):
-            if block and block.covers(self.segment, self.stamp):
+            if block and block.covers(segment, stamp):
                 self._block = block.compute()
                 return True
-        stamps = self._list_stamps(self.stamp)
+        stamps = self._list_stamps(stamp)
         if not stamps:  # the torque ends with the next turn
             return False
-        ready = self._time.prepare(self, stamps[-1])
+        ready = self._prepare(stamps[-1])
         if ready:
             self._block = self._block.continue_with(self.segment, stamps).compute()
         else:
-            self._time.check_pace(self, stamps[0])
+            self._check_pace(stamps[0])
         return ready
 
     def _list_later_stamps(self) -> list[int]:
@@ -259,7 +221,30 @@ class Simulation:
     def settle(self) -> None:
         """Bring the run up to date: the state at the next stamp is ready afterwards."""
         self._release_torque()
-        self._time.integrate_to(self, self.stamp)
+        self._integrate_to(self.stamp)
+
+    def _prepare(self, stamp: int) -> bool:
+        """Work towards a stamp; return True if its state is ready."""
+        ready = self.budget.prepare(self.segment, stamp)
+        if self.budget.end is not None:
+            self._stop_at(self.budget.end)
+        return ready
+
+    def _stop_at(self, reached: float) -> None:
+        """Pause a motion that cannot continue at the time (s) that it has reached."""
+        verdict = self.do("pause", {"reached": reached})
+        self.host.warn(f"the motion has no state any further ({WHY_IT_ENDS}): {verdict}")
+
+    def _integrate_to(self, stamp: int) -> bool:
+        """Work until the state at a stamp is ready; False if a nearer stamp became the next."""
+        while not self._prepare(stamp):
+            self._check_pace(stamp)
+        return True
+
+    def _check_pace(self, stamp: int) -> None:
+        """Slow the motion down if it cannot be followed."""
+        if shortfall := self.budget.shortfall:
+            self.host.warn(self.apply(self.timeline.slow_down(stamp, shortfall)))
 
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""
@@ -268,48 +253,43 @@ class Simulation:
         if current < factor and work < SHARE / 2:
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
-            self.apply(self.timeline.set_pace(self.stamp, current, factor))
-            self._time.set_factor(factor)
+            self._set_pace(factor)
+
+    def _set_pace(self, factor: float) -> str:
+        """Continue at another real-time factor; return the verdict."""
+        return self.apply(self.timeline.set_pace(self.stamp, self.factor, factor))
 
     # Changes
 
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
-        event = self._number_event(change)
+        event = change.event(self._events + 1)
         self.timeline = change.following
+        self._events += 1
         self._sink.send_event(event)
         return event.verdict
 
-    def _number_event(self, change: Change) -> Event:
-        """Return the event of a change with the next number; the change may fail."""
-        event = change.event(self._events + 1)
-        self._events += 1
-        return event
-
     def apply_at_once(self, change: Change) -> str:
-        """Like `apply`, but publish the first sample before the verdict is computed.
+        """Like `apply`, but publish the first sample before the event is written.
 
         In the log the event still precedes its samples.
         """
         self.timeline = change.following
         with self._sink.put_events_first():
             self.publish()
-            event = self._number_event(change)
-            self.publish()
-            self._sink.send_event(event)
-        return event.verdict
+            return self.apply(change)
+
+    def do(self, name: str, request: Request, told: Outcome | None = None) -> str:
+        """Carry out an act at the next stamp; return the verdict."""
+        return self.apply(self.timeline.follow(Act(name, self.stamp, request, told=told)))
 
     def pause(self, paused: bool) -> str:
-        """Stop the motion, or continue it."""
-        return self._time.pause(self, paused)
+        """Stop the motion, or continue it; return the verdict."""
+        return self.do("pause" if paused else "resume", {})
 
     def step(self, duration: float) -> str:
-        """Advance a paused motion by a duration in s."""
-        return self._time.step(self, duration)
-
-    def report(self, name: str, outcome: Outcome, request: Request | None = None) -> str:
-        """Announce an event that changes nothing of the motion; return the verdict."""
-        return self.apply(self.timeline.report(name, outcome, request or {}, self.stamp))
+        """Advance a paused motion by a duration in s; return the verdict."""
+        return self.do("step", {"duration": duration})
 
     def begin_jump(self) -> None:
         """Publish nothing from before the clock is set until `end_jump`, in the same thread.
@@ -327,14 +307,12 @@ class Simulation:
     def _follow_jump(self) -> None:
         """Continue the motion from its current state at the time the clock jumped to."""
         now, self._jumped_to = self._jumped_to, None
-        if not self._time.can_jump:
-            return
         # The system clock can be set back without any notification.
         if self.now < self.stamp - (JUMP + 1 / self.ticker.rate) * NANOSECONDS:
             now = self.now
         if now is not None:
             stamp = self.stamp
-            self._time.integrate_to(self, stamp)
+            self._integrate_to(stamp)
             self.restart_grid(now)
             self.apply(self.timeline.move(stamp, now))
 
@@ -345,7 +323,7 @@ class Simulation:
     def _release_torque(self) -> None:
         end = self.timeline.torque_end
         held = any(self.timeline.held_torque) and self.stamp >= end
-        if held and self._time.integrate_to(self, end):
+        if held and self._integrate_to(end):
             self._apply_torque(self.timeline.release_torque(end))
 
     def _apply_torque(self, change: Change) -> None:
@@ -363,10 +341,10 @@ class Simulation:
             self._sink.send_description(stamp, settings)
         if settings.publish_rate != old.publish_rate:
             self.restart_grid(stamp)
-        if settings.real_time_factor != old.real_time_factor:
-            self._time.set_factor(settings.real_time_factor)
 
     def restart_grid(self, stamp: int) -> None:
         """Continue with a grid of stamps that begins at a stamp."""
         self.ticker.restart(self.settings.publish_rate, stamp)
-        self._block = Block(self.segment, [])  # its stamps belong to the old grid
+        self._block = Block(
+            self.segment, [], self._sink.encode
+        )  # its stamps belong to the old grid

@@ -245,10 +245,13 @@ EVENTS = Topic("~/events", DIAGNOSTIC_ARRAY, latched=True)
 DESCRIPTION = Topic("robot_description", "std_msgs/msg/String", depth=1, latched=True)
 DIAGNOSTICS = Topic("/diagnostics", DIAGNOSTIC_ARRAY, depth=10)
 CLOCK = Topic("/clock", "rosgraph_msgs/msg/Clock")
+MARKERS = Topic("~/markers", "visualization_msgs/msg/MarkerArray", depth=10)
 # Only received; logged with the bytes that came.
 APPLIED_TORQUE = Topic("~/applied_torque", messages.WRENCH.type)
 # Events come first, so that they precede the samples of the same stamp in every log.
 TOPICS: dict[str, Topic] = {
     topic.name: topic
-    for topic in (EVENTS, DESCRIPTION, TF_STATIC, *SAMPLE_TOPICS.values(), DIAGNOSTICS, CLOCK)
+    for topic in (
+        *(EVENTS, DESCRIPTION, TF_STATIC, *SAMPLE_TOPICS.values(), DIAGNOSTICS, CLOCK, MARKERS),
+    )
 }

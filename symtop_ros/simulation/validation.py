@@ -6,7 +6,7 @@ Every refusal reads "NAME must be CONDITION, got VALUE", in one printable line.
 import math
 import re
 from array import array
-from collections.abc import Collection, Mapping, Sequence, Sized
+from collections.abc import Callable, Collection, Mapping, Sequence, Sized
 from typing import Any
 
 MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
@@ -19,6 +19,14 @@ MAX_SENTENCE = 400  # characters of a text from another program or a file
 
 class RefusedError(ValueError):
     """A request that is refused; its text is the answer."""
+
+
+def attempt(act: Callable[[], str | None]) -> tuple[bool, str]:
+    """Return success and the answer of a request, or False and the reason why it is refused."""
+    try:
+        return True, act() or ""
+    except RefusedError as refusal:
+        return False, str(refusal)
 
 
 def reject(name: str, condition: str, got: object) -> RefusedError:

@@ -291,7 +291,9 @@ std::vector<Row> pick(const Strings& lines, const Split& split, const std::vecto
     if (strip(lines[i]).empty()) continue;
     const Strings cells = split(lines[i]);
     const auto read = [&](std::size_t place) {
-      const auto value = place < cells.size() ? read_number(cells[place]) : std::nullopt;
+      if (place >= cells.size())
+        throw Refused(print("line %zu must have all columns, got ", i + 1) + show(lines[i]));
+      const auto value = read_number(cells[place]);
       if (!value)
         throw Refused(print("line %zu must consist of numbers, got ", i + 1) + show(lines[i]));
       return *value;

@@ -190,13 +190,17 @@ function pick(rows, split, places, states) {
     if (!row.trim()) return;
     try {
       const cells = split(row);
-      const t = readNumber(cells[places[0]]);
+      const read = (place) => {
+        if (place < cells.length) return readNumber(cells[place]);
+        throw new Refused(`line ${number + 2} must have all columns, got ${show(row)}`);
+      };
+      const t = read(places[0]);
       if (!Number.isFinite(t)) return;
       states.forEach((state, k) => {
         const apart = Math.abs(state.t - t);
         if (nearest[k] === null || apart < Math.abs(state.t - nearest[k])) nearest[k] = t;
         if (apart <= SAME_TIME * state.t) {
-          found[k] = places.slice(1).map((each) => readNumber(cells[each]));
+          found[k] = places.slice(1).map(read);
         }
       });
     } catch (error) {

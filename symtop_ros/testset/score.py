@@ -262,7 +262,9 @@ def _pick(
             for place in range(max(after - 1, 0), min(after + 1, len(marks))):
                 if abs(marks[place] - t) <= SAME_TIME * marks[place]:
                     found[place] = [_read(cells[each]) for each in places[1:]]
-        except (IndexError, ValueError):
+        except IndexError:
+            raise ValueError(f"line {number} must have all columns, got {_show(row)}") from None
+        except ValueError:
             raise ValueError(f"line {number} must consist of numbers, got {_show(row)}") from None
     _find_absent(times, np.array(tried))
     return found

@@ -24,7 +24,7 @@ LIMITS = tuple(
 TABLES = ("problems.csv", "states.csv", "forces.csv", "world.csv")
 Facts = Mapping[str, Any]  # an entry of problems.json
 Row = tuple[Any, ...]
-Columns = tuple[Iterable[Any], ...]  # the times, and at each time groups of texts
+ColumnGroups = tuple[Iterable[Any], ...]  # the times, and at each time groups of texts
 
 
 def format_problems(problems: Iterable[Facts], gravity: float) -> str:
@@ -63,7 +63,7 @@ def _list_starts(problems: Sequence[Facts]) -> Iterable[Row]:
 
 
 def _list_rows(
-    problems: Sequence[Facts], names: Iterable[str], list_columns: Callable[[Facts], Columns]
+    problems: Sequence[Facts], names: Iterable[str], list_columns: Callable[[Facts], ColumnGroups]
 ) -> Iterable[Row]:
     """Yield the header, and for each time of each problem its name, the time and texts."""
     yield ("name", "t", *names)
@@ -72,17 +72,17 @@ def _list_rows(
             yield (each["name"], repr(t), *chain(*groups))
 
 
-def _list_states(facts: Facts) -> Columns:
+def _list_states(facts: Facts) -> ColumnGroups:
     limits = zip(*(map(repr, facts[name]) for name in LIMITS), strict=True)
     return facts["times"], facts["orientations"], facts["angular_velocities"], limits
 
 
-def _list_forces(facts: Facts) -> Columns:
+def _list_forces(facts: Facts) -> ColumnGroups:
     *vectors, energies = (facts[key] for key in FORCES)
     return (0.0, *facts["times"]), *vectors, ((energy,) for energy in energies)
 
 
-def _list_world(facts: Facts) -> Columns:
+def _list_world(facts: Facts) -> ColumnGroups:
     start = [show(x) for x in normalise(facts["orientation"])]
     attitudes = start, *facts["orientations"]
     return (0.0, *facts["times"]), attitudes, *(facts[key] for key in WORLD)

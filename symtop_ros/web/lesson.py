@@ -15,7 +15,7 @@ NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
 
 @dataclass(frozen=True, slots=True)
-class Act:
+class LessonAct:
     """A button of a step: a start, or a hurry of the motion that was started last."""
 
     button: str
@@ -40,7 +40,7 @@ class LessonStep:
 
     title: str
     predict: str
-    acts: tuple[Act, ...]
+    acts: tuple[LessonAct, ...]
     look: str
     charts: tuple[str, ...]
     seen: str
@@ -66,5 +66,6 @@ def read_lesson() -> tuple[LessonStep, ...]:
     """Return all steps."""
     steps = yaml.safe_load(FILE.read_text(encoding="utf-8"))
     return tuple(
-        LessonStep(**{**step, "acts": tuple(Act(**act) for act in step["acts"])}) for step in steps
+        LessonStep(**{**step, "acts": tuple(LessonAct(**act) for act in step["acts"])})
+        for step in steps
     )

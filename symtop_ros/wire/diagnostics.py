@@ -8,7 +8,7 @@ field that is None is left out.
 
 import types
 import typing
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, fields, is_dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
@@ -40,16 +40,13 @@ def encode_statuses(
     """Encode an array of statuses of one piece of hardware."""
     writer = Writer()
     writer.stamp(stamp)
-    writer.string(frame)
+    writer.strings([frame])
     writer.integer(len(statuses))
     for status in statuses:
         writer.integer(status.level, "B")
-        for text in (status.name, status.message, hardware_id):
-            writer.string(text)
+        writer.strings((status.name, status.message, hardware_id))
         writer.integer(len(status.values))
-        for pair in status.values.items():
-            for text in pair:
-                writer.string(text)
+        writer.strings([text for pair in status.values.items() for text in pair])
     return writer.data
 
 
@@ -73,24 +70,26 @@ def write_text(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return " ".join(each if isinstance(each, str) else repr(float(each)) for each in value)
+        return " ".join([each if isinstance(each, str) else repr(float(each)) for each in value])
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
 def write_fields(prefix: str, record: "DataclassInstance") -> dict[str, str]:
     """Return the fields of a record; their names begin with a prefix."""
-    return dict(_flatten(prefix, asdict(record)))
+    found: dict[str, str] = {}
+    _flatten(found, prefix, asdict(record))
+    return found
 
 
-def _flatten(name: str, value: Any) -> Iterator[tuple[str, str]]:
+def _flatten(found: dict[str, str], name: str, value: Any) -> None:
+    """Add the fields of a value under a name."""
+    if isinstance(value, tuple) and value and isinstance(value[0], Mapping):
+        value = {str(place): each for place, each in enumerate(value)}
     if isinstance(value, Mapping):
         for key, each in value.items():
-            yield from _flatten(f"{name}.{key}", each)
-    elif isinstance(value, tuple) and value and isinstance(value[0], Mapping):
-        for place, each in enumerate(value):
-            yield from _flatten(f"{name}.{place}", each)
+            _flatten(found, f"{name}.{key}", each)
     elif value is not None:
-        yield name, write_text(value)
+        found[name] = write_text(value)
 
 
 def read_fields(prefix: str, kind: type[T], values: Mapping[str, str]) -> T:

@@ -9,7 +9,7 @@ once as a two-dimensional array of bytes.
 """
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -84,6 +84,21 @@ class Layout:
             first += count
         return bytes(message)
 
+    def encode_many(self, stamps: NDArray[np.int64], numbers: NDArray[np.float64]) -> list[bytes]:
+        """Encode messages from their stamps (n,) in ns and their doubles (n, width), together."""
+        if len(stamps) == 1:  # NumPy takes twice the time for one
+            return [self.encode(int(stamps[0]), numbers[0].tolist())]
+        rows = np.tile(np.frombuffer(self._template, np.uint8), (len(stamps), 1))
+        seconds, nanoseconds = np.divmod(stamps[:, np.newaxis], NANOSECONDS)
+        parts = [(self._stamp, seconds.astype("<i4")), (self._stamp + 4, nanoseconds.astype("<u4"))]
+        ends = np.cumsum([count for _, count in self._blocks])
+        columns = np.split(np.asarray(numbers, "<f8"), ends[:-1], axis=1)
+        parts += zip((offset for offset, _ in self._blocks), columns, strict=True)
+        for offset, part in parts:
+            data = np.ascontiguousarray(part).view(np.uint8)
+            rows[:, offset : offset + data.shape[1]] = data
+        return [row.tobytes() for row in rows]
+
     def match(self, rows: Bytes) -> NDArray[np.bool_]:
         """Return which messages (n, size) have the constant bytes of this layout, (n,).
 
@@ -155,15 +170,20 @@ class Writer:
         self.integer(seconds, "i")
         self.integer(nanoseconds)
 
-    def number(self, value: float) -> None:
-        """Append a double."""
-        self._data += bytes(-(len(self._data) - len(HEADER)) % 8) + struct.pack("<d", value)
+    def numbers(self, values: Sequence[float], code: str = "d") -> None:
+        """Append numbers; `code` is their format character of the struct module."""
+        if values:
+            size = struct.calcsize(f"<{code}")
+            self._data += bytes(-(len(self._data) - len(HEADER)) % size)
+            self._data += struct.pack(f"<{len(values)}{code}", *values)
 
-    def string(self, text: str) -> None:
-        """Append a string with its length and its terminating zero."""
-        encoded = text.encode() + b"\0"
-        self.integer(len(encoded))
-        self._data += encoded
+    def strings(self, texts: Iterable[str]) -> None:
+        """Append strings, each with its length and its terminating zero."""
+        data = self._data
+        for text in texts:
+            encoded = text.encode() + b"\0"
+            data += bytes(-(len(data) - len(HEADER)) % 4) + len(encoded).to_bytes(4, "little")
+            data += encoded
 
 
 class Reader:
@@ -234,5 +254,5 @@ class Reader:
 def encode_string(text: str) -> bytes:
     """Encode a std_msgs/String."""
     writer = Writer()
-    writer.string(text)
+    writer.strings([text])
     return writer.data

@@ -141,10 +141,8 @@ def encode_transforms(stamp: int, transforms: Sequence[Transform]) -> bytes:
     writer.integer(len(transforms))
     for each in transforms:
         writer.stamp(stamp)
-        writer.string(each.parent)
-        writer.string(each.child)
-        for number in (*each.translation, *each.rotation):
-            writer.number(number)
+        writer.strings([each.parent, each.child])
+        writer.numbers((*each.translation, *each.rotation))
     return writer.data
 
 

@@ -19,7 +19,7 @@ def make_events():
     segment = Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
     events = [Event.of(0, "start", None, {}, CUSPS, segment)]
     for name, stamp, change in (
-        ("kick", KICK, lambda s: s.restart(hurry(s.state_at(KICK), 1.4), KICK)),
+        ("kick", KICK, lambda s: s.change(KICK, hurry(s.state_at(KICK), 1.4))),
         ("pause", 5 * SECOND, lambda s: s.pause(5 * SECOND)),
         ("resume", 6 * SECOND, lambda s: s.resume(6 * SECOND)),
         ("pace", 7 * SECOND, lambda s: s.set_factor(0.1, 7 * SECOND)),

@@ -7,6 +7,7 @@ from judge.made import FRD, MOUNT, NED, TILT, Made, heading
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.judge.causes.causes import find_causes
+from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.truth import scene_truth
 
@@ -95,8 +96,8 @@ def test_a_microsecond_shows_in_noise_of_a_milliradian_with_its_deviation(seed):
     found = find_causes(Made(delay=1e-6, noise=1e-3).make(truth, stamps, seed), truth).best
     assert found.kind == ("", "none", ("delay",))
     # 1e-3 rad over some 200 rad/s, in 2000 estimates; the chance of 5 deviations is 6e-7
-    assert found.deviation == pytest.approx(1e-3 / 200 / 2000**0.5, rel=0.05)
-    assert abs(found.offset.delay - 1e-6) < 5 * found.deviation
+    assert found.deviations[0] == pytest.approx(1e-3 / 200 / 2000**0.5, rel=0.05)
+    assert abs(found.offset.delay - 1e-6) < 5 * found.deviations[0]
 
 
 def test_a_delay_of_a_motion_with_friction_has_no_period():
@@ -126,3 +127,22 @@ def test_a_stated_model_is_aligned_without_a_search(model, error):
     assert found.found is None
     assert found.largest == pytest.approx(error, abs=1e-12)
     assert f"aligned by {model}, nothing else was looked for" in found.format()
+
+
+@pytest.mark.parametrize("model", ["none+delay", "heading+delay+clock"])
+def test_a_stated_delay_comes_back_within_its_deviation_in_noise(model):
+    truth, pulls = scene_truth("cusps"), []
+    for seed in range(20):
+        made = Made(delay=2e-6, noise=1e-3).make(truth, STAMPS, seed)
+        fitted = judge(made, truth, "x", (), model).fitted
+        pulls.append((fitted.offset.delay - 2e-6) / fitted.deviations[0])
+    # Of 20 normal numbers the mean square is 0.26 to 2.4 with a probability of 0.999 (chi squared).
+    assert 0.26 < np.mean(np.square(pulls)) < 2.4
+
+
+@pytest.mark.wording
+def test_an_estimate_at_the_very_start_does_not_disturb_a_delay():
+    truth, stamps = scene_truth("cusps"), STAMPS - SECOND
+    exact, *_ = truth.states_at(np.maximum(stamps - 5000, 0))  # late by 5 us, but for the first
+    text = judge(Estimates.of(stamps, exact), truth, "x", (), "none+delay").format()
+    assert "nothing else was looked for: a delay of 0.005 ms" in text

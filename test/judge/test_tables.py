@@ -24,6 +24,7 @@ def estimates():
         ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),
         ("t,w,x,y\n", "got the header t,w,x,y"),
         ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n0,1,0,0\n", "line 2 of .* must have all columns, got 0,1,0,0"),
         ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),
         ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
         (" ".join("1" * 12) + "\n", "must have times, got poses of KITTI"),

@@ -9,6 +9,7 @@ from node.running_top import events_named, torque_of
 from programs import environment, execute, set_parameters
 
 from symtop_ros.simulation.changes.outcomes import Failure
+from symtop_ros.simulation.changes.timeline import Change
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.wording import write
 from workshop.load.domains import claim_domain
@@ -65,7 +66,10 @@ def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
 
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
-    monkeypatch.setattr("symtop_ros.simulation.changes.timeline.kick_verdict", fail)
+    write = Change.event
+    monkeypatch.setattr(
+        Change, "event", lambda each, n: fail() if each.act.name == "kick" else write(each, n)
+    )
     before, report = run.top.simulation.segment, report_of("~/hurry_precession")
     for _ in range(2):
         assert run.trigger("hurry_precession") == (False, report)

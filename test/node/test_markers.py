@@ -6,7 +6,8 @@ from geometry_msgs.msg import Vector3Stamped
 from node.running_top import stamp_of
 
 from symtop_ros.models.urdf import LENGTH
-from symtop_ros.node import markers
+from symtop_ros.session import markers
+from symtop_ros.simulation.topics import MARKERS, Topic
 
 messages = pytest.importorskip("visualization_msgs.msg")
 
@@ -42,8 +43,10 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
     assert np.diff(stamps // markers.PERIOD).tolist() == [1] * (len(seen) - 1)
 
 
-def test_a_missing_package_is_one_warning(start_top, monkeypatch, capfd):
-    monkeypatch.setattr(markers, "MarkerArray", None)
+def test_a_missing_package_is_one_line_and_the_markers_are_logged(start_top, monkeypatch, capfd):
+    load = Topic.load_message_class
+    monkeypatch.setattr(Topic, "load_message_class", lambda t: None if t is MARKERS else load(t))
     run = start_top(publish_markers=True)
     run.spin_until(lambda: run.top.simulation.ticker._next > 10)
-    assert capfd.readouterr().err.count("visualization_msgs is not installed") == 1
+    line = "visualization_msgs is not installed: ~/markers is only logged"
+    assert capfd.readouterr().err.count(line) == 1

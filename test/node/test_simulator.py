@@ -208,10 +208,17 @@ def test_entities_are_filtered_by_name(client):
     assert client.entities(filter="[[:upper:]]").entities == []
     refused = client.entities(filter="(")
     assert (refused.result.result, refused.entities) == (FAILED, [])
-    condition = "a POSIX extended regular expression (a ( is not closed)"
+    condition = "a POSIX extended regular expression (missing ): ()"
     assert refused.result.error_message == f"filter must be {condition}, got '('"
     assert client.entities(tags={"tags": ["a"]}).result.result == UNSUPPORTED
     assert client.entities(bounds={"type": 3}).result.result == UNSUPPORTED
+
+
+def test_a_filter_that_no_backtracking_ends_is_answered(client):
+    answer = client.entities(filter=".?" * 900 + "z")
+    assert (answer.result.result, answer.entities) == (OK, [])
+    assert client.entities(filter=r"top\n|^\d").result.result == FAILED  # not of POSIX
+    assert client.entities(filter=".?" * 900 + "p").entities == ["top"]
 
 
 def test_messages_without_flags_set_pose_and_twist():

@@ -4,10 +4,12 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from rosbags.typesys import Stores, get_typestore
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.session.diagnostics import _log_status, _pace_status
+from symtop_ros.session.markers import ARROWS
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import Settings
@@ -37,7 +39,7 @@ class Program:
 
     def __init__(self, publishes=True):
         self.is_open, self._publishes = True, publishes
-        self.publishers, self.samples = {}, []
+        self.publishers = {}
         self.said, self.warnings, self.errors = [], [], []
 
     def resolve(self, topic):
@@ -47,9 +49,6 @@ class Program:
         if not self._publishes:
             return None
         return self.publishers.setdefault(topic.name, Publisher())
-
-    def watch_sample(self, stamp, block):
-        self.samples.append(stamp)
 
     def update_statuses(self):
         return []
@@ -81,11 +80,35 @@ def test_a_topic_is_published_while_it_has_a_subscriber_and_a_latched_one_always
     session, clock = start(host)
     host.publishers["torque"].has_subscriber = True
     advance(session, clock, 0.5)
-    assert len(host.publishers["torque"].sent) == len(host.samples) == 101
+    assert len(host.publishers["torque"].sent) == 101
     assert host.publishers["orientation"].sent == []
     assert (
         len(host.publishers["events"].sent) == len(host.publishers["robot_description"].sent) == 1
     )
+
+
+def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_path):
+    options = {"record__enabled": True, "record__directory": str(tmp_path)}
+    session, clock = start(Program(), publish_markers=True, publish_rate=100.0, **options)
+    path = session.recording.path
+    for _ in range(10):
+        advance(session, clock, 0.1)
+    session.close()
+    file = McapFile(path)
+    data = [
+        bytes(message.data)
+        for messages in file.chunks()
+        for message in messages
+        if file.channels[message.channel_id].topic == "/top/markers"
+    ]
+    assert len(data) == 31
+    types = get_typestore(Stores.ROS2_JAZZY)
+    last = types.deserialize_cdr(data[-1], "visualization_msgs/msg/MarkerArray")
+    assert types.serialize_cdr(last, "visualization_msgs/msg/MarkerArray") == data[-1]
+    trace, *arrows = last.markers
+    assert [each.ns for each in arrows] == list(ARROWS)
+    assert (len(trace.points), trace.type, trace.header.frame_id) == (31, trace.LINE_STRIP, "world")
+    assert {each.type for each in arrows} == {trace.ARROW}
 
 
 def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_rests():
@@ -95,8 +118,7 @@ def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_res
     host.publishers["clock"].has_subscriber = True
     advance(session, clock, 0.05)
     sent = host.publishers["clock"].sent
-    assert sent == [CLOCK.encode(stamp, ()) for stamp in host.samples]
-    assert len(sent) == 11
+    assert sent == [CLOCK.encode(k * SECOND // 200, ()) for k in range(11)]
     assert session.answer("pause", lambda: True)[0]
     count = len(sent)
     session.keep_up()

@@ -38,10 +38,15 @@ def test_the_log_passes_its_check(path):
     assert {each.largest for each in found.deviations.values()} == {0.0}
 
 
-def test_it_has_the_samples_and_the_diagnostics_of_a_node(path):
-    stamps = np.concatenate(
+def list_stamps(path):
+    """The stamps of the samples in a log."""
+    return np.concatenate(
         [batch.columns["orientation"].stamps for batch in read(path).batches() if batch.columns]
     )
+
+
+def test_it_has_the_samples_and_the_diagnostics_of_a_node(path):
+    stamps = list_stamps(path)
     assert stamps[0] == 0
     # on the grid of 200 Hz, which begins anew with each event
     assert np.isin(np.diff(stamps), (5_000_000, 4_567_891, 2_654_321)).all()
@@ -70,6 +75,25 @@ def test_a_run_may_start_again_with_another_top(tmp_path):
     assert check_run(read(path)).mismatches == []
     events, _ = record_run(read(path).events(), END)
     assert to_json(events) == to_json(run)
+
+
+def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no_change(tmp_path):
+    (begin, kick, _), torque = make_run(), (0.0, 0.0, 1e-4)
+    state = kick.motion.at(ExactTimes(1_000_000_000))
+    free, pushed = Motion(START.top, state), Motion(START.top, state, torque=torque)
+    run = [
+        *(begin, replace(begin, kind="start"), kick),
+        RunEvent("torque", kick.time + 1_000_000_000, pushed, {}),
+        RunEvent("torque", kick.time + 1_000_000_000, free, {}),
+    ]
+    path = tmp_path / "run.mcap"
+    write_run_log(run, END, path)
+    assert (np.diff(list_stamps(path)) > 0).all()
+    found = check_run(read(path))
+    assert found.samples_agree
+    assert (found.mismatches, found.missing) == ([], [])
+    events, _ = record_run(read(path).events(), END)
+    assert [event.kind for event in events] == ["start", "start", "kick", "torque"]
 
 
 SLOWER = Motion(START.top, START.at(ExactTimes(1_000_000_000)))  # as if nothing had been done

@@ -27,7 +27,7 @@ def make_run():
     return [
         RunEvent("start", 0, START, {}),
         RunEvent("kick", 1234567891, kicked, KICK),
-        RunEvent("torque", 2222222212, driven, {}),
+        RunEvent("change", 2222222212, driven, {}),
     ]
 
 

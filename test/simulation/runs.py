@@ -6,12 +6,13 @@ import contextlib
 from collections.abc import Iterator
 from typing import Any
 
+from symtop_ros.arrays import Real, Stamps
 from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.simulation import Simulation
 
 SECOND = 1_000_000_000
 
@@ -34,6 +35,9 @@ class ListSink:
         self.descriptions: list[Settings] = []
         self.warnings: list[str] = []
         self.errors: list[str] = []
+
+    def encode(self, topic: str, stamps: Stamps, numbers: Real) -> list[bytes]:
+        return [b""] * len(stamps)
 
     def send_sample(self, stamp: int, block: Block) -> None:
         self.samples.append((stamp, block.numbers("orientation", stamp)))
@@ -68,8 +72,8 @@ class Run:
     def __init__(self, scene: str = "cusps", **changes: Any) -> None:
         self.clock, self.sink = HandClock(), ListSink()
         settings = Settings.from_scene(scene, **changes)
-        self.simulation = Simulation(settings, self.clock, self.sink, self.sink)
-        self.simulation.report("start", self.simulation.timeline.verdict)
+        self.simulation = simulate(settings, self.clock, self.sink, self.sink)
+        self.simulation.apply(self.simulation.timeline.announce(self.simulation.stamp, "test"))
         self.requests = Requests(self.simulation, lambda on: "not recording")
 
     def advance(self, seconds: float, step: float = 0.005) -> None:
@@ -92,13 +96,11 @@ class Run:
     def change(self, changes: dict[str, Any]) -> None:
         """Set some parameters."""
         settings = Settings.from_values({**self.simulation.settings.values, **changes})
-        with self.simulation.turn("parameters"):
-            self.simulation.apply_settings(settings)
+        self.simulation.take_turn("parameters", lambda: self.simulation.apply_settings(settings))
 
     def push(self, torque: tuple[float, float, float]) -> None:
         """Hold a torque (N m), as the node does it."""
-        with self.simulation.turn("torque"):
-            self.simulation.hold_torque(torque)
+        self.simulation.take_turn("torque", lambda: self.simulation.hold_torque(torque))
 
     @property
     def stamps(self) -> list[int]:

@@ -4,7 +4,6 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 
-import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
 
@@ -25,25 +24,33 @@ SEGMENTS = {
 }
 
 
+LAYOUTS = {name: topic.layout("world", "top") for name, topic in SAMPLE_TOPICS.items()}
+
+
+def make(segment, stamps):
+    return Block(segment, stamps, lambda name, *given: LAYOUTS[name].encode_many(*given))
+
+
 @pytest.mark.parametrize("segment", SEGMENTS.values(), ids=SEGMENTS)
 @pytest.mark.parametrize(
     ("name", "count"), [*product(STATE_TOPICS, (16, 5000)), *product(SENSOR_TOPICS, (40,))]
 )
 def test_samples_are_those_of_each_stamp_alone_bit_for_bit(segment, name, count):
     stamps = [BEGIN + 1_000_003 * k for k in range(count)]
-    block = Block(segment, stamps)
+    block = make(segment, stamps)
     for stamp in stamps[:: 1 + count // 1000]:
         expected = SAMPLE_TOPICS[name].compute(Samples.at(segment, stamp)).tolist()
         assert block.numbers(name, stamp) == expected
+        assert block.message(name, stamp) == LAYOUTS[name].encode(stamp, expected)
 
 
 def test_it_covers_its_segment_and_stamps_only():
     segment, other = SEGMENTS["closed form"], SEGMENTS["taylor"]
-    block = Block(segment, STAMPS)
+    block = make(segment, STAMPS)
     assert block.covers(segment, STAMPS[0])
     assert not block.covers(segment, STAMPS[0] + 1)
     assert not block.covers(other, STAMPS[0])
-    assert not Block(segment, []).covers(segment, STAMPS[0])
+    assert not make(segment, []).covers(segment, STAMPS[0])
 
 
 @pytest.fixture
@@ -58,13 +65,13 @@ def computed(monkeypatch):
 
 
 def test_a_topic_that_is_not_requested_is_not_computed(computed):
-    block = Block(SEGMENTS["closed form"], STAMPS)
+    block = make(SEGMENTS["closed form"], STAMPS)
     for stamp in STAMPS:
-        assert np.isfinite(block.numbers("torque", stamp)).all()
+        assert block.message("torque", stamp)
     assert computed == ["torque"]
     after = block.continue_with(SEGMENTS["taylor"], STAMPS).compute()
     assert computed == ["torque", "torque"]
-    after.numbers("torque", STAMPS[0])
+    after.message("torque", STAMPS[0])
     assert computed == ["torque", "torque"]
     after.continue_with(SEGMENTS["taylor"], STAMPS).compute()
     assert len(computed) == 3
@@ -72,16 +79,16 @@ def test_a_topic_that_is_not_requested_is_not_computed(computed):
 
 def test_the_next_block_is_computed_a_topic_at_a_time(computed):
     segment, later = SEGMENTS["closed form"], [stamp + 10**8 for stamp in STAMPS]
-    block = Block(segment, STAMPS)
+    block = make(segment, STAMPS)
     for name in STATE_TOPICS:
-        block.numbers(name, STAMPS[0])
+        block.message(name, STAMPS[0])
     del computed[:]
     for count in range(-2, len(STATE_TOPICS) + 1):
         assert len(computed) == max(0, count)
         block.work_ahead(lambda: later)
     assert sorted(computed) == sorted(STATE_TOPICS)
     for name in STATE_TOPICS:
-        assert block.next.numbers(name, later[3]) == Block(segment, later).numbers(name, later[3])
+        assert block.next.message(name, later[3]) == make(segment, later).message(name, later[3])
 
 
 MS = 1_000_000

@@ -111,7 +111,7 @@ def _euler_errors(q, omega, numbers):
 def start(scene, **changes):
     run = Run(scene, **changes)
     run.sink = run.simulation._sink = ByteSink()
-    run.simulation.report("start", "")
+    run.simulation.do("reset", {})
     return run
 
 

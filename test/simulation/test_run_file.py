@@ -7,6 +7,7 @@ import re
 import pytest
 from simulation.page_runs import KICK, change, find_refusal, list_hostile_runs, make_run, to_json
 
+from symtop_ros.simulation.changes.follow import Act
 from symtop_ros.simulation.changes.timeline import Timeline
 from symtop_ros.simulation.run_file import RunRecorder, read_run, record_run, write_run
 from symtop_ros.simulation.settings import Settings
@@ -75,7 +76,10 @@ class Told:
     def __init__(self, **values):
         settings = Settings.from_scene("cusps", **values)
         self.timeline, self.events = Timeline.begin(settings, SECOND), []
-        self.do(self.timeline.report("start", self.timeline.verdict, {}, SECOND))
+        self.do(self.timeline.announce(SECOND, "cusps"))
+
+    def act(self, name, stamp, request=None):
+        self.do(self.timeline.follow(Act(name, stamp, request or {})))
 
     def do(self, change):
         self.timeline = change.following
@@ -84,10 +88,10 @@ class Told:
 
 def test_pauses_steps_and_factors_leave_no_trace_in_the_time_of_a_run():
     told = Told(real_time_factor=0.5)
-    told.do(told.timeline.pause(3 * SECOND, True))  # 1 s of the motion
-    told.do(told.timeline.step(4 * SECOND, 0.25))
-    told.do(told.timeline.pause(5 * SECOND, False))
-    told.do(told.timeline.kick(7 * SECOND, KICK))  # 1 s more
+    told.act("pause", 3 * SECOND)  # 1 s of the motion
+    told.act("step", 4 * SECOND, {"duration": 0.25})
+    told.act("resume", 5 * SECOND)
+    told.act("kick", 7 * SECOND, KICK)  # 1 s more
     told.do(told.timeline.move(8 * SECOND, 99 * SECOND))  # 0.5 s, and a jump of the clock
     told.do(told.timeline.restart(101 * SECOND))  # 1 s
     events, end = record_run(told.events, 103 * SECOND)
@@ -107,7 +111,7 @@ def test_of_changes_at_one_instant_the_last_one_holds():
     assert len(told.events) == 3
     events, _ = record_run(told.events, 2 * SECOND)
     (_, changed) = events
-    assert (changed.kind, changed.motion.applied_torque) == ("torque", (0.0, 0.0, 1e-4))
+    assert (changed.kind, changed.motion.applied_torque) == ("change", (0.0, 0.0, 1e-4))
     assert changed.motion.friction.axial == 1e-6
 
 
@@ -115,7 +119,7 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
     told = Told()
     acts = {"angular_impulse": [0.0, 1e-4, -0.1]}, {"precession_rate_change": 0.1}
     for seconds, act in zip((2, 3), acts, strict=True):
-        told.do(told.timeline.kick(seconds * SECOND, act))
+        told.act("kick", seconds * SECOND, act)
     events, _ = record_run(told.events, 3 * SECOND)
     assert [event.act for event in events] == [{}, *acts]
     assert [event.to_json()["hold"] for event in events[1:]] == [None, "spin_rate"]
@@ -123,7 +127,7 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
 
 def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():
     told = Told()
-    told.do(told.timeline.kick(2 * SECOND, KICK))
+    told.act("kick", 2 * SECOND, KICK)
     events, end = record_run(told.events[1:], 3 * SECOND)
     assert [(event.kind, event.time) for event in events] == [("start", 0)]
     assert end == SECOND

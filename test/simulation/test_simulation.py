@@ -9,7 +9,6 @@ from simulation.runs import SECOND, Run
 
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.validation import RefusedError
-from symtop_ros.wording import write
 
 MS = SECOND // 1000
 
@@ -129,19 +128,18 @@ def test_a_torque_in_another_frame_is_refused():
         run.simulation.hold_torque((0.0, 0.0, 1.0), "top")
 
 
+def fail():
+    raise ZeroDivisionError("by\na bug")
+
+
 def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running():
-    run = Run()
+    run, failure = Run(), Failure("a test", "ZeroDivisionError", "by a bug")
     for _ in range(2):
-        with run.simulation.turn("a test") as turn:
-            raise ZeroDivisionError("by\na bug")
-        report = write("failure", Failure("a test", "ZeroDivisionError", "by a bug"))
-        assert turn.failure == report
-    assert run.sink.errors == [report]
+        assert run.simulation.take_turn("a test", fail) == failure
+    assert run.sink.errors == [str(failure)]
     assert [event.name for event in run.sink.events] == ["start", "failure"]
-    with run.simulation.turn("a test"):
-        pass
-    with run.simulation.turn("a test"):
-        raise ZeroDivisionError("by\na bug")
+    assert run.simulation.take_turn("a test", lambda: 7) == 7
+    assert run.simulation.take_turn("a test", fail) == failure
     assert len(run.sink.errors) == 2  # it had succeeded in between
     run.advance(0.1)
     run.assert_recomputed()
@@ -150,8 +148,8 @@ def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running()
 def test_an_exception_during_shutdown_is_raised():
     run = Run()
     run.sink.is_open = False
-    with pytest.raises(ZeroDivisionError), run.simulation.turn("a test"):
-        raise ZeroDivisionError
+    with pytest.raises(ZeroDivisionError):
+        run.simulation.take_turn("a test", fail)
 
 
 def test_requests_of_many_threads_are_carried_out_one_at_a_time():

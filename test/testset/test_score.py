@@ -51,7 +51,7 @@ def test_states_that_cannot_be_scored_are_refused(orientations, rates, reason):
             "t,w,x,y,z\n0.5,1,0,0,0\n",
             "trajectory must have a state at each time, got none at 1 s; the nearest is 0.5 s",
         ),
-        ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must consist of numbers"),
+        ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must have all columns"),
         ("t,w,x,y,z\none,1,0,0,0\n", "line 2 must consist of numbers"),
         ("t,w,x,y,z\nnan,1,0,0,0\n", "got none at 0.5 s; there is no row"),
     ],

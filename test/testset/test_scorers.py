@@ -102,6 +102,7 @@ def make_files():
         "a word": text.replace(lines[4].split(",")[2], "one"),
         "a hexadecimal number": text.replace(lines[4].split(",")[2], "0x1p-3"),
         "underscores": text.replace(lines[4].split(",")[2], "1_0"),
+        "a row without its end": text.replace(lines[4], ",".join(lines[4].split(",")[:3])),
         "short row": text.replace(lines[4], "1.75,1,2"),
         "not text": "\x00\x01\u00e9\u0416",
     }

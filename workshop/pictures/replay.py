@@ -32,7 +32,7 @@ def write_replay(file: Path) -> None:
     stamps = np.arange(0, END, PERIOD)
     view.send(sample("start", Start.of(start.motion), CUSPS, start, stamps[stamps < KICK]))
     before = start.state_at(KICK)
-    kicked = start.restart(hurry(before, factor=1.4), KICK)
+    kicked = start.change(KICK, hurry(before, factor=1.4))
     verdict = kick_verdict(kicked.motion, before, "spin_rate")
     view.send(sample("kick", verdict, before, kicked, stamps[stamps >= KICK]))
     recording.flush()

@@ -16,7 +16,7 @@ PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "sca
 FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down
 FLIP_BODY = np.array([0.0, 1.0, 0.0, 0.0])  # forward-left-up to forward-right-down
 ALL = tuple(LEVELS)
-Change = Callable[[Estimates], Estimates]
+Undoing = Callable[[Estimates], Estimates]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +28,9 @@ class Cause:
     parameters: tuple[str, ...]
     offset: Offset
     cost: float  # mean square of the distances of quaternions
-    # standard deviation of the parameter and of the rotations (rad), if what is left is noise
-    deviation: float = 0.0
+    # standard deviations of the parameters and of the rotations (rad), if what is left is noise;
+    # none if they were not asked for
+    deviations: tuple[float, ...] = ()
     turn_deviation: float = 0.0
 
     @property
@@ -72,12 +73,12 @@ def measure_turns(offset: Offset) -> float:
     return float(sum(offset.angles))
 
 
-def _turn(change: Callable[[Real], Real]) -> Change:
+def _turn(change: Callable[[Real], Real]) -> Undoing:
     return lambda e: replace(e, orientations=change(e.orientations))
 
 
 # Undoing each: its weight, and the rotations that may be free with it.
-CHANGES: dict[str, tuple[float, tuple[str, ...], Change]] = {
+CHANGES: dict[str, tuple[float, tuple[str, ...], Undoing]] = {
     "": (0.0, ALL, lambda e: e),
     "order": (1.0, ALL, _turn(lambda q: q[:, [3, 0, 1, 2]])),
     "conjugate": (1.0, ALL, _turn(invert)),

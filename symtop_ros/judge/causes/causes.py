@@ -223,13 +223,7 @@ class Search:
     ) -> Cause:
         """Return the least squares near an offset; with estimates by these, and how sure it is."""
         fit = self._fit(change, estimates or self.some)
-        turns, free = LEVELS[level][0], [PARAMETERS[name] for name in names]
-        best = fit.refine(offset, [*turns, *free])
-        if estimates is None:
-            return Cause(change, level, names, best, fit.cost(best))
-        sure = fit.find_deviations(best, [*turns, *free])
-        turn = float(np.linalg.norm(sure[list(turns)]))
-        return Cause(change, level, names, best, fit.cost(best), float(sure[free].sum()), turn)
+        return refine(fit, (change, level, names), offset, is_sure=estimates is not None)
 
     def find_period(self, best: Cause) -> tuple[float | None, Offset]:
         """Return a period by which the delay can change, and the rotations with it."""
@@ -258,3 +252,17 @@ class Search:
         """Return True if the sensor's attitude is not that of the body."""
         other = self.truth.states_at(self.some.stamps, not self.some.of_sensor)[0]
         return bool(np.abs(other - self.fit.exact(0.0)[0]).max() > SMALL)
+
+
+def refine(
+    fit: Fit, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, is_sure: bool
+) -> Cause:
+    """Return the least squares of a kind of cause near an offset; `is_sure`: with deviations."""
+    _, level, names = kind
+    turns, free = LEVELS[level][0], [PARAMETERS[name] for name in names]
+    best = fit.refine(offset, [*turns, *free])
+    if not is_sure:
+        return Cause(*kind, best, fit.cost(best))
+    sure = fit.find_deviations(best, [*turns, *free])
+    turn = float(np.linalg.norm(sure[list(turns)]))
+    return Cause(*kind, best, fit.cost(best), tuple(sure[free].tolist()), turn)

@@ -20,7 +20,7 @@ MOST_SCALE = 0.05  # of the scale of a gyroscope
 TURNS = 8  # of world or body within the run, by a drift
 BATCH = 32  # scales of which paths are computed together, as far as a cache reaches
 COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
-Key = tuple[str, int, int, bool, tuple[float, float]]
+ExactKey = tuple[str, int, int, bool, tuple[float, float]]
 
 
 @dataclass(eq=False)
@@ -31,7 +31,7 @@ class Grids:
     truth: Truth
     fastest: float  # angular velocity of the motion in rad/s
     span: float  # s
-    exacts: dict[Key, tuple[Real, Real]] = field(default_factory=dict)
+    exacts: dict[ExactKey, tuple[Real, Real]] = field(default_factory=dict)
     scalings: dict[int, Scaling] = field(default_factory=dict)
     turns: dict[tuple[int, bytes], Real] = field(default_factory=dict)  # by their scales
 

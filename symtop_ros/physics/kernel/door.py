@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from struct import Struct
 from types import SimpleNamespace
-from typing import Any, ClassVar, Literal, NamedTuple, get_args
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,14 +53,14 @@ Numbers = POINTER(c_double)
 State, Pair = c_double * STATE, c_double * 2
 
 
-class Clock(Structure):
+class ClockRecord(Structure):
     """`symtop_clock`."""
 
     _fields_: ClassVar = [("factor", c_double), ("elapsed", c_double * 4)]
 
 
 class RatesRecord(Structure):
-    """`symtop_rates`."""
+    """`symtop_rates`: what is the same in every nutation."""
 
     _fields_: ClassVar = [
         ("nutation_period", c_double),
@@ -126,18 +126,7 @@ class VerdictRecord(Structure):
     ]
 
 
-class Rates(NamedTuple):
-    """What is the same in every nutation."""
-
-    nutation_period: float  # s; infinite if theta does not return
-    mean_precession_rate: float  # rad/s; nan where the axis meets the vertical
-    mean_spin_rate: float
-    precession_per_nutation: float  # turns
-    spin_reverses: bool
-
-
 _unpack_start, _unpack_state = Struct(f"{START}d").unpack, Struct(f"{STATE}d").unpack
-_unpack_rates = Struct("4di4x").unpack
 
 
 class ConstantsRecord(Structure):
@@ -154,7 +143,7 @@ class ConstantsRecord(Structure):
 CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of arrays
 # In the order of the header: start, clock, rates, constants, top, place, ...
 SIZES = (
-    *(8 * START, ctypes.sizeof(Clock), ctypes.sizeof(RatesRecord), CONSTANTS.itemsize, 8 * 3),
+    *(8 * START, ctypes.sizeof(ClockRecord), ctypes.sizeof(RatesRecord), CONSTANTS.itemsize, 8 * 3),
     *(ctypes.sizeof(each) for each in (PlaceRecord, ReasonRecord, AverageRecord, LiftRecord)),
     VERDICTS.itemsize,
 )
@@ -174,7 +163,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "find_farthest_time": (_HANDLE, POINTER(c_double)),
     "*states": (_HANDLE, _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
     "*states_of_clock": (
-        *(_HANDLE, POINTER(Clock), _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
+        *(_HANDLE, POINTER(ClockRecord), _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
     ),
     "*reach": (_HANDLE, c_double, c_double, Numbers),
     "*states_of_many": (_BYTES, _SIZE, _BYTES, _SIZE, Numbers, Numbers, POINTER(c_uint8)),
@@ -188,6 +177,9 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "*kick": (_BYTES, _BYTES, _BYTES, c_int, c_int, _BYTES, _SIZE, Numbers, _DONE),
     "*judge": (_BYTES, _BYTES, _SIZE, c_int, _VERDICT, _DONE),
     "*judge_kick": (_BYTES, _BYTES, c_int, _VERDICT),
+    "*compare_hurried": (
+        *(_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, c_double, c_int, Numbers, POINTER(c_uint8)),
+    ),
 }
 
 
@@ -356,7 +348,7 @@ class KernelMotion:
             return 0, OK
         status = self._door.states_of_clock(
             self._handle,
-            Clock(factor, elapsed),
+            ClockRecord(factor, elapsed),
             read_from(stamps, INT64),
             count,
             steps,
@@ -392,12 +384,11 @@ class KernelMotion:
         return angles[0], angles[1]
 
     @property
-    def rates(self) -> "Rates":
+    def rates(self) -> RatesRecord:
         """Nutation period, mean rates, and whether the spin reverses."""
         found = RatesRecord()
         self._door.find_rates(self._handle, found)
-        period, precession, spin, turns, reverses = _unpack_rates(found)
-        return Rates(period, precession, spin, turns, bool(reverses))
+        return found
 
     @property
     def farthest_time(self) -> float:
@@ -525,6 +516,19 @@ def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
     verdict = VerdictRecord()
     demand(open_door().judge_kick(before, after, hold, verdict))
     return verdict
+
+
+def compare_hurried(
+    tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real, factor: float, hold: int
+) -> tuple[Real, NDArray[np.uint8]]:
+    """Return the other turning angles without a kick and with it, (n, 2), and the rule, (n,)."""
+    angles, rules = np.empty((len(tops), 2)), np.empty(len(tops), np.uint8)
+    for part in _list_blocks(len(tops)):
+        given = [read_from(each[part]) for each in (tops, thetas, phi_dots, psi_dots)]
+        count = part.stop - part.start
+        to = write_to(angles[part], 2 * count), write_to(rules[part], count, "B")
+        demand(open_door().compare_hurried(*given, count, factor, hold, *to))
+    return angles, rules
 
 
 def kernel_version() -> str:

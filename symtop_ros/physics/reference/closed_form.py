@@ -28,7 +28,7 @@ class ClosedForm:
             inputs = inputs._replace(Mgl=-inputs.Mgl, orientation=(-x, w, -z, y))
         with mp.workdps(digits):
             self._wz = mpf(inputs.angular_velocity[2])
-            self._start = Start.of(inputs)
+            self._start = KleinStart.of(inputs)
             moves = self._start.omega != 0 or 0 not in (self._start.A, self._start.B)
             self._nutation = Nutation(inputs) if inputs.Mgl and moves else None
             self._factors = self._nutation.find_factors(self._start) if self._nutation else ()
@@ -64,7 +64,7 @@ class ClosedForm:
             return -precession if self._is_turned else precession, of_A - of_B + 2 * share
 
 
-class Start(NamedTuple):
+class KleinStart(NamedTuple):
     """The start in Cayley-Klein parameters, and the constants [1]."""
 
     A: Number
@@ -75,7 +75,7 @@ class Start(NamedTuple):
     beta: Number
 
     @classmethod
-    def of(cls, inputs: Inputs) -> Start:
+    def of(cls, inputs: Inputs) -> KleinStart:
         """Return the start of a top with Mgl >= 0."""
         Ix, Iz, Mgl, q, (wx, wy, wz) = inputs
         norm = sqrt(mpf(sum(each * each for each in q)))
@@ -139,7 +139,7 @@ class Nutation:
         sn = sqrt(-s1 / self.s21) * (-1 if falls else 1)
         return sn * elliprf(s2 / self.s21, s3 / self.s31, 1)
 
-    def find_factors(self, start: Start) -> tuple[Factor, ...]:
+    def find_factors(self, start: KleinStart) -> tuple[Factor, ...]:
         """Return A, B and conj(omega) as functions of time."""
         values = start.A, start.B, conj(start.omega)
         shares = start.c / 2, -start.c / 2, start.c + start.a / 2  # [3] what does not depend on u

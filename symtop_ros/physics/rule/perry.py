@@ -40,16 +40,20 @@ Rule = Literal["holds", "fails"]
 # What the words mean: the top, or for Mgl < 0 the axis, apart from the centre of mass.
 Subject = Literal["top", "axis"]
 PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside"]
-Change = Literal["hurried", "delayed", "if_hurried", "if_delayed"]
+RateChange = Literal["hurried", "delayed", "if_hurried", "if_delayed"]
 # Reasons why the rule says nothing about a change of phi', and about an axis on the vertical.
 Silence = Literal["angular_impulse", "no_precession", "unchanged", "reversed", "no_effect"]
 VerticalCase = Literal["undefined", "stable", "unstable"]
-ReasonKind = Change | Silence | VerticalCase
+ReasonKind = RateChange | Silence | VerticalCase
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 SUBJECTS: tuple[Subject, ...] = get_args(Subject)
 RULES: tuple[Rule | None, ...] = (None, *get_args(Rule))
 PLACES: tuple[PlaceKind, ...] = get_args(PlaceKind)
-REASONS: tuple[ReasonKind, ...] = (*get_args(Change), *get_args(Silence), *get_args(VerticalCase))
+REASONS: tuple[ReasonKind, ...] = (
+    *get_args(RateChange),
+    *get_args(Silence),
+    *get_args(VerticalCase),
+)
 IMPULSE: Silence = "angular_impulse"
 VERTICAL = len(REASONS) - len(get_args(VerticalCase))  # from here on the axis is on the vertical
 

@@ -98,7 +98,11 @@ def _continue(ghost: Segment, after: Segment, before: Segment) -> Segment:
     stamp, old, new = after.stamp, before.motion, after.motion
     added = (new.top, new.friction, new.applied_torque)
     if added != (old.top, old.friction, old.applied_torque):
-        return replace(ghost.change(stamp, *added), factor=after.factor, running=after.running)
+        return replace(
+            ghost.change(stamp, ghost.state_at(stamp), *added),
+            factor=after.factor,
+            running=after.running,
+        )
     elapsed = ghost.elapsed_at(stamp)
     if new.start == old.start:  # the same motion: a step, or a time that the clock lost
         elapsed += after.elapsed - before.elapsed_at(stamp)

@@ -8,6 +8,7 @@ from typing import Literal
 
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import KickVerdict, Kind, Motion, Verdict, perrys_rule
+from symtop_ros.wording import write
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +95,10 @@ class Failure:
     action: str
     error: str  # type of the exception
     text: str
+
+    def __str__(self) -> str:
+        """Return the failure in words."""
+        return write("failure", self)
 
 
 Outcome = (

@@ -101,7 +101,7 @@ static void ask_of_start(const symtop_start* start, int oddness) {
   const symtop_hold hold = (symtop_hold)(draw() % 3);
   double angles[3], rates[3], q[4], omega[3], kicked[3], found[4], amounts[3], time = 1.0;
   size_t done;
-  uint8_t left;
+  uint8_t left = 0;
   symtop_start after = *start;
   symtop_verdict verdict;
   symtop_constants constants;
@@ -115,6 +115,9 @@ static void ask_of_start(const symtop_start* start, int oddness) {
   CHECK(symtop_find_regular_rates(&top, amounts, rates, 1, hold, found), 0);
   CHECK(symtop_find_tilt_torques(&top, amounts, rates, rates + 1, 1, found), 0);
   CHECK(symtop_find_tilt_accelerations(start, hold, rates, 3, found), 0);
+  CHECK(symtop_compare_hurried(&top, amounts, rates, rates + 1, 1, amounts[1], hold, found, &left),
+        0);
+  if (left > SYMTOP_RULE_FAILS) exit(1);
   CHECK(symtop_kick(&top, start->orientation, start->angular_velocity,
                     (symtop_kick_kind)(draw() % 4), hold, amounts, 1, kicked, &done), done);
   CHECK(symtop_judge(start, amounts, 1, hold, &verdict, &done), done);

@@ -71,7 +71,7 @@ class Sample:
         """Return what the program writes, as doubles."""
         motion, rates = self.motion, self.motion._rates
         kind = KINDS.index(motion.kind)
-        constants = [kind, *motion.turning_angles, *map(float, rates)]
+        constants = [kind, *motion.turning_angles, *(getattr(rates, n) for n, _ in rates._fields_)]
         verdicts = list_verdicts(motion)
         one_by_one = [motion.at(float(t)) for t in self.times]
         states = [*one_by_one, motion.at(self.times), motion.at(self.clock)]

@@ -42,6 +42,7 @@ int main(int count, char** words) {
   symtop_rates found;
   double q[4], omega[3], few[4];
   size_t done;
+  unsigned char rule;
   if (count < 2) return 2;
   const symtop_status first = symtop_new(&start, &motion);
   set_state(words[1]);
@@ -61,6 +62,9 @@ int main(int count, char** words) {
   show(symtop_find_angles(start.orientation, 1, few), few, 3);
   show(symtop_find_regular_rates(&top, angles + 1, rates + 2, 1, SYMTOP_SPIN_RATE, few), q, 0);
   show(symtop_find_tilt_torques(&top, angles + 1, rates, rates + 2, 1, few), q, 0);
+  show(symtop_compare_hurried(&top, angles + 1, rates, rates + 2, 1, 1.5, SYMTOP_SPIN_RATE, few,
+                              &rule),
+       q, 0);
   show(symtop_kick(&top, start.orientation, rates, SYMTOP_FACTOR_OF_RATE, SYMTOP_SPIN_RATE, &factor,
                    1, omega, &done), q, 0);
   show(symtop_judge(&start, &factor, 1, SYMTOP_SPIN_RATE, &verdict, &done), q, 0);

@@ -16,7 +16,7 @@ BEGIN = Segment.begin(Motion(ARTICLE, CUSPS), stamp=0, factor=1.0)
 
 
 def kicked(segment, stamp):
-    return segment.restart(hurry(segment.state_at(stamp), factor=1.4), stamp)
+    return segment.change(stamp, hurry(segment.state_at(stamp), factor=1.4))
 
 
 @pytest.fixture(name="ghost")
@@ -51,7 +51,7 @@ def test_a_second_kick_replaces_it_by_the_motion_just_before(ghost):
 @pytest.mark.parametrize("name", ["start", "reset"])
 def test_a_restart_removes_it(ghost, name):
     ghost, after = ghost
-    ghost.follow(name, after, after.restart(CUSPS, 2 * SECOND))
+    ghost.follow(name, after, after.change(2 * SECOND, CUSPS))
     assert ghost.segment is None
 
 
@@ -73,7 +73,9 @@ def test_pauses_steps_and_another_real_time_factor_act_on_it(ghost):
 def test_a_parameter_changes_both(ghost):
     ghost, after = ghost
     heavier = Top(ARTICLE.Ix, ARTICLE.Iz, 0.1)
-    ghost.follow("parameters", after, after.change(2 * SECOND, top=heavier))
+    ghost.follow(
+        "parameters", after, after.change(2 * SECOND, after.state_at(2 * SECOND), top=heavier)
+    )
     assert ghost.segment.motion.top == heavier
     assert ghost.segment.state_at(2 * SECOND) == BEGIN.state_at(2 * SECOND)
 
@@ -88,7 +90,7 @@ def test_a_motion_that_is_too_long_to_integrate_has_no_ghost():
     segment = Segment.begin(Motion(ARTICLE, CUSPS, Friction(axial=1e-9)), stamp=0, factor=1.0)
     ghost, year = GhostView(Mock()), 365 * 86_400 * SECOND
     ghost.follow("start", None, segment)
-    ghost.follow("kick", segment, segment.restart(CUSPS, SECOND))
+    ghost.follow("kick", segment, segment.change(SECOND, CUSPS))
     assert len(ghost.states_at(np.array([SECOND]))[0]) == 1
     assert len(ghost.states_at(np.array([year]))[0]) == 0
     assert ghost.segment is None

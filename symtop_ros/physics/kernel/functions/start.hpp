@@ -1,8 +1,8 @@
 // What is known of a start, a kick or a rate without a state at another time.
 #pragma once
 
+#include "../rule/hurried.hpp"
 #include "../rule/kicks.hpp"
-#include "../rule/verdict.hpp"
 #include "arguments.hpp"
 
 symtop_status symtop_from_angles(const double* angles, const double* rates, size_t count,
@@ -97,6 +97,22 @@ symtop_status symtop_judge(const symtop_start* starts, const double* factors, si
     if (status != SYMTOP_OK) return status;
     symtop::GravityMotion motion(symtop::to_start(s));
     if (!symtop::judge(s, motion, factors[*done], hold, verdicts[*done])) return SYMTOP_BAD_KICK;
+  }
+  return SYMTOP_OK;
+}
+
+symtop_status symtop_compare_hurried(const symtop_top* tops, const double* thetas,
+                                     const double* phi_dots, const double* psi_dots, size_t count,
+                                     double factor, symtop_hold hold, double* angles,
+                                     unsigned char* rules) {
+  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
+  for (size_t i = 0; i < count; i++) {
+    if (!symtop::is_top(tops[i].Ix, tops[i].Iz, tops[i].Mgl)) return SYMTOP_BAD_TOP;
+    if (!symtop::are_finite(thetas + i, 1)) return SYMTOP_BAD_ANGLES;
+    const double rates[] = {phi_dots[i], psi_dots[i], factor * phi_dots[i]};
+    if (!symtop::are_at_most(rates, 3, symtop::LARGEST)) return SYMTOP_BAD_KICK;
+    rules[i] = static_cast<unsigned char>(symtop::compare_hurried(
+        tops[i], thetas[i], phi_dots[i], psi_dots[i], factor, hold, angles + 2 * i));
   }
   return SYMTOP_OK;
 }

@@ -4,9 +4,10 @@
 // One definition of the rule serves a start, a kick and a map. The kicked top is compared with the
 // same top not kicked. Hurried (a factor above 1), the rule holds if theta'' is lower with the kick;
 // delayed (0 to 1), if it is higher. It says nothing if phi' = 0, if the factor is 1 or negative,
-// about an angular impulse that is no push along the precession, if theta'' is the same with the kick as without it, and on the vertical,
-// where phi' is undefined. At a root of regular precession theta'' is 0 without the kick, so the
-// hurried axis rises if and only if the rule holds: the article's case.
+// about an angular impulse that is no push along the precession, if theta'' is the same with the
+// kick as without it, and on the vertical, where phi' is undefined. At a root of regular precession
+// theta'' is 0 without the kick, so the hurried axis rises if and only if the rule holds: the
+// article's case.
 #pragma once
 
 #include "../gravity.hpp"
@@ -89,14 +90,16 @@ struct PrecessionChange {
 
 inline bool says_something(symtop_reason_kind kind) { return kind <= SYMTOP_IF_DELAYED; }
 
+// Perry's rule for a change of phi', by the sign of the change of theta''.
+inline symtop_rule judge_change(const PrecessionChange& by, int change) {
+  if (!says_something(by.find_kind(change != 0))) return SYMTOP_RULE_SAYS_NOTHING;
+  return (change < 0) == (by.factor > 1) ? SYMTOP_RULE_HOLDS : SYMTOP_RULE_FAILS;
+}
+
 inline symtop_reason explain_change(const TiltAcceleration& tilt, const PrecessionChange& by) {
-  const int change = tilt.quadratic.change(by.before, by.after).sign;  // that of theta''
-  const symtop_reason_kind kind = by.find_kind(change != 0);
-  const symtop_rule rule = !says_something(kind)                ? SYMTOP_RULE_SAYS_NOTHING
-                           : (change < 0) == (by.factor > 1) ? SYMTOP_RULE_HOLDS
-                                                               : SYMTOP_RULE_FAILS;
-  return {kind, rule, by.before, by.after, tilt.at(by.before), tilt.at(by.after),
-          tilt.place(by.is_done ? by.after : by.before)};
+  const int change = tilt.quadratic.change(by.before, by.after).sign;
+  return {by.find_kind(change != 0), judge_change(by, change), by.before, by.after,
+          tilt.at(by.before), tilt.at(by.after), tilt.place(by.is_done ? by.after : by.before)};
 }
 
 // The kick that leads from one state to another of the same attitude. It has rounded the angular

@@ -1,0 +1,38 @@
+"""What the programs share: words of the command line, and how a failure is told."""
+
+import argparse
+import math
+import sys
+from collections.abc import Callable
+
+from symtop_ros.simulation.validation import one_line
+
+
+def tell_failures(name: str, act: Callable[[], int]) -> int:
+    """Return the status of an action; what is refused and files that fail are told in one line."""
+    try:
+        return act()
+    except ValueError as error:
+        text = one_line(error)
+    except OSError as error:
+        text = f"{one_line(error.filename or 'output')}: {error.strerror}"
+    print(f"{name}: {text}", file=sys.stderr)
+    return 1
+
+
+def port(text: str) -> int:
+    """Read the number of a port."""
+    if not text.isdecimal() or int(text) >= 2**16:
+        raise argparse.ArgumentTypeError(f"must be 0 to 65535, got {one_line(text, 60)}")
+    return int(text)
+
+
+def positive(text: str) -> float:
+    """Read a finite number above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a number above 0, got {one_line(text)}")
+    return value

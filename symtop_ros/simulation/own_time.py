@@ -1,0 +1,172 @@
+"""A simulation in its own time (parameter publish_clock), as Gazebo's.
+
+Its stamps are the elapsed time of the run, which is published on /clock: it advances by the
+real-time factor, stands still in a pause and never goes back, so that rates are derivatives by the
+stamps at every factor. The factor of its segments is 1.
+"""
+
+from symtop_ros.simulation.block import CATCH_UP
+from symtop_ros.simulation.host import Clock, Host, Sink
+from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.simulation import JUMP, Simulation
+from symtop_ros.wire.layout import NANOSECONDS
+
+CALLS = 20  # of 1 ms for a request; the lock is held meanwhile
+
+
+def simulate(settings: Settings, clock: Clock, sink: Sink, host: Host) -> Simulation:
+    """Return a simulation with the stamps of its host's clock, or in its own time."""
+    kind = OwnTimeSimulation if settings.publish_clock else Simulation
+    return kind(settings, clock, sink, host)
+
+
+class RunClock:
+    """Elapsed time of a run."""
+
+    is_simulated = False
+
+    def __init__(self, real: Clock, factor: float) -> None:
+        self._real, self.is_running = real, True
+        self._time, self._since = 0, real.now  # ns of the run, and the real time at which it was so
+        self.factor = factor  # seconds of the run per second of real time
+
+    @property
+    def now(self) -> int:
+        """Current time in ns."""
+        passed = self._real.now - self._since if self.is_running else 0
+        return self._time + int(passed * self.factor)
+
+    def set_factor(self, factor: float) -> None:
+        """Continue at another pace."""
+        self.set(self.now)
+        self.factor = factor
+
+    def set(self, time: int) -> None:
+        """Continue from a time (ns), which must not precede the last stamp."""
+        self._time, self._since = time, self._real.now
+
+    def stop(self, time: int) -> None:
+        """Stand still at a time (ns)."""
+        self.set(time)
+        self.is_running = False
+
+    def start(self) -> None:
+        """Continue from where it stands."""
+        self.set(self._time)
+        self.is_running = True
+
+
+class OwnTimeSimulation(Simulation):
+    """A top in the elapsed time of its run, which no other program sets."""
+
+    _clock: RunClock
+
+    def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
+        own = RunClock(clock, settings.real_time_factor)
+        super().__init__(settings, own, sink, host)
+
+    @property
+    def factor(self) -> float:
+        """The real-time factor, which the clock has."""
+        return self._clock.factor
+
+    @property
+    def _catch_up(self) -> float:
+        """Return more than the time waits: no sample is dropped."""
+        return JUMP * self._clock.factor
+
+    def _wait_for(self, stamp: int) -> float | None:
+        """Return the seconds of real time until a stamp; None in a pause."""
+        wait = (stamp - self.now) / NANOSECONDS / self._clock.factor
+        return wait if self._clock.is_running else None
+
+    def publish(self) -> bool:
+        """Publish what is due; the time waits for a process that was stopped."""
+        late = self.now - self.stamp - round(CATCH_UP * self._clock.factor * NANOSECONDS)
+        if late > 0:
+            self._clock.set(self.now - late)
+        return super().publish()
+
+    def _follow_jump(self) -> None:
+        """Do nothing: this clock is not set."""
+
+    def _prepare(self, stamp: int) -> bool:
+        ready = self.budget.prepare(self.segment, stamp, self._clock.factor)
+        if self.budget.end is not None:
+            self._stop_at(self.budget.end)
+        return ready
+
+    def _stop_at(self, reached: float) -> None:
+        """Bring a motion that cannot continue to its last time in s, and pause it there."""
+        before = self.stamp
+        self._bring_forward(reached)
+        if self.stamp == before:
+            self._stop()
+            super()._stop_at(reached)
+
+    def _stop(self) -> None:
+        """Let the time stand still: what is changed from now on acts 1 ns after the last sample."""
+        self._clock.stop(max(self.last, self.segment.stamp - 1))
+        self.restart_grid(self.now + 1)
+
+    def _integrate_to(self, stamp: int) -> bool:
+        """Work for some ms until the state at a stamp is ready; else a nearer stamp is the next."""
+        for _ in range(CALLS):
+            if self._prepare(stamp):
+                return True
+        self._check_pace(stamp)
+        segment = self.segment
+        self._bring_forward(segment.motion.reach(segment.time_at(stamp), 0))
+        while not self._prepare(self.stamp):  # 1 ns at most
+            pass
+        return False
+
+    def _check_pace(self, stamp: int) -> None:
+        """Slow the time down if the motion cannot be followed; a sample shows what was reached."""
+        if shortfall := self.budget.shortfall:
+            self._bring_forward(shortfall.reached)
+            self.host.warn(self._set_pace(shortfall.factor))
+
+    def _set_pace(self, factor: float) -> str:
+        verdict = super()._set_pace(factor)
+        self._clock.set_factor(factor)
+        return verdict
+
+    def _bring_forward(self, reached: float) -> None:
+        """Let the next stamp be that of a time (s of the motion) that is integrated."""
+        segment = self.segment
+        stamp = max(self.last + 1, segment.stamp, segment.stamp_at(reached))
+        if stamp < self.stamp:
+            self.restart_grid(stamp)
+            if self.now > stamp:
+                self._clock.set(stamp)
+
+    def pause(self, paused: bool) -> str:
+        """Stop the motion and its time, or continue both."""
+        if paused:
+            self._stop()
+        verdict = super().pause(paused)
+        if not paused:
+            self.restart_grid(self.now + round(NANOSECONDS / self.ticker.rate))
+            self._clock.start()
+        return verdict
+
+    def step(self, duration: float) -> str:
+        """Advance a paused motion and its time, with one sample at the end."""
+        now = self.now + round(duration * NANOSECONDS)
+        if now == self.now:
+            return self.do("step", {})
+        verdict = self.do("step", {"to": now})
+        self._clock.stop(now)
+        self.restart_grid(now)
+        self.settle()  # a torque may end meanwhile
+        self.publish()
+        self.pause(True)
+        return verdict
+
+    def apply_settings(self, settings: Settings) -> None:
+        """Continue with other settings, of which the clock has the factor."""
+        factor = self.settings.real_time_factor
+        super().apply_settings(settings)
+        if settings.real_time_factor != factor:
+            self._clock.set_factor(settings.real_time_factor)

@@ -1,0 +1,168 @@
+"""Runs at random: what a session logs is what a check, run.json and the log of a run make of it."""
+
+import json
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from drawn import Numbers
+from physics.tops import seeds
+from session.test_outputs import Program, advance, start
+
+from symtop_ros.check.run import check_run
+from symtop_ros.log.bag import open_run
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.session.run_log import write_run_log
+from symtop_ros.simulation.run_file import read_run, record_run, write_run
+from symtop_ros.simulation.validation import RefusedError
+
+ACTS = 8
+
+
+def draw_values(rng):
+    """Named values of a start, some of which are refused."""
+    values = {
+        "theta": rng.uniform(0.0, 3.0),
+        "phi": rng.uniform(-3.0, 3.0),
+        "psi_dot": rng.uniform(-300.0, 300.0),
+        "phi_dot": rng.uniform(-20.0, 20.0),
+        "theta_dot": rng.uniform(-5.0, 5.0),
+    }
+    return {name: values[name] for name in rng.sample(sorted(values), rng.randint(0, 5))}
+
+
+def draw_kick(rng):
+    if rng.random() < 0.3:
+        return {"angular_impulse": [rng.uniform(-1e-3, 1e-3) for _ in range(3)]}
+    kinds = {
+        "precession_rate": rng.uniform(-20.0, 20.0),
+        "precession_rate_change": rng.uniform(-10.0, 10.0),
+        "precession_rate_factor": rng.uniform(-3.0, 3.0),
+    }
+    kind = rng.choice(sorted(kinds))
+    hold = rng.choice(({}, {"hold": "spin_rate"}, {"hold": "spin_momentum"}))
+    return {kind: kinds[kind], **hold}
+
+
+def draw_changes(rng):
+    values = {
+        "top.Ix": rng.uniform(1e-4, 4e-4),
+        "top.Mgl": rng.uniform(-0.1, 0.1),
+        "friction.axial": rng.choice((0.0, 1e-6)),
+        "friction.transverse": rng.choice((0.0, 1e-6)),
+        "steady_torque": rng.choice(([], [0.0, 0.0, 1e-4])),
+        "real_time_factor": rng.choice((0.5, 1.0, 2.0)),
+        "publish_rate": rng.choice((50.0, 100.0)),
+        "publish_tf": rng.random() < 0.5,
+        "initial.theta": rng.uniform(0.0, 1.0),
+    }
+    return {name: values[name] for name in rng.sample(sorted(values), rng.randint(1, 3))}
+
+
+def act(rng, session, clock):
+    """Do something; what is refused changes nothing."""
+    kind = rng.choice(
+        ("start", "kick", "kick", "change", "pause", "step", "torque", "jump", "reset")
+    )
+    if kind == "change":
+        try:
+            session.apply_settings(draw_changes(rng))
+        except RefusedError:
+            return
+    elif kind == "torque":
+        session.hold_torque([rng.uniform(-1e-3, 1e-3) for _ in range(3)])
+    elif kind == "jump":
+        session.simulation.begin_jump()
+        clock.now += rng.randint(2, 9) * 1_000_000_000
+        session.simulation.end_jump(True)
+    else:
+        service, argument = {
+            "start": ("set_initial_conditions", draw_values(rng)),
+            "kick": ("kick", draw_kick(rng)),
+            "pause": ("pause", session.simulation.segment.running),
+            "step": ("step", {"duration": rng.uniform(0.0, 0.1)}),
+            "reset": ("reset", None),
+        }[kind]
+        session.answer(service, lambda: argument)
+
+
+def move(rng, folder):
+    """A run with acts at random times; the path of its log and its last stamp."""
+    scene = rng.choice(("cusps", "regular_precession", "friction", "sleeping"))
+    host = Program()
+    session, clock = start(
+        *(host, scene),
+        record__enabled=True,
+        record__directory=str(folder),
+        publish_rate=100.0,
+        publish_clock=rng.random() < 0.3,
+        imu__enabled=rng.random() < 0.3,
+    )
+    for _ in range(ACTS):
+        advance(session, clock, rng.randint(1, 300) / 1024)
+        act(rng, session, clock)
+    advance(session, clock, 0.1)
+    path, stamp = session.recording.path, session.simulation.last
+    session.close()
+    assert host.errors == []
+    return path, stamp
+
+
+def check(path):
+    """The events of a log in which everything agrees."""
+    log = TopLog(open_run([path]))
+    found = check_run(log)
+    assert found.mismatches == []
+    assert all(each.differing == 0 for each in found.deviations.values())
+    assert (found.missing, found.damage) == ([], [])
+    return list(log.events())
+
+
+def to_json(events):
+    return json.loads(json.dumps([event.to_json() for event in events]))
+
+
+def list_exact(event):
+    """What an event and its repetition have in common to the last bit."""
+    motion = event.motion
+    body = motion.top, motion.friction, motion.applied_torque
+    return event.kind, event.time, json.dumps(event.act), body
+
+
+def drop_idle(events):
+    """Events without those that changed back, while the motion stood still, what others changed."""
+    bodies = [list_exact(event)[-1] for event in events]
+    is_same = [False, *(before == after for before, after in pairwise(bodies))]
+    acts = ("start", "kick")
+    return [
+        event for event, same in zip(events, is_same, strict=True) if event.kind in acts or not same
+    ]
+
+
+def is_near(found, given):
+    """A node kicks at any time of a motion, a run at a whole nanosecond of it."""
+    rate = 2 * float(np.abs(given.angular_velocity).max())  # the axis turns at most twice as fast
+    moved = np.abs(found.orientation - given.orientation).max()
+    changed = np.abs(found.angular_velocity - given.angular_velocity).max()
+    return moved <= 1e-9 * rate and changed <= 1e-9 * rate * max(1.0, rate)
+
+
+def try_again(rng, folder):
+    """A random run, its run.json, and the log of that: each is what the one before says."""
+    path, stamp = move(rng, folder)
+    events, end = record_run(check(path), stamp)
+    content = folder / "run.json"
+    content.write_text(json.dumps(write_run(events, end)))
+    read, reached = read_run(content)
+    assert (to_json(read), reached) == (to_json(events), end)
+    again = folder / "again.mcap"
+    write_run_log(read, reached, again, rate=50.0)
+    repeated, _ = record_run(check(again), reached)
+    for given, found in zip(drop_idle(read), repeated, strict=True):
+        assert list_exact(found) == list_exact(given)
+        assert is_near(found.motion.start, given.motion.start)
+
+
+@pytest.mark.parametrize("seed", seeds(12, 300))
+def test_a_random_session_its_run_and_the_log_of_that_agree(seed, tmp_path):
+    try_again(Numbers(seed), tmp_path)
