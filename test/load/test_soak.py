@@ -1,4 +1,4 @@
-"""The node at 1000 Hz with friction, recording, kicked at random; for hours: `make soak`."""
+"""The node at 1000 Hz with friction, recording, kicked at random; `make -C workshop soak`: an hour."""
 
 import pytest
 from programs import execute

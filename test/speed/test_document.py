@@ -25,14 +25,19 @@ def test_the_table_of_other_motions_has_a_row_for_each_peer():
     assert rows[2:] == [f"| {peer} | 1e-09 in 1 | 1e-09 in 1 |" for peer in ("a", "b")]
 
 
+COMMAND = "make -C workshop report"
+
+
 def test_the_conditions_of_a_report_are_a_list():
-    environment = document.Environment("make report", "a machine", {"numpy": "2"}, ["drake"], 4.0)
+    environment = document.Environment(
+        "make -C workshop report", "a machine", {"numpy": "2"}, ["drake"], 4.0
+    )
     text = document.format_chapters(Results(), Reference.read().article[0], environment)
     first, empty, *lines = text.partition("\n\n## ")[0].splitlines()
     assert (first, empty) == ("Conditions:", "")
     assert all(line.startswith("- ") for line in lines)
     # the command, the machine, the versions, what is missing, and what a figure means
-    for part in ("make report", "a machine", "numpy 2", "drake", *document.CONDITIONS):
+    for part in ("make -C workshop report", "a machine", "numpy 2", "drake", *document.CONDITIONS):
         assert sum(part in line for line in lines) == 1
 
 
@@ -43,7 +48,7 @@ def test_a_report_can_be_written_after_each_curve(by):
     pairs = [(CLOSED_FORM, name) for name in names[:-1]] + [(TAYLOR, FRICTION)]
     curves = [curve(*each) for each in [*pairs, *((peer, n) for peer in "ab" for n in names)]]
     curves.sort(key=lambda each: 0 if by == "peer" else names.index(each.motion))
-    where = document.Environment("make report", "a machine", {}, [], 4.0)
+    where = document.Environment(COMMAND, "a machine", {}, [], 4.0)
     for count in range(1, len(curves) + 1):
         checks = dict.fromkeys((CLOSED_FORM, TAYLOR, "a", "b"), 0.0)
         text = document.format_document(Results(checks, curves[:count]), motion, where)

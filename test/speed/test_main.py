@@ -13,10 +13,17 @@ from workshop.speed import benchmarks, filters, measure, testset
 LONGER = dataclasses.replace(benchmarks.QUICK, limit=9.0)
 DOCS = Path("docs")
 ROOT = Path(__file__).parents[2]
+COMMAND = "make -C workshop report"
 PARTS = {
-    "speed": (measure, "measure", "report", benchmarks.QUICK, "make report", None),
-    "speed --full": (measure, "measure", "report", benchmarks.FULL, "make report ARGS=--full"),
-    "speed --docs docs": (*(measure, "measure", "report", benchmarks.QUICK, "make report", DOCS),),
+    "speed": (measure, "measure", "report", benchmarks.QUICK, COMMAND, None),
+    "speed --full": (
+        measure,
+        "measure",
+        "report",
+        benchmarks.FULL,
+        f"{COMMAND} ARGS=--full",
+    ),
+    "speed --docs docs": (*(measure, "measure", "report", benchmarks.QUICK, COMMAND, DOCS),),
     "speed --limit 9": (measure, "measure", "report", LONGER, "python -m workshop speed --limit 9"),
     "testset": (testset, "score_testset", "report", None, 0.2),
     "testset here --limit 9 --docs docs": (testset, "score_testset", "here", DOCS, 9.0),
