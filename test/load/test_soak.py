@@ -1,4 +1,4 @@
-"""The node at 1000 Hz with friction, recording, kicked at random; `make -C workshop soak`: an hour."""
+"""The node at 1000 Hz with friction, recording, kicked at random (`make -C workshop soak`)."""
 
 import pytest
 from programs import execute
