@@ -14,18 +14,16 @@ TICK = ( n=0; while sleep 10 > /dev/null && kill -0 $$$$ 2> /dev/null; do n=$$((
   tick=$$!; trap 'kill $$tick' EXIT;
 INSTALL = @$(TICK) $(BIN)/python -m pip install --editable
 
-# Nothing is sent to the network, and an active ROS or other environment is not used.
-export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
-# ROS and Matplotlib write here, and not into the home of the user.
-export ROS_LOG_DIR ?= $(CURDIR)/$(VENV)/ros_log
-export MPLCONFIGDIR ?= $(CURDIR)/$(VENV)/matplotlib
-unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
+HOUSE := $(CURDIR)
+include $(dir $(abspath $(firstword $(MAKEFILE_LIST))))workshop/environment.mk
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test coverage coverage-js $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-kilted lint style types types-js docs matrix report scores derivatives filters article lesson maps pictures stress soak node-cost wheels kernel-wasm clean
+.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-kilted lint style types types-js docs wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
+	@echo "make test-GROUP runs one of: $(GROUPS)"
+	@echo "make -C workshop help lists what measures, draws and counts"
 
 demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 	@$(BIN)/python -m workshop.demo
@@ -36,33 +34,22 @@ panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS
 test: $(VENV)/test  ## style, types and all tests (9 minutes; 3 GB, once)
 	@$(BIN)/python test/groups.py
 
-coverage: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## the same with the coverage of lines and branches, and with load, lesson and demonstration in full, of which 96 % are asked (18 minutes)
-	@rm -rf .venv/coverage/data* $(VENV)/coverage/page
-	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python test/groups.py --coverage
-	@$(BIN)/coverage run -m pytest -q -m long test/load test/test_lesson.py test/test_demo.py
-	@$(BIN)/coverage combine --quiet
-	@$(BIN)/coverage report --skip-covered
-	@$(BIN)/python -m workshop.page_coverage $(VENV)/coverage/page
-
-coverage-js: $(VENV)/test $(VENV)/chromium  ## coverage of the lines of the page's modules, of which 90 % are asked (4 minutes)
-	@rm -rf $(VENV)/coverage/page
-	@PAGE_COVERAGE=$(CURDIR)/$(VENV)/coverage/page $(BIN)/python -m pytest -q -m "not long" test/web test/panel
-	@$(BIN)/python -m workshop.page_coverage $(VENV)/coverage/page
-
-test-nodes: $(VENV)/test $(VENV)/messages/done $(NUMPY1)/test  ## the node, its faults and load, the client; partly with NumPy 1.26
-test-rest: $(VENV)/test $(VENV)/vulkan  ## documents, programs, playback, article
-test-judge: $(VENV)/test  ## check of logs, sensor, judge of estimates
-test-plain: $(VENV)/test  ## report, messages, models, test set
-test-physics: $(VENV)/test  ## the library
-test-old-processor: $(VENV)/test  ## tests of numbers with the instructions of a processor of 2008
-test-without-ros: $(VENV)/test $(VENV)/chromium  ## simulation, session, log, page: as without ROS and Rerun
-test-examples: $(VENV)/test  ## examples in docstrings
-test-lint: $(VENV)/test $(VENV)/js/done  ## the same as lint
-test-realtime: $(VENV)/test $(VENV)/chromium  ## tests that measure time, one after the other
+# What each group needs; `make test-physics` and the like run one of them.
+test-nodes: $(VENV)/test $(VENV)/messages/done $(NUMPY1)/test
+test-rest: $(VENV)/test $(VENV)/vulkan
+test-judge: $(VENV)/test
+test-plain: $(VENV)/test
+test-physics: $(VENV)/test
+test-old-processor: $(VENV)/test
+test-without-ros: $(VENV)/test $(VENV)/chromium
+test-examples: $(VENV)/test
+test-lint: $(VENV)/test $(VENV)/js/done
+test-realtime: $(VENV)/test $(VENV)/chromium
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 $(VENV)/zig/done coverage test-keys test-elsewhere test-kilted matrix  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/aarch64 $(VENV)/zig/done test-keys test-elsewhere test-kilted  ## trials that take longer (two hours), coverage, and the matrix
+	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
 
 test-keys: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
@@ -71,9 +58,6 @@ test-keys: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(
 test-elsewhere: $(VENV)/test  ## tests of numbers and logs as on other processors, in other countries, for a stranger (20 minutes)
 	@$(BIN)/python test/elsewhere.py
 
-matrix: $(VENV)/ros  ## the node with each ROS 2, Python and NumPy of docs/ros.md (20 minutes)
-	@$(BIN)/python workshop/matrix.py
-
 test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
 	@$(KILTED)/bin/python workshop/messages.py
 	@$(KILTED)/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \
@@ -81,59 +65,22 @@ test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
 
 lint: style types  ## ruff, codespell and mypy; Biome and TypeScript for the page
 
-style: $(VENV)/test $(VENV)/js/done  ## ruff, codespell and Biome
+style: $(VENV)/test $(VENV)/js/done
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
 	@$(BIN)/codespell
 	@sh test/check_js.sh $(VENV)/js style
 
-types: $(VENV)/test types-js  ## mypy (strict) and types-js
+types: $(VENV)/test types-js
 	@$(BIN)/mypy
 
-types-js: $(VENV)/js/done  ## types of the page's modules (strict), by TypeScript
+types-js: $(VENV)/js/done
 	@sh test/check_js.sh $(VENV)/js types
 
 docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warnings are errors
 	@$(BIN)/python -m sphinx -q -W --keep-going -c docs/site -b html . site
 	@$(BIN)/top_panel --write site/top.html
 	@echo "wrote site/README.html"
-
-# The workshop: what is written goes to report/, and ARGS=--help lists the options of a target.
-WORKSHOP = @XDG_CACHE_HOME=$(CURDIR)/$(VENV)/cache $(BIN)/python -m workshop
-
-report: $(VENV)/peers  ## speed against error on this machine (some minutes; 2 GB, once)
-	$(WORKSHOP) speed $(ARGS)
-
-scores: $(VENV)/peers  ## scores of these programs in the test set (20 minutes)
-	$(WORKSHOP) testset $(ARGS)
-
-derivatives: $(VENV)/peers  ## derivatives by top and start, compared with heyoka (a minute)
-	$(WORKSHOP) derivatives $(ARGS)
-
-filters: $(VENV)/peers  ## attitude filters fed with the top's noisy sensor (4 minutes)
-	$(WORKSHOP) filters $(ARGS)
-
-article: $(VENV)/report  ## the article's figures, its motions in 3D, and its claims
-	$(WORKSHOP) article $(ARGS)
-
-lesson: $(VENV)/report  ## the pictures of the lesson; ARGS=--sheets: sheets to print
-	$(WORKSHOP) lesson $(ARGS)
-
-maps: $(VENV)/report  ## where hurrying the precession raises the top
-	$(WORKSHOP) maps $(ARGS)
-
-pictures: $(VENV)/test $(VENV)/vulkan $(VENV)/chromium  ## the pictures in docs/ but plots of measurements, and the steps of docs/lesson.md
-	$(WORKSHOP) pictures $(ARGS)
-	@$(BIN)/python -m workshop.pictures.page $(ARGS)
-
-stress: $(VENV)/report  ## the node under load: clients, subscribers, late joiners (3 minutes)
-	@$(BIN)/python -m workshop.load.stress $(ARGS)
-
-soak: $(VENV)/report  ## the node for an hour with requests at random, its logs checked
-	@$(BIN)/python -m workshop.load.soak $(ARGS)
-
-node-cost: $(VENV)/report  ## cost of the node compared with bare rclpy nodes (9 minutes)
-	@$(BIN)/python -m workshop.load.node_cost $(ARGS)
 
 wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM, in dist/ (2 minutes)
 	@$(VENV)/zig/bin/python workshop/wheels.py dist

@@ -52,7 +52,7 @@ REFERENCE = [
     "mpmath>=1.4",
     "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
 ]
-# Programs that `make report` compares with, if they are installed.
+# Programs that `make -C workshop report` compares with, if they are installed.
 PEERS = [
     *REFERENCE,  # errors are measured from it
     "heyoka>=7",

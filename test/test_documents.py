@@ -179,11 +179,12 @@ def find_runner(program, words):
 
 def check_target(_, words):
     """Find a target, and let the workshop read its options."""
-    rule = rf"^{words[0]}:.*\n(?:\t\$\(WORKSHOP\) (\w+) )?"
-    found = re.search(rule, (ROOT / "Makefile").read_text(), re.MULTILINE)
+    folder, (target, *others) = (words[1], words[2:]) if words[0] == "-C" else (".", words)
+    rule = rf"^{target}:.*\n(?:\t\$\(WORKSHOP\) (\w+) )?"
+    found = re.search(rule, (ROOT / folder / "Makefile").read_text(), re.MULTILINE)
     assert found
-    if words[1:]:
-        options = " ".join(words[1:]).removeprefix("ARGS=").split()
+    if others:
+        options = " ".join(others).removeprefix("ARGS=").split()
         with contextlib.chdir(ROOT):
             workshop.main._parser().parse_args([found[1], *options])
 

@@ -62,7 +62,7 @@ def do(tops, line):
 
 
 def test_the_page_has_the_steps_of_the_data():
-    """Otherwise: make pictures."""
+    """Otherwise: make -C workshop pictures."""
     assert write_page() == LESSON
     assert [tuple(typed(part)) for part in PARTS] == [tuple(step.commands) for step in STEPS]
 
@@ -70,7 +70,7 @@ def test_the_page_has_the_steps_of_the_data():
 def test_the_commands_that_need_no_ros_are_options_of_their_programs():
     assert panel._parser().parse_args(["--lesson"]).lesson
     assert report._parser().parse_args(["lesson", "--sheets"]).sheets
-    assert typed(BEFORE)[:2] == ["top_panel --lesson", "make lesson ARGS=--sheets"]
+    assert typed(BEFORE)[:2] == ["top_panel --lesson", "make -C workshop lesson ARGS=--sheets"]
 
 
 @pytest.mark.parametrize("step", STEPS, ids=range(1, len(STEPS) + 1))

@@ -6,6 +6,7 @@ import shutil
 import sys
 from pathlib import Path
 
+import groups
 import pytest
 from programs import execute
 
@@ -24,10 +25,21 @@ def make(folder, *words, **variables):
     return execute(words, cwd=folder, env=environment, timeout=300)
 
 
-def test_help_lists_every_target(tmp_path):
-    phony = re.search(r"^\.PHONY: (.*)$", make(tmp_path, "-pn", "help").stdout, re.MULTILINE)[1]
+PARTS = {"style", "types", "types-js"}  # of `make lint`
+GROUPS = {f"test-{name}" for name in groups.list_groups(trace=False)}
+
+
+def list_phony(*words, folder):
+    """The targets that are no files."""
+    (found,) = re.findall(r"^\.PHONY: (help .*)$", make(folder, "-pn", *words).stdout, re.MULTILINE)
+    return set(found.split())
+
+
+def test_help_lists_every_target_of_a_user_and_of_a_change(tmp_path):
     listed = make(tmp_path, "help").stdout
-    assert set(re.findall(r"^(\S+) ", listed, re.MULTILINE)) == set(phony.split())
+    assert list_phony("help", folder=tmp_path) > GROUPS | PARTS
+    named = set(re.findall(r"^(\S+)  ", listed, re.MULTILINE))
+    assert named == list_phony("help", folder=tmp_path) - GROUPS - PARTS
 
 
 @pytest.mark.parametrize("present", ["nothing", "python without pip"])

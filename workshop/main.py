@@ -136,7 +136,7 @@ def _measure(options: argparse.Namespace) -> int:
     from workshop.speed.measure import measure
 
     scope = FULL if options.full else QUICK
-    command = "make report ARGS=--full" if options.full else "make report"
+    command = "make -C workshop report ARGS=--full" if options.full else "make -C workshop report"
     if options.limit:
         scope = replace(scope, limit=options.limit)
         command = f"python -m workshop speed --limit {options.limit:g}"

@@ -1,4 +1,4 @@
-"""`make pictures` writes every picture of the documents that needs no long measurement."""
+"""`make -C workshop pictures` writes every picture of the documents but those of measurements."""
 
 import io
 from pathlib import Path
@@ -49,7 +49,7 @@ def test_every_picture_is_shown_by_a_document():
 
 
 def test_make_draws_all_of_them():
-    rule = (ROOT / "Makefile").read_text().split("\npictures:")[1].split("\n\n")[0]
+    rule = (ROOT / "workshop/Makefile").read_text().split("\npictures:")[1].split("\n\n")[0]
     assert "$(WORKSHOP) pictures" in rule
     assert "workshop.pictures.page" in rule
 

@@ -33,7 +33,7 @@ def written(tmp_path_factory):
         docs.mkdir()
         for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
             (docs / name).write_text((DOCS / name).read_text())
-        assert measure(folder, SMALL, "make report", docs) == 0
+        assert measure(folder, SMALL, "make -C workshop report", docs) == 0
     return folder, docs
 
 
@@ -107,7 +107,7 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
 
     monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
-    assert measure(tmp_path, SMALL, "make report") == 1
+    assert measure(tmp_path, SMALL, "make -C workshop report") == 1
     progress, failure = capsys.readouterr().err.splitlines()
     assert progress == "1 of 1: a peer: model"
     assert failure.startswith("workshop: above the limit: a peer: ")

@@ -1,7 +1,7 @@
 """Cost and steadiness of top_node, compared with bare rclpy nodes with the same messages.
 
-`make node-cost`, or `python -m workshop.load.node_cost --seconds 5 --runs 3`. With `--docs docs`
-the figures are written into the documentation.
+`make -C workshop node-cost`, or `python -m workshop.load.node_cost --seconds 5 --runs 3`. With
+`--docs docs` the figures are written into the documentation.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     runs: Runs = facts["runs"]
     conditions = format_list(
         [
-            f"Command: `make node-cost`; machine: {facts['machine']}.",
+            f"Command: `make -C workshop node-cost`; machine: {facts['machine']}.",
             f"Figures: medians of {facts['count']} runs (lowest to highest).",
             *CONDITIONS,
         ]

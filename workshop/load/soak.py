@@ -1,8 +1,8 @@
 """top_node for hours: it records, splits its logs and is kicked at random.
 
 Every finished log is computed again from its events, as `top_replay --check` does, and deleted.
-`make soak` runs an hour with friction at 1000 Hz; several can run side by side, for example
-`python -m workshop.load.soak --scene cusps --rate 200`.
+`make -C workshop soak` runs an hour with friction at 1000 Hz; several can run side by side, for
+example `python -m workshop.load.soak --scene cusps --rate 200`.
 """
 
 from __future__ import annotations

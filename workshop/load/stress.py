@@ -1,7 +1,7 @@
 """top_node under load: many clients, many subscribers, slow and late ones, many nodes.
 
-`make stress`, or `python -m workshop.load.stress --seconds 10`. With `--docs docs` the figures are
-written into the documentation.
+`make -C workshop stress`, or `python -m workshop.load.stress --seconds 10`. With `--docs docs` the
+figures are written into the documentation.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def format_row(outcome: Outcome) -> str:
 
 def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) -> str:
     """Return the conditions, the table and the further figures of some outcomes."""
-    first = f"Command: `make stress`, {seconds:g} s for each load; machine: {machine}."
+    first = f"Command: `make -C workshop stress`, {seconds:g} s for each load; machine: {machine}."
     head = ["load", "Hz", "lost", "missed", "unanswered", "CPU", "MB more"]
     rows = [
         [

@@ -1,4 +1,4 @@
-"""The measurement behind `make report`: runs the benchmarks, and writes tables and plots."""
+"""The measurement of `make -C workshop report`: it runs benchmarks, and writes tables and plots."""
 
 import platform
 import sys

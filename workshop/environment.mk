@@ -1,0 +1,7 @@
+# The environment of every program that make runs, here and in the workshop.
+# Nothing is sent to the network, and an active ROS or other environment is not used.
+export ROS_AUTOMATIC_DISCOVERY_RANGE = LOCALHOST
+# ROS and Matplotlib write here, and not into the home of the user.
+export ROS_LOG_DIR ?= $(HOUSE)/.venv/ros_log
+export MPLCONFIGDIR ?= $(HOUSE)/.venv/matplotlib
+unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH RMW_IMPLEMENTATION
