@@ -1,8 +1,9 @@
 """The kind of a motion from its start with theta' = 0."""
 
 import numpy as np
+import pytest
 
-from symtop_ros.physics import Top
+from symtop_ros.physics import Motion, State, Top
 from workshop.article.answers import starts
 from workshop.article.motions import PSI_DOT, THETA, TOP
 
@@ -16,6 +17,16 @@ def test_of_a_heavier_top_the_boundaries_are_others():
 def test_with_another_factor_the_rule_and_the_cusp_are_wrong(monkeypatch):
     monkeypatch.setattr(starts, "TWICE", 1.9)
     assert not any(claim.holds for claim in starts.claims_on_starts(TOP))
+
+
+@pytest.mark.parametrize("share", [0.5, 0.9, 1.1, 2.0, 8.0])
+def test_the_second_cusp_needs_a_spin_that_is_fast_enough(share):
+    u = np.cos(THETA)
+    p_psi = np.sqrt(share * 2 * TOP.Ix * TOP.Mgl * (1 + u))
+    phi_dot = 2 * TOP.Mgl / p_psi
+    psi_dot = p_psi / TOP.Iz - phi_dot * u
+    start = State.from_euler(theta=THETA, phi_dot=phi_dot, psi_dot=psi_dot)
+    assert Motion(TOP, start).kind == ("cusps" if share > 1 else "unidirectional")
 
 
 def test_the_curves_are_the_edges_of_the_coloured_regions():
