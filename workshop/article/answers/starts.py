@@ -22,8 +22,8 @@ TRIED, SEED = 400, 20210330  # random starts, the same every time
 NEAR = 1e-6  # relative distance from a boundary, on each side of it
 ROUNDED = 1e-13  # rad/s, roots of a quadratic and rounding of phi' at a cusp. Measured: 2e-14
 EQUATION = (
-    "loops if |p_phi| < |p_psi| and phi' (phi' - 2 Mgl/p_psi) > 0; cusps at phi' = 0 and at phi' = "
-    "2 Mgl/p_psi; regular if theta'' = 0"
+    "loops if |p_phi| < |p_psi| and phi' (phi' - 2 Mgl/p_psi) > 0; cusps at phi' = 0 and, if "
+    "p_psi^2 > 2 Ix Mgl (1 + cos(theta)), at phi' = 2 Mgl/p_psi; regular if theta'' = 0"
 )
 PHI_DOTS, PSI_DOTS = (-60.0, 120.0), (-400.0, 400.0)  # rad/s, of the map
 KINDS = {"unidirectional": "#f3ede0", "looping": "#cfe1f2"}
