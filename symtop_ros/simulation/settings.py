@@ -115,7 +115,10 @@ def _noise(description: str, unit: str) -> Parameter:
 
 
 def _whole(largest: int, name: str, value: Any) -> int:
-    whole = number(name, value, "", 0, largest)
+    try:
+        whole = number(name, value, "", 0, largest)
+    except RefusedError:
+        whole = 0.5
     if whole != int(whole):
         raise reject(name, f"a whole number, 0 to {largest}", value)
     return int(whole)
