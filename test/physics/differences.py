@@ -8,7 +8,7 @@ import numpy as np
 from mpmath import mp, mpf
 from physics.tops import multiply
 
-from symtop_ros.physics.reference import Inputs, Series
+from symtop_ros.physics.reference import ClosedForm, Inputs, Series
 from workshop.testset.exact import returning_series
 
 DIGITS = 70
@@ -16,14 +16,20 @@ FEW_DIGITS = 34  # enough in the first nutations: derivatives with some 20 digit
 BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 
 
-def differentiate(motion, times, returns=True, digits=DIGITS):
-    """The Jacobians (n, 6, 9) at times in s > 0; `returns` says that the nutation has a period."""
+def differentiate(motion, times, returns=True, digits=DIGITS, is_closed=False):
+    """The Jacobians (n, 6, 9) at times in s > 0.
+
+    `returns` says that the nutation has a period; `is_closed` takes the closed form instead of
+    Taylor series, a tenth of their time.
+    """
     friction = motion.friction.axial, motion.friction.transverse
     driven = any(friction) or any(motion.applied_torque)
 
     def follow(moments, *start):
         inputs = Inputs.exact(*moments, *start)
-        if driven or not returns:
+        if is_closed:
+            exact = ClosedForm(inputs, digits)
+        elif driven or not returns:
             exact = Series(inputs, digits, friction, motion.applied_torque)
         else:
             exact = returning_series(inputs, digits)
