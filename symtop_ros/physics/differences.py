@@ -16,6 +16,7 @@ PAIRS = (1.0, 2.13, 2.88, 4.07, 5.0)
 CENTRAL = np.array([sign * node for node in PAIRS for sign in (1, -1)])
 FORWARD = np.array((*PAIRS, 6.11, 6.93, 8.05, 9.12, 10.0))
 TINY = 1e-300  # added to divisors that may be zero
+LEAST_ERROR = 1e-140  # whose square has an inverse
 
 
 def weigh(nodes: Real, count: int) -> Real:
@@ -64,25 +65,25 @@ class Estimates:
     """
 
     def __init__(self, count: int) -> None:
-        self.derivatives, self._curved, self._rough = np.zeros((3, count, 2, 3, 9))
-        self.errors = np.full((count, 2, 3, 9), np.inf)
-        self._shortest = np.full((count, 2, 3, 9), np.inf)
+        shape = count, 2, 3, 9
+        self.derivatives, self._curved, self._rough, self._weights = np.zeros((4, *shape))
+        self.errors, self._shortest = np.full((2, *shape), np.inf)
 
     def add(self, part: Any, steps: Real, new: Real, curved: Real, rough: Real) -> None:
         """Add estimates with errors by curvature, which they share, and by rounding."""
-        errors, before = curved + rough, self.errors[part]
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            share = np.nan_to_num(1 / (1 + np.square(errors / before)), nan=1.0)
-        changes = new - self.derivatives[part]
+        changes, errors = new - self.derivatives[part], curved + rough
+        weights, before = 1 / np.square(np.maximum(errors, LEAST_ERROR)), self._weights[part]
         is_shorter = steps < self._shortest[part]
-        share = np.where(np.abs(changes) > 2 * (errors + before), is_shorter, share)
-        share = np.where(np.isinf(errors), 0.0, share)
+        differ = np.abs(changes) > 2 * (errors + self.errors[part])
+        weights = np.where(differ & ~is_shorter, 0.0, weights)
+        before = np.where(differ & is_shorter, 0.0, before)
+        share = weights / np.maximum(weights + before, TINY)
         curved = np.where(share > 0, curved, 0.0)
         self.derivatives[part] += share * changes
         self._curved[part] += share * (curved - self._curved[part])
         self._rough[part] = np.hypot((1 - share) * self._rough[part], share * rough)
+        self._weights[part] = weights + before
         means = self._curved[part] + self._rough[part]
-        self.errors[part] = np.where(share > 0, means, before)
-        self._shortest[part] = np.where(
-            share > 0, np.minimum(steps, self._shortest[part]), self._shortest[part]
-        )
+        self.errors[part] = np.where(weights + before > 0, means, np.inf)
+        shortest = np.where(share > 0, steps, np.inf)
+        self._shortest[part] = np.minimum(self._shortest[part], shortest)

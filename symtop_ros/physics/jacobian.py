@@ -42,12 +42,15 @@ STATE_ERROR = 3 * EPS
 REMAINDERS, SMOOTH = 4, 4
 # All states of a driven motion have an error of its steps, which no difference shows: after an
 # unstable place it is some ten times as large.
-DRIVEN_REMAINDERS = 32
+DRIVEN_REMAINDERS = 48
 NORM_ERROR = 0.999e-3  # of a given quaternion, nearly
 PROMISED = 1e-8  # error of a derivative, in units of the largest of its block
-# Smaller effects are measured by this one, in units of the effect on the whole state, or of the one
-# of a change by all of a parameter.
+# Smaller effects are measured by this one, in rad or in units of the spin, of a change by all of a
+# moment, by 1 rad, or by the fastest rate.
 SMALLEST = 1e-3
+# Error of a row by the curvature of the other ones: next to the vertical the angle about the axis
+# looks smooth by steps that are far too long for the tilt.
+SPREAD = 2e-6
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
 MOST_ROUNDS = 24
 # Factors of a step from one round to the next. Those next to the best one are such that no step is
@@ -157,6 +160,10 @@ class _Starts:
         for _ in range(MOST_ROUNDS):
             part = np.ix_(left, *ROWS, columns)
             last[part], responses, curved, rough = self._differentiate(left, columns)
+            limit = self._find_allowed(last[left], left)[..., columns]
+            curved = np.maximum(
+                curved, limit * SPREAD * (curved / limit).max(axis=(1, 2), keepdims=True)
+            )
             found.add(part, self._steps[columns], last[part], curved, rough)
             known = np.where(np.isinf(found.errors), last, found.derivatives)
             allowed = self._find_allowed(known[left], left)
@@ -176,10 +183,9 @@ class _Starts:
         """Return the promised errors of derivatives (m, 2, 3, 9), (m, 2, 1, 9)."""
         largest = _spread_over_blocks(np.abs(derivatives).max(axis=2))
         sizes = self._counted[some]
-        # An absolute error is left of rows that happen to change little, such as omega after a
-        # whole nutation, and of parameters that hardly count.
-        effect = (largest / sizes).max(axis=1, keepdims=True)
-        least = SMALLEST * sizes * np.maximum(effect, 1 / np.abs(self._parameters))
+        # An absolute error is left of parameters that hardly count, such as those of the start in
+        # the first instants.
+        least = SMALLEST * sizes / np.abs(self._parameters)
         return np.asarray(PROMISED * np.maximum(largest, least)[:, :, None] + TINY)
 
     def _adapt(self, part: Any, excess: Real, faults: tuple[Real, ...]) -> bool:
@@ -246,7 +252,7 @@ class _Starts:
             STATE_ERROR * (each[some] + across * widths) for each in (self._least, self._most)
         )
         rough = np.clip(self._find_noise(left, some, columns), least, most) * per_step
-        curved = np.maximum(find_curvature(tenth, eighth, sixth), left * per_step - rough)
+        curved = np.maximum(find_curvature(tenth, eighth, sixth), 2 * left * per_step - rough)
         return tenth, responses, np.where(responses > FARTHEST, np.inf, curved), rough
 
     def _list_starts(self) -> Real:

@@ -85,14 +85,16 @@ def find_errors(motion, found, right):
     """The largest error of each Jacobian, as a part of the largest element of its block.
 
     A block has three rows, and one column for a moment or three for the start. Of a moment that
-    hardly counts an error is promised as a part of 1e-3 rad, or of the spin, for all of the moment.
+    hardly counts, such as the weight in the first instants, an error is promised as a part of
+    1e-3 rad, or of the spin, for all of the moment.
     """
     errors, spin = np.zeros(found.shape[:-2]), np.abs(motion.start.angular_velocity).max()
     for rows, size in ((slice(0, 3), 1.0), (slice(3, 6), spin)):
         for columns in BLOCKS:
             largest = np.abs(right[..., rows, columns]).max(axis=(-1, -2))
-            if columns.stop <= 2:
-                largest = np.maximum(largest, 1e-3 * size / motion.top.moments[columns.start])
+            moment = abs(motion.top.moments[columns.start]) if columns.stop <= 3 else 0.0
+            if moment:
+                largest = np.maximum(largest, 1e-3 * size / moment)
             off = np.abs(found - right)[..., rows, columns].max(axis=(-1, -2))
             errors = np.maximum(errors, off / np.where(largest, largest, 1.0))
     return errors
