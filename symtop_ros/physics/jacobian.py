@@ -32,7 +32,7 @@ from symtop_ros.physics.kernel import states
 from symtop_ros.physics.kernel.door import KernelMotion
 from symtop_ros.physics.values import EPS, refuse
 
-RESPONSE = 0.5  # of the outermost states, in rad or in units of the fastest rate
+RESPONSE = 0.25  # of the outermost states, in rad or in units of the fastest rate
 FARTHEST = 2.0  # response beyond which states say nothing of a derivative
 LARGEST_STEP = 0.03  # in units of the size of a parameter: 1/Ix curves over Ix
 # Rounding of a state in a difference. Its standard deviation is 0.5 to 0.8 EPS.
