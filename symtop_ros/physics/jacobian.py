@@ -263,7 +263,7 @@ class _Starts:
         changes[6:, 7:10] = np.eye(3)
         changes *= self._steps[:, None]
         starts = self._start + self._list_nodes()[..., None] * changes[:, None]
-        if (starts == self._start).all(axis=2).any():
+        if (self._start + changes / 2 == self._start).all(axis=1).any():
             raise refuse("t", UNRESOLVED, float(self._times[0]))
         return np.asarray(starts)
 
