@@ -7,6 +7,7 @@ import { findLedger, nameLedger } from "./ledger.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findConstants, findPotential } from "../charts/formulas.js";
+import { spread } from "../charts/plot.js";
 
 /** @typedef {import("../run/run.js").Run} Run */
 /** @typedef {import("../run/run.js").Moment} Moment */
@@ -29,10 +30,6 @@ const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** @param {number[]} numbers */
 const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
-
-/** Numbers at equal distances. @param {number} low @param {number} high @param {number} count */
-const spread = (low, high, count) =>
-  Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
 
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
 /** @param {Course} course */
