@@ -4,10 +4,10 @@ import { findEnergies, findRest, findTiltAcceleration } from "./formulas.js";
 import { NANO } from "../physics/course.js";
 import { findVectors } from "../scene/vectors.js";
 
-/** @typedef {import("../physics/course.js").Course} Course */
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("./formulas.js").Energies} Energies */
+/** @import { Course } from "../physics/course.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Vector } from "../physics/kernel.js" */
+/** @import { Energies } from "./formulas.js" */
 /** @typedef {(time: number, state: State, course: Course) => number} Pick */
 /** @typedef {{name: string, unit: string, isAngle?: boolean, pick: Pick}} Quantity */
 

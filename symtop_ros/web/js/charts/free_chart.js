@@ -7,9 +7,9 @@ import { find, make, write } from "../controls/document.js";
 import { draw, findSpan, Frame, listTicks, WIDE } from "./plot.js";
 import { angleUnit, shorten, toUnit } from "../words/quantities.js";
 
-/** @typedef {import("../run/local.js").Sample} Sample */
-/** @typedef {import("./axes_list.js").Quantity} Quantity */
-/** @typedef {import("./plot.js").Pair} Pair */
+/** @import { Sample } from "../run/local.js" */
+/** @import { Quantity } from "./axes_list.js" */
+/** @import { Pair } from "./plot.js" */
 /** @typedef {"state" | "ghost" | "kept"} Whose */
 
 const HEIGHT = 180;

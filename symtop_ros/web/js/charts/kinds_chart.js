@@ -5,9 +5,9 @@ import { findBoundaries, makesLoops } from "./kinds.js";
 import { draw, findSpan, Frame, listTicks } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("../physics/kernel.js").Top} Top */
+/** @import { Top } from "../physics/kernel.js" */
+/** @import { Pair } from "./plot.js" */
 /** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Turning */
-/** @typedef {import("./plot.js").Pair} Pair */
 
 const HEIGHT = 190;
 const [ROWS, COLUMNS] = [86, 84]; // cells of the regions

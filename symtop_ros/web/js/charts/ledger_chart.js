@@ -6,8 +6,8 @@ import { ROUNDING } from "../words/ledger.js";
 import { draw, findSpan, Frame } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("./formulas.js").Energies} Energies */
-/** @typedef {import("../words/ledger.js").Ledger} Ledger */
+/** @import { Energies } from "./formulas.js" */
+/** @import { Ledger } from "../words/ledger.js" */
 
 const HEIGHT = 150;
 const WIDTH = 0.2; // of a bar; groups are 1 apart

@@ -4,7 +4,7 @@ import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { findTiltAcceleration } from "./formulas.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("../words/facts.js").Facts} Facts */
+/** @import { Facts } from "../words/facts.js" */
 
 const HEIGHT = 150;
 const POINTS = 81;

@@ -3,7 +3,7 @@
 import { draw, findSpan, Frame, LEFT, listTicks } from "./plot.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
 
-/** @typedef {import("../run/local.js").Row} Row */
+/** @import { Row } from "../run/local.js" */
 /** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
 
 const HEIGHT = 96;

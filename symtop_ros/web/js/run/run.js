@@ -7,10 +7,7 @@ import { Course, NANO } from "../physics/course.js";
 import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("../physics/kernel.js").Quaternion} Quaternion */
-/** @typedef {import("../physics/kernel.js").Hold} Hold */
+/** @import { Kernel, Vector, Quaternion, Hold } from "../physics/kernel.js" */
 /** @typedef {"start" | "kick" | "change" | "torque"} Kind */
 /**
  * What was asked for: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
