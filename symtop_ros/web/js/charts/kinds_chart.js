@@ -2,7 +2,7 @@
 
 import { find } from "../controls/document.js";
 import { findBoundaries, makesLoops } from "./kinds.js";
-import { draw, findSpan, Frame, listTicks } from "./plot.js";
+import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
 /** @import { Top } from "../physics/kernel.js" */
@@ -65,12 +65,8 @@ const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
 
 /** @param {Frame} frame @param {Top} top @param {number} theta @param {[Pair, Pair]} ranges */
 const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
-  const sides = [
-    [low, 0],
-    [0, high],
-  ].map(([begin, end]) =>
-    Array.from({ length: POINTS }, (_, k) => begin + ((k + 0.5) / POINTS) * (end - begin)),
-  );
+  const [below, above] = [low, high].map((end) => (0.5 / POINTS) * end); // next to phi' = 0
+  const sides = [spread(low - below, below, POINTS), spread(above, high - above, POINTS)];
   const cut = (/** @type {number} */ psi) => (psi >= left && psi <= right ? psi : NaN);
   return sides
     .flatMap((side) => {

@@ -22,7 +22,7 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
   const { theta } = state.angles;
   const { phi: rate, psi: spin } = state.rates;
   const at = (/** @type {number} */ each) => findTiltAcceleration(body, theta, each, spin);
-  const roots = keepShown(state.findRegularRates(body));
+  const roots = keepShown(state.kernel.findRegularRates(body, theta, spin));
   const hurried = rate * factor;
   const range = findSpan([0, ...roots, ...keepShown(first), start.phi_dot, rate, hurried], 1);
   const rates = spread(...range, POINTS);

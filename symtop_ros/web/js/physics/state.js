@@ -66,11 +66,6 @@ export class State {
     return this.found.rates;
   }
 
-  /** Rates of regular precession at this tilt and spin. @param {import("./kernel.js").Top} top */
-  findRegularRates(top) {
-    return this.kernel.findRegularRates(top, this.angles.theta, this.rates.psi);
-  }
-
   /**
    * The state after a kick.
    * @param {import("./kernel.js").Top} top

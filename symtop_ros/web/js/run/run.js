@@ -56,15 +56,19 @@ export class Run {
     return this.moments.findLastIndex((moment) => moment.time <= time);
   }
 
+  /** The last start before a time. @param {number} time ns */
+  findLastStart(time) {
+    return this.moments.findLast((each) => each.kind === "start" && each.time <= time);
+  }
+
   /** The time in ns of the last start before a time. @param {number} time ns */
   findStart(time) {
-    return this.moments.findLast((each) => each.kind === "start" && each.time <= time)?.time ?? 0;
+    return this.findLastStart(time)?.time ?? 0;
   }
 
   /** The torque with which the last start before a time began. @param {number} time ns */
   findSteady(time) {
-    const start = this.moments.findLast((each) => each.kind === "start" && each.time <= time);
-    return (start ?? this.moments[0]).course.torque;
+    return (this.findLastStart(time) ?? this.moments[0]).course.torque;
   }
 
   /** @param {number} time ns */
