@@ -200,7 +200,7 @@ class _Starts:
         is_near = self._too_long[columns] == elements
         is_long, is_open = curved > rough / 3, most > 1
         # The best step has an error by curvature of a tenth of that by rounding.
-        shorter = (rough / (10 * curved + TINY)) ** (1 / (ORDER + 1))
+        shorter = (rough / np.maximum(10 * curved, rough + TINY)) ** (1 / (ORDER + 1))
         shorter = np.where(responses > FARTHEST, RESPONSE / (4 * responses + TINY), shorter)
         shorter = np.clip(shorter, MOST_SHORTER, SHORTER)
         longer = np.where(is_near, NEXT, np.clip(3 * rough / limit, LONGER, MOST_LONGER))
