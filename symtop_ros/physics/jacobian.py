@@ -51,6 +51,7 @@ SMALLEST = 1e-3
 # Error of a row by the curvature of the other ones: next to the vertical the angle about the axis
 # looks smooth by steps that are far too long for the tilt.
 SPREAD = 2e-6
+WILD = 1e7  # promised errors; steps that leave so much in a row turn phases by whole turns
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
 MOST_ROUNDS = 24
 # Factors of a step from one round to the next. Those next to the best one are such that no step is
@@ -161,10 +162,10 @@ class _Starts:
             part = np.ix_(left, *ROWS, columns)
             last[part], responses, curved, rough = self._differentiate(left, columns)
             limit = self._find_allowed(last[left], left)[..., columns]
-            curved = np.maximum(
-                curved, limit * SPREAD * (curved / limit).max(axis=(1, 2), keepdims=True)
-            )
-            found.add(part, self._steps[columns], last[part], curved, rough)
+            wildness = (curved / limit).max(axis=(1, 2), keepdims=True)
+            curved = np.maximum(curved, limit * SPREAD * wildness)
+            unusable = np.where(wildness > WILD, np.inf, 0.0)
+            found.add(part, self._steps[columns], last[part], curved + unusable, rough)
             known = np.where(np.isinf(found.errors), last, found.derivatives)
             allowed = self._find_allowed(known[left], left)
             excess = found.errors[left] / allowed

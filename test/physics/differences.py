@@ -81,20 +81,21 @@ def _near(q, base):
     return q if sum(a * b for a, b in zip(q, base[0], strict=True)) > 0 else [-c for c in q]
 
 
-def find_errors(motion, found, right):
+def find_errors(motion, found, right, counts_start=False):
     """The largest error of each Jacobian, as a part of the largest element of its block.
 
     A block has three rows, and one column for a moment or three for the start. Of a moment that
     hardly counts, such as the weight in the first instants, an error is promised as a part of
-    1e-3 rad, or of the spin, for all of the moment.
+    1e-3 rad, or of the spin, for all of the moment; with `counts_start` also for 1 rad of a start,
+    and for its angular velocity: docs/filters.md promises no more.
     """
     errors, spin = np.zeros(found.shape[:-2]), np.abs(motion.start.angular_velocity).max()
     for rows, size in ((slice(0, 3), 1.0), (slice(3, 6), spin)):
         for columns in BLOCKS:
             largest = np.abs(right[..., rows, columns]).max(axis=(-1, -2))
-            moment = abs(motion.top.moments[columns.start]) if columns.stop <= 3 else 0.0
-            if moment:
-                largest = np.maximum(largest, 1e-3 * size / moment)
+            change = [*map(abs, motion.top.moments), counts_start, 0, 0, counts_start * spin]
+            if change[columns.start]:
+                largest = np.maximum(largest, 1e-3 * size / change[columns.start])
             off = np.abs(found - right)[..., rows, columns].max(axis=(-1, -2))
             errors = np.maximum(errors, off / np.where(largest, largest, 1.0))
     return errors
