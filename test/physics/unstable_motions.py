@@ -1,7 +1,7 @@
 """Motions next to the unstable vertical and the separatrix, and a trial of their derivatives.
 
-Run it as `PYTHONPATH=.:test python test/physics/unstable_motions.py 10000`; it takes an hour, and
-writes what is wrong or refused. `from 5000` after the count leaves out the first ones.
+Run it as `PYTHONPATH=.:test python test/physics/unstable_motions.py 10000`; it takes half an hour,
+and writes what is wrong or refused. `from 5000` after the count leaves out the first ones.
 """
 
 from __future__ import annotations
