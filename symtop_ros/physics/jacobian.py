@@ -4,9 +4,9 @@ A state is right to some roundings, however late it is and whatever it has passe
 magnifies and reduces again on its way costs a difference no digits: near an unstable place it would
 cost them to derivatives that are integrated along the motion.
 
-The step h of a parameter is the one that moves the states by `RESPONSE`. The derivative comes from
-six states. What it lacks is of the order (h/s)^6, where s is the change of the parameter over which
-the states curve, and the rounding of the states, divided by h.
+A derivative comes from ten states, h apart. What it lacks is of the order (h/s)^10, where s is the
+change of the parameter over which the states curve, and the rounding of the states, divided by h.
+Both are estimated for each element, and the steps are changed until their sums are as promised.
 """
 
 import math
@@ -17,53 +17,55 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics.arguments import STARTS, fill_states
+from symtop_ros.physics.differences import (
+    CENTRAL,
+    FORWARD,
+    ORDER,
+    TINY,
+    Estimates,
+    find_curvature,
+    measure,
+    weigh,
+    weigh_difference,
+)
 from symtop_ros.physics.kernel import states
 from symtop_ros.physics.kernel.door import KernelMotion
 from symtop_ros.physics.values import EPS, refuse
 
-# Nodes in steps; the weights of the sixth order, and of the fourth, with fewer nodes; and those of
-# the sixth difference, in which all that is smooth cancels, and rounding is left.
-CENTRAL = np.array(
-    (
-        (-3, -2, -1, 1, 2, 3),
-        (-1 / 60, 3 / 20, -3 / 4, 3 / 4, -3 / 20, 1 / 60),
-        (0, 1 / 12, -2 / 3, 2 / 3, -1 / 12, 0),
-        np.array((1, -6, 15, 15, -6, 1)) / math.sqrt(924),
-    )
-)
-# A flat disc has no larger Iz, and no smaller Ix.
-FORWARD = np.array(
-    (
-        (1, 2, 3, 4, 5, 6),
-        (6, -15 / 2, 20 / 3, -15 / 4, 6 / 5, -1 / 6),
-        (4, -3, 4 / 3, -1 / 4, 0, 0),
-        np.array((-6, 15, -20, 15, -6, 1)) / math.sqrt(924),
-    )
-)
-RESPONSE = 0.03  # of the outermost states, in rad or in units of the fastest rate
-LARGEST_STEP = 0.01  # in units of a parameter's size: 1/Ix curves over Ix
-# The difference between the two orders is the error of the fourth, (h/s)^4: that of the sixth is
-# then below 1e-9.
-LARGEST_DIFFERENCE = 3e-7
-STATE_ERROR = 2 * EPS  # of the states in a difference, which are rounded at random
-LARGEST_ROUNDING = 5e-10  # of a derivative, in units of the largest of its block
+RESPONSE = 0.25  # of the outermost states, in rad or in units of the fastest rate
+FARTHEST = 2.0  # response beyond which states say nothing of a derivative
+LARGEST_STEP = 0.03  # in units of the size of a parameter: 1/Ix curves over Ix
+# Rounding of a state in a difference. Its standard deviation is 0.5 to 0.8 EPS.
+STATE_ERROR = 3 * EPS
+# It may also be this much of what is left in the tenth differences, of the fourth smallest of nine
+# parameters: next to an unstable place five are smooth.
+REMAINDERS, SMOOTH = 4, 4
+# All states of a driven motion have an error of its steps, which no difference shows: after an
+# unstable place it is some ten times as large.
+DRIVEN_REMAINDERS = 48
+NORM_ERROR = 0.999e-3  # of a given quaternion, nearly
 PROMISED = 1e-8  # error of a derivative, in units of the largest of its block
-# Smaller effects are measured by this one, in units of the effect on the whole state, or of the one
-# of a change by all of a parameter.
+# Smaller effects are measured by this one, in rad or in units of the spin, of a change by all of a
+# moment, by 1 rad, or by the fastest rate.
 SMALLEST = 1e-3
-UPRIGHT = 1e-7  # rad; a smaller tilt hardly feels its moments
+# Error of a row by the curvature of the other ones: next to the vertical the angle about the axis
+# looks smooth by steps that are far too long for the tilt.
+SPREAD = 2e-6
+WILD = 1e7  # promised errors; steps that leave so much in a row turn phases by whole turns
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
-TINY = 1e-300  # added to divisors that may be zero
-MOST_ROUNDS = 30
-SHORTEST = 1e-6  # smallest factor of a step from one round to the next
-OTHER = 0.618  # factor of a step by which a derivative is confirmed
+MOST_ROUNDS = 24
+# Factors of a step from one round to the next. Those next to the best one are such that no step is
+# taken twice.
+LONGER, MOST_LONGER, SHORTER, MOST_SHORTER = 1.5, 1e6, 0.95, 0.02
+NEXT = 1.09
 UNRESOLVED = (
     "a time at which double precision resolves the derivatives (the start is too near the vertical "
     "or the separatrix)"
 )
 # Columns that are measured by their largest element: each moment, attitude, and omega.
+ROWS = np.arange(2), np.arange(3)  # attitude and omega, and their components
 FIRSTS, COUNTS = (0, 1, 2, 3, 6), (1, 1, 1, 3, 3)
-Truths = NDArray[np.bool_]
+Places = NDArray[np.intp]
 
 
 def differentiate(motion: Any, times: Real) -> Real:
@@ -80,7 +82,7 @@ def differentiate(motion: Any, times: Real) -> Real:
     groups = [np.argsort(np.abs(times))] if len(times) else []
     while groups:
         group = groups.pop()
-        found[group], left = _Stencil(motion, times[group]).settle()
+        found[group], left = _Starts(motion, times[group]).settle()
         if len(left) and len(group) == 1:
             raise refuse("t", UNRESOLVED, float(times[group[0]]))
         # Few motions have times that need different steps.
@@ -89,7 +91,7 @@ def differentiate(motion: Any, times: Real) -> Real:
 
 
 def _limit(motion: Any, times: Real) -> None:
-    """Refuse times that some fifty driven motions take too long to reach."""
+    """Refuse times that some ninety driven motions take too long to reach."""
     longest, farthest = (
         MOST_NUTATION / max(_find_rates(motion)[0], TINY),
         np.abs(times).max(initial=0),
@@ -99,7 +101,7 @@ def _limit(motion: Any, times: Real) -> None:
         raise refuse("t", condition, float(farthest))
 
 
-class _Stencil:
+class _Starts:
     """Starts around that of a motion, and derivatives by them at times that share their steps."""
 
     def __init__(self, motion: Any, times: Real) -> None:
@@ -114,104 +116,160 @@ class _Stencil:
         self._sizes = np.array([Ix, Iz, weight, 1, 1, 1, rate, rate, rate])
         self._parameters = np.array([Ix, Iz, Mgl or weight, 1, 1, 1, rate, rate, rate])
         self._longest = self._sizes * LARGEST_STEP
-        self._steps = self._sizes * min(LARGEST_STEP, RESPONSE / 3 / (1 + rate * longest))
-        w, x, y, z = np.abs(self._start[3:7]).tolist()
-        self._is_upright = 0 < 2 * min(math.hypot(x, y), math.hypot(w, z)) < UPRIGHT
-        self._is_driven = motion.is_driven
-        self._targets = np.full(9, RESPONSE)
-        self._winding = 1 + rate * np.abs(times)  # rad by which phases have turned, at most
+        # The outermost orientations have a norm of 1 + (5 h)^2/8, times that of the given one.
+        off = abs(float(np.linalg.norm(self._start[3:7])) - 1)
+        self._longest[3:6] = min(LARGEST_STEP, math.sqrt(max(NORM_ERROR - off, 1e-6)) / 2)
+        response = RESPONSE / 5 / (1 + rate * longest)
+        self._steps = np.minimum(self._longest, self._sizes * response)
+        self._too_long = np.full(9, -1)  # the element for which a step of a column was
         self._units = np.array([1.0, rate])  # of attitude and omega
-        self._schemes = np.stack([CENTRAL] * 9)
-        if 2 * Ix - Iz < 8 * LARGEST_STEP * Iz:
-            self._schemes[:2] = FORWARD, -FORWARD
+        self._margin = 2 * Ix - Iz
+        self._counted = self._find_counted()
+        self._least, self._most = self._find_rounding(motion)
+        self._remainders = DRIVEN_REMAINDERS if motion.is_driven else REMAINDERS
+        self._left = np.full((len(times), 2, 3, 9), np.inf)
 
-    def settle(self) -> tuple[Real, NDArray[np.intp]]:
-        """Return the derivatives (n, 6, 9), and the places of times at which they are not right.
+    def _find_counted(self) -> Real:
+        """Return the sizes of which errors are parts, 1 rad and the spin, (n, 2, 1)."""
+        spins = np.abs(self._base.angular_velocity).max(axis=-1)
+        # A body at rest has a size, too.
+        spins = np.maximum(spins, self._units[1] * 1e-3)
+        return np.stack((np.ones(len(spins)), spins), axis=-1)[..., None]
 
-        Steps become smaller or larger until all are right.
+    def _find_rounding(self, motion: Any) -> tuple[Real, Real]:
+        """Return the least and the largest sizes of what is rounded, (n, 2, 3, 1).
+
+        Next to the vertical what is across the axis is small, and has digits of its own, at the
+        time or at least where it is largest. A driven motion may amplify the rounding of its steps.
         """
-        count = len(self._times)
-        found, done = np.empty((count, 2, 3, 9)), np.zeros((count, 2, 9), np.bool_)
-        last, left = np.full(found.shape, np.nan), np.arange(count)
+        least = np.repeat(self._counted[:, :, None], 3, axis=2)
+        w, x, y, z = np.moveaxis(self._base.orientation, -1, 0)
+        least[:, 0, :2, 0] = (2 * np.hypot(w, z) * np.hypot(x, y))[:, None]
+        least[:, 1, :2, 0] = np.hypot(*self._base.angular_velocity[:, :2].T)[:, None]
+        if motion.is_driven:
+            return least, np.full_like(least, np.inf)
+        most = np.repeat(self._counted[:, :, None], 3, axis=2)
+        most[:, :, :2] = np.array(_find_widths(motion))[:, None, None]
+        least[:, 1, 2] = most[:, 1, 2] = 0  # omega_z is that of the start
+        return least, np.maximum(most, least)
+
+    def settle(self) -> tuple[Real, Places]:
+        """Return the derivatives (n, 6, 9), and the places of times at which they are not right."""
+        found = Estimates(len(self._times))
+        last = np.zeros_like(found.derivatives)
+        left, columns = np.arange(len(self._times)), np.arange(9)
         for _ in range(MOST_ROUNDS):
-            columns = np.flatnonzero(~done.all(axis=(0, 1)))
-            derivatives, responses, are_curved, roughness = self._differentiate(left, columns)
-            found[left] = np.where(done[left][:, :, None], found[left], derivatives)
-            are_unsure = self._are_unsure(derivatives, last[left], left)
-            last[left] = derivatives
-            done[left] |= ~_spread_over_blocks(are_curved | (roughness > 1) | are_unsure)
-            are_open = ~done[left]
-            left = np.flatnonzero(~done.all(axis=(1, 2)))
-            faults = responses, are_curved, roughness, are_unsure
-            if not len(left) or not self._adapt(
-                *((each * are_open).max(axis=(0, 1)) for each in faults)
-            ):
+            part = np.ix_(left, *ROWS, columns)
+            last[part], responses, curved, rough = self._differentiate(left, columns)
+            limit = self._find_allowed(last[left], left)[..., columns]
+            wildness = (curved / limit).max(axis=(1, 2), keepdims=True)
+            curved = np.maximum(curved, limit * SPREAD * wildness)
+            unusable = np.where(wildness > WILD, np.inf, 0.0)
+            found.add(part, self._steps[columns], last[part], curved + unusable, rough)
+            known = np.where(np.isinf(found.errors), last, found.derivatives)
+            allowed = self._find_allowed(known[left], left)
+            excess = found.errors[left] / allowed
+            faults = allowed[..., columns], responses, curved, rough
+            may_end = self._adapt(part, excess[..., columns], faults)
+            is_open = excess > 1
+            # A step about one axis of the body is rounded to one about all three.
+            is_open[..., 3:6] = is_open[..., 3:6].any(axis=-1, keepdims=True)
+            columns = np.flatnonzero(is_open.any(axis=(0, 1, 2)))
+            left = left[is_open.any(axis=(1, 2, 3))]
+            if not len(left) or not may_end:
                 break
-        return found.reshape(count, 6, 9), left
+        return found.derivatives.reshape(-1, 6, 9), left
 
-    def _are_unsure(self, new: Real, last: Real, some: NDArray[np.intp]) -> Truths:
-        """Return which derivatives another step has to confirm, (m, 2, 9).
+    def _find_allowed(self, derivatives: Real, some: Places) -> Real:
+        """Return the promised errors of derivatives (m, 2, 3, 9), (m, 2, 1, 9)."""
+        largest = _spread_over_blocks(np.abs(derivatives).max(axis=2))
+        sizes = self._counted[some]
+        # An absolute error is left of parameters that hardly count, such as those of the start in
+        # the first instants.
+        least = SMALLEST * sizes / np.abs(self._parameters)
+        return np.asarray(PROMISED * np.maximum(largest, least)[:, :, None] + TINY)
 
-        If a step turns a phase by whole turns, states that are moved by it look smooth. A small
-        nutation shows no other sign of that.
-        """
-        turned = 3 * self._steps / self._sizes * self._winding[some, None]
-        least = SMALLEST * self._units[:, None] / self._sizes
-        largest = np.maximum(_spread_over_blocks(np.abs(new).max(axis=2)), least)
-        confirmed = np.abs(new - last).max(axis=2) <= 10 * PROMISED * largest
-        return np.asarray((turned > 1)[:, None] & ~confirmed)
-
-    def _adapt(
-        self, responses: Real, are_curved: Truths, roughness: Real, are_unsure: Truths
-    ) -> bool:
-        """Change the steps of columns, (9,); return False if none changes."""
-        self._targets[are_curved & (responses < 2 * self._targets)] /= 2
-        shorter = np.minimum(self._targets / np.maximum(responses, SHORTEST), 0.5)
-        longer = np.clip(2 * roughness, 1.0, 1 / SHORTEST)
-        longer[roughness <= 1] = np.where(are_unsure, OTHER, 1.0)[roughness <= 1]
-        steps = np.minimum(self._steps * np.where(are_curved, shorter, longer), self._longest)
-        self._longest[are_curved] = steps[are_curved]
-        changes = bool((steps != self._steps).any())
-        self._steps = steps
-        return changes
-
-    def _differentiate(
-        self, some: NDArray[np.intp], columns: NDArray[np.intp]
-    ) -> tuple[Real, Real, Truths, Real]:
-        """Return derivatives (m, 2, 3, 9), responses and faults (m, 2, 9); 0 in other columns."""
-        nodes, *orders, difference = np.moveaxis(self._schemes[columns], 1, 0)
-        starts = self._start + nodes[..., None] * self._list_changes()[columns, None]
-        moved, given = self._follow(starts, some), self._measure(starts)[..., columns]
-        sixth, fourth = np.zeros((2, len(some), 2, 3, 9))
-        for by_order, weights in zip((sixth, fourth), orders, strict=True):
-            steps = np.linalg.inv(np.einsum("ck,ckp->pc", weights, given))
-            by_order[..., columns] = np.einsum("ck,ckmar->marc", weights, moved) @ steps
-        responses, remainders = np.zeros((2, len(some), 2, 9))
-        responses[..., columns] = np.abs(moved).max(axis=(1, 4)).transpose(1, 2, 0)
-        responses /= self._units[:, None]
-        remainders[..., columns] = np.abs(np.einsum("ck,ckmar->marc", difference, moved)).max(
-            axis=2
+    def _adapt(self, part: Any, excess: Real, faults: tuple[Real, ...]) -> bool:
+        """Change the steps of columns by their worst elements; return False if that is no use."""
+        columns = part[-1].ravel()
+        worst = excess.reshape(-1, len(columns)).argmax(axis=0)
+        places = np.unravel_index(worst * len(columns) + np.arange(len(columns)), excess.shape)
+        limit, responses, curved, rough = (
+            np.broadcast_to(each, excess.shape)[places] for each in faults
         )
-        are_curved, roughness = self._find_faults(sixth, fourth, remainders, responses, some)
-        return sixth, responses, are_curved | (responses > 10 * RESPONSE), roughness
+        elements, most = part[0].ravel()[places[0]] * 6 + worst % 6, excess[places]
+        is_near = self._too_long[columns] == elements
+        is_long, is_open = curved > rough / 3, most > 1
+        # The best step has an error by curvature of a tenth of that by rounding.
+        shorter = (rough / np.maximum(10 * curved, rough + TINY)) ** (1 / (ORDER + 1))
+        shorter = np.where(responses > FARTHEST, RESPONSE / (4 * responses + TINY), shorter)
+        shorter = np.clip(shorter, MOST_SHORTER, SHORTER)
+        longer = np.where(is_near, NEXT, np.clip(3 * rough / limit, LONGER, MOST_LONGER))
+        factors = np.where(is_long, shorter, longer)
+        self._too_long[columns[is_long]] = elements[is_long]
+        steps = np.minimum(self._steps[columns] * factors, self._longest[columns])
+        # More steps reduce an error by rounding, by their root.
+        is_lost = (steps == self._steps[columns]) | (
+            is_near & ~is_long & (rough > MOST_ROUNDS / 3 * limit)
+        )
+        self._steps[columns[is_open]] = steps[is_open]
+        return not (is_lost & is_open).any()
 
-    def _list_changes(self) -> Real:
-        """Return a step of each column, as changes (9, 15) of the numbers of a start."""
+    def _list_nodes(self) -> Real:
+        """Return those of each column, (9, 10): a flat disc has no larger Iz, and no smaller Ix."""
+        nodes = np.tile(CENTRAL, (9, 1))
+        of_Ix, of_Iz, *_ = 6 * self._steps
+        if self._margin < 2 * of_Ix:
+            nodes[0] = FORWARD
+        if self._margin < of_Iz:
+            nodes[1] = -FORWARD
+        return nodes
+
+    def _find_noise(self, left: Real, some: Places, columns: Places) -> Real:
+        """Return the rounding of states (m, 2, 3, 1) by what is left in tenth differences.
+
+        It is the same for all parameters, and most of them are smooth by the first steps.
+        """
+        part = np.ix_(some, *ROWS, columns)
+        self._left[part] = np.minimum(self._left[part], left)
+        return self._remainders * np.sort(self._left[some], axis=-1)[..., SMOOTH - 1 : SMOOTH]
+
+    def _differentiate(self, some: Places, columns: Places) -> tuple[Real, Real, Real, Real]:
+        """Return derivatives (m, 2, 3, c), responses, and errors by curvature and by rounding."""
+        starts = self._list_starts()[columns]
+        moved, given = self._follow(starts, some), self._measure(starts)[..., columns]
+        places = np.arange(len(columns))
+        nodes = given[places, :, places] / self._steps[columns, None]
+        orders = np.stack([weigh(nodes, count) for count in (ORDER, ORDER - 2, ORDER - 4)])
+        by_order = np.einsum("ock,ckmar->omarc", orders, moved)
+        inverses = np.linalg.inv(np.einsum("ock,ckp->opc", orders, given))
+        tenth, eighth, sixth = by_order @ inverses[:, None, None]
+        widths = np.abs(moved).max(axis=1).transpose(1, 2, 3, 0)
+        responses = (widths / self._units[:, None, None]).max(axis=(1, 2), keepdims=True)
+        left = np.abs(np.einsum("ck,ckmar->marc", weigh_difference(nodes), moved))
+        left[:, :, :2] = left[:, :, :2].max(axis=2, keepdims=True)
+        across, per_step = np.array((1, 1, 0))[:, None], measure(orders[0]) / self._steps[columns]
+        least, most = (
+            STATE_ERROR * (each[some] + across * widths) for each in (self._least, self._most)
+        )
+        rough = np.clip(self._find_noise(left, some, columns), least, most) * per_step
+        curved = np.maximum(find_curvature(tenth, eighth, sixth), 2 * left * per_step - rough)
+        return tenth, responses, np.where(responses > FARTHEST, np.inf, curved), rough
+
+    def _list_starts(self) -> Real:
+        """Return the starts of the columns, (9, 10, 15)."""
         changes = np.zeros((9, STARTS[-1]))
-        turns = compose(self._start[3:7], np.eye(4)[1:]) / 2
         changes[:3, :3] = np.eye(3)
-        changes[3:6, 3:7] = turns
+        changes[3:6, 3:7] = compose(self._start[3:7], np.eye(4)[1:]) / 2
         changes[6:, 7:10] = np.eye(3)
         changes *= self._steps[:, None]
-        # In units in which the nodes are exact, so that they are equally far from each other.
-        units = np.spacing(np.abs(self._start) + 8 * np.abs(changes))
-        changes = np.rint(changes / units) * units
-        if not changes.any(axis=1).all():
+        starts = self._start + self._list_nodes()[..., None] * changes[:, None]
+        if (self._start + changes / 2 == self._start).all(axis=1).any():
             raise refuse("t", UNRESOLVED, float(self._times[0]))
-        return np.asarray(changes)
+        return np.asarray(starts)
 
     def _measure(self, starts: Real) -> Real:
-        """Return how far starts (c, 6, 15) are from the motion's, (c, 6, 9), to all digits."""
+        """Return how far starts (c, 10, 15) are from the motion's, (c, 10, 9), to all digits."""
         change = starts - self._start
         # The vector of q* (q + dq) is that of q* dq, in which nothing cancels.
         step = compose(invert(self._start[3:7]), change[..., 3:7])
@@ -219,7 +277,7 @@ class _Stencil:
         return np.concatenate((change[..., :3], find_rotation_vectors(step), change[..., 7:10]), -1)
 
     def _follow(self, starts: Real, some: NDArray[np.intp]) -> Real:
-        """Return how far the states of starts (c, 6, 15) are from the motion's, (c, 6, m, 2, 3)."""
+        """Return how far the states of starts (c, 10, 15) are from its own, (c, 10, m, 2, 3)."""
         times, rows = self._times[some], starts.reshape(-1, STARTS[-1])
         q, omega = np.empty((len(rows), len(times), 4)), np.empty((len(rows), len(times), 3))
         left = fill_states(rows, times, q, omega)
@@ -229,47 +287,6 @@ class _Stencil:
         turned = find_rotation_vectors(compose(invert(base), q))
         changes = np.stack((turned, omega - rates), axis=-2)
         return changes.reshape(*starts.shape[:2], *changes.shape[1:])
-
-    def _find_faults(
-        self,
-        sixth: Real,
-        fourth: Real,
-        remainders: Real,
-        responses: Real,
-        some: NDArray[np.intp],
-    ) -> tuple[Truths, Real]:
-        """Return which derivatives are curved too much, and how much too rough by rounding."""
-        largest = _spread_over_blocks(np.abs(sixth).max(axis=2))
-        spins = np.abs(self._base.angular_velocity[some]).max(axis=-1)
-        # What is rounded: 1 in a quaternion, and the spin. A body at rest has a size, too.
-        spins = np.maximum(spins, self._units[1] * 1e-3)
-        sizes = np.stack((np.ones(len(some)), spins), axis=-1)[..., None]
-        weights = self._schemes[:, 1]
-        norms = np.sqrt(np.square(weights).sum(axis=1)) / self._steps
-        lost = STATE_ERROR * norms * sizes
-        are_curved = np.abs(sixth - fourth).max(axis=2) > LARGEST_DIFFERENCE * largest + lost
-        are_noisy = np.zeros_like(are_curved)
-        if self._is_driven:
-            # An unstable one amplifies the rounding of its steps: a state may lose more.
-            left = 4 * norms * remainders
-            are_noisy = left > PROMISED * largest + 12 * lost
-        # What is left of states that have moved far is curvature as well.
-        has_moved = responses.max(axis=1, keepdims=True) > RESPONSE / 100
-        are_curved |= are_noisy & has_moved
-        # Where a longer step is of no use, an absolute error is left of rows that happen to change
-        # little, such as omega after a whole nutation, and of parameters that hardly count.
-        effect = (largest / sizes).max(axis=1, keepdims=True)
-        least = SMALLEST * sizes * np.maximum(effect, 1 / np.abs(self._parameters))
-        wanted = np.where(
-            self._steps < self._longest,
-            LARGEST_ROUNDING * largest,
-            PROMISED * np.maximum(largest, least),
-        )
-        if self._is_upright:
-            # Of the moments the rounding of the spin's angle remains.
-            wanted[..., :3] = PROMISED * largest[..., :3].max(axis=-1, keepdims=True)
-        roughness = lost / np.maximum(wanted, SHORTEST * lost + TINY)
-        return are_curved, np.where(are_noisy & ~has_moved, 10.0, roughness)
 
 
 def _spread_over_blocks(values: Any) -> Any:
@@ -284,3 +301,16 @@ def _find_rates(motion: Any) -> tuple[float, float]:
     swing = math.sqrt((abs(Mgl) + math.hypot(*motion.applied_torque)) / Ix)
     nutation = math.hypot(wx, wy, 2 * swing, Iz / Ix * wz)
     return nutation, math.hypot(nutation, wz)
+
+
+def _find_widths(motion: Any) -> tuple[float, float]:
+    """Return the largest sine of the tilt and the largest omega across the axis, without a drive.
+
+    Near the vertical they are small, and have the relative precision of all numbers.
+    """
+    Ix, _, Mgl = motion.top.moments
+    wx, wy, _ = motion.start.angular_velocity.tolist()
+    least, most = motion.turning_angles
+    sine = 1.0 if least < math.pi / 2 < most else max(math.sin(least), math.sin(most))
+    height = 2 * math.sin((most + least) / 2) * math.sin((most - least) / 2)
+    return sine, math.sqrt(wx * wx + wy * wy + 2 * abs(Mgl) / Ix * height)

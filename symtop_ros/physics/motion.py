@@ -281,7 +281,8 @@ class Motion:
 
         They are differences of exact states. The error of an element is at most 1e-8 of the largest
         one of its block, of rows 0 to 2 or 3 to 5 and of columns 0, 1, 2, 3 to 5 or 6 to 8. By a
-        moment that hardly counts it is 1e-11 rad, or of the spin, for a change by all of it.
+        parameter that hardly counts it is 1e-11 rad, or of the spin, for a change by all of a
+        moment, by 1 rad, or by the fastest rate.
 
         Parameters
         ----------
@@ -297,8 +298,9 @@ class Motion:
         ------
         ValueError
             If a time is refused by `at`, if double precision does not resolve the derivatives (the
-            start is within some 1e-6 rad of the vertical or 1e-8 of the separatrix), or if driven
-            motions would take more than half a minute.
+            start is within 1e-6 rad of the vertical or 1e-8 of the separatrix, more for a flat
+            disc, the time is late for a nutation that is as small, or a driven motion comes back to
+            an unstable vertical), or if driven motions would take more than a minute.
 
         Examples
         --------

@@ -8,7 +8,7 @@ import numpy as np
 from mpmath import mp, mpf
 from physics.tops import multiply
 
-from symtop_ros.physics.reference import Inputs, Series
+from symtop_ros.physics.reference import ClosedForm, Inputs, Series
 from workshop.testset.exact import returning_series
 
 DIGITS = 70
@@ -16,14 +16,20 @@ FEW_DIGITS = 34  # enough in the first nutations: derivatives with some 20 digit
 BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 
 
-def differentiate(motion, times, returns=True, digits=DIGITS):
-    """The Jacobians (n, 6, 9) at times in s > 0; `returns` says that the nutation has a period."""
+def differentiate(motion, times, returns=True, digits=DIGITS, is_closed=False):
+    """The Jacobians (n, 6, 9) at times in s > 0.
+
+    `returns` says that the nutation has a period; `is_closed` takes the closed form instead of
+    Taylor series, a tenth of their time.
+    """
     friction = motion.friction.axial, motion.friction.transverse
     driven = any(friction) or any(motion.applied_torque)
 
     def follow(moments, *start):
         inputs = Inputs.exact(*moments, *start)
-        if driven or not returns:
+        if is_closed:
+            exact = ClosedForm(inputs, digits)
+        elif driven or not returns:
             exact = Series(inputs, digits, friction, motion.applied_torque)
         else:
             exact = returning_series(inputs, digits)
@@ -75,18 +81,21 @@ def _near(q, base):
     return q if sum(a * b for a, b in zip(q, base[0], strict=True)) > 0 else [-c for c in q]
 
 
-def find_errors(motion, found, right):
+def find_errors(motion, found, right, counts_start=False):
     """The largest error of each Jacobian, as a part of the largest element of its block.
 
     A block has three rows, and one column for a moment or three for the start. Of a moment that
-    hardly counts an error is promised as a part of 1e-3 rad, or of the spin, for all of the moment.
+    hardly counts, such as the weight in the first instants, an error is promised as a part of
+    1e-3 rad, or of the spin, for all of the moment; with `counts_start` also for 1 rad of a start,
+    and for its angular velocity: docs/filters.md promises no more.
     """
     errors, spin = np.zeros(found.shape[:-2]), np.abs(motion.start.angular_velocity).max()
     for rows, size in ((slice(0, 3), 1.0), (slice(3, 6), spin)):
         for columns in BLOCKS:
             largest = np.abs(right[..., rows, columns]).max(axis=(-1, -2))
-            if columns.stop <= 2:
-                largest = np.maximum(largest, 1e-3 * size / motion.top.moments[columns.start])
+            change = [*map(abs, motion.top.moments), counts_start, 0, 0, counts_start * spin]
+            if change[columns.start]:
+                largest = np.maximum(largest, 1e-3 * size / change[columns.start])
             off = np.abs(found - right)[..., rows, columns].max(axis=(-1, -2))
             errors = np.maximum(errors, off / np.where(largest, largest, 1.0))
     return errors

@@ -1,14 +1,20 @@
 """Derivatives of the state by top and start, compared with exact ones."""
 
+import json
+import lzma
+from pathlib import Path
+
 import numpy as np
 import pytest
 from physics.differences import FEW_DIGITS, differentiate, find_errors
 from physics.tops import ARTICLE, CUSPS, seeds
+from physics.unstable_motions import Case, find_error, make_case
 
 from symtop_ros.physics import Friction, Motion, Motions, State, Top
 from symtop_ros.physics.arguments import NO_FRICTION
 
 PROMISED = 1e-8  # docs/filters.md
+PACKED = Path(__file__).with_name("motions.json.xz")
 SLOW = 6.497144816155788  # rad/s, the slow root of the article's top
 HALF = Top(2e-4, 1e-4, 0.05)
 RETURNING = {
@@ -50,6 +56,12 @@ def leave_some(names):
     """Leave every second one to the long trials."""
     marks = [pytest.mark.long]
     return [pytest.param(name, marks=marks * (k % 2)) for k, name in enumerate(names)]
+
+
+def leave_last(count, kept):
+    """Numbers, of which those after the first ones are left to the long trials."""
+    marks = [pytest.mark.long]
+    return [pytest.param(k, marks=marks * (k >= kept)) for k in range(count)]
 
 
 @pytest.mark.parametrize("name", leave_some(RETURNING))
@@ -181,10 +193,76 @@ def test_a_step_that_turns_a_phase_by_whole_turns_is_not_taken_for_a_smooth_one(
 
 
 @pytest.mark.parametrize("tilt", [1e-8, 1e-10, 1e-12])
-def test_what_doubles_do_not_resolve_is_refused(tilt):
+def test_what_doubles_do_not_resolve_is_right_or_refused(tilt):
     motion = near_the_vertical(tilt)
+    # on the way back to the vertical, and away from it again
+    for part in (0.2, 0.9, 1.1, 1.3, 1.9):
+        error = find_error(Case("vertical", motion, part * motion.nutation_period, tilt))
+        assert error is None or error < 1, part
+
+
+def test_a_start_that_no_double_is_far_enough_from_is_refused():
+    motion = near_the_vertical(1e-12)
     with pytest.raises(ValueError, match="at which double precision resolves the derivatives"):
-        motion.jacobian(0.9 * motion.nutation_period)
+        motion.jacobian(1.9 * motion.nutation_period)
+
+
+@pytest.mark.parametrize("part", [0.4, 0.9])
+def test_driven_motions_are_right_until_they_come_back_to_an_unstable_place(part):
+    tilt = 1e-6
+    motion = near_the_vertical(tilt, Friction(axial=1e-300))
+    t = part * near_the_vertical(tilt).nutation_period
+    right = differentiate(near_the_vertical(tilt), [t], digits=60, is_closed=True)
+    assert find_errors(motion, motion.jacobian([t]), right).max() < PROMISED
+
+
+@pytest.mark.parametrize("tilt", [2e-6, 5e-6, 1e-5, 2e-5])
+def test_driven_motions_beyond_an_unstable_place_are_right_or_refused(tilt):
+    motion, free = near_the_vertical(tilt, Friction(axial=1e-300)), near_the_vertical(tilt)
+    for part in (1.1, 1.3, 1.9, 2.3):
+        t = part * free.nutation_period
+        try:
+            found = motion.jacobian([t])
+        except ValueError as refusal:
+            assert tilt < 2e-5
+            assert "at which double precision resolves" in str(refusal)  # noqa: PT017
+            continue
+        right = differentiate(free, [t], digits=60, is_closed=True)
+        assert find_errors(motion, found, right).max() < PROMISED
+
+
+def stored_motions():
+    for each in json.loads(lzma.decompress(PACKED.read_bytes())):
+        start = State(each["q0"], each["omega_body0"])
+        yield each["name"], Motion(Top(each["Ix"], each["Iz"], each["Mgl"]), start), each["t"]
+
+
+STORED = list(stored_motions())
+STORED_NAMES = [name for name, *_ in STORED]
+
+
+@pytest.mark.parametrize(("_", "motion", "times"), STORED, ids=STORED_NAMES)
+def test_no_stored_motion_is_refused(_, motion, times):
+    for t in times:
+        assert np.isfinite(motion.jacobian(t)).all()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("_", "motion", "times"), STORED, ids=STORED_NAMES)
+def test_derivatives_of_stored_motions_are_exact(_, motion, times):
+    right = differentiate(motion, times, digits=60, is_closed=True)
+    found = np.stack([motion.jacobian(t) for t in times])
+    together = motion.jacobian(times)
+    for each in (found, together):
+        assert find_errors(motion, each, right, counts_start=True).max() < PROMISED
+
+
+# `python test/physics/unstable_motions.py` tries more of them.
+@pytest.mark.parametrize("number", leave_last(400, kept=12))
+def test_motions_next_to_what_is_unstable_are_right_or_refused(number):
+    case = make_case(number)
+    error = find_error(case)
+    assert case.may_be_refused if error is None else error < 1
 
 
 @pytest.mark.parametrize("seed", seeds(5, 100))

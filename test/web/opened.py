@@ -47,6 +47,24 @@ class Opened:
         self.tab.reload()
         self.wait_for_page()
 
+    def wait_for_frames(self, count=2):
+        """Wait until the page has drawn: what was asked for before is then shown."""
+        self.tab.evaluate(
+            """(count) => new Promise((done) => {
+                const step = (left) => left ? requestAnimationFrame(() => step(left - 1)) : done();
+                step(count);
+            })""",
+            count,
+        )
+
+    def is_stored(self, name, value, tab=None):
+        """Return True if a tab, one's own or another of the browser, finds a value in the store.
+
+        Another tab may have a process of its own, which hears of changes somewhat later.
+        """
+        read = "(name) => localStorage.getItem(`symtop.${name}`)"
+        return value in ((tab or self.tab).evaluate(read, name) or "")
+
     def drop(self, run):
         """Drop a file with a run."""
         self.tab.evaluate(

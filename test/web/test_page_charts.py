@@ -35,7 +35,7 @@ def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_pag
     page.wait_for_time(0.03)
     page.tab.click("#pause")
     page.tab.locator("#psi_dot").scroll_into_view_if_needed()
-    page.tab.wait_for_timeout(300)
+    page.wait_for_frames()
     rates = regular_precession_rates(ARTICLE, 0.5, 200.0)
     sizes = {"theta": 0.5, "phi_dot": rates[root == "fast"], "psi_dot": 200.0}
     for name, size in sizes.items():
@@ -132,7 +132,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     _, kick = opened.read_events()
     opened.tab.locator("#free").scroll_into_view_if_needed()
     opened.tab.evaluate("document.getElementById('free-place').value = 1")
-    opened.tab.wait_for_timeout(300)
+    opened.wait_for_frames()
     time = float(opened.tab.get_attribute("body", "data-time"))
     state = read_motion(kick).at(time - kick["time"])
     rates = state.euler_rates
@@ -197,10 +197,10 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     for name in ("trace", "turning circles"):
         opened.tab.get_by_label(name).uncheck()
     opened.tab.click("#pause")
-    opened.tab.wait_for_timeout(300)
+    opened.wait_for_frames()
     x, y, _ = find_ball(opened)
     opened.drag(x, y, 0, 60)
-    opened.tab.wait_for_timeout(300)
+    opened.wait_for_frames()
     assert len(opened.read_events()) == 1  # nothing has happened yet
     opened.tab.mouse.up()
     first, tilted = opened.read_events()
@@ -208,9 +208,9 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     before, after = read_state(first), read_state(tilted)
     assert abs(after.euler_angles.theta - before.euler_angles.theta) > 0.05
     assert after.euler_rates.psi == pytest.approx(200)
-    opened.tab.wait_for_timeout(300)
+    opened.wait_for_frames()
     opened.tab.click("#pause")
-    opened.tab.wait_for_timeout(300)
+    opened.wait_for_frames()
     opened.tab.click("#pause")
     x, y, _ = find_ball(opened)
     opened.tab.keyboard.down("Shift")

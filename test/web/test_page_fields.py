@@ -32,6 +32,7 @@ def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
     assert opened.say("refusal") == ""
     opened.enter("theta", "60")
     assert opened.read_last().euler_angles.theta == pytest.approx(math.pi / 3, rel=1e-15)
+    opened.until(lambda: opened.is_stored("unit", "deg"))
     opened.reload()
     assert opened.tab.input_value("#unit") == "deg"  # the choice is kept
     assert "°" in opened.say("headline")

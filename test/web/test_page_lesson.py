@@ -112,6 +112,8 @@ def test_predictions_are_kept_for_the_browser(open_page):
     page.tab.fill("#prediction", "it falls")
     another = page.context.new_page()  # of the same browser
     another.goto(page.tab.url)
+    page.until(lambda: page.is_stored("predictions", "it falls", another))
+    another.reload()
     another.wait_for_selector("#headline:not(:empty)")
     assert another.input_value("#prediction") == "it falls"
     another.evaluate("localStorage.setItem('symtop.predictions', '{')")

@@ -126,11 +126,11 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
 
 def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     opened.tab.click("#pause")
-    opened.tab.wait_for_timeout(300)
+    opened.wait_for_frames()
 
     def read():
         """Return the places of the labels, which move with the camera."""
-        opened.tab.wait_for_timeout(300)
+        opened.wait_for_frames()
         labels = opened.tab.locator(".label:visible")
         return labels.evaluate_all("all => all.map(e => e.style.transform)")
 

@@ -22,8 +22,8 @@ import { addTabs } from "./controls/tabs.js";
 import { followTheme } from "./controls/theme.js";
 import { Timeline } from "./controls/timeline.js";
 
-/** @typedef {import("./words/facts.js").Facts} Facts */
-/** @typedef {import("./controls/roots.js").Now} Now */
+/** @import { Facts } from "./words/facts.js" */
+/** @import { Now } from "./controls/roots.js" */
 /** @typedef {{[name: string]: any}} Message */
 /**
  * A top of the page: it takes messages, and its answers are told.

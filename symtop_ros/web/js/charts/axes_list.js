@@ -4,50 +4,47 @@ import { findEnergies, findRest, findTiltAcceleration } from "./formulas.js";
 import { NANO } from "../physics/course.js";
 import { findVectors } from "../scene/vectors.js";
 
-/** @typedef {import("../physics/course.js").Course} Course */
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("./formulas.js").Energies} Energies */
+/** @import { Course } from "../physics/course.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Vector } from "../physics/kernel.js" */
+/** @import { Energies } from "./formulas.js" */
 /** @typedef {(time: number, state: State, course: Course) => number} Pick */
 /** @typedef {{name: string, unit: string, isAngle?: boolean, pick: Pick}} Quantity */
 
 const MILLI = 1000;
 
+/** @param {string} name @param {string} unit @param {Pick} pick @returns {Quantity} */
+const list = (name, unit, pick) => ({ name, unit, pick });
+
 /** @param {string} name @param {"phi" | "theta" | "psi"} id @returns {Quantity} */
 const listAngle = (name, id) => ({
-  ...{ name, unit: "rad", isAngle: true },
-  pick: (_, { angles }) => angles[id],
+  ...list(name, "rad", (_, { angles }) => angles[id]),
+  isAngle: true,
 });
 
-/** @param {string} name @param {"phi" | "theta" | "psi"} id @returns {Quantity} */
-const listRate = (name, id) => ({ name, unit: "rad/s", pick: (_, { rates }) => rates[id] });
+/** @param {string} name @param {"phi" | "theta" | "psi"} id */
+const listRate = (name, id) => list(name, "rad/s", (_, { rates }) => rates[id]);
 
-/** @param {string} name @param {(parts: Energies) => number} part @returns {Quantity} */
-const listEnergy = (name, part) => ({
-  ...{ name, unit: "mJ" },
-  pick: (_, state, { top }) => MILLI * part(findEnergies(top, state)),
-});
+/** @param {string} name @param {(parts: Energies) => number} part */
+const listEnergy = (name, part) =>
+  list(name, "mJ", (_, state, { top }) => MILLI * part(findEnergies(top, state)));
 
-/** @param {string} name @param {(L: Vector) => number} part in space @returns {Quantity} */
-const listMomentum = (name, part) => ({
-  ...{ name, unit: "N m s" },
-  pick: (_, state, course) => part(findVectors(course, state).L),
-});
+/** @param {string} name @param {(L: Vector) => number} part in space */
+const listMomentum = (name, part) =>
+  list(name, "N m s", (_, state, course) => part(findVectors(course, state).L));
 
 /** @type {{[id: string]: Quantity}} */
 export const QUANTITIES = {
-  time: { name: "time", unit: "s", pick: (time) => time / NANO },
+  time: list("time", "s", (time) => time / NANO),
   theta: listAngle("tilt theta", "theta"),
   phi: listAngle("precession phi", "phi"),
   psi: listAngle("spin psi", "psi"),
   theta_dot: listRate("tilt rate theta'", "theta"),
   phi_dot: listRate("precession rate phi'", "phi"),
   psi_dot: listRate("spin rate psi'", "psi"),
-  theta_ddot: {
-    ...{ name: "tilt acceleration theta''", unit: "rad/s\u00b2" },
-    pick: (_, { angles, rates }, { top }) =>
-      findTiltAcceleration(top, angles.theta, rates.phi, rates.psi),
-  },
+  theta_ddot: list("tilt acceleration theta''", "rad/s\u00b2", (_, { angles, rates }, { top }) =>
+    findTiltAcceleration(top, angles.theta, rates.phi, rates.psi),
+  ),
   weight: listEnergy("energy of the weight", ({ weight }) => weight),
   precession: listEnergy("energy of the precession", ({ precession }) => precession),
   nutation: listEnergy("energy of the nutation", ({ nutation }) => nutation),
@@ -55,9 +52,6 @@ export const QUANTITIES = {
   L_x: listMomentum("L along x, in space", ([x]) => x),
   L_y: listMomentum("L along y, in space", ([, y]) => y),
   L_vertical: listMomentum("L along the vertical", ([, , z]) => z),
-  L_axis: {
-    ...{ name: "L along the axis", unit: "N m s" },
-    pick: (_, { omega }, { top }) => top.Iz * omega[2],
-  },
+  L_axis: list("L along the axis", "N m s", (_, { omega }, { top }) => top.Iz * omega[2]),
   L_size: listMomentum("size of L", (L) => Math.hypot(...L)),
 };

@@ -10,8 +10,8 @@ import { drawRule } from "./rule_chart.js";
 import { drawOneSeries } from "./series_charts.js";
 import { drawWell } from "./well_chart.js";
 
-/** @typedef {import("../words/facts.js").Facts} Facts */
-/** @typedef {import("../run/local.js").Row} Row */
+/** @import { Facts } from "../words/facts.js" */
+/** @import { Row } from "../run/local.js" */
 /**
  * What a frame shows: samples and their rows, and the constants of the motion.
  * @typedef {{samples: import("../run/local.js").Sample[], series: Row[],

@@ -1,7 +1,7 @@
 // Formulas of what is drawn and tabled, in doubles: curves, bars, arrows, and constants of a motion.
 
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/kernel.js").Top} Top */
+/** @import { State } from "../physics/state.js" */
+/** @import { Top } from "../physics/kernel.js" */
 /**
  * Parts of the energy in J. E' is the sum of weight, precession and nutation; the spin keeps its
  * part until the next kick.

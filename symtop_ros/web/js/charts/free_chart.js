@@ -4,22 +4,12 @@
 import { QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
 import { find, make, write } from "../controls/document.js";
-import {
-  createFrame,
-  draw,
-  drawCurve,
-  drawDot,
-  findSpan,
-  LEFT,
-  listTicks,
-  WIDE,
-  writeBelow,
-} from "./plot.js";
+import { draw, findSpan, Frame, listTicks, WIDE } from "./plot.js";
 import { angleUnit, shorten, toUnit } from "../words/quantities.js";
 
-/** @typedef {import("../run/local.js").Sample} Sample */
-/** @typedef {import("./axes_list.js").Quantity} Quantity */
-/** @typedef {[number, number]} Pair */
+/** @import { Sample } from "../run/local.js" */
+/** @import { Quantity } from "./axes_list.js" */
+/** @import { Pair } from "./plot.js" */
 /** @typedef {"state" | "ghost" | "kept"} Whose */
 
 const HEIGHT = 180;
@@ -100,24 +90,18 @@ export class FreeChart {
         1e-6,
       ),
     );
-    const frame = createFrame(HEIGHT, range, edges, 4);
-    const paths = curves.map(({ style, values }) =>
-      drawCurve(
-        values.map(([x, y]) => [frame.x(x), frame.y(y)]),
-        style,
-      ),
-    );
+    const frame = new Frame(HEIGHT, range, edges);
+    const paths = curves.map(({ style, values }) => frame.curve(values, style));
     const own = curves[curves.length - 1].values;
-    this.points = own.map(([x, y]) => [frame.x(x), frame.y(y)]);
+    this.points = own.map((each) => frame.place(each));
     draw(
       "free",
       HEIGHT,
       `${vertical.name} over ${horizontal.name}`,
       `${frame.axes}${paths.join("")}
-      ${drawDot(...this.points[this.findShown(samples)], 'fill="var(--theta)"')}
-      <text x="${LEFT + 2}" y="18">${nameUnit(vertical)}</text>
-      <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">${nameUnit(horizontal)}</text>
-      ${writeBelow(frame, listTicks(...range, 4))}`,
+      ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
+      ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}
+      ${frame.writeBelow(listTicks(...range, 4))}`,
     );
   }
 

@@ -5,7 +5,7 @@
 
 import { findConstants } from "./formulas.js";
 
-/** @typedef {import("../physics/kernel.js").Top} Top */
+/** @import { Top } from "../physics/kernel.js" */
 
 const TWICE = 2; // Mgl/p_psi: phi' of the second cusp
 const AT_REST = 1e-9; // of omega: theta' that is smaller is none

@@ -2,24 +2,12 @@
 
 import { find } from "../controls/document.js";
 import { findBoundaries, makesLoops } from "./kinds.js";
-import {
-  createFrame,
-  draw,
-  drawCurve,
-  drawDot,
-  findSpan,
-  LEFT,
-  level,
-  listTicks,
-  WIDE,
-  writeBelow,
-} from "./plot.js";
+import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("../physics/kernel.js").Top} Top */
-/** @typedef {import("./plot.js").Frame} Frame */
+/** @import { Top } from "../physics/kernel.js" */
+/** @import { Pair } from "./plot.js" */
 /** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Turning */
-/** @typedef {[number, number]} Pair */
 
 const HEIGHT = 190;
 const [ROWS, COLUMNS] = [86, 84]; // cells of the regions
@@ -77,12 +65,8 @@ const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
 
 /** @param {Frame} frame @param {Top} top @param {number} theta @param {[Pair, Pair]} ranges */
 const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
-  const sides = [
-    [low, 0],
-    [0, high],
-  ].map(([begin, end]) =>
-    Array.from({ length: POINTS }, (_, k) => begin + ((k + 0.5) / POINTS) * (end - begin)),
-  );
+  const [below, above] = [low, high].map((end) => (0.5 / POINTS) * end); // next to phi' = 0
+  const sides = [spread(low - below, below, POINTS), spread(above, high - above, POINTS)];
   const cut = (/** @type {number} */ psi) => (psi >= left && psi <= right ? psi : NaN);
   return sides
     .flatMap((side) => {
@@ -90,9 +74,9 @@ const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
       return Object.entries(LOOKS).map(([name, style]) => {
         const points = found.map((each) => {
           const psi = cut(each[/** @type {"cusps" | "regular" | "upper" | "lower"} */ (name)]);
-          return /** @type {Pair} */ ([frame.x(psi), Number.isNaN(psi) ? NaN : frame.y(each.phi)]);
+          return /** @type {Pair} */ ([psi, Number.isNaN(psi) ? NaN : each.phi]);
         });
-        return drawCurve(points, style);
+        return frame.curve(points, style);
       });
     })
     .join("");
@@ -107,7 +91,7 @@ export const drawKinds = (top, turning) => {
   if (!turning) return;
   const ranges = findRanges(turning);
   const [horizontal, vertical] = ranges;
-  const frame = createFrame(HEIGHT, horizontal, vertical);
+  const frame = new Frame(HEIGHT, horizontal, vertical);
   const key = JSON.stringify([top, turning.theta, ranges]);
   if (key !== drawn.key) {
     const parts = [drawLoops, drawBoundaries].map((part) =>
@@ -119,10 +103,10 @@ export const drawKinds = (top, turning) => {
     "kinds",
     HEIGHT,
     "Kinds of motion over spin rate and precession rate",
-    `${drawn.text}${level(frame.y(0), LOOKS.cusps)}
-    ${drawDot(frame.x(turning.psi_dot), frame.y(turning.phi_dot), 'fill="var(--theta)" id="present"')}
-    <text x="${LEFT + 2}" y="18">\u03c6\u0307 in rad/s</text>
-    <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">\u03c8\u0307 in rad/s</text>
-    ${writeBelow(frame, listTicks(...horizontal, 4), (value) => shorten(value))}`,
+    `${drawn.text}${frame.level(0, LOOKS.cusps)}
+    ${frame.dot([turning.psi_dot, turning.phi_dot], 'fill="var(--theta)" id="present"')}
+    ${frame.nameVertical("\u03c6\u0307 in rad/s")}
+    ${frame.nameHorizontal("\u03c8\u0307 in rad/s")}
+    ${frame.writeBelow(listTicks(...horizontal, 4), (value) => shorten(value))}`,
   );
 };

@@ -3,11 +3,11 @@
 import { find, say } from "../controls/document.js";
 import { findRest } from "./formulas.js";
 import { ROUNDING } from "../words/ledger.js";
-import { createFrame, draw, findSpan, level } from "./plot.js";
+import { draw, findSpan, Frame } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("./formulas.js").Energies} Energies */
-/** @typedef {import("../words/ledger.js").Ledger} Ledger */
+/** @import { Energies } from "./formulas.js" */
+/** @import { Ledger } from "../words/ledger.js" */
 
 const HEIGHT = 150;
 const WIDTH = 0.2; // of a bar; groups are 1 apart
@@ -31,7 +31,7 @@ const listHeights = ({ kick, far }) => {
 };
 
 /**
- * @param {import("./plot.js").Frame} frame
+ * @param {Frame} frame
  * @param {number} group
  * @param {number} place
  * @param {number} height
@@ -54,7 +54,7 @@ export const drawLedger = (ledger, sentence) => {
   const heights = listHeights(ledger);
   const [low, high] = findSpan([0, ...heights.flat()], 1e-6);
   const room = 0.12 * (high - low);
-  const frame = createFrame(HEIGHT, [-0.5, 1.5], [low - room, high + room]);
+  const frame = new Frame(HEIGHT, [-0.5, 1.5], [low - room, high + room]);
   const bars = heights.flatMap((group, g) =>
     group.map((height, k) => drawBar(frame, g, k, height)),
   );
@@ -66,7 +66,7 @@ export const drawLedger = (ledger, sentence) => {
     "ledger",
     HEIGHT,
     sentence,
-    `${frame.axes}${level(frame.y(0), 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
+    `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
   );
   find("ledger").querySelector("svg")?.setAttribute("aria-label", sentence);
   say("ledger-text", sentence);

@@ -11,7 +11,6 @@ const FAR = 1e4; // units; out of the drawing
 
 /** @typedef {[number, number]} Pair */
 /** @typedef {(value: number) => number} Scale */
-/** @typedef {{x: Scale, y: Scale, bottom: number, axes: string}} Frame */
 
 /**
  * Put a drawing into the place of a chart.
@@ -60,72 +59,91 @@ const keepNear = (value, place) => {
   return Math.min(Math.max(place, -FAR), FAR);
 };
 
-/**
- * Axes: `low` and `high` are the values at the lower and the upper edge, in this order.
- * @param {number} height
- * @param {Pair} horizontal
- * @param {Pair} vertical
- * @param {number} marks
- * @param {Scale} shown a value in the unit of the page
- * @returns {Frame}
- */
-export const createFrame = (
-  height,
-  [left, right],
-  [low, high],
-  marks = 4,
-  shown = (value) => value,
-) => {
-  const bottom = height - LOWER;
-  const x = (/** @type {number} */ value) =>
-    keepNear(value, LEFT + ((value - left) / (right - left)) * (WIDE - LEFT - RIGHT));
-  const y = (/** @type {number} */ value) =>
-    keepNear(value, bottom - ((value - low) / (high - low)) * (bottom - UPPER));
-  const ticks = listTicks(shown(Math.min(low, high)), shown(Math.max(low, high)), marks);
-  const axes = ticks.map((value) => {
-    const place = y(value / (shown(1) || 1));
-    return `${level(place, 'class="axis"')}
-      <text class="tick" x="${LEFT - 4}" y="${(place + 3).toFixed(1)}" text-anchor="end">${shorten(value, 5)}</text>`;
-  });
-  return { x, y, bottom, axes: axes.join("") };
-};
-
-/** A line across the chart. @param {number} height @param {string} style */
-export const level = (height, style) =>
-  `<path d="M${LEFT} ${height.toFixed(1)}H${WIDE - RIGHT}" ${style}/>`;
-
-/**
- * Values below the axes.
- * @param {Frame} frame
- * @param {number[]} values
- * @param {(value: number) => string} write
- */
-export const writeBelow = (frame, values, write = (value) => shorten(value, 5)) =>
-  values
-    .map(
-      (value) => `<text class="tick" x="${frame.x(value).toFixed(1)}" y="${frame.bottom + 12}"
-    text-anchor="middle">${write(value)}</text>`,
-    )
-    .join("");
-
-/**
- * A curve, with gaps where its height is no number.
- * @param {Pair[]} points in units of the drawing
- * @param {string} style
- */
-export const drawCurve = (points, style) => {
+/** A path through points, with gaps where their height is no number. @param {Pair[]} points */
+const writePath = (points) => {
   let text = "";
   let pen = "M";
   for (const [x, y] of points) {
     if (Number.isFinite(y)) text += `${pen}${x.toFixed(1)} ${y.toFixed(1)}`;
     pen = Number.isFinite(y) ? "L" : "M";
   }
-  return `<path d="${text}" fill="none" ${style}/>`;
+  return text;
 };
 
-/** A dot. @param {number} x @param {number} y @param {string} style */
-export const drawDot = (x, y, style) =>
-  `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="5" ${style}/>`;
+/** The axes of a chart, and what is drawn in it: values become units of the drawing. */
+export class Frame {
+  /**
+   * @param {number} height
+   * @param {Pair} horizontal values at the left and at the right edge
+   * @param {Pair} vertical values at the lower and at the upper edge, in this order
+   * @param {number} marks
+   * @param {Scale} shown a value in the unit of the page
+   */
+  constructor(height, horizontal, vertical, marks = 4, shown = (value) => value) {
+    const [[left, right], [low, high]] = [horizontal, vertical];
+    this.bottom = height - LOWER;
+    /** @type {Scale} */
+    this.x = (value) =>
+      keepNear(value, LEFT + ((value - left) / (right - left)) * (WIDE - LEFT - RIGHT));
+    /** @type {Scale} */
+    this.y = (value) =>
+      keepNear(value, this.bottom - ((value - low) / (high - low)) * (this.bottom - UPPER));
+    const ticks = listTicks(shown(Math.min(low, high)), shown(Math.max(low, high)), marks);
+    this.axes = ticks.map((value) => this.drawTick(value, value / (shown(1) || 1))).join("");
+  }
+
+  /** @param {number} text @param {number} value */
+  drawTick(text, value) {
+    return `${this.level(value, 'class="axis"')}
+      <text class="tick" x="${LEFT - 4}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end">${shorten(text, 5)}</text>`;
+  }
+
+  /** @param {Pair} point @returns {Pair} */
+  place([x, y]) {
+    return [this.x(x), this.y(y)];
+  }
+
+  /** A line across the chart. @param {number} value @param {string} style */
+  level(value, style) {
+    return `<path d="M${LEFT} ${this.y(value).toFixed(1)}H${WIDE - RIGHT}" ${style}/>`;
+  }
+
+  /** A curve, with gaps where its height is no number. @param {Pair[]} points @param {string} style */
+  curve(points, style) {
+    return `<path d="${writePath(points.map((each) => this.place(each)))}" fill="none" ${style}/>`;
+  }
+
+  /** @param {Pair} point @param {string} style */
+  dot(point, style) {
+    const [x, y] = this.place(point).map((each) => each.toFixed(1));
+    return `<circle cx="${x}" cy="${y}" r="5" ${style}/>`;
+  }
+
+  /** What the vertical axis shows. @param {string} text */
+  nameVertical(text) {
+    return `<text x="${LEFT + 2}" y="18">${text}</text>`;
+  }
+
+  /** What the horizontal axis shows. @param {string} text */
+  nameHorizontal(text) {
+    return `<text x="${WIDE - 8}" y="${this.bottom - 4}" text-anchor="end">${text}</text>`;
+  }
+
+  /** Values below the axes. @param {number[]} values @param {(value: number) => string} write */
+  writeBelow(values, write = (value) => shorten(value, 5)) {
+    const place = `y="${this.bottom + 12}" text-anchor="middle"`;
+    return values
+      .map(
+        (each) =>
+          `<text class="tick" x="${this.x(each).toFixed(1)}" ${place}>${write(each)}</text>`,
+      )
+      .join("");
+  }
+}
+
+/** Numbers at equal distances. @param {number} low @param {number} high @param {number} count */
+export const spread = (low, high, count) =>
+  Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
 
 /**
  * An interval around numbers, with some room; of `least` at least, so that no rounding is shown.

@@ -1,24 +1,13 @@
 // Chart of Perry's rule: theta'' over phi', with psi' held.
 
-import {
-  createFrame,
-  draw,
-  drawCurve,
-  drawDot,
-  findSpan,
-  LEFT,
-  level,
-  listTicks,
-  WIDE,
-  writeBelow,
-} from "./plot.js";
+import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { findTiltAcceleration } from "./formulas.js";
 import { shorten } from "../words/quantities.js";
 
-/** @typedef {import("../words/facts.js").Facts} Facts */
+/** @import { Facts } from "../words/facts.js" */
 
 const HEIGHT = 150;
-const POINTS = 80;
+const POINTS = 81;
 const LARGEST = 1e4; // rad/s; a root beyond it is not shown
 
 /** @param {number[]} rates */
@@ -33,31 +22,27 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
   const { theta } = state.angles;
   const { phi: rate, psi: spin } = state.rates;
   const at = (/** @type {number} */ each) => findTiltAcceleration(body, theta, each, spin);
-  const roots = keepShown(state.findRegularRates(body));
+  const roots = keepShown(state.kernel.findRegularRates(body, theta, spin));
   const hurried = rate * factor;
   const range = findSpan([0, ...roots, ...keepShown(first), start.phi_dot, rate, hurried], 1);
-  const rates = Array.from(
-    { length: POINTS + 1 },
-    (_, k) => range[0] + (k / POINTS) * (range[1] - range[0]),
-  );
+  const rates = spread(...range, POINTS);
   const [low, high] = findSpan([0, at(rate), at(hurried), ...rates.map(at)], 1);
-  const frame = createFrame(HEIGHT, range, [high, low]); // the axis points down: up is a rise
-  const place = (/** @type {number} */ each) =>
-    /** @type {[number, number]} */ ([frame.x(each), frame.y(at(each))]);
+  const frame = new Frame(HEIGHT, range, [high, low]); // the axis points down: up is a rise
+  const place = (/** @type {number} */ each) => /** @type {[number, number]} */ ([each, at(each)]);
   const mark = (/** @type {number} */ root) =>
     `<path class="root" d="M${frame.x(root).toFixed(1)} ${(frame.y(0) - 6).toFixed(1)}v12" stroke="var(--text)" stroke-width="2"/>`;
   draw(
     "rule",
     HEIGHT,
     "Acceleration of the tilt over the precession rate",
-    `${frame.axes}${level(frame.y(0), 'stroke="var(--grey)"')}
-    ${drawCurve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"')}
+    `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}
+    ${frame.curve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"')}
     ${roots.map(mark).join("")}
-    ${Math.abs(rate) > 1e-9 ? drawDot(...place(hurried), 'fill="none" stroke="var(--theta)" stroke-width="2" id="hurried"') : ""}
-    ${drawDot(...place(rate), 'fill="var(--theta)" id="now"')}
-    <text x="${LEFT + 2}" y="18">rises \u2191 (θ̈ &lt; 0, rad/s\u00b2)</text>
-    <text x="${WIDE - 8}" y="${frame.bottom - 4}" text-anchor="end">falls \u2193</text>
-    ${writeBelow(frame, listTicks(range[0], range[1], 4), (value) => shorten(value))}
+    ${Math.abs(rate) > 1e-9 ? frame.dot(place(hurried), 'fill="none" stroke="var(--theta)" stroke-width="2" id="hurried"') : ""}
+    ${frame.dot(place(rate), 'fill="var(--theta)" id="now"')}
+    ${frame.nameVertical("rises \u2191 (θ̈ &lt; 0, rad/s\u00b2)")}
+    ${frame.nameHorizontal("falls \u2193")}
+    ${frame.writeBelow(listTicks(...range, 4), (value) => shorten(value))}
     <text class="tick" x="4" y="${frame.bottom + 12}">rad/s</text>`,
   );
 };

@@ -1,9 +1,9 @@
 // Charts of tilt, precession and spin over the time of the motion.
 
-import { createFrame, draw, drawCurve, findSpan, LEFT, listTicks, writeBelow } from "./plot.js";
+import { draw, findSpan, Frame, LEFT, listTicks } from "./plot.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
 
-/** @typedef {import("../run/local.js").Row} Row */
+/** @import { Row } from "../run/local.js" */
 /** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
 
 const HEIGHT = 96;
@@ -55,10 +55,10 @@ export const drawOneSeries = (id, rows, facts) => {
   const { column, color, isTilt } = SERIES[id];
   const { range, kicks } = findRange(rows, facts);
   const edges = findEdges(rows, SERIES[id]);
-  const frame = createFrame(HEIGHT, range, edges, 3, isTilt ? toUnit : undefined);
+  const frame = new Frame(HEIGHT, range, edges, 3, isTilt ? toUnit : undefined);
   const line = (/** @type {number} */ k, /** @type {string} */ style) =>
-    drawCurve(
-      rows.map((row) => [frame.x(row[0] ?? 0), frame.y(orGap(row[k]))]),
+    frame.curve(
+      rows.map((row) => [row[0], orGap(row[k])]),
       style,
     );
   const mark = (/** @type {number} */ time) =>
@@ -71,6 +71,6 @@ export const drawOneSeries = (id, rows, facts) => {
     ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
     ${line(column, `stroke="${color}" stroke-width="1.8"`)}
     <text x="${LEFT + 2}" y="17">${isTilt ? `${angleUnit()}; up is higher` : "rad/s"}</text>
-    ${writeBelow(frame, listTicks(range[0], range[1], 4))}`,
+    ${frame.writeBelow(listTicks(...range, 4))}`,
   );
 };

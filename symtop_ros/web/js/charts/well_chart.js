@@ -1,6 +1,6 @@
 // Chart of the effective potential: where the energy E' lies above it the tilt may be.
 
-import { createFrame, draw, drawCurve, drawDot, LEFT, level, WIDE, writeBelow } from "./plot.js";
+import { draw, Frame, WIDE } from "./plot.js";
 import { writeAngle } from "../words/quantities.js";
 
 /** @typedef {import("../words/facts.js").Facts["potential"]} Potential */
@@ -9,15 +9,15 @@ const HEIGHT = 150;
 const NEAR = 0.1; // of the chart: turning angles that are nearer share a label
 
 /**
- * @param {import("./plot.js").Frame} frame
+ * @param {Frame} frame
  * @param {{theta: number[], height: number[]}} curve
  * @param {number} top
  * @param {string} style
  */
 const drawPotential = (frame, { theta, height }, top, style) => {
   const cut = height.map((value) => (value <= top ? value : NaN));
-  return drawCurve(
-    theta.map((tilt, k) => [frame.x(tilt), frame.y(cut[k])]),
+  return frame.curve(
+    theta.map((tilt, k) => [tilt, cut[k]]),
     style,
   );
 };
@@ -25,9 +25,8 @@ const drawPotential = (frame, { theta, height }, top, style) => {
 /** @param {Potential} potential @param {number} theta now */
 export const drawWell = (potential, theta) => {
   const { left, right, bottom, top, energy, angles, before } = potential;
-  const frame = createFrame(HEIGHT, [left, right], [bottom, top]);
+  const frame = new Frame(HEIGHT, [left, right], [bottom, top]);
   const [low, high] = angles.map(frame.x);
-  const height = frame.y(energy);
   const isNarrow = angles[1] - angles[0] < NEAR * (right - left);
   const named = isNarrow ? [(angles[0] + angles[1]) / 2] : angles;
   draw(
@@ -37,11 +36,11 @@ export const drawWell = (potential, theta) => {
     `<rect x="${low.toFixed(1)}" y="8" width="${Math.max(high - low, 1).toFixed(1)}" height="${frame.bottom - 8}" fill="var(--band)"/>
     ${frame.axes}
     ${before ? drawPotential(frame, before, top, 'stroke="var(--grey)" stroke-dasharray="4 3" id="before"') : ""}
-    ${level(height, 'stroke="var(--gold)" stroke-width="2"')}
-    <text x="${WIDE - 8}" y="${(height - 4).toFixed(1)}" text-anchor="end">E'</text>
+    ${frame.level(energy, 'stroke="var(--gold)" stroke-width="2"')}
+    <text x="${WIDE - 8}" y="${(frame.y(energy) - 4).toFixed(1)}" text-anchor="end">E'</text>
     ${drawPotential(frame, potential, top, 'stroke="var(--phi)" stroke-width="2" id="potential"')}
-    <text x="${LEFT + 2}" y="18">U in J</text>
-    ${drawDot(frame.x(theta), height, 'fill="var(--theta)"')}
-    ${writeBelow(frame, named, writeAngle)}`,
+    ${frame.nameVertical("U in J")}
+    ${frame.dot([theta, energy], 'fill="var(--theta)"')}
+    ${frame.writeBelow(named, writeAngle)}`,
   );
 };

@@ -54,6 +54,11 @@ export const write = (element, text) => {
   element.replaceChildren(...typeset(text));
 };
 
+/** Do something when a slider is let go. @param {HTMLInputElement} slider @param {() => void} act */
+export const whenReleased = (slider, act) => {
+  for (const end of ["change", "pointerup", "blur"]) slider.addEventListener(end, act);
+};
+
 /** @param {string} id @param {string} text */
 export const say = (id, text) => write(find(id), text);
 

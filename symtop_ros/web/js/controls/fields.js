@@ -3,20 +3,14 @@
 // are those of the start while one of them is edited. Behind the digits of a field is a double: who
 // types these digits again means it.
 
-import { findAll, make, write } from "./document.js";
+import { findAll, make, whenReleased, write } from "./document.js";
 import { refuse } from "./notices.js";
 import { angleUnit, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
 
 /**
- * @typedef {object} Field
- * @property {string} label
- * @property {boolean} [isAngle]
- * @property {boolean} [isRate]
- * @property {boolean} [isPositive]
- * @property {boolean} [isNotNegative]
- * @property {number} [low] of its slider
- * @property {number} [high]
- * @property {number} [step]
+ * A field; low, high and step are those of its slider.
+ * @typedef {{label: string, isAngle?: boolean, isRate?: boolean, isPositive?: boolean,
+ *   isNotNegative?: boolean, low?: number, high?: number, step?: number}} Field
  */
 /** @typedef {(name: string, value: number) => void} Change */
 
@@ -139,10 +133,9 @@ class Entry {
     this.slider = slider;
     slider.addEventListener("keydown", (event) => this.moveByKey(event));
     slider.addEventListener("input", () => this.drag());
-    for (const end of ["change", "pointerup", "blur"])
-      slider.addEventListener(end, () => {
-        this.isDragged = false;
-      });
+    whenReleased(slider, () => {
+      this.isDragged = false;
+    });
     place.append(slider);
   }
 

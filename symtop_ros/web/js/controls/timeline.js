@@ -1,6 +1,6 @@
 // The slider over the time of the run.
 
-import { find } from "./document.js";
+import { find, whenReleased } from "./document.js";
 
 export class Timeline {
   /** @param {(time: number) => void} seek */
@@ -11,11 +11,9 @@ export class Timeline {
       this.isDragged = true;
       seek(Number(this.line.value));
     });
-    for (const end of ["change", "pointerup", "blur"]) {
-      this.line.addEventListener(end, () => {
-        this.isDragged = false;
-      });
-    }
+    whenReleased(this.line, () => {
+      this.isDragged = false;
+    });
   }
 
   /** @param {number} time s of the run @param {number} end s */

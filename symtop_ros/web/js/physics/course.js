@@ -3,9 +3,7 @@
 import { pack } from "./kernel.js";
 import { State } from "./state.js";
 
-/** @typedef {import("./kernel.js").Kernel} Kernel */
-/** @typedef {import("./kernel.js").Top} Top */
-/** @typedef {import("./kernel.js").Vector} Vector */
+/** @import { Kernel, Top, Vector } from "./kernel.js" */
 
 export const NANO = 1e9; // ns in a second
 export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
@@ -66,6 +64,14 @@ export class Course {
    */
   continue(start, { top = this.top, friction = this.friction, torque = this.torque } = {}) {
     return new Course(this.kernel, top, start, friction, torque);
+  }
+
+  /** The parameters of a top and its friction, by the names of a node. */
+  get parameters() {
+    const { Ix, Iz, Mgl } = this.top;
+    const [axial, transverse] = this.friction;
+    const friction = { "friction.axial": axial, "friction.transverse": transverse };
+    return { "top.Ix": Ix, "top.Iz": Iz, "top.Mgl": Mgl, ...friction };
   }
 
   /** The course from a state under gravity alone. @param {State} start */

@@ -2,10 +2,7 @@
 
 import { VERTICAL } from "./kernel.js";
 
-/** @typedef {import("./kernel.js").Kernel} Kernel */
-/** @typedef {import("./kernel.js").Vector} Vector */
-/** @typedef {import("./kernel.js").Quaternion} Quaternion */
-/** @typedef {import("./kernel.js").Hold} Hold */
+/** @import { Kernel, Vector, Quaternion, Hold } from "./kernel.js" */
 /** @typedef {{phi: number, theta: number, psi: number}} Angles */
 
 const NORM_ROUNDING = 4 * 2 ** -52;
@@ -67,11 +64,6 @@ export class State {
   get rates() {
     this.found.rates ??= name(this.kernel.findAngleRates(this.orientation, this.omega));
     return this.found.rates;
-  }
-
-  /** Rates of regular precession at this tilt and spin. @param {import("./kernel.js").Top} top */
-  findRegularRates(top) {
-    return this.kernel.findRegularRates(top, this.angles.theta, this.rates.psi);
   }
 
   /**

@@ -1,13 +1,13 @@
 // What a page asks of its top: kicks, pushes, torques, starts, and the time of the run.
 
 import { Course, NANO } from "../physics/course.js";
+import { cross, scale, subtract } from "../scene/matrices.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 
-/** @typedef {import("./local.js").LocalTop} LocalTop */
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("../physics/kernel.js").Hold} Hold */
-/** @typedef {import("./links.js").Beginning} Beginning */
+/** @import { LocalTop } from "./local.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Vector, Hold } from "../physics/kernel.js" */
+/** @import { Beginning } from "./links.js" */
 /** @typedef {{[name: string]: any}} Message */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
 
@@ -62,10 +62,9 @@ const push = (top, { way }) => {
  * @returns {Vector}
  */
 export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
-  const [a, b, c] = state.toWorld([0, 0, 1]);
-  const [x, y, z] = [end[0] - a, end[1] - b, end[2] - c];
+  const axis = state.toWorld([0, 0, 1]);
   const size = PULL * Ix * (Math.sqrt(Math.abs(Mgl) / Ix) || 1);
-  return [size * (b * z - c * y), size * (c * x - a * z), size * (a * y - b * x)];
+  return scale(cross(axis, subtract(end, axis)), size);
 };
 
 /** The torque of the buttons, about the vertical, in N m. @param {Course} course */

@@ -3,9 +3,7 @@
 import { readField } from "./reader.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("../physics/kernel.js").Top} Top */
-/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
+/** @import { Vector, Top, Kernel } from "../physics/kernel.js" */
 /**
  * The initial conditions of a scene are the `initial.*` parameters of a node; orientation x, y, z, w.
  * @typedef {{name: string, title: string, story: string, top: Vector, friction: [number, number],

@@ -17,9 +17,9 @@ import { Run } from "./run.js";
 import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
-/** @typedef {import("../words/wording.js").Writer} Writer */
-/** @typedef {import("../physics/course.js").Course} Course */
+/** @import { Kernel } from "../physics/kernel.js" */
+/** @import { Writer } from "../words/wording.js" */
+/** @import { Course } from "../physics/course.js" */
 /** @typedef {{[name: string]: any}} Message */
 /**
  * States at a time of the run, in ns: of the top, of the ghost, and of a run that is kept for
@@ -80,7 +80,7 @@ export class LocalTop {
 
   /** Begin, with a page that is told and a function that draws. */
   open() {
-    const { scenes, lesson, layers, run } = this.content;
+    const { run } = this.content;
     const { run: last, speed = SPEED, isRunning = false } = recall();
     perform(this, { act: "scene", name: "hurry_slow" });
     const isKept = Boolean(last) && this.take({ act: "load", run: last });
@@ -90,6 +90,12 @@ export class LocalTop {
       if (run) this.take({ act: "load", run });
     }
     rememberRun(this);
+    this.present();
+  }
+
+  /** Show the top to the page from now on. */
+  present() {
+    const { scenes, lesson, layers } = this.content;
     this.tellFacts();
     this.tell({ hello: { scenes, layers, lesson } });
     this.animate();

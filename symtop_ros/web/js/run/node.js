@@ -7,8 +7,8 @@ import { nameError } from "./errors.js";
 import { LocalTop } from "./local.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("./local.js").Message} Message */
-/** @typedef {import("../physics/course.js").Course} Course */
+/** @import { Message } from "./local.js" */
+/** @import { Course } from "../physics/course.js" */
 /** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
 
 const DISCONNECTED = "the connection is lost: is top_panel still running?";
@@ -56,10 +56,7 @@ export class NodeTop extends LocalTop {
   greet() {
     if (this.isGreeted) return;
     this.isGreeted = true;
-    this.tellFacts();
-    const { scenes, lesson, layers } = this.content;
-    this.tell({ hello: { scenes, lesson, layers } });
-    this.animate();
+    this.present();
   }
 
   /** @param {Message} event */
@@ -186,14 +183,7 @@ const listChanges = (before, after) => {
 };
 
 /** @param {Course} course @returns {{[name: string]: number | number[]}} */
-const listParameters = ({ top: { Ix, Iz, Mgl }, friction: [axial, transverse], torque }) => ({
-  "top.Ix": Ix,
-  "top.Iz": Iz,
-  "top.Mgl": Mgl,
-  "friction.axial": axial,
-  "friction.transverse": transverse,
-  steady_torque: torque,
-});
+const listParameters = ({ parameters, torque }) => ({ ...parameters, steady_torque: torque });
 
 /** @param {Request} request @returns {Promise<{granted: boolean, answer: string}>} */
 const post = async (request) => {

@@ -3,7 +3,7 @@
 
 import { writeNumber } from "../words/numbers.js";
 
-/** @typedef {import("./run.js").EventRecord} EventRecord */
+/** @import { EventRecord } from "./run.js" */
 /**
  * A field: one of some words, a text of some length, some numbers of limited size, or a number.
  * Without `absent` a field must be given.

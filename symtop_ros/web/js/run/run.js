@@ -7,10 +7,7 @@ import { Course, NANO } from "../physics/course.js";
 import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/kernel.js").Kernel} Kernel */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("../physics/kernel.js").Quaternion} Quaternion */
-/** @typedef {import("../physics/kernel.js").Hold} Hold */
+/** @import { Kernel, Vector, Quaternion, Hold } from "../physics/kernel.js" */
 /** @typedef {"start" | "kick" | "change" | "torque"} Kind */
 /**
  * What was asked for: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
@@ -59,15 +56,19 @@ export class Run {
     return this.moments.findLastIndex((moment) => moment.time <= time);
   }
 
+  /** The last start before a time. @param {number} time ns */
+  findLastStart(time) {
+    return this.moments.findLast((each) => each.kind === "start" && each.time <= time);
+  }
+
   /** The time in ns of the last start before a time. @param {number} time ns */
   findStart(time) {
-    return this.moments.findLast((each) => each.kind === "start" && each.time <= time)?.time ?? 0;
+    return this.findLastStart(time)?.time ?? 0;
   }
 
   /** The torque with which the last start before a time began. @param {number} time ns */
   findSteady(time) {
-    const start = this.moments.findLast((each) => each.kind === "start" && each.time <= time);
-    return (start ?? this.moments[0]).course.torque;
+    return (this.findLastStart(time) ?? this.moments[0]).course.torque;
   }
 
   /** @param {number} time ns */

@@ -1,18 +1,11 @@
 // The camera: turned by a drag or by the arrows with Shift, moved nearer by the wheel, by two fingers,
 // or by + and -.
 
-import {
-  add,
-  createPerspective,
-  createView,
-  multiplyMatrices,
-  normalize,
-  scale,
-  subtract,
-} from "./matrices.js";
+import { add, cross, createPerspective, createView, multiplyMatrices } from "./matrices.js";
+import { normalize, scale, subtract } from "./matrices.js";
 import { Size } from "./size.js";
 
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @import { Vector } from "../physics/kernel.js" */
 
 const ANGLE = (42 * Math.PI) / 180; // of the view
 const STEEPEST = 1.5; // rad above or below the horizon
@@ -132,14 +125,10 @@ export class Camera {
     if (!here) return through;
     const back = normalize(subtract(this.eye, this.target));
     const right = normalize([-back[1], back[0], 0]);
-    const up = [
-      back[1] * right[2] - back[2] * right[1],
-      back[2] * right[0] - back[0] * right[2],
-      back[0] * right[1] - back[1] * right[0],
-    ];
+    const up = cross(back, right);
     const beside = this.project(add(through, right));
     const size = beside ? Math.hypot(beside.x - here.x, beside.y - here.y) || 1 : 1;
     const [x, y] = [(px - here.x) / size, (here.y - py) / size];
-    return add(through, add(scale(right, x), scale(/** @type {Vector} */ (up), y)));
+    return add(through, add(scale(right, x), scale(up, y)));
   }
 }

@@ -1,6 +1,6 @@
 // Lines of the scene as pieces between points: circles of the unit sphere, and traces.
 
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @import { Vector } from "../physics/kernel.js" */
 
 /** @param {Vector[]} points @returns {number[]} pieces between neighbours */
 export const listPieces = (points) =>

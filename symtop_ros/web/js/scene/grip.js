@@ -4,8 +4,8 @@
 import { normalize } from "./matrices.js";
 import { State } from "../physics/state.js";
 
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("../run/local.js").LocalTop} LocalTop */
+/** @import { Vector } from "../physics/kernel.js" */
+/** @import { LocalTop } from "../run/local.js" */
 
 const REACH = 24; // px around the ball in which a pull begins
 

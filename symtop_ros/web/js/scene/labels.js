@@ -2,7 +2,7 @@
 
 import { typeset } from "../words/typeset.js";
 
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @import { Vector } from "../physics/kernel.js" */
 
 const GAP = 2; // px between labels
 

@@ -1,7 +1,6 @@
 // Matrices of 16 numbers by columns, as WebGL wants them, and vectors of three.
 
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("../physics/kernel.js").Quaternion} Quaternion */
+/** @import { Vector, Quaternion } from "../physics/kernel.js" */
 
 /**
  * @param {Float32Array | number[]} a

@@ -1,7 +1,6 @@
 // WebGL 2 for the scene: lit meshes, and lines as ribbons of equal width on the screen.
 
-/** @typedef {import("./meshes.js").Mesh} Mesh */
-/** @typedef {import("./meshes.js").Color} Color */
+/** @import { Mesh, Color } from "./meshes.js" */
 /**
  * Corners of triangles on the graphics card, and how many numbers one has.
  * @typedef {{array: WebGLVertexArrayObject, buffer: WebGLBuffer, width: number, count: number}} Model
@@ -227,10 +226,19 @@ export class Painter {
     return (/** @type {string} */ name) => this.locate(program, name);
   }
 
+  /** What lets others through keeps no depth. @param {Model} model @param {boolean} isOpaque */
+  drawTriangles({ array, count }, isOpaque) {
+    const { gl } = this;
+    gl.depthMask(isOpaque);
+    gl.bindVertexArray(array);
+    gl.drawArrays(gl.TRIANGLES, 0, count);
+    gl.depthMask(true);
+  }
+
   /**
    * @param {Model} model
    * @param {number[]} pose
-   * @param {number} opacity of what lets others through no depth is kept
+   * @param {number} opacity
    * @param {number} flatness 1 for the plain colour
    */
   drawMesh(model, pose, opacity = 1, flatness = 0) {
@@ -239,10 +247,7 @@ export class Painter {
     gl.uniform3fv(find("eye"), /** @type {number[]} */ (this.eye));
     gl.uniform1f(find("opacity"), opacity);
     gl.uniform1f(find("flatness"), flatness);
-    gl.depthMask(opacity === 1);
-    gl.bindVertexArray(model.array);
-    gl.drawArrays(gl.TRIANGLES, 0, model.count);
-    gl.depthMask(true);
+    this.drawTriangles(model, opacity === 1);
   }
 
   /**
@@ -258,10 +263,7 @@ export class Painter {
     gl.uniform3fv(find("middle"), middle);
     gl.uniform1f(find("radius"), radius);
     gl.uniform1f(find("opacity"), opacity);
-    gl.depthMask(false);
-    gl.bindVertexArray(disc.array);
-    gl.drawArrays(gl.TRIANGLES, 0, disc.count);
-    gl.depthMask(true);
+    this.drawTriangles(disc, false);
   }
 
   /**
@@ -271,15 +273,12 @@ export class Painter {
    * @param {number[]} pose
    * @param {number} opacity
    */
-  drawLines({ array, count }, color, width, pose, opacity = 1) {
+  drawLines(ribbons, color, width, pose, opacity = 1) {
     const { gl, canvas } = this;
     const find = this.use(this.programs.lines, pose);
     gl.uniform2f(find("screen"), canvas.width / 2, canvas.height / 2);
     gl.uniform1f(find("width"), (width * (this.ratio ?? 1)) / 2);
     gl.uniform4f(find("color"), ...color, opacity);
-    gl.depthMask(opacity === 1);
-    gl.bindVertexArray(array);
-    gl.drawArrays(gl.TRIANGLES, 0, count);
-    gl.depthMask(true);
+    this.drawTriangles(ribbons, opacity === 1);
   }
 }

@@ -17,10 +17,10 @@ import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
 import { findTorques, findVectors } from "./vectors.js";
 
-/** @typedef {import("../run/local.js").LocalTop} LocalTop */
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
-/** @typedef {import("./meshes.js").Color} Color */
+/** @import { LocalTop } from "../run/local.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Vector } from "../physics/kernel.js" */
+/** @import { Color } from "./meshes.js" */
 
 const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion
 const DEPTHS = { gravity: 0.08, Coriolis: 0.15, centrifugal: 0.22, sum: -0.08 }; // below the pivot
@@ -89,13 +89,8 @@ export class Scene {
   /** Load what is drawn: at first, and after the graphics card has lost everything. */
   loadModels() {
     const { painter } = this;
-    const names = /** @type {(keyof typeof COLORS)[]} */ ([
-      "L",
-      "omega",
-      "torque",
-      "ball",
-      ...Object.keys(DEPTHS),
-    ]);
+    const vectors = ["L", "omega", "torque", "ball", ...Object.keys(DEPTHS)];
+    const names = /** @type {(keyof typeof COLORS)[]} */ (vectors);
     const arrows = names.map((name) => {
       const { shaft, head } = createArrow(paint(name));
       return [name, { shaft: painter.loadMesh(shaft), head: painter.loadMesh(head) }];
@@ -115,27 +110,25 @@ export class Scene {
 
   /** What holds for a whole motion: the body, circles, the scales of the arrows, the camera. */
   begin() {
-    const {
-      painter,
-      top: { course, state },
-    } = this;
+    const { painter, top } = this;
+    const { course, state } = top;
     const key = JSON.stringify(course.top);
     if (key !== this.bodyKey) {
       painter.loadMesh(createBody(course.top), this.models.body);
       this.bodyKey = key;
     }
     const angles = course.free.motion.turning_angles;
-    for (const [name, vector] of Object.entries(findVectors(this.top.course, state))) {
+    for (const [name, vector] of Object.entries(findVectors(course, state))) {
       const largest = name === "torque" ? Math.abs(course.top.Mgl) : findSize(vector);
       this.scales[name] = largest
         ? LENGTHS[/** @type {keyof typeof LENGTHS} */ (name)] / largest
         : 0;
     }
-    const torques = findTorques(this.top.course.top, state);
+    const torques = findTorques(course.top, state);
     this.torqueScale =
       Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
     const isBelow = course.top.Mgl < 0 || angles[1] > HORIZON;
-    const momentum = findVectors(this.top.course, state).L[2];
+    const momentum = findVectors(course, state).L[2];
     const view = isBelow ? (course.top.Mgl < 0 && momentum < 0 ? 2 : 1) : 0;
     if (view !== this.view) {
       this.view = view;
@@ -187,12 +180,9 @@ export class Scene {
 
   /** @param {State} state @param {State[]} states */
   drawLines(state, states) {
-    const {
-      painter,
-      top: { layers },
-    } = this;
+    const { painter, top } = this;
+    const { free, layers } = top;
     if (layers.sphere) painter.drawLines(this.models.sphere, paint("sphere"), 1, STILL, 0.55);
-    const { free } = this.top;
     if (free !== this.circled)
       painter.loadLines(free.motion.turning_angles.flatMap(listParallel), this.models.circles);
     this.circled = free;

@@ -3,8 +3,8 @@
 import { add } from "./matrices.js";
 import { findFrameTorques } from "../charts/formulas.js";
 
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("../physics/kernel.js").Vector} Vector */
+/** @import { State } from "../physics/state.js" */
+/** @import { Vector } from "../physics/kernel.js" */
 
 /**
  * @param {import("../physics/course.js").Course} course

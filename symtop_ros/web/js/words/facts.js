@@ -7,13 +7,12 @@ import { findLedger, nameLedger } from "./ledger.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findConstants, findPotential } from "../charts/formulas.js";
+import { spread } from "../charts/plot.js";
 
-/** @typedef {import("../run/run.js").Run} Run */
-/** @typedef {import("../run/run.js").Moment} Moment */
-/** @typedef {import("../physics/course.js").Course} Course */
-/** @typedef {import("../physics/state.js").State} State */
-/** @typedef {import("./wording.js").Writer} Writer */
-/** @typedef {import("./wording.js").Variant} Variant */
+/** @import { Run, Moment } from "../run/run.js" */
+/** @import { Course } from "../physics/course.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Writer, Variant } from "./wording.js" */
 /**
  * What holds after an act until the next one, what follows the motion, and how its top runs.
  * @typedef {ReturnType<typeof describe> & MotionFacts & {running: boolean, factor: number, recording: boolean}} Facts
@@ -29,10 +28,6 @@ const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** @param {number[]} numbers */
 const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
-
-/** Numbers at equal distances. @param {number} low @param {number} high @param {number} count */
-const spread = (low, high, count) =>
-  Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
 
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
 /** @param {Course} course */
@@ -157,13 +152,7 @@ export const describe = (run, writer, time) => {
       radians: listHistory(run, writer, "radians"),
       degrees: listHistory(run, writer, "degrees"),
     },
-    top: {
-      "top.Ix": course.top.Ix,
-      "top.Iz": course.top.Iz,
-      "top.Mgl": course.top.Mgl,
-      "friction.axial": course.friction[0],
-      "friction.transverse": course.friction[1],
-    },
+    top: course.parameters,
     start,
     roots,
     window: chooseWindow(course.free),

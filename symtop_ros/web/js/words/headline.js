@@ -2,8 +2,8 @@
 
 import { judge, judgeKick } from "./verdict.js";
 
-/** @typedef {import("../physics/course.js").Course} Course */
-/** @typedef {import("../run/run.js").Moment} Moment */
+/** @import { Course } from "../physics/course.js" */
+/** @import { Moment } from "../run/run.js" */
 /** @typedef {"friction" | "torque" | "both" | null} Forces what acts besides gravity */
 
 const SEEN = 5e-4; // rad; a tilt that differs by less looks the same, and reads the same with 3 decimals

@@ -1,10 +1,8 @@
 // The history of a run: what was asked for, as records for the templates `request`.
 
-/** @typedef {import("../run/run.js").Run} Run */
-/** @typedef {import("../run/run.js").Asked} Asked */
-/** @typedef {import("../physics/course.js").Course} Course */
-/** @typedef {import("./wording.js").Writer} Writer */
-/** @typedef {import("./wording.js").Variant} Variant */
+/** @import { Run, Asked } from "../run/run.js" */
+/** @import { Course } from "../physics/course.js" */
+/** @import { Writer, Variant } from "./wording.js" */
 
 const LISTED = 10; // entries
 

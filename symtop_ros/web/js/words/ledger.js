@@ -3,7 +3,7 @@
 import { findEnergies, findRest } from "../charts/formulas.js";
 import { findForces } from "./headline.js";
 
-/** @typedef {import("../charts/formulas.js").Energies} Energies */
+/** @import { Energies } from "../charts/formulas.js" */
 /**
  * What has changed since before a kick, in mJ: just after it, and at the turning point that is
  * farther from there.

@@ -1,9 +1,7 @@
 // The kernel's verdicts as records for the templates, with null for what is undefined.
 
-/** @typedef {import("../physics/kernel.js").Found} Found */
-/** @typedef {import("../physics/kernel.js").Hold} Hold */
-/** @typedef {import("../physics/kernel.js").Direction} Direction */
-/** @typedef {import("../physics/course.js").Course} Course */
+/** @import { Found, Hold, Direction } from "../physics/kernel.js" */
+/** @import { Course } from "../physics/course.js" */
 /** @typedef {{kind: string, amount: number}} Lift */
 
 const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];

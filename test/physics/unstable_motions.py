@@ -1,0 +1,115 @@
+"""Motions next to the unstable vertical and the separatrix, and a trial of their derivatives.
+
+Run it as `PYTHONPATH=.:test python test/physics/unstable_motions.py 10000`; it takes half an hour,
+and writes what is wrong or refused. `from 5000` after the count leaves out the first ones.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import NamedTuple
+
+from drawn import Numbers
+from physics.differences import differentiate, find_errors
+
+from symtop_ros.physics import Motion, State, Top
+
+PROMISED = 1e-8  # docs/filters.md
+LEAST_TILT, LEAST_GAP = 1e-6, 1e-8  # below them a refusal is promised to be possible
+# Next to a flat disc, Iz = 2 Ix, derivatives are one-sided and have less digits.
+LEAST_TILT_OF_DISC, LEAST_GAP_OF_DISC = 1e-3, 1e-6
+DIGITS = 60  # those of a derivative are a third, less what the motion magnifies
+TURNS = ((1.0, 0.0), (0.6, 0.8), (-5 / 13, 12 / 13), (8 / 17, -15 / 17), (-0.8, -0.6))
+RATIOS = (0.25, 0.5, 1.0, 1.5, 1.9375)  # Iz/Ix: rods, spheres, discs
+DISCS = 0.05  # share of flat ones
+
+
+class Case(NamedTuple):
+    """A motion and a time, and how near to the vertical (rad) or the separatrix it starts."""
+
+    family: str
+    motion: Motion
+    t: float
+    nearness: float
+
+    @property
+    def may_be_refused(self) -> bool:
+        is_disc = self.motion.top.Iz == 2 * self.motion.top.Ix
+        tilt, gap = LEAST_TILT, LEAST_GAP
+        if is_disc:
+            tilt, gap = LEAST_TILT_OF_DISC, LEAST_GAP_OF_DISC
+        return self.nearness < (tilt if self.family == "vertical" else gap)
+
+
+def make_case(number: int) -> Case:
+    """The motion of a number: from the vertical if it is even, from the separatrix if odd."""
+    rng = Numbers(f"unstable {number}")
+    ratio = 2.0 if rng.uniform(0, 1) < DISCS else rng.choice(RATIOS)
+    family, make = (("separatrix", _pass_by), ("vertical", _stand))[number % 2 == 0]
+    motion, nearness = make(rng, ratio)
+    period = motion.nutation_period
+    unit = period if math.isfinite(period) else 10.0
+    late = rng.uniform(0, 1) < 0.25
+    t = rng.power(0, 4) * unit if late else rng.uniform(0, 3) * unit
+    return Case(family, motion, t, nearness)
+
+
+def _stand(rng: Numbers, ratio: float) -> tuple[Motion, float]:
+    """A top next to the vertical, mostly too slow to stay there."""
+    Mgl, tilt = rng.uniform(1, 4), rng.power(-6.5, -1.3)
+    critical = 2 * math.sqrt(Mgl) / ratio
+    spin = critical * rng.uniform(-1.2, 1.2)
+    w, z = rng.choice(TURNS)
+    x, y = rng.uniform(-1, 1), rng.uniform(-1, 1)
+    half = tilt / 2 / math.sqrt(x * x + y * y)
+    moving = rng.choice((0.0, tilt))
+    across = moving * rng.uniform(-1, 1), moving * rng.uniform(-1, 1)
+    # The norm is 1 + tilt^2/8.
+    start = State((w, half * x, half * y, z), (*across, spin))
+    return Motion(Top(1.0, ratio, Mgl), start), tilt
+
+
+def _pass_by(rng: Numbers, ratio: float) -> tuple[Motion, float]:
+    """A motion from the horizontal that just reaches the upper vertical, or just does not."""
+    x, y, gap = rng.uniform(-2, 2), rng.uniform(-2, 2), rng.power(-8.3, -0.5)
+    # On the separatrix omega_y is Iz omega_z/Ix, and omega_xy^2 is 2 Mgl/Ix.
+    Mgl = (x * x + y * y) / 2 * (1 + rng.choice((gap, -gap)))
+    start = State((0.5, 0.5, 0.5, 0.5), (x, y, y / ratio))
+    return Motion(Top(1.0, ratio, Mgl), start), gap
+
+
+def find_error(case: Case) -> float | None:
+    """The largest error of the derivatives, as a part of what is promised; None if refused."""
+    try:
+        found = case.motion.jacobian([case.t])
+    except ValueError as refusal:
+        if "at which double precision resolves the derivatives" not in str(refusal):
+            raise
+        return None
+    right = differentiate(case.motion, [case.t], digits=DIGITS, is_closed=True)
+    return float(find_errors(case.motion, found, right).max()) / PROMISED
+
+
+def main() -> None:
+    last = int(sys.argv[1])
+    first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
+    worst, refused = dict.fromkeys(("vertical", "separatrix"), 0.0), 0
+    for number in range(first, last):
+        case = make_case(number)
+        error = find_error(case)
+        name = f"{number}: {case.family}, {case.nearness:.2g}, Iz/Ix = {case.motion.top.Iz:g}, "
+        name += f"t = {case.t / case.motion.nutation_period:.3g} periods"
+        if error is None:
+            refused += 1
+            print(name, "refused", "as promised" if case.may_be_refused else "WRONGLY", flush=True)
+            continue
+        worst[case.family] = max(worst[case.family], error)
+        if error > 1:
+            print(name, f"WRONG by {error:.3g} of the promised error", flush=True)
+    print(f"{last - first} motions, {refused} refused; largest errors of the others, in parts of")
+    print(f"{PROMISED:g}: " + ", ".join(f"{k} {v:.2g}" for k, v in worst.items()))
+
+
+if __name__ == "__main__":
+    main()
