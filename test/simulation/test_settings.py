@@ -39,14 +39,12 @@ def test_the_default_of_a_parameter_is_valid_and_what_no_parameter_takes_is_refu
 def test_a_number_may_be_at_the_limits_of_its_range_and_is_refused_beyond_them(name):
     parameter = PARAMETERS[name]
     low, high = parameter.limits
-    is_whole = isinstance(parameter.default, int)
     for value in (low, high):
         assert parameter.validate(name, value) == value
     beyond = math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
     for value in (*beyond, math.inf, -math.inf, 10**400, True, "much"):
-        said = "0 to " if is_whole else f"{parameter.condition}, got "
-        assert refusal({name: value}).startswith(f"{name} must be {said}"), value
-    if is_whole:
+        assert refusal({name: value}).startswith(f"{name} must be {parameter.condition}, got ")
+    if isinstance(parameter.default, int):
         assert refusal({name: 0.5}) == f"{name} must be {parameter.condition}, got 0.5"
 
 
