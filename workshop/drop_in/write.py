@@ -26,7 +26,7 @@ SAID_BY_CMAKE = ("-std=", "-fPIC", "-shared")
 LOCAL_INCLUDE = re.compile(r'^#include "(.+)"\n', re.M)
 SYSTEM_INCLUDE = re.compile(r"^#include <.+>\n", re.M)
 # Both pragmas are for those who drop the file into a tree whose options are not theirs to choose.
-# GCC warns of vectors in calls, which are all inlined. And for a processor with FMA, as of
+# Compilers warn of vectors in calls, which are all inlined. And for a processor with FMA, as of
 # -march=native, GCC 12 fuses products with sums and differences that alternate (vfmaddsub), though
 # -ffp-contract=off forbids it: of the numbers that print_motions.c writes, 1.7 % had other bits.
 HEAD = f"""\
@@ -35,9 +35,9 @@ HEAD = f"""\
 //
 // Compile it as C++17 with -ffp-contract=off and without fast-math. It is written from the sources
 // of symtop_ros, where each part below a line of dashes is a file: change it there.
-#if defined(__GNUC__) && !defined(__clang__)
+#ifdef __GNUC__
 #pragma GCC diagnostic ignored "-Wpsabi"
-#ifdef __FMA__
+#if defined(__FMA__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-slp-vectorize")  // which fuses in spite of -ffp-contract=off
 #endif
 #endif
