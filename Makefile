@@ -104,6 +104,12 @@ $(VENV)/panel: $(VENV)/bin/activate
 	@$(TICK) $(BIN)/python -m pip install 'numpy>=1.24' 'pyyaml>=5.4'
 	@touch $@
 
+# What build_kernel.py imports; from Python 3.12 on an environment is made without it.
+$(VENV)/setuptools: $(VENV)/bin/activate
+	@echo "Setting up .venv: setuptools (once) ..."
+	@$(TICK) $(BIN)/python -m pip install 'setuptools>=61'
+	@touch $@
+
 $(VENV)/report: setup.py $(VENV)/ros
 	@echo "Setting up .venv: plots (once) ..."
 	$(INSTALL) '.[ros,playback,report]'

@@ -1,0 +1,89 @@
+"""The kernel as one header and one source: `make -C workshop drop-in` runs this.
+
+    python -m workshop.drop_in.write [FOLDER]
+
+FOLDER/symtop-VERSION, by default in dist/, gets symtop.h as it is, symtop.cpp with the headers of
+the kernel inside it, and the files that lie here: an example in C, a README that shows it, and what
+CMake and pkg-config need.
+"""
+
+import re
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from build_kernel import KERNEL, OPTIONS, SOURCE
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+SOURCES = ROOT / KERNEL
+HEADER = SOURCES / "symtop.h"
+(VERSION,) = re.findall(r'^#define SYMTOP_VERSION "(.+)"$', HEADER.read_text(), re.M)
+FILES = ("README.md", "CMakeLists.txt", "symtop.pc.in", "example.c")
+# CMake has its own words for these, and a static library takes no -shared.
+SAID_BY_CMAKE = ("-std=", "-fPIC", "-shared")
+LOCAL_INCLUDE = re.compile(r'^#include "(.+)"\n', re.M)
+SYSTEM_INCLUDE = re.compile(r"^#include <.+>\n", re.M)
+# Both pragmas are for those who drop the file into a tree whose options are not theirs to choose.
+# Compilers warn of vectors in calls, which are all inlined. And for a processor with FMA, as of
+# -march=native, GCC 12 fuses products with sums and differences that alternate (vfmaddsub), though
+# -ffp-contract=off forbids it: of the numbers that print_motions.c writes, 1.7 % had other bits.
+HEAD = f"""\
+// symtop {VERSION}: the motion of the heavy symmetric top, in one file. See symtop.h and README.md.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Compile it as C++17 with -ffp-contract=off and without fast-math. It is written from the sources
+// of symtop_ros, where each part below a line of dashes is a file: change it there.
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wpsabi"
+#if defined(__FMA__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-slp-vectorize")  // which fuses in spite of -ffp-contract=off
+#endif
+#endif
+#include "symtop.h"
+"""
+
+
+def inline(path: Path, seen: set[Path]) -> Iterator[str]:
+    """Yield a source in one piece, after those of the kernel that it includes and nobody before."""
+    *heads, body = LOCAL_INCLUDE.split(path.read_text())
+    before, names = "".join(heads[::2]), heads[1::2]
+    # These come first, as they do there: a header may rest on what is included before it.
+    yield from SYSTEM_INCLUDE.findall(before)
+    for header in [(path.parent / name).resolve() for name in names]:
+        if header not in seen:
+            seen.add(header)
+            yield from inline(header, seen)
+    yield f"\n// ---- {path.relative_to(SOURCES).as_posix()} ----\n\n"
+    yield (SYSTEM_INCLUDE.sub("", before) + body).replace("#pragma once\n", "")
+
+
+def join() -> str:
+    """Return the whole kernel but symtop.h as one source."""
+    text = HEAD + "".join(inline(SOURCES / SOURCE, {HEADER}))
+    return re.sub(r"\n{3,}", "\n\n", text)
+
+
+def fill(name: str) -> str:
+    """Return a file that lies here, with the version, the options and the example in its places."""
+    options = " ".join(each for each in OPTIONS if not each.startswith(SAID_BY_CMAKE))
+    values = {"SYMTOP": VERSION, "OPTIONS": options, "EXAMPLE": (HERE / "example.c").read_text()}
+    # others are for CMake
+    return re.sub("@([A-Z]+)@", lambda found: values[found[1]], (HERE / name).read_text())
+
+
+def write(folder: Path) -> Path:
+    """Write all files into a folder of their own; return its path."""
+    target = folder / f"symtop-{VERSION}"
+    target.mkdir(parents=True, exist_ok=True)
+    shutil.copy(HEADER, target)
+    shutil.copy(ROOT / "LICENSE", target)
+    (target / SOURCE).write_text(join())
+    for name in FILES:
+        (target / name).write_text(fill(name))
+    return target
+
+
+if __name__ == "__main__":
+    print(f"wrote {write(Path(sys.argv[1] if sys.argv[1:] else 'dist'))}")
