@@ -108,7 +108,7 @@ def _differentiate_disc(motion: Any, times: Real) -> Real:
     """Return the derivatives for a body next to the flat disc, which has no larger Iz.
 
     A body with half of Iz and twice the spin has the same Iz omega_z, so that its axis moves in the
-    same way: it is turned about the axis by an angle that grows by omega_z, and can be made flatter.
+    same way. It is turned about the axis by omega_z t, and can be made flatter.
     """
     row = np.frombuffer(motion.packed_start).copy()
     row[1], row[9] = row[1] / 2, 2 * row[9]
