@@ -4,10 +4,11 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from symtop_ros.command import positive, tell_failures
+from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.explain import MODELS
 from symtop_ros.judge.judgement import Judgement, format_several, judge
@@ -32,6 +33,10 @@ def main(args: list[str] | None = None) -> int:
     options, rest = parser.parse_known_args(arguments)
     if rest and not (options.live and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest))}")
+    if options.clock and options.live:
+        parser.error("--clock must have a recorded run, got --live")
+    if options.clock:
+        _read_clock(options)
     has_estimates = options.topic or (options.estimates and not options.live)
     has_run = options.live or options.files or options.scene
     if options.testset is None and not (has_estimates and has_run):
@@ -90,6 +95,12 @@ def _parser() -> argparse.ArgumentParser:
         help="align by a stated model and look for nothing else: none, heading, world or "
         "world-and-body, and with +delay, +clock or +delay+clock what the stamps are off by",
     )
+    parser.add_argument(
+        "--clock",
+        metavar="TOPIC|FILE",
+        help="print how late the stamps of these estimates are, how fast that grows, and their "
+        "jitter; --aligned names the rotations that are fitted with it (default none)",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="for JSON, plots, problems"
@@ -110,6 +121,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _read_clock(options: argparse.Namespace) -> None:
+    """Take the estimates of --clock: a topic, or a file if there is one of this name."""
+    if Path(options.clock).exists() or not options.clock.startswith("/"):
+        options.estimates = Path(options.clock)
+    else:
+        options.topic = [options.clock]
+
+
 def _run(options: argparse.Namespace, rest: list[str]) -> int:
     if options.testset is not None:
         return run_testset(options)
@@ -118,6 +137,12 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
 
         return judge_live(options, ["top_judge", *rest])
     truth = _read_run(options)
+    if options.clock:
+        sources, model = _read_estimates(options), options.aligned or "none"
+        clocks = [measure_clock(each, truth, name, model) for name, each in sources]
+        facts = json.dumps([asdict(each) for each in clocks], indent=1)
+        print(facts if options.json else format_clocks(clocks))
+        return 0
     judgements = [
         judge(estimates, truth, source, tuple(options.remove), options.aligned)
         for source, estimates in _read_estimates(options)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
-from symtop_ros.physics.arguments import STARTS, fill_states
+from symtop_ros.physics.arguments import STARTS, fill_states, read_start
 from symtop_ros.physics.differences import (
     CENTRAL,
     FORWARD,
@@ -43,6 +43,7 @@ REMAINDERS, SMOOTH = 4, 4
 # All states of a driven motion have an error of its steps, which no difference shows: after an
 # unstable place it is some ten times as large.
 DRIVEN_REMAINDERS = 48
+FLAT = 1.6  # Iz/Ix, from which on steps of the moments would lead beyond the flat disc
 NORM_ERROR = 0.999e-3  # of a given quaternion, nearly
 PROMISED = 1e-8  # error of a derivative, in units of the largest of its block
 # Smaller effects are measured by this one, in rad or in units of the spin, of a change by all of a
@@ -78,6 +79,8 @@ def differentiate(motion: Any, times: Real) -> Real:
     """
     if motion.is_driven:
         _limit(motion, times)
+    elif motion.top.Iz > FLAT * motion.top.Ix:
+        return _differentiate_disc(motion, times)
     found = np.empty((len(times), 6, 9))
     groups = [np.argsort(np.abs(times))] if len(times) else []
     while groups:
@@ -99,6 +102,28 @@ def _limit(motion: Any, times: Real) -> None:
     if farthest > longest:
         condition = f"at most {longest:.3g} s for derivatives with friction or a torque"
         raise refuse("t", condition, float(farthest))
+
+
+def _differentiate_disc(motion: Any, times: Real) -> Real:
+    """Return the derivatives for a body next to the flat disc, which has no larger Iz.
+
+    A body with half of Iz and twice the spin has the same Iz omega_z, so that its axis moves in the
+    same way. It is turned about the axis by omega_z t, and can be made flatter.
+    """
+    row = np.frombuffer(motion.packed_start).copy()
+    row[1], row[9] = row[1] / 2, 2 * row[9]
+    top, start, *_ = read_start(row)
+    other = type(motion)(top, start)
+    found, state = differentiate(other, times), motion.at(times)
+    w, _, _, z = compose(invert(state.orientation), other.at(times).orientation).T[..., None]
+    for x, y in (0, 1), (3, 4):  # of both bodies, in their own frames
+        across, along = found[:, x].copy(), found[:, y].copy()
+        found[:, x] = (w * w - z * z) * across - 2 * w * z * along
+        found[:, y] = 2 * w * z * across + (w * w - z * z) * along
+    found[:, :, 1], found[:, :, 8] = found[:, :, 1] / 2, 2 * found[:, :, 8]
+    wx, wy, _ = state.angular_velocity.T
+    found[:, 2:, 8] -= np.stack((times, times * wy, -times * wx, np.ones_like(times)), axis=-1)
+    return found
 
 
 class _Starts:

@@ -298,9 +298,9 @@ class Motion:
         ------
         ValueError
             If a time is refused by `at`, if double precision does not resolve the derivatives (the
-            start is within 1e-6 rad of the vertical or 1e-8 of the separatrix, more for a flat
-            disc, the time is late for a nutation that is as small, or a driven motion comes back to
-            an unstable vertical), or if driven motions would take more than a minute.
+            start is within 1e-6 rad of the vertical or 1e-8 of the separatrix, the time is late for
+            a nutation that is as small, or a driven motion comes back to an unstable vertical), or
+            if driven motions would take more than a minute.
 
         Examples
         --------

@@ -249,6 +249,13 @@ def test_derivatives_of_stored_motions_are_exact(_, motion, times):
         assert find_errors(motion, each, right, counts_start=True).max() < PROMISED
 
 
+@pytest.mark.parametrize("number", [7530, 7826, 8336, 8780])
+def test_a_flat_disc_next_to_the_vertical_is_right(number):
+    case = make_case(number)
+    assert case.motion.top.Iz == 2 * case.motion.top.Ix
+    assert find_error(case) < 1
+
+
 # `python test/physics/unstable_motions.py` tries more of them.
 @pytest.mark.parametrize("number", leave_last(400, kept=12))
 def test_motions_next_to_what_is_unstable_are_right_or_refused(number):

@@ -17,8 +17,6 @@ from symtop_ros.physics import Motion, State, Top
 
 PROMISED = 1e-8  # docs/filters.md
 LEAST_TILT, LEAST_GAP = 1e-6, 1e-8  # below them a refusal is promised to be possible
-# Next to a flat disc, Iz = 2 Ix, derivatives are one-sided and have less digits.
-LEAST_TILT_OF_DISC, LEAST_GAP_OF_DISC = 1e-3, 1e-6
 DIGITS = 60  # those of a derivative are a third, less what the motion magnifies
 TURNS = ((1.0, 0.0), (0.6, 0.8), (-5 / 13, 12 / 13), (8 / 17, -15 / 17), (-0.8, -0.6))
 RATIOS = (0.25, 0.5, 1.0, 1.5, 1.9375)  # Iz/Ix: rods, spheres, discs
@@ -35,11 +33,7 @@ class Case(NamedTuple):
 
     @property
     def may_be_refused(self) -> bool:
-        is_disc = self.motion.top.Iz == 2 * self.motion.top.Ix
-        tilt, gap = LEAST_TILT, LEAST_GAP
-        if is_disc:
-            tilt, gap = LEAST_TILT_OF_DISC, LEAST_GAP_OF_DISC
-        return self.nearness < (tilt if self.family == "vertical" else gap)
+        return self.nearness < (LEAST_TILT if self.family == "vertical" else LEAST_GAP)
 
 
 def make_case(number: int) -> Case:

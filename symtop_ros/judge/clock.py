@@ -1,0 +1,100 @@
+"""The clock of the stamps of estimates: how late they are, how fast that grows, and its jitter.
+
+A top that turns at 200 rad/s turns by 0.2 mrad in a microsecond: an error of a stamp is an error of
+the attitude along the angular velocity. Noise is the same in all directions, so what is left along
+the angular velocity, beyond what is left across it, is jitter.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.arrays import Real, Stamps, compose, find_rotation_vectors, invert
+from symtop_ros.judge.compare import Offset, to_rotation
+from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.explain import align
+from symtop_ros.judge.truth import Truth
+from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.wording import write
+
+FEWEST = 10  # estimates
+SIGNIFICANT = 3.0  # standard deviations, below which jitter is not told from noise
+RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time that is told in whole ns
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """How late stamps are at the first one (us), and by how much more each second (ppm)."""
+
+    source: str
+    estimates: int
+    delay: float
+    delay_deviation: float
+    rate: float
+    rate_deviation: float
+    kind: str  # "jitter", or "none" if it is not told from noise
+    jitter: float  # us; of "none" the largest that noise may hide
+
+
+def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = "none") -> Clock:
+    """Return the clock of estimates; the rotations of the model (of `--aligned`) are fitted too."""
+    fitted = align(estimates, truth, f"{model.split('+', maxsplit=1)[0]}+delay+clock")
+    left, omega, stamps = _find_left(fitted.offset, truth, truth.select(estimates))
+    if len(left) < FEWEST:
+        raise RefusedError(f"{source} must have {FEWEST} estimates within the run, got {len(left)}")
+    kind, jitter = _find_jitter(left, omega)
+    seconds = float(stamps[-1] - stamps[0]) * 1e-9
+    return Clock(
+        source=source,
+        estimates=len(left),
+        delay=1e6 * fitted.offset.delay,
+        delay_deviation=1e6 * math.hypot(fitted.deviations[0], RESOLUTION),
+        rate=1e6 * fitted.offset.clock,
+        rate_deviation=1e6 * math.hypot(fitted.deviations[1], RESOLUTION / seconds),
+        kind=kind,
+        jitter=1e6 * jitter,
+    )
+
+
+def _find_left(offset: Offset, truth: Truth, run: Estimates) -> tuple[Real, Real, Stamps]:
+    """Return the rotations that are left, the angular velocities (both in the world) and stamps."""
+    exact, rates, known = truth.states_at(offset.shift(run.stamps), run.of_sensor)
+    run, exact, rates = run.select(known), exact[known], rates[known]
+    turned = compose(offset.turn_world(run.stamps), exact)
+    model = compose(turned, offset.turn_body(run.stamps))
+    left = find_rotation_vectors(compose(run.orientations, invert(model)))
+    return left, to_rotation(turned).apply(rates), run.stamps
+
+
+def _find_jitter(left: Real, omega: Real) -> tuple[str, float]:
+    """Return "jitter" and its size (s), or "none" and the largest that noise may hide.
+
+    Least squares of along - across = square * variance, in which noise of the variance n has a
+    deviation of sqrt(3) n: sqrt(2) n along, and n across, the mean of two.
+    """
+    square = (omega**2).sum(axis=1)
+    along = (left * omega).sum(axis=1) ** 2 / np.where(square > 0, square, 1.0)
+    across = ((left**2).sum(axis=1) - along) / 2
+    weight = float((square**2).sum()) or 1.0
+    variance = float((square * (along - across)).sum()) / weight
+    deviation = math.sqrt(3 / weight) * float(across.mean())
+    if variance > max(SIGNIFICANT * deviation, RESOLUTION**2):
+        return "jitter", math.sqrt(variance)
+    return "none", math.sqrt(max(variance, 0.0) + SIGNIFICANT * deviation + RESOLUTION**2)
+
+
+def format_clocks(clocks: list[Clock]) -> str:
+    """Return a sentence for each clock."""
+    return "\n".join(write("clock_of_stamps", _to_record(each)) for each in clocks)
+
+
+def _to_record(clock: Clock) -> dict[str, Any]:
+    return {
+        "source": clock.source,
+        "estimates": clock.estimates,
+        "delay": {"value": clock.delay, "deviation": clock.delay_deviation},
+        "rate": {"value": clock.rate, "deviation": clock.rate_deviation},
+        "jitter": {"kind": clock.kind, "value": clock.jitter},
+    }
