@@ -25,10 +25,8 @@ FILES = ("README.md", "CMakeLists.txt", "symtop.pc.in", "example.c")
 SAID_BY_CMAKE = ("-std=", "-fPIC", "-shared")
 LOCAL_INCLUDE = re.compile(r'^#include "(.+)"\n', re.M)
 SYSTEM_INCLUDE = re.compile(r"^#include <.+>\n", re.M)
-# Both pragmas are for those who drop the file into a tree whose options are not theirs to choose.
-# Compilers warn of vectors in calls, which are all inlined. And for a processor with FMA, as of
-# -march=native, GCC 12 fuses products with sums and differences that alternate (vfmaddsub), though
-# -ffp-contract=off forbids it: of the numbers that print_motions.c writes, 1.7 % had other bits.
+# The pragma is for those who drop the file into a tree whose options are not theirs to choose:
+# compilers warn of vectors in calls, which are all inlined.
 HEAD = f"""\
 // symtop {VERSION}: the motion of the heavy symmetric top, in one file. See symtop.h and README.md.
 // SPDX-License-Identifier: Apache-2.0
@@ -37,9 +35,6 @@ HEAD = f"""\
 // of symtop_ros, where each part below a line of dashes is a file: change it there.
 #ifdef __GNUC__
 #pragma GCC diagnostic ignored "-Wpsabi"
-#if defined(__FMA__) && !defined(__clang__)
-#pragma GCC optimize("no-tree-slp-vectorize")  // which fuses in spite of -ffp-contract=off
-#endif
 #endif
 #include "symtop.h"
 """

@@ -1,4 +1,5 @@
 // The functions of symtop.h. This is the one file that is compiled.
+#include "no_fma.hpp"  // before any function
 #include "symtop.h"
 
 #include <initializer_list>
