@@ -125,7 +125,9 @@ class OwnTimeSimulation(Simulation):
         """Slow the time down if the motion cannot be followed; a sample shows what was reached."""
         if shortfall := self.budget.shortfall:
             self._bring_forward(shortfall.reached)
-            self.host.warn(self._set_pace(shortfall.factor))
+            # Less than 1 ns after the last sample, the next stamp is not reached, and may never be.
+            if self.segment.stamp_at(shortfall.reached) >= self.stamp:
+                self.host.warn(self._set_pace(shortfall.factor))
 
     def _set_pace(self, factor: float) -> str:
         verdict = super()._set_pace(factor)

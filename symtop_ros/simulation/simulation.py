@@ -250,7 +250,7 @@ class Simulation:
         """Return towards the real-time factor of the settings if the budget allows it."""
         work, self._spent = self.budget.spent - self._spent, self.budget.spent
         current, factor = self.factor, self.settings.real_time_factor
-        if current < factor and work < SHARE / 2:
+        if current < factor and work < SHARE / 2 and self._prepare(self.stamp):
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
             self._set_pace(factor)
