@@ -54,7 +54,7 @@ def find_curvature(tenth: Real, eighth: Real, sixth: Real) -> Real:
     The differences between the orders fall by the same factor from each to the next.
     """
     near, far = np.abs(tenth - eighth), np.abs(eighth - sixth)
-    return np.asarray(2 * near * np.minimum(1, near / (far + TINY)))
+    return np.asarray(2 * near * (near / np.maximum(np.maximum(far, near), TINY)))
 
 
 class Estimates:
