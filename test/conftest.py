@@ -12,8 +12,9 @@ with contextlib.suppress(ModuleNotFoundError):  # the matrix has no Hypothesis
     from hypothesis import HealthCheck, settings
 
     # No test asserts a time, and an example that waits for the processor is no failure.
+    # A folder that cannot be written has no place for a database of examples.
     settings.register_profile(
-        "untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+        "untimed", deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
     )
     settings.load_profile("untimed")
 

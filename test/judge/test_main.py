@@ -1,6 +1,8 @@
 """`top_judge` as its users call it."""
 
+import errno
 import json
+import os
 from hashlib import sha256
 
 import numpy as np
@@ -74,7 +76,7 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
         (("--topic", "/nothing"), "--topic must be one of /filter, /imu/data, /text, /top/events"),
         (("--topic", "/text"), "topic must have a type"),
         (("--topic", "/filter", "--node", "/other"), "no run of a top /other "),
-        (("--estimates", "missing.csv"), "cannot open missing.csv: No such file"),
+        (("--estimates", "missing.csv"), f"cannot open missing.csv: {os.strerror(errno.ENOENT)}"),
         (("--estimates", "missing.mcap"), "--topic must name the estimates in missing.mcap"),
     ],
 )

@@ -37,7 +37,7 @@ def find_places_without(names):
         "settings": list_named(json.dumps(list(PARAMETERS))),
         "what parameters make of a motion": list_named(json.dumps(list_body(MOVING))),
         "fields of the page": list_named(read("web", "js", "controls", "fields.js")),
-        "what the page asks of a node": list_named(read("web", "js", "run", "node.js")),
+        "what the page asks of a node": list_named(read("web", "js", "physics", "course.js")),
     }
     counted = {
         "C": count_in_c(),
