@@ -1,5 +1,6 @@
-// The functions of symtop.h. This is the one file that is compiled.
-#include "no_fma.hpp"  // before any function
+// The functions of symtop.h. This is the one file that is compiled. The first header is for all
+// functions behind it.
+#include "no_fma.hpp"
 #include "symtop.h"
 
 #include <initializer_list>
