@@ -1,4 +1,4 @@
-"""What the programs share: words of the command line, and how a failure is told."""
+"""Words of the command line that the programs share, and their failures in one line."""
 
 import argparse
 import math
@@ -9,7 +9,7 @@ from symtop_ros.simulation.validation import one_line
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:
-    """Return the status of an action; what is refused and files that fail are told in one line."""
+    """Return the status of an action; refusals and failing files are printed in one line."""
     try:
         return act()
     except ValueError as error:

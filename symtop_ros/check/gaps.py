@@ -31,7 +31,7 @@ RATE, TF_SWITCH = "publish_rate", "publish_tf"
 
 @dataclass
 class Gaps:
-    """What is missing and what is repeated of one topic."""
+    """The missing and the repeated messages of one topic."""
 
     missing: int = 0  # samples
     widest: Interval = (0, 0)  # the neighbours between which most are missing

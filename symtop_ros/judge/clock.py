@@ -20,13 +20,13 @@ from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wording import write
 
 FEWEST = 10  # estimates
-SIGNIFICANT = 3.0  # standard deviations, below which jitter is not told from noise
-RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time that is told in whole ns
+SIGNIFICANT = 3.0  # standard deviations, below which jitter may be noise
+RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns
 
 
 @dataclass(frozen=True, slots=True)
 class Clock:
-    """How late stamps are at the first one (us), and by how much more each second (ppm)."""
+    """The delay of the stamps at the first one (us), and its growth each second (ppm)."""
 
     source: str
     estimates: int
@@ -34,7 +34,7 @@ class Clock:
     delay_deviation: float
     rate: float
     rate_deviation: float
-    kind: str  # "jitter", or "none" if it is not told from noise
+    kind: str  # "jitter", or "none" if it may be noise
     jitter: float  # us; of "none" the largest that noise may hide
 
 

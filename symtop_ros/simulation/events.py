@@ -44,7 +44,7 @@ WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 Number = TypeVar("Number", int, float, Fraction)
 
 # What an event says of the motion and of the segment that follow. It is the only list of them: of
-# it events are made and compared, and by it a run of the page is told from another.
+# it events are made and compared, and by it a run of the page is known from another.
 MOTION: dict[str, Callable[[Motion], Any]] = {
     "top": lambda motion: astuple(motion.top),
     "friction": lambda motion: astuple(motion.friction),

@@ -1,4 +1,4 @@
-"""What surrounds a simulation: its clock, its program, and the destination of what it sends."""
+"""The surroundings of a simulation: its clock, its program, and where samples go."""
 
 from contextlib import AbstractContextManager
 from typing import Protocol

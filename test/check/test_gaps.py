@@ -1,4 +1,4 @@
-"""What is missing in a log or repeated is named; what a run leaves out by itself is not."""
+"""Gaps and repetitions in a log are named; what a run leaves out by itself is not."""
 
 from dataclasses import replace
 

@@ -123,7 +123,7 @@ def to_json(events):
 
 
 def list_exact(event):
-    """What an event and its repetition have in common to the last bit."""
+    """The fields that an event and its repetition have in common to the last bit."""
     motion = event.motion
     body = motion.top, motion.friction, motion.applied_torque
     return event.kind, event.time, json.dumps(event.act), body

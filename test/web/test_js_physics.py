@@ -1,4 +1,4 @@
-"""What the page makes of the kernel: its states, records and sentences are those of Python."""
+"""The states, records and sentences of the page, from the kernel, are those of Python."""
 
 import dataclasses
 import math

@@ -37,7 +37,7 @@ TENTH = 0.1001  # units of a chart: two coordinates are written in tenths, of a 
 
 
 class Drawn:
-    """What circles and well show, and what follows from the state that is drawn."""
+    """The circles and the well that are shown, and those that follow from the drawn state."""
 
     def __init__(self, page):
         self.found = page.tab.evaluate(READ)

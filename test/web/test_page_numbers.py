@@ -1,4 +1,4 @@
-"""What the page shows in random runs is the state that it draws, to the digits that it shows."""
+"""In random runs the page shows the state that it draws, to the digits that it shows."""
 
 import math
 import random

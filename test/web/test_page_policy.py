@@ -1,4 +1,4 @@
-"""The page runs nobody else's code: data stand as data, and its policy allows its own script."""
+"""The page runs no other code: data stand as data, and its policy allows its own script."""
 
 import contextlib
 import threading

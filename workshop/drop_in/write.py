@@ -2,7 +2,7 @@
 
     python -m workshop.drop_in.write [FOLDER]
 
-FOLDER/symtop-VERSION, by default in dist/, gets symtop.h as it is, symtop.cpp with the headers of
+FOLDER/symtop-VERSION, by default in dist/, gets symtop.h unchanged, symtop.cpp with the headers of
 the kernel inside it, and the files that lie here: an example in C, a README that shows it, and what
 CMake and pkg-config need.
 """
@@ -41,7 +41,7 @@ HEAD = f"""\
 
 
 def inline(path: Path, seen: set[Path]) -> Iterator[str]:
-    """Yield a source in one piece, after those of the kernel that it includes and nobody before."""
+    """Yield a source in one piece, after those of the kernel that it is the first to include."""
     *heads, body = LOCAL_INCLUDE.split(path.read_text())
     before, names = "".join(heads[::2]), heads[1::2]
     # These come first, as they do there: a header may rest on what is included before it.
@@ -69,7 +69,7 @@ def fill(name: str) -> str:
 
 
 def write(folder: Path) -> Path:
-    """Write all files into a folder of their own; return its path."""
+    """Write all files into a new folder; return its path."""
     target = folder / f"symtop-{VERSION}"
     target.mkdir(parents=True, exist_ok=True)
     shutil.copy(HEADER, target)

@@ -1,4 +1,4 @@
-"""What an act makes of a motion: the one rule for a run that goes on and for one that is read.
+"""The one rule by which an act changes a motion, in a run that continues and in one that is read.
 
 A running node follows what it is asked. A check follows what the events of a log say was asked, and
 compares. Nothing here has a clock, a lock or a side effect.
@@ -31,7 +31,7 @@ DAY = 86400.0  # s
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """What happens to a run at a stamp: what was asked, and what the program decided itself."""
+    """A change of a run at a stamp: what was asked, and what the program decided itself."""
 
     name: str  # of the event that reports it
     stamp: int  # ns, from which on it holds
@@ -43,7 +43,7 @@ class Act:
 
 
 class Following(NamedTuple):
-    """What follows from an act."""
+    """The result of an act."""
 
     before: State  # right before it
     segment: Segment
