@@ -60,9 +60,9 @@ KNOWN_TO_BE_OUT_OF_SIGHT = """() => new Promise((done) => new IntersectionObserv
 def test_a_printer_gets_the_charts_of_now(opened):
     opened.tab.set_viewport_size({"width": 1280, "height": 400})
     opened.tab.evaluate(KNOWN_TO_BE_OUT_OF_SIGHT)
-    opened.enter("theta", "0.9")
     opened.press("Space")
-    read = "document.querySelector('#free svg').innerHTML"
-    before = opened.tab.evaluate(read)
+    opened.enter("theta", "0.9")
+    opened.until(lambda: opened.say("free-values").startswith("tilt theta 0.9 rad"))
     opened.tab.evaluate("dispatchEvent(new Event('beforeprint'))")
-    assert opened.tab.evaluate(read) != before
+    ticks = opened.tab.evaluate("document.querySelector('#free svg').textContent")
+    assert "0.9" in ticks
