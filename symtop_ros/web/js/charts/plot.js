@@ -8,6 +8,7 @@ export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
 const [RIGHT, UPPER, LOWER] = [6, 8, 18]; // margins
 const FAR = 1e4; // units; out of the drawing
+const DIGITS = 5; // of a number at an axis
 
 /** @typedef {[number, number]} Pair */
 /** @typedef {(value: number) => number} Scale */
@@ -44,8 +45,9 @@ export const listTicks = (low, high, count) => {
   // Of values far larger than their span some are equal: a loop that counts up to `high` may not end.
   const first = Math.ceil(low / step);
   const found = Array.from({ length: count + 2 }, (_, k) => (first + k) * step);
-  const inside = found.filter((value) => value >= low && value <= high);
-  return [...new Set(inside.map((value) => Number(value.toPrecision(10))))];
+  // Each stands where the number is that is written at it.
+  const written = new Set(found.map((value) => Number(value.toPrecision(DIGITS))));
+  return [...written].filter((value) => value >= low && value <= high);
 };
 
 /**
@@ -95,7 +97,7 @@ export class Frame {
   /** @param {number} text @param {number} value */
   drawTick(text, value) {
     return `${this.level(value, 'class="axis"')}
-      <text class="tick" x="${LEFT - 4}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end">${shorten(text, 5)}</text>`;
+      <text class="tick" x="${LEFT - 4}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end">${shorten(text, DIGITS)}</text>`;
   }
 
   /** @param {Pair} point @returns {Pair} */
@@ -130,7 +132,7 @@ export class Frame {
   }
 
   /** Values below the axes. @param {number[]} values @param {(value: number) => string} write */
-  writeBelow(values, write = (value) => shorten(value, 5)) {
+  writeBelow(values, write = (value) => shorten(value, DIGITS)) {
     const place = `y="${this.bottom + 12}" text-anchor="middle"`;
     return values
       .map(
