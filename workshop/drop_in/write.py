@@ -72,8 +72,8 @@ def write(folder: Path) -> Path:
     """Write all files into a new folder; return its path."""
     target = folder / f"symtop-{VERSION}"
     target.mkdir(parents=True, exist_ok=True)
-    shutil.copy(HEADER, target)
-    shutil.copy(ROOT / "LICENSE", target)
+    shutil.copyfile(HEADER, target / HEADER.name)  # without the rights of a read-only checkout
+    shutil.copyfile(ROOT / "LICENSE", target / "LICENSE")
     (target / SOURCE).write_text(join())
     for name in FILES:
         (target / name).write_text(fill(name))
