@@ -22,6 +22,12 @@ def find_box(page, name):
     return page.tab.locator(name).bounding_box()
 
 
+def scroll_to(page, name):
+    """Return the box of a part after scrolling to it; what is drawn later may move it again."""
+    page.tab.locator(name).scroll_into_view_if_needed()
+    return find_box(page, name)
+
+
 def settle(page, name):
     """Return the box of a part when it is the same twice: texts that arrive move what follows."""
     boxes = [find_box(page, name)]
@@ -62,8 +68,7 @@ def test_hurry_is_in_the_window_and_the_scene_and_charts_in_reach(open_page, siz
     page.until(lambda: is_large(find_box(page, "canvas"), 0.25 * min(size)))
     page.until(lambda: page.tab.evaluate("document.documentElement.scrollWidth") <= size[0])
     for name in ("#psi_dot", "#constants"):
-        page.tab.locator(name).scroll_into_view_if_needed()
-        page.until(lambda name=name: is_in_sight(find_box(page, name), size))
+        page.until(lambda name=name: is_in_sight(scroll_to(page, name), size))
     page.until(lambda: abs(find_box(page, "#hurry")["y"] - hurry["y"]) <= 1)  # stays in reach
     for name in ("Delay", "Pause", "Step", "Reset"):
         page.tab.get_by_role("button", name=name, exact=True).scroll_into_view_if_needed()
