@@ -37,6 +37,8 @@ def lens(kind: str, field: str, scale: float) -> DeriveLens:
     )
 
 
+if len(sys.argv) != 3:
+    sys.exit("usage: arrows_in_rerun.py LOG.mcap RECORDING.rrd")
 log, recording = sys.argv[1:]
 stream = McapReader(log, recover=True).stream()
 for topic, how in VECTORS.items():

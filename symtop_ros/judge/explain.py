@@ -6,13 +6,14 @@ delay, but for rotations of the world and of the body. The rank of the problem s
 
 from dataclasses import dataclass, replace
 
-from symtop_ros.judge.causes.cause import Cause
+from symtop_ros.judge.causes.cause import PARAMETERS, Cause
 from symtop_ros.judge.causes.causes import MOST_SAMPLES, Search, refine
-from symtop_ros.judge.causes.search import fit_level
+from symtop_ros.judge.causes.search import LEVELS, fit_level
 from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import SAMPLES, Fit
 from symtop_ros.judge.truth import Truth
+from symtop_ros.simulation.validation import RefusedError
 
 LEVELS_OF = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
 # Rotations, and what the stamps may be off by.
@@ -73,9 +74,18 @@ def explain(
 
 
 def align(estimates: Estimates, truth: Truth, model: str) -> Cause:
-    """Return the least squares of a stated model, one of MODELS, without any search."""
+    """Return the least squares of a stated model, one of MODELS, without any search.
+
+    Refused is a model with a delay or a clock that changes nothing but its other parameters: in a
+    sleeping top a delay is a heading.
+    """
     rotations, *names = model.split("+")
     fit, level = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth), LEVELS_OF[rotations]
     exact, *_ = fit.exact(0.0)
     start = replace(fit_level(fit.some.orientations, exact, level), begin=int(fit.some.stamps[0]))
-    return refine(fit, ("", level, tuple(names)), start, is_sure=True)
+    found = refine(fit, ("", level, tuple(names)), start, is_sure=True)
+    for name in names:
+        others = [*LEVELS[level][0], *(PARAMETERS[each] for each in names if each != name)]
+        if fit.hides(found.offset, others, PARAMETERS[name]):
+            raise RefusedError(f"--aligned must be a model that this motion can show, got {model}")
+    return found

@@ -161,10 +161,17 @@ class Fit:
         if len(self._null_space(columns[:, ROTATIONS])):
             hidden.append("rotations")
         for name, place in (("delay", DELAY), ("drift", DRIFT)):
-            chosen = [*ROTATIONS, place]
-            if np.abs(self._null_space(columns[:, chosen])[:, -1]).max(initial=0.0) > VISIBLE:
+            if self._hides(columns[:, [*ROTATIONS, place]]):
                 hidden.append(name)
         return hidden
+
+    def hides(self, offset: Offset, others: list[int], place: int) -> bool:
+        """Return whether a parameter near an offset changes nothing that others do not."""
+        return self._hides(self.derive(offset)[:, [*others, place]])
+
+    def _hides(self, columns: Real) -> bool:
+        """Return whether the motion hides the last of the columns."""
+        return bool(np.abs(self._null_space(columns)[:, -1]).max(initial=0.0) > VISIBLE)
 
     def find_deviations(self, offset: Offset, free: list[int]) -> Real:
         """Return the standard deviations of the columns, (11,), if what is left is noise.

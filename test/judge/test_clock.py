@@ -59,6 +59,22 @@ def test_fewer_than_ten_estimates_are_refused():
         measure_clock(made, TRUTH, "file")
 
 
+@pytest.mark.parametrize(
+    ("scene", "stamps", "model"),
+    [
+        ("sleeping", STAMPS, "heading"),  # a turn about the vertical is a delay
+        ("sleeping", STAMPS, "world-and-body"),
+        ("regular_precession", STAMPS, "world-and-body"),
+        ("cusps", np.full(20, SECOND), "none"),  # no rate at one instant
+    ],
+)
+def test_what_a_motion_does_not_show_is_refused(scene, stamps, model):
+    truth = scene_truth(scene)
+    made = Made(delay=1e-5, noise=NOISE).make(truth, stamps)
+    with pytest.raises(RefusedError, match=f"a model that this motion can show, got {model}"):
+        measure_clock(made, truth, "file", model)
+
+
 def test_the_command_prints_a_sentence_or_json(tmp_path, capsys):
     found = Made(delay=2e-3).make(TRUTH, STAMPS)
     path = tmp_path / "estimates.csv"
