@@ -52,6 +52,9 @@ SMALLEST = 1e-3
 # Error of a row by the curvature of the other ones: next to the vertical the angle about the axis
 # looks smooth by steps that are far too long for the tilt.
 SPREAD = 2e-6
+# Part of omega by which friction and torque may change it and be left out. Derivatives change by it
+# divided by the gap to the separatrix, of which 1e-12 is the narrowest one that is resolved.
+WEAKEST = 2.0**-80
 WILD = 1e7  # promised errors; steps that leave so much in a row turn phases by whole turns
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
 MOST_ROUNDS = 24
@@ -77,6 +80,9 @@ def differentiate(motion: Any, times: Real) -> Real:
     ValueError
         If the motion has no state at a time, or if no step resolves the derivatives there.
     """
+    if motion.is_driven and _changes_nothing(motion, times):
+        # Without its steps: their errors grow where the axis comes back to an unstable vertical.
+        return differentiate(type(motion)(motion.top, motion.start), times)
     if motion.is_driven:
         _limit(motion, times)
     elif motion.top.Iz > FLAT * motion.top.Ix:
@@ -91,6 +97,15 @@ def differentiate(motion: Any, times: Real) -> Real:
         # Few motions have times that need different steps.
         groups += [each for each in np.array_split(group[left], 2) if len(each)]
     return found
+
+
+def _changes_nothing(motion: Any, times: Real) -> bool:
+    """Return whether friction and torque are far too weak to be seen in derivatives by then."""
+    fastest, longest = _find_rates(motion)[1], float(np.abs(times).max(initial=0))
+    drive = max(motion.friction.axial, motion.friction.transverse)
+    drive += math.hypot(*motion.applied_torque) / (fastest or 1.0)
+    change = drive / min(motion.top.Ix, motion.top.Iz) * longest
+    return bool(change * (1 + fastest * longest) < WEAKEST)
 
 
 def _limit(motion: Any, times: Real) -> None:
