@@ -38,7 +38,8 @@ JAZZY = ros("jazzy", ">=7.1,<8", ">=8.4,<9", ">=5.3,<5.5")  # the LTS
 # this extra into another environment.
 PLAYBACK = [
     "mcap>=1.5",
-    "rerun-sdk>=0.41",
+    # Layouts are of types that Rerun calls unstable: each release is tried before it is let in.
+    "rerun-sdk>=0.38,<0.42",
 ]
 # Figures and tables: of top_judge, and of the workshop in a checkout.
 REPORT = [

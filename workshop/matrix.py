@@ -1,4 +1,4 @@
-"""Try the node in each supported combination of ROS 2, Python and NumPy; print a table.
+"""Try the node with each ROS 2, Python and NumPy, and the playback with each Rerun; print a table.
 
 python workshop/matrix.py [--folder .venv/matrix]: each cell gets a separate environment, in which
 it installs the package and runs TESTS. The table is for docs/ros.md.
@@ -7,6 +7,7 @@ it installs the package and runs TESTS. The table is for docs/ros.md.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -24,19 +25,24 @@ DISTRIBUTIONS = {
     "kilted": ("3.11", "3.12", "3.13", "3.14"),
 }
 NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
-PACKAGES = ("numpy", "scipy", "ros-rclpy")
+# The oldest Rerun of setup.py, and the newest.
+RERUNS = ("rerun-sdk~=0.38.0", "rerun-sdk")
+PLAYBACK_TESTS = ("test/playback/view", "test/playback/test_other_readers.py")
+TOOLS = ("pytest", "coverage", "hypothesis", "mpmath", "rosbags", "pillow")
+PACKAGES = ("numpy", "scipy", "ros-rclpy", "rerun-sdk")
 # An active environment, and that of ROS wheels, would reach into the cell.
 FOREIGN = ("PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
 TIMEOUT = 900  # s for an installation, or for the tests
-HEAD = "| ROS 2 | Python | NumPy | SciPy | rclpy | result |\n|---|---|---|---|---|---|"
+HEAD = "| extra | Python | NumPy | SciPy | rclpy | Rerun | result |\n|---|---|---|---|---|---|---|"
 
 
 class Cell(NamedTuple):
-    """A combination: name of the distribution, versions of Python and of NumPy."""
+    """A combination: an extra of setup.py, a version of Python, another requirement, and tests."""
 
-    distribution: str
+    extra: str
     python: str
-    numpy: str
+    wanted: str
+    tests: tuple[str, ...] = TESTS
 
 
 def cells() -> Iterator[Cell]:
@@ -45,7 +51,9 @@ def cells() -> Iterator[Cell]:
         for python in pythons:
             for numpy in NUMPYS:
                 if numpy != "1" or python in ("3.11", "3.12"):
-                    yield Cell(distribution, python, numpy)
+                    yield Cell(distribution, python, NUMPYS[numpy])
+    for rerun in RERUNS:
+        yield Cell("playback", "3.11", rerun, PLAYBACK_TESTS)
 
 
 def find_python(version: str) -> str | None:
@@ -59,17 +67,17 @@ def try_cell(cell: Cell, folder: Path) -> str:
     python = find_python(cell.python)
     if python is None:
         return row(cell, {}, "not tried: no such Python on this machine")
-    environment = folder / "-".join(cell)
+    environment = folder / "cell"
     shutil.rmtree(environment, ignore_errors=True)
     try:
         run(python, "-m", "venv", environment)
         inside = environment / "bin" / "python"
-        wanted = [f".[{cell.distribution}]", NUMPYS[cell.numpy], "pytest", "coverage"]
+        wanted = [f".[{cell.extra}]", cell.wanted, *TOOLS]
         installed = run(inside, "-m", "pip", "install", "--quiet", "--prefer-binary", *wanted)
         if installed.returncode:
             return row(cell, {}, f"cannot be installed: {last_line(installed.stderr)}")
         versions = versions_of(inside)
-        tested = run(inside, "-m", "pytest", "-q", "-m", "not realtime and not long", *TESTS)
+        tested = run(inside, "-m", "pytest", "-q", "-m", "not realtime and not long", *cell.tests)
         result = last_line(tested.stdout).strip("= ")
         return row(cell, versions, re.sub(r", \d+ (deselected|warnings?)", "", result))
     except subprocess.TimeoutExpired:
@@ -93,13 +101,10 @@ def run(*command: object) -> subprocess.CompletedProcess[str]:
 
 
 def versions_of(python: Path) -> dict[str, str]:
-    """Return the versions of Python and of PACKAGES in an environment."""
-    code = (
-        "import sys, platform; from importlib.metadata import version; "
-        "print(platform.python_version(), *map(version, sys.argv[1:]))"
-    )
-    words = run(python, "-c", code, *PACKAGES).stdout.split()
-    return dict(zip(("python", *PACKAGES), words, strict=False))
+    """Return the versions of Python and of all packages in an environment."""
+    found = json.loads(run(python, "-m", "pip", "list", "--format=json").stdout)
+    version = run(python, "-c", "import platform; print(platform.python_version())").stdout.strip()
+    return {"python": version} | {each["name"]: each["version"] for each in found}
 
 
 def last_line(text: str) -> str:
@@ -110,9 +115,8 @@ def last_line(text: str) -> str:
 
 def row(cell: Cell, versions: dict[str, str], result: str) -> str:
     """Return a row of the table."""
-    known = [versions.get(name, "") for name in PACKAGES[1:]]
-    shown = versions.get("python", cell.python), versions.get("numpy", cell.numpy)
-    return f"| {' | '.join([cell.distribution.capitalize(), *shown, *known, result])} |"
+    known = (versions.get(name, "") for name in PACKAGES)
+    return f"| {' | '.join((cell.extra, versions.get('python', cell.python), *known, result))} |"
 
 
 def is_good(line: str) -> bool:
