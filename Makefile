@@ -48,7 +48,7 @@ test-realtime: $(VENV)/test $(VENV)/chromium
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 $(VENV)/zig/done test-keys test-elsewhere test-kilted  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-kilted  ## trials that take longer (two hours), coverage, and the matrix
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
 
@@ -82,7 +82,7 @@ docs: $(VENV)/docs  ## the HTML site of README, docs and library in site/; warni
 	@$(BIN)/top_panel --write site/top.html
 	@echo "wrote site/README.html"
 
-wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for x86-64 and ARM, in dist/ (2 minutes)
+wheels: $(VENV)/zig/done  ## wheels with the compiled kernel for Linux, macOS and Windows, in dist/ (3 minutes)
 	@$(VENV)/zig/bin/python workshop/wheels.py dist
 
 kernel-wasm: $(VENV)/zig/done  ## the kernel in WebAssembly, symtop_ros/web/kernel.wasm (1 minute)
@@ -161,6 +161,11 @@ $(VENV)/chromium: test/get_chromium.sh $(VENV)/bin/activate
 $(VENV)/aarch64: test/get_aarch64.sh $(VENV)/bin/activate
 	@echo "Setting up .venv: a compiler and an emulator for ARM (once) ..."
 	@$(TICK) sh test/get_aarch64.sh $@
+	@touch $@
+
+$(VENV)/wine: test/get_wine.sh $(VENV)/bin/activate
+	@echo "Setting up .venv: Wine, for the kernel on Windows (100 MB, once) ..."
+	@$(TICK) sh test/get_wine.sh $@
 	@touch $@
 
 $(VENV)/js/done: test/get_js.sh $(VENV)/bin/activate

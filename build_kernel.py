@@ -13,6 +13,8 @@ import sys
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from sysconfig import get_platform
+from tempfile import TemporaryDirectory
 
 from setuptools import build_meta
 from setuptools.build_meta import *  # noqa: F403  the other hooks of the backend
@@ -25,7 +27,7 @@ SOURCE = "symtop.cpp"
 # (design/fused_products.py). -fno-fast-math stands behind all that CXXFLAGS may say.
 OPTIONS = (
     *("-O2", "-std=c++17", "-fno-fast-math", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),
-    *("-fPIC", "-shared", "-fvisibility=hidden", "-Wno-psabi"),
+    *("-fPIC", "-shared", "-fvisibility=hidden", "-Wno-psabi", "-DSYMTOP_SHARED"),
 )
 ZIG = "ziglang==0.15.2"  # pinned: another Zig is another compiler
 TRIAL = "#include <mutex>\nint main() {}\n"
@@ -78,7 +80,7 @@ class BuildKernel(build_ext):
 
     def get_ext_filename(self, fullname: str) -> str:
         """Return the file name without the tag of a version of Python."""
-        suffix = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+        suffix = {"win": ".dll", "mac": ".dylib"}.get(get_platform()[:3], ".so")
         return str(Path(*fullname.split(".")).with_suffix(suffix))
 
     def get_export_symbols(self, _ext: object) -> list[str]:
@@ -89,6 +91,8 @@ class BuildKernel(build_ext):
         """Compile the library, and replace the one that is there."""
         target = Path(self.get_ext_fullpath(ext.name)).absolute()  # type: ignore[attr-defined]
         flags = list_flags()
+        if target.suffix == ".dylib":  # which is named by its place otherwise
+            flags.append(f"-Wl,-install_name,@rpath/{target.name}")
         built_of = (
             f"{digest_sources()} {hashlib.sha256(shlex.join(flags).encode()).hexdigest()[:16]}"
         )
@@ -98,17 +102,17 @@ class BuildKernel(build_ext):
         if not compiler:
             raise CompileError(NO_COMPILER)
         target.parent.mkdir(parents=True, exist_ok=True)
-        part = target.with_suffix(
-            f".{os.getpid()}{target.suffix}"
-        )  # one that is in use stays whole
-        # From this folder, so that no path of this machine gets into the library.
-        command = [*compiler, *flags, f'-DSYMTOP_DIGEST="{built_of}"', SOURCE, "-o", str(part)]
-        try:
-            subprocess.run(command, cwd=KERNEL, check=True)
-        except (OSError, subprocess.CalledProcessError) as error:
-            target.unlink(missing_ok=True)  # an older library would only be refused
-            raise CompileError(f"the C++ compiler refused the kernel: {error}") from error
-        part.replace(target)
+        # Beside it: a library that is in use stays whole, and other results of a compiler go.
+        with TemporaryDirectory(dir=target.parent) as folder:
+            part = Path(folder, target.name)
+            # From this folder, so that no path of this machine gets into the library.
+            command = [*compiler, *flags, f'-DSYMTOP_DIGEST="{built_of}"', SOURCE, "-o", str(part)]
+            try:
+                subprocess.run(command, cwd=KERNEL, check=True)
+            except (OSError, subprocess.CalledProcessError) as error:
+                target.unlink(missing_ok=True)  # an older library would only be refused
+                raise CompileError(f"the C++ compiler refused the kernel: {error}") from error
+            part.replace(target)
 
 
 def _list_needs() -> list[str]:

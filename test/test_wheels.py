@@ -1,21 +1,35 @@
-"""`make wheels` builds wheels that run on other machines, with the bits of the kernel here."""
+"""`make wheels` builds wheels that run on other machines, with the bits of the kernel here.
+
+Those for macOS are built and looked at, and not run: there is no emulator of it.
+"""
 
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from physics.exact_motions import PATH
+from physics.kernel.motions import list_many, normalize
 from physics.kernel.test_kernel import BITS
 from programs import execute
 
 pytestmark = pytest.mark.untraced
 ROOT = Path(__file__).parents[1]
-ZIG, ARM = ROOT / ".venv/zig", ROOT / ".venv/aarch64"
+ZIG, ARM, WINE = (ROOT / ".venv" / name for name in ("zig", "aarch64", "wine"))
+LIBRARIES = {
+    "manylinux_2_28_x86_64": "libsymtop.so",
+    "manylinux_2_28_aarch64": "libsymtop.so",
+    "macosx_11_0_arm64": "libsymtop.dylib",
+    "macosx_11_0_x86_64": "libsymtop.dylib",
+    "win_amd64": "libsymtop.dll",
+}
 needs_zig = pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it")
+CODE_SIGNATURE = 0x1D  # a load command
 # Prints the digest of the states of the first motions of the table that it is given.
 PROGRAM = """
 import hashlib, json, lzma, sys
@@ -40,34 +54,98 @@ def compute(command, **variables):
 
 @pytest.fixture(scope="module")
 def wheels(tmp_path_factory):
-    """The wheels, unpacked: a folder for each processor."""
+    """The wheels, unpacked: a folder for each platform."""
     folder = tmp_path_factory.mktemp("wheels")
     subprocess.run([ZIG / "bin/python", ROOT / "workshop/wheels.py", folder], check=True)
     found = {}
     for path in folder.glob("*.whl"):
-        processor = re.search(r"manylinux_2_28_(\w+)\.whl", path.name)[1]
-        found[processor] = folder / processor
-        shutil.unpack_archive(path, found[processor], "zip")
+        platform = re.search(r"-py3-none-(\w+)\.whl", path.name)[1]
+        found[platform] = folder / platform
+        shutil.unpack_archive(path, found[platform], "zip")
     return found
 
 
 @pytest.mark.long
 @needs_zig
-def test_there_is_a_wheel_for_each_processor_that_asks_for_no_newer_c_library(wheels):
-    assert sorted(wheels) == ["aarch64", "x86_64"]
-    for folder in wheels.values():
-        (kernel,) = folder.rglob("libsymtop.so")
-        versions = re.findall(rb"GLIBC_(\d+)\.(\d+)", kernel.read_bytes())
-        assert max((int(major), int(minor)) for major, minor in versions) <= (2, 28)
-        assert b"libstdc++" not in kernel.read_bytes()
+def test_there_is_a_wheel_for_each_platform_with_its_library(wheels):
+    assert wheels.keys() == LIBRARIES.keys()
+    for platform, folder in wheels.items():
+        (library,) = folder.rglob("*symtop.[!hc]*")
+        assert library.name == LIBRARIES[platform]
+        # no path of the machine that built it
+        assert not re.search(rb"/tmp/|/home/|/Users/|" + str(ROOT).encode(), library.read_bytes())
         (tags,) = folder.glob("*.dist-info/WHEEL")
-        assert f"Tag: py3-none-manylinux_2_28_{folder.name}\n" in tags.read_text()
+        assert f"Tag: py3-none-{platform}\n" in tags.read_text()
+
+
+@pytest.mark.long
+@needs_zig
+@pytest.mark.parametrize("processor", ["x86_64", "aarch64"])
+def test_a_wheel_for_linux_asks_for_no_newer_c_library(wheels, processor):
+    (kernel,) = wheels[f"manylinux_2_28_{processor}"].rglob("libsymtop.so")
+    versions = re.findall(rb"GLIBC_(\d+)\.(\d+)", kernel.read_bytes())
+    assert max((int(major), int(minor)) for major, minor in versions) <= (2, 28)
+    assert b"libstdc++" not in kernel.read_bytes()
+
+
+@pytest.mark.long
+@needs_zig
+@pytest.mark.parametrize(("processor", "number"), [("arm64", 0x100000C), ("x86_64", 0x1000007)])
+def test_a_wheel_for_macos_has_a_library_for_its_processor_that_it_may_load(
+    wheels, processor, number
+):
+    (kernel,) = wheels[f"macosx_11_0_{processor}"].rglob("libsymtop.dylib")
+    content, commands, place = kernel.read_bytes(), [], 32
+    magic, found, *_, count = struct.unpack("<5I", content[:20])
+    for _ in range(count):
+        command, size = struct.unpack("<2I", content[place : place + 8])
+        commands.append(command)
+        place += size
+    assert (magic, found) == (0xFEEDFACF, number)
+    if processor == "arm64":  # loads nothing that is not signed
+        assert CODE_SIGNATURE in commands
 
 
 @pytest.mark.long
 @needs_zig
 def test_the_wheel_for_this_processor_has_the_same_bits(wheels):
-    assert compute([sys.executable], PYTHONPATH=wheels["x86_64"]) == BITS
+    assert compute([sys.executable], PYTHONPATH=wheels["manylinux_2_28_x86_64"]) == BITS
+
+
+@pytest.mark.long
+@needs_zig
+@pytest.mark.skipif(not (WINE / "done").exists(), reason="make .venv/wine fetches it")
+def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
+    (library,) = wheels["win_amd64"].rglob("libsymtop.dll")
+    shutil.copy(library, tmp_path)
+    options = ["-target", "x86_64-windows-gnu", "-O1", "-ffp-contract=off", "-I", library.parent]
+    program = tmp_path / "print_motions.exe"
+    subprocess.run(
+        [
+            *(ZIG / "bin/python", "-m", "ziglang", "cc", *options),
+            *(ROOT / "test/physics/kernel/print_motions.c", tmp_path / library.name, "-o", program),
+        ],
+        check=True,
+    )
+    environment = {
+        "WINEPREFIX": tmp_path / "prefix",
+        "LD_LIBRARY_PATH": WINE / "usr/lib/x86_64-linux-gnu",
+        "WINEDLLOVERRIDES": "mscoree=;mshtml=",  # neither .NET nor a browser
+        "WINEDEBUG": "-all",
+        "HOME": tmp_path,
+        "PATH": os.environ["PATH"],
+    }
+    samples, expected = list_many()
+    wine = subprocess.run(
+        [WINE / "usr/lib/wine/wine64", program],
+        input=samples,
+        env=environment,
+        cwd=tmp_path,
+        capture_output=True,
+        check=True,
+        timeout=600,
+    )
+    assert normalize(np.frombuffer(wine.stdout)) == expected
 
 
 @pytest.mark.long
@@ -88,6 +166,6 @@ def test_the_wheel_for_arm_has_the_same_bits_in_the_emulator(wheels, tmp_path):
         check=True,
     )
     emulator = [ARM / "usr/bin/qemu-aarch64-static", "-L", ARM / "python"]
-    path = os.pathsep.join(map(str, (wheels["aarch64"], tmp_path)))
+    path = os.pathsep.join(map(str, (wheels["manylinux_2_28_aarch64"], tmp_path)))
     options = ["-E", f"PYTHONHOME={ARM / 'python/usr'}", "-E", f"PYTHONPATH={path}"]
     assert compute([*emulator, *options, python]) == BITS

@@ -49,9 +49,9 @@ def cells() -> Iterator[Cell]:
     """Yield all combinations. NumPy 1 has no wheels from Python 3.13 on."""
     for distribution, pythons in DISTRIBUTIONS.items():
         for python in pythons:
-            for numpy in NUMPYS:
-                if numpy != "1" or python in ("3.11", "3.12"):
-                    yield Cell(distribution, python, NUMPYS[numpy])
+            for number, numpy in NUMPYS.items():
+                if number != "1" or python in ("3.11", "3.12"):
+                    yield Cell(distribution, python, numpy)
     for rerun in RERUNS:
         yield Cell("playback", "3.11", rerun, PLAYBACK_TESTS)
 

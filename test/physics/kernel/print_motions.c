@@ -3,6 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
 
 #include "symtop.h"
 
@@ -131,6 +135,9 @@ static void print_verdicts(const symtop_start* start) {
 }
 
 int main(void) {
+#ifdef _WIN32 /* where a stream is one of lines */
+  _setmode(0, _O_BINARY), _setmode(1, _O_BINARY);
+#endif
   for (size_t count = read_count(); count > 0; count--) {
     symtop_start start;
     symtop_motion* motion;
