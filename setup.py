@@ -92,7 +92,8 @@ LINT = [
     "ruff>=0.6",
     "scipy-stubs>=1.14",  # types for SciPy
     "codespell>=2.2",
-    "colcon-common-extensions>=0.3",  # a test builds the package in a workspace
+    # a test builds the package in a workspace, as with --packages-select and setup.bash
+    *("colcon-ros>=0.5", "colcon-package-selection>=0.2", "colcon-bash>=0.5"),
 ]
 
 # `colcon build --symlink-install` runs this file by a link: the other one is beside the real one.
