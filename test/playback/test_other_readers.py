@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 from log_files import LAYOUTS, Run, topic
+from programs import execute
 from rerun.chunk import McapReader
 
+from symtop_ros.log.reader import McapFile
+from symtop_ros.log.repair import repair
+from symtop_ros.playback import viewer
 from symtop_ros.simulation.topics import STATE_TOPICS
 from symtop_ros.wire.messages import decode_messages
 
@@ -63,3 +67,32 @@ def test_every_topic_has_as_many_messages(chunks):
     for name in LAYOUTS:
         batches = [each for each in chunks if each.entity_path == topic(name)]
         assert sum(each.num_rows for each in batches) == 200
+
+
+@pytest.mark.parametrize("part", [1.0, 0.75, 0.5])
+def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_path):
+    path = cut(tmp_path, part)
+    if part < 1:
+        assert execute([viewer.PROGRAM, "mcap", "check", path]).returncode == 1
+        repair(McapFile(path), path := tmp_path / "repaired.mcap")
+    done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
+    assert done.returncode == 0, done.stdout
+    assert all(topic(name) in done.stdout for name in LAYOUTS)
+
+
+def test_rerun_recovers_the_same_samples_of_a_log_that_was_cut(tmp_path):
+    path = cut(tmp_path, 0.5)
+    chunks = McapReader(path, recover=True).stream()
+    rows = [each for each in chunks if not each.is_static]
+    found = sum(each.num_rows for each in rows if each.entity_path == topic("orientation"))
+    file = McapFile(path)
+    ours = [each for messages in file.chunks() for each in messages]
+    topics = [file.channels[each.channel_id].topic for each in ours]
+    assert found == topics.count(topic("orientation")) > 0
+
+
+def cut(folder, part):
+    """Write a log of which only this part of the bytes is there."""
+    content = Run(seconds=1.0, described=True).write(folder).read_bytes()
+    (path := folder / "cut.mcap").write_bytes(content[: round(part * len(content))])
+    return path
