@@ -5,6 +5,7 @@ last bit. As a double of seconds it would be rounded: after a day by 7 ps, in wh
 rad/s turns by 7 million EPS. The integers are therefore kept until phases are reduced to one turn.
 """
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -62,7 +63,8 @@ class ExactTimes:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "nanoseconds", _validate_nanoseconds(self.nanoseconds))
-        object.__setattr__(self, "factor", validate_number("factor", self.factor))
+        if type(self.factor) is not float or not math.isfinite(self.factor):
+            object.__setattr__(self, "factor", validate_number("factor", self.factor))
         if not SMALLEST <= self.factor <= LARGEST_FACTOR:
             raise refuse("factor", f"{SMALLEST:g} to {LARGEST_FACTOR:g}", self.factor)
         object.__setattr__(self, "elapsed", _validate_elapsed(self.elapsed))
@@ -102,8 +104,10 @@ class ExactTimes:
             if not left:
                 break
             parts[place] = float(left)
+            if not SMALLEST <= abs(parts[place]) <= LARGEST_FACTOR:
+                break
             left -= Fraction(parts[place])
-        if left or any(part and not SMALLEST <= abs(part) <= LARGEST_FACTOR for part in parts):
+        if left:
             condition = "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size"
             raise refuse("elapsed", condition, f"{float(self.elapsed):.17g}")
         return self.factor, tuple(parts)

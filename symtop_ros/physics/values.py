@@ -68,6 +68,8 @@ def validate_number(name: str, value: Any, unit: str = "") -> float:
         If the value is not a number (a bool, a string and a complex number are not), not finite,
         or too large for a double.
     """
+    if _is_finite_float(value):
+        return float(value)  # the common case
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     _refuse_units(name, value, unit)

@@ -70,7 +70,8 @@ def write_text(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return " ".join([each if isinstance(each, str) else repr(float(each)) for each in value])
+        is_words = bool(value) and isinstance(value[0], str)
+        return " ".join(value if is_words else map(repr, map(float, value)))
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
@@ -87,8 +88,11 @@ def _flatten(found: dict[str, str], name: str, value: Any) -> None:
         value = {str(place): each for place, each in enumerate(value)}
     if isinstance(value, Mapping):
         for key, each in value.items():
-            _flatten(found, f"{name}.{key}", each)
-    elif value is not None:
+            if isinstance(each, Mapping | tuple):
+                _flatten(found, f"{name}.{key}", each)
+            elif each is not None:
+                found[f"{name}.{key}"] = write_text(each)
+    else:
         found[name] = write_text(value)
 
 

@@ -100,7 +100,8 @@ class _Writer:
 
         def replace(found: "re.Match[str]") -> str:
             name, form = found.groups()
-            text = self._write_value(name, _pick(name, record), form, record)
+            value = _pick(name, record) if "," in name else record[name]
+            text = self._write_value(name, value, form, record)
             return f" {text}" if text and found[0].startswith(" ") else text
 
         return PLACEHOLDER.sub(replace, template)
@@ -121,7 +122,7 @@ class _Writer:
     def _write_several(
         self, name: str, values: Sequence[Any], form: str, record: Mapping[str, Any]
     ) -> str:
-        if form in TEMPLATES and all(isinstance(each, float) for each in values):
+        if form in TEMPLATES and set(map(type, values)) <= {float}:
             return self._fill_numbers(form, values)
         texts = [self._write_value(name, each, form, record) for each in values]
         return TEMPLATES.get(f"{form}.join", TEMPLATES["join"]).join(texts)
@@ -145,9 +146,7 @@ class _Writer:
 
 
 def _pick(names: str, record: Mapping[str, Any]) -> Any:
-    """Return the value of a field, or the numbers of several."""
-    if "," not in names:
-        return record[names]
+    """Return the numbers of several fields."""
     values = [record[name] for name in names.split(",")]
     return [
         number for each in values for number in (each if isinstance(each, list | tuple) else [each])
