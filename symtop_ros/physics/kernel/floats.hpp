@@ -154,7 +154,7 @@ void normalize(uint64_t* limbs, Float<N>& result) {
     return;
   }
   const int places = N - top, bits = __builtin_clzll(limbs[top]);
-  for (int i = N; i >= 0; i--) {
+  for (int i = N; i > 0; i--) {  // the lowest is no part of the result
     const uint64_t upper = i >= places ? limbs[i - places] : 0;
     const uint64_t lower = i >= places + 1 ? limbs[i - places - 1] : 0;
     limbs[i] = bits ? upper << bits | lower >> (64 - bits) : upper;

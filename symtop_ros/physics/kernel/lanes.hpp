@@ -7,9 +7,10 @@
 
 // Two variants are compiled where the processor may have wider registers. They differ in speed
 // only: nothing is fused, and sums keep their order. A template is inlined into both. A program that
-// is for AVX-512 needs no second variant, and GCC 12 fails with an internal error over it.
+// is for AVX-512 needs no second variant, and GCC 12 fails with an internal error over it. One that is
+// watched for races would choose the variant before its watcher has started, and crash.
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && __GNUC__ >= 12 && \
-    !defined(__AVX512F__)
+    !defined(__AVX512F__) && !defined(__SANITIZE_THREAD__)
 #define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define SYMTOP_CLONES

@@ -146,14 +146,25 @@ def test_sanitizers_find_nothing_in_fifty_thousand_hostile_calls_or_in_ordinary_
     compare([build("print_motions.c", tmp_path, kernel, *SANITIZERS)], *list_many())
 
 
+@pytest.mark.parametrize(
+    "options", [[], pytest.param(["-g", "-fsanitize=thread"], marks=LONG)], ids=["plain", "watched"]
+)
+@needs_compiler
+def test_threads_that_share_motions_get_the_same_bits_without_a_race(tmp_path, options):
+    kernel = compile_kernel(tmp_path, *options)
+    program = build("shared.c", tmp_path, kernel, "-pthread", *options)
+    done = subprocess.run([program], capture_output=True, text=True, check=False, timeout=600)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 @pytest.mark.long
 @pytest.mark.skipif(not AARCH64.exists(), reason="make .venv/aarch64 fetches compiler and emulator")
 def test_an_arm_processor_has_the_same_bits(tmp_path):
     program = tmp_path / "print_motions"
     (compiler,) = AARCH64.glob("bin/aarch64-linux-gnu-g++-*")
     libraries = AARCH64 / "lib/x86_64-linux-gnu"
-    sources = ["-x", "c++", FOLDER / "print_motions.c", KERNEL / "symtop.cpp"]
-    command = [compiler, "-std=c++17", *OPTIONS, "-static", *sources, "-o", program]
+    sources = ["-x", "c", FOLDER / "print_motions.c", "-x", "c++", KERNEL / "symtop.cpp"]
+    command = [compiler, *OPTIONS, "-static", *sources, "-o", program]
     subprocess.run(command, check=True, env={"LD_LIBRARY_PATH": str(libraries), "PATH": ""})
     emulator = AARCH64 / "bin/qemu-aarch64-static"
     samples = list_samples(range(40), range(8))
