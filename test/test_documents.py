@@ -277,7 +277,8 @@ def check_arguments(_, *arguments):
 @pytest.fixture(scope="module")
 def top():
     """A node with all its topics."""
-    switches = ("publish_clock", "publish_markers", "imu__enabled", "odometry__enabled")
+    sensors = (f"{name}__enabled" for name in ("imu", "magnetic_field", "odometry"))
+    switches = ("publish_clock", "publish_markers", *sensors)
     with RunningTop(realtime=True, **dict.fromkeys(switches, True)) as running:
         yield running.top
 

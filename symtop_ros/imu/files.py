@@ -1,7 +1,7 @@
 """Files of a sensor record: one table, or the folders of EuRoC with poses as TUM has them."""
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -9,7 +9,8 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.imu.record import ImuRecord
-from symtop_ros.simulation.sensor import NOISE
+from symtop_ros.simulation.sensor.imu import NOISE
+from symtop_ros.simulation.sensor.magnetometer import MAGNETOMETER_NOISE
 from symtop_ros.wire.layout import NANOSECONDS
 
 XYZ = "xyz"
@@ -17,11 +18,14 @@ XYZ = "xyz"
 TABLE = ["stamp", *"wxyz", "px", "py", "pz", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz"]
 MEANS = [f"mean_{name}" for name in TABLE[-6:]]
 MEASURED = [f"measured_{name}" for name in TABLE[-6:]]
+FIELD = ["mx", "my", "mz"]  # the columns of a magnetometer
+MEASURED_FIELD = [f"measured_{name}" for name in FIELD]
 EUROC_IMU = [
     "#timestamp [ns]",
     *(f"w_RS_S_{axis} [rad s^-1]" for axis in XYZ),
     *(f"a_RS_S_{axis} [m s^-2]" for axis in XYZ),
 ]
+EUROC_FIELD = ["#timestamp [ns]", *(f"m_S_{axis} [T]" for axis in XYZ)]
 EUROC_TRUTH = [
     "#timestamp",
     *(f" p_RS_R_{axis} [m]" for axis in XYZ),
@@ -34,15 +38,23 @@ EUROC_TRUTH = [
 
 def write_table(record: ImuRecord, path: Path) -> None:
     """Write one CSV file with everything, and the event of the run into a JSON file next to it."""
-    means = [] if record.means is None else [record.means]
-    names = [*TABLE, *(MEANS if means else []), *MEASURED]
     truth = [record.orientations, record.positions, record.velocities, record.rates, record.forces]
-    _write_csv(path, names, record.stamps.tolist(), [*truth, *means, record.measured])
+    names, columns = [*TABLE], truth
+    for more, values in (
+        (MEANS, record.means),
+        (MEASURED, record.measured),
+        (FIELD, record.fields),
+        (MEASURED_FIELD, record.measured_fields),
+    ):
+        if values is not None:
+            names += more
+            columns.append(values)
+    _write_csv(path, names, record.stamps.tolist(), columns)
     write_events(record, path.with_suffix(".json"))
 
 
 def write_folder(record: ImuRecord, folder: Path) -> None:
-    """Write the two folders of EuRoC, poses.tum, and events.json."""
+    """Write the two folders of EuRoC, one of a magnetometer, poses.tum, and events.json."""
     inertial, truth = folder / "imu0", folder / "state_groundtruth_estimate0"
     for each in (inertial, truth):
         each.mkdir(parents=True, exist_ok=True)
@@ -51,6 +63,10 @@ def write_folder(record: ImuRecord, folder: Path) -> None:
     (inertial / "sensor.yaml").write_text(_describe_sensor(record), encoding="utf-8")
     states = [record.positions, record.orientations, record.velocities, record.biases]
     _write_csv(truth / "data.csv", EUROC_TRUTH, stamps, states)
+    if record.measured_fields is not None:
+        (folder / "mag0").mkdir(exist_ok=True)
+        _write_csv(folder / "mag0/data.csv", EUROC_FIELD, stamps, [record.measured_fields])
+        (folder / "mag0/sensor.yaml").write_text(_describe_magnetometer(record), encoding="utf-8")
     _write_tum(record, folder / "poses.tum")
     write_events(record, folder / "events.json")
 
@@ -64,10 +80,17 @@ def write_events(record: ImuRecord, path: Path) -> None:
 
 def _describe_sensor(record: ImuRecord) -> str:
     """Return sensor.yaml: the noise by its names in EuRoC and in Kalibr."""
-    imu = record.imu
-    lines = ["%YAML:1.0", "sensor_type: imu", f"rate_hz: {imu.rate!r}"]
-    lines += [f"{name}: {asdict(imu)[name]!r}" for name in NOISE]
-    return "\n".join(lines) + "\n"
+    return _describe("imu", record.imu.rate, {name: asdict(record.imu)[name] for name in NOISE})
+
+
+def _describe_magnetometer(record: ImuRecord) -> str:
+    noise = {name: getattr(record.imu.magnetometer, name) for name in MAGNETOMETER_NOISE}
+    return _describe("magnetometer", record.imu.rate, noise)
+
+
+def _describe(kind: str, rate: float, noise: Mapping[str, float]) -> str:
+    lines = ["%YAML:1.0", f"sensor_type: {kind}", f"rate_hz: {rate!r}"]
+    return "\n".join([*lines, *(f"{name}: {value!r}" for name, value in noise.items()), ""])
 
 
 def _write_tum(record: ImuRecord, path: Path) -> None:

@@ -11,7 +11,8 @@ from symtop_ros.arrays import Real
 from symtop_ros.imu.record import ImuRecord
 from symtop_ros.log.definitions import Channel
 from symtop_ros.log.writer import LogFile
-from symtop_ros.simulation.sensor import EXACT
+from symtop_ros.simulation.sensor.imu import EXACT
+from symtop_ros.simulation.sensor.magnetometer import EXACT_FIELD
 from symtop_ros.simulation.topics import EVENTS, SENSOR_TOPICS, STATE_TOPICS, StateTopic, imu_frame
 from symtop_ros.wire.messages import IMU, ODOMETRY
 
@@ -48,6 +49,10 @@ def _contents(record: ImuRecord) -> Iterator[Content]:
         yield _inertial("imu_average", record, record.measured, variances)
         yield _inertial("imu_average_exact", record, record.means)
     yield _inertial("imu_exact", record, exact)
+    if record.fields is not None and record.measured_fields is not None and imu.magnetometer:
+        variance = imu.magnetometer.variance(imu.rate)
+        yield _magnetic("magnetic_field", record.measured_fields, variance)
+        yield _magnetic("magnetic_field_exact", record.fields, EXACT_FIELD)
     yield "imu_odometry", SENSOR_TOPICS["odometry"], (WORLD, SENSOR), _odometry(record)
 
 
@@ -65,6 +70,12 @@ def _inertial(
     ):
         numbers[:, places[f"{each}_covariance"]] = variance * np.eye(3).reshape(-1)
     return name, SENSOR_TOPICS["imu"], (SENSOR,), numbers
+
+
+def _magnetic(name: str, fields: Real, variance: float) -> Content:
+    covariances = np.tile(variance * np.eye(3).reshape(-1), (len(fields), 1))
+    numbers = np.concatenate((fields, covariances), axis=1)
+    return name, SENSOR_TOPICS["magnetic_field"], (SENSOR,), numbers
 
 
 def _odometry(record: ImuRecord) -> Real:

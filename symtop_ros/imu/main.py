@@ -11,7 +11,8 @@ from symtop_ros.command import tell_failures
 from symtop_ros.imu.files import write_folder, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
 from symtop_ros.simulation.changes.initial import start_motion
-from symtop_ros.simulation.sensor import CONSUMER, NOISE
+from symtop_ros.simulation.sensor.imu import CONSUMER, NOISE
+from symtop_ros.simulation.sensor.magnetometer import BMM150, MAGNETOMETER_NOISE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, one_line
 
@@ -36,13 +37,19 @@ def _run(options: argparse.Namespace) -> int:
 
 def make_record(options: argparse.Namespace) -> ImuRecord:
     """Return the record that the options ask for."""
-    noise = {f"imu__noise__{name}": value for name, value in read_noise(options.noise).items()}
+    kinds = dict.fromkeys(NOISE, "imu") | dict.fromkeys(MAGNETOMETER_NOISE, "magnetic_field")
+    noise = {
+        f"{kinds[name]}__noise__{name}": value for name, value in read_noise(options.noise).items()
+    }
     settings = Settings.from_scene(
         options.scene,
         imu__enabled=True,
         imu__position=options.position,
         imu__orientation=options.orientation,
         imu__noise__seed=options.seed,
+        magnetic_field__enabled=options.magnetic_field is not None,
+        magnetic_field__vector=f"[{options.magnetic_field or ''}]",
+        magnetic_field__noise__seed=options.seed,
         **noise,
     )
     assert settings.imu  # it is enabled
@@ -60,13 +67,14 @@ def read_noise(name: str | None) -> dict[str, Any]:
     if name is None:
         return {}
     if name == "consumer":
-        return {each: asdict(CONSUMER)[each] for each in NOISE}
+        inertial = {each: asdict(CONSUMER)[each] for each in NOISE}
+        return {**inertial, MAGNETOMETER_NOISE[0]: BMM150}
     path = Path(name)
     with path.open("rb") as file:
         text = file.read(MAX_BYTES + 1)
     try:
         content = yaml.safe_load(text[:MAX_BYTES].removeprefix(b"%YAML:1.0"))
-        found = {each: content[each] for each in NOISE if each in content}
+        found = {e: content[e] for e in (*NOISE, *MAGNETOMETER_NOISE) if e in content}
     except (yaml.YAMLError, TypeError, ValueError):
         found = {}
     if not found:
@@ -108,6 +116,14 @@ def _parser() -> argparse.ArgumentParser:
         default=(),
         metavar=("X", "Y", "Z", "W"),
         help="quaternion, sensor to body; default: along the body",
+    )
+    parser.add_argument(
+        "--magnetic-field",
+        nargs="?",
+        const="",
+        metavar="X,Y,Z",
+        help="record a magnetometer in this field (T, world; write =X,Y,Z if X is negative); "
+        "default: as in central Europe, with y north",
     )
     parser.add_argument(
         "--noise", metavar="FILE", help="consumer, or YAML as of Kalibr; default: exact"

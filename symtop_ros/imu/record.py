@@ -9,7 +9,8 @@ import numpy as np
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.physics import STANDARD_GRAVITY, ExactTimes, Motion, State
 from symtop_ros.simulation.events import Event, start_event
-from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.sensor.imu import Imu
+from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.validation import RefusedError, number
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -43,6 +44,8 @@ class ImuRecord:
         Biases of the gyroscope and the accelerometer.
     measured : ndarray (n, 6)
         Rates and forces (their means, if there are means) with biases and noise.
+    fields, measured_fields : ndarray (n, 3) or None
+        Exact and measured magnetic field in T, in the sensor frame.
     event : Event
         From which the run can be computed again; it names motion, gravity and sensor.
     """
@@ -58,6 +61,8 @@ class ImuRecord:
     means: Real | None
     biases: Real
     measured: Real
+    fields: Real | None
+    measured_fields: Real | None
     event: Event
 
     def to_sensor(self, vectors: Real) -> Real:
@@ -111,6 +116,10 @@ def record_imu(
     orientations, rates, forces = imu.measure(motion, state, gravity)
     means = _average(motion, imu, stamps, state, gravity) if average else None
     exact = np.concatenate((rates, forces), axis=1) if means is None else means
+    fields = measured_fields = None
+    if imu.magnetometer:
+        fields, errors = imu.measure_field(state, stamps)
+        measured_fields = fields + errors
     turning = np.cross(state.angular_velocity, imu.position)
     return ImuRecord(
         imu,
@@ -124,6 +133,8 @@ def record_imu(
         means,
         imu.biases(stamps),
         exact + imu.noise(stamps),
+        fields,
+        measured_fields,
         start_event(motion, Rig(gravity, imu)),
     )
 

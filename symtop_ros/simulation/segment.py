@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
-from symtop_ros.simulation.sensor import Rig
+from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.wire.layout import NANOSECONDS
 
 START = Fraction(0)

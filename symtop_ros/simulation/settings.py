@@ -10,7 +10,10 @@ from typing import Any
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
 from symtop_ros.simulation.presets import load_scene
-from symtop_ros.simulation.sensor import ALONG, CENTRE, MAX_NOISE, Imu, Rig
+from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, Imu
+from symtop_ros.simulation.sensor.magnetometer import EARTH, MAX_FIELD, Magnetometer
+from symtop_ros.simulation.sensor.noise import MAX_NOISE
+from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,
@@ -124,6 +127,17 @@ def _whole(largest: int, name: str, value: Any) -> int:
     return int(whole)
 
 
+def _seed() -> Parameter:
+    return Parameter(
+        0,
+        "seed of the noise",
+        f"a whole number, 0 to {MAX_SEED}",
+        partial(_whole, MAX_SEED),
+        read_only=True,
+        limits=(0, MAX_SEED),
+    )
+
+
 PARAMETERS: dict[str, Parameter] = {
     "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", 1 / MAX_MOMENT),
     "top.Iz": _moment(
@@ -182,14 +196,14 @@ PARAMETERS: dict[str, Parameter] = {
     "imu.noise.gyroscope_random_walk": _noise("random walk of the bias", "rad/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
-    "imu.noise.seed": Parameter(
-        0,
-        "seed of the noise",
-        f"a whole number, 0 to {MAX_SEED}",
-        partial(_whole, MAX_SEED),
-        read_only=True,
-        limits=(0, MAX_SEED),
+    "imu.noise.seed": _seed(),
+    "magnetic_field.enabled": _flag(False, "publish ~/magnetic_field", read_only=True),
+    "magnetic_field.vector": _fix(_vector("magnetic field, world frame", 3, MAX_FIELD, "T")),
+    "magnetic_field.noise.magnetometer_noise_density": _noise("white noise", "T/sqrt(Hz)"),
+    "magnetic_field.noise.magnetometer_random_walk": _noise(
+        "random walk of the bias", "T/s/sqrt(Hz)"
     ),
+    "magnetic_field.noise.seed": _seed(),
     "odometry.enabled": _flag(False, "publish ~/odometry", read_only=True),
     "scheduling_priority": Parameter(
         0,
@@ -319,16 +333,26 @@ def read_body(values: Mapping[str, Any]) -> tuple[Top, Friction]:
 
 
 def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
-    """Return the sensor, or None if it is off."""
+    """Return the sensor, or None if nothing of it is published."""
+    magnetometer = _build_magnetometer(clean)
     try:
         imu = Imu(
             clean["imu.position"] or CENTRE,
             clean["imu.orientation"] or ALONG,
             **_group(clean, "imu.noise."),
+            magnetometer=magnetometer,
         )
     except ValueError as error:
         raise RefusedError(f"imu.{error}") from None
-    return imu if clean["imu.enabled"] else None
+    return imu if clean["imu.enabled"] or magnetometer else None
+
+
+def _build_magnetometer(clean: Mapping[str, Any]) -> Magnetometer | None:
+    """Return the magnetometer of the sensor, or None if it is off."""
+    if not clean["magnetic_field.enabled"]:
+        return None
+    vector = clean["magnetic_field.vector"] or EARTH
+    return Magnetometer(vector, **_group(clean, "magnetic_field.noise."))
 
 
 def _group(values: Mapping[str, Any], prefix: str) -> dict[str, Any]:

@@ -14,7 +14,8 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import EXACT, Rig, find_body
+from symtop_ros.simulation.sensor.imu import EXACT
+from symtop_ros.simulation.sensor.rig import Rig, find_body
 from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.wire.layout import Layout
@@ -152,6 +153,18 @@ def _imu(samples: Samples) -> Real:
     return numbers
 
 
+def _magnetic_field(samples: Samples) -> Real:
+    """Magnetic field in the frame of the sensor, and its covariance."""
+    imu, form = samples.rig.imu, messages.MAGNETIC_FIELD
+    numbers = np.full((*np.shape(samples.stamps), form.width), np.nan)
+    if imu and imu.magnetometer:
+        exact, errors = imu.measure_field(samples.state, samples.stamps)
+        numbers[..., form.quantities["magnetic_field"]] = exact + errors
+        covariance = imu.magnetometer.variance(imu.rate) * np.eye(3).reshape(-1)
+        numbers[..., form.quantities["magnetic_field_covariance"]] = covariance
+    return numbers
+
+
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
     state, places = samples.state, messages.ODOMETRY.quantities
@@ -229,6 +242,13 @@ SENSOR_TOPICS: dict[str, StateTopic] = {
             _imu,
             names=lambda _, top: (imu_frame(top),),
             switch="imu.enabled",
+        ),
+        _state_topic(
+            "~/magnetic_field",
+            messages.MAGNETIC_FIELD,
+            _magnetic_field,
+            names=lambda _, top: (imu_frame(top),),
+            switch="magnetic_field.enabled",
         ),
         _state_topic(
             "~/odometry",

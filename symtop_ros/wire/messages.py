@@ -106,6 +106,9 @@ IMU = define_stamped(
     linear_acceleration=3,
     linear_acceleration_covariance=9,
 )
+MAGNETIC_FIELD = define_stamped(
+    "sensor_msgs/msg/MagneticField", magnetic_field=3, magnetic_field_covariance=9
+)
 WRENCH = define_stamped("geometry_msgs/msg/WrenchStamped", force=3, torque=3)
 JOINT_STATE = Format(
     "sensor_msgs/msg/JointState", _place(position=3, velocity=3), _joint_state, _read_joints

@@ -15,7 +15,8 @@ WRENCH = (1e-4, 0.0, 2e-4)  # N m
 def write_log(folder: Path, **changes: object) -> Path:
     """Write the log of a run with all services, settings, a torque, a jump and diagnostics."""
     host = Program(publishes=False)
-    sensors = {"imu__enabled": True, "imu__position": [0.0, 0.0, 0.02], "odometry__enabled": True}
+    enabled = dict.fromkeys(("imu__enabled", "magnetic_field__enabled", "odometry__enabled"), True)
+    sensors = {**enabled, "imu__position": [0.0, 0.0, 0.02]}
     session, clock = start(host, record__directory=str(folder), **{**sensors, **changes})
 
     def ask(service: str, value: object = None) -> None:

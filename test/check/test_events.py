@@ -12,7 +12,15 @@ from symtop_ros.log.top_log import TopLog
 
 # Not said elsewhere in a log: the scene's name, the paths of logs, the frame of /tf, whether
 # another version wrote it, and why a torque changed.
-GIVEN = ("top", "friction", "applied_torque", "gravity", "motion.", "imu.")  # of the first event
+GIVEN = (
+    "top",
+    "friction",
+    "applied_torque",
+    "gravity",
+    "motion.",
+    "imu.",
+    "magnetic_field.",
+)  # of the first event
 FREE = (
     "request.scene",
     "outcome.path",

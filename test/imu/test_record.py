@@ -146,6 +146,33 @@ def test_the_folder_has_the_columns_of_euroc_and_tum(tmp_path):
     assert events["end"] == int(rows[-1][0])
 
 
+def test_a_magnetometer_is_in_every_form_of_the_record(tmp_path, capsys):
+    field = "--magnetic-field=1e-5,2e-5,-4e-5"
+    for name in ("run.csv", "run.mcap", "run"):
+        assert main([*SHORT, *MOUNTED, *NOISY, field, "-o", str(tmp_path / name)]) == 0
+    head, rows = read(tmp_path / "run.csv")
+    assert head[-6:] == ["mx", "my", "mz", "measured_mx", "measured_my", "measured_mz"]
+    table = np.array(rows, dtype=float)
+    lengths = np.linalg.norm(table[:, -6:-3], axis=1)
+    assert lengths == pytest.approx(21**0.5 * 1e-5, rel=1e-15)
+    head, measured = read(tmp_path / "run/mag0/data.csv")
+    assert head[1] == "m_S_x [T]"
+    assert (np.array(measured, dtype=float)[:, 1:] == table[:, -3:]).all()
+    assert "magnetometer_noise_density: 6.7e-08" in (tmp_path / "run/mag0/sensor.yaml").read_text()
+    capsys.readouterr()
+    assert replay([str(tmp_path / "run.mcap"), "--check"]) == 0
+    assert "/top/magnetic_field               250 samples, largest difference 0" in (
+        capsys.readouterr().out
+    )
+
+
+@pytest.mark.parametrize("field", ["1,2", "1,2,nan", "x"])
+def test_a_field_that_is_no_vector_is_refused(field, tmp_path, capsys):
+    assert main([f"--magnetic-field={field}", "-o", str(tmp_path / "run.csv")]) == 1
+    wanted = "top_imu: magnetic_field.vector must have 3 elements (T)"
+    assert capsys.readouterr().err.startswith(wanted)
+
+
 def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
     noise = tmp_path / "imu.yaml"
     noise.write_text("rostopic: /imu0\naccelerometer_noise_density: 0.01\nupdate_rate: 200.0\n")

@@ -62,7 +62,8 @@ def test_the_policy_allows_top_node_what_it_uses():
         if STATE_TOPICS["tf"].load_message_class() is None
         else frozenset()
     )
-    sensors = {"imu__enabled": True, "odometry__enabled": True}
+    switches = ("imu__enabled", "magnetic_field__enabled", "odometry__enabled")
+    sensors = dict.fromkeys(switches, True)
     shown = {"publish_clock": True, "publish_markers": True, **sensors}
     for parameters in (shown, {"use_sim_time": True}):
         with RunningTop(realtime=True, **parameters) as run:

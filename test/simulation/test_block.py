@@ -10,13 +10,17 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.sensor.imu import Imu
+from symtop_ros.simulation.sensor.magnetometer import Magnetometer
+from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, SENSOR_TOPICS, STATE_TOPICS, Samples
 
 STAMPS = [BEGIN + 1_000_003 * k for k in range(16)]
 MOTION = Motion(ARTICLE, CUSPS)
 NOISES = 2e-3, 3e-4, 0.02, 0.005
-RIG = Rig(9.81, Imu((0.01, -0.02, 0.05), (0.5, 0.5, 0.5, 0.5), *NOISES, seed=11, rate=400.0))
+FIELD = Magnetometer((1e-5, 2e-5, -4e-5), 6e-8, 1e-9, seed=12)
+MOUNT = (0.01, -0.02, 0.05), (0.5, 0.5, 0.5, 0.5)
+RIG = Rig(9.81, Imu(*MOUNT, *NOISES, seed=11, rate=400.0, magnetometer=FIELD))
 SEGMENTS = {
     "closed form": Segment.begin(MOTION, BEGIN, 0.7, RIG),
     "taylor": Segment.begin(Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-5)), BEGIN, 0.7, RIG),

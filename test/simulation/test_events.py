@@ -9,7 +9,9 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.sensor.imu import Imu
+from symtop_ros.simulation.sensor.magnetometer import Magnetometer
+from symtop_ros.simulation.sensor.rig import Rig
 
 CLOSED = Motion(ARTICLE, CUSPS)
 INTEGRATED = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))
@@ -37,6 +39,12 @@ NUMBERS = {
     Top: {"Ix": 2.3e-4, "Iz": 6e-5, "Mgl": 0.07},
     State: {"orientation": (0.8, 0.0, 0.6, 0.0), "angular_velocity": (1.0, 2.0, 150.0)},
     Friction: {"axial": 1.3e-6, "transverse": 2.3e-6},
+    Magnetometer: {
+        "vector": (1e-5, 2e-5, -3e-5),
+        "magnetometer_noise_density": 5e-8,
+        "magnetometer_random_walk": 6e-9,
+        "seed": 7,
+    },
     Imu: {
         "position": (0.1, 0.2, 0.3),
         "orientation": (0.6, 0.0, 0.8, 0.0),
@@ -61,7 +69,7 @@ def make(kind, **given):
 def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
     parts = {"top": make(Top), "start": make(State), "friction": make(Friction)}
     motion = make(Motion, **parts, torque=(1e-5, 2e-5, 3e-5))
-    rig = make(Rig, gravity=9.7, imu=make(Imu))
+    rig = make(Rig, gravity=9.7, imu=make(Imu, magnetometer=make(Magnetometer)))
     fields = {"stamp": BEGIN, "elapsed": Fraction(7, 4), "factor": 0.7, "running": False}
     segment = make(Segment, motion=motion, **fields, rig=rig)
     again = event_of(segment).segment()

@@ -15,7 +15,10 @@ from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceler
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import EXACT, Imu, Rig, find_body, random_walks
+from symtop_ros.simulation.sensor.imu import EXACT, Imu
+from symtop_ros.simulation.sensor.magnetometer import EARTH, EXACT_FIELD, Magnetometer
+from symtop_ros.simulation.sensor.noise import random_walks
+from symtop_ros.simulation.sensor.rig import Rig, find_body
 from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 
 MOTION = Motion(ARTICLE, CUSPS)
@@ -140,6 +143,35 @@ def test_noise_shows_in_the_covariances():
     assert numbers[0, 4] == EXACT  # the attitude is still exact
 
 
+def test_an_exact_magnetometer_has_the_field_of_the_world_in_its_frame():
+    imu = replace(NOISY, magnetometer=Magnetometer((1e-5, 2e-5, -4e-5)))
+    segment = segment_of(imu)
+    numbers, state = measured("magnetic_field", segment), segment.state_at(STAMPS)
+    body = Rotation.from_quat(state.orientation[:, [1, 2, 3, 0]])
+    expected = (body * MOUNT).inv().apply((1e-5, 2e-5, -4e-5))
+    assert np.abs(numbers[:, :3] - expected).max() < 8 * EPS * 5e-5
+    assert (numbers[:, 3:] == EXACT_FIELD * np.eye(3).reshape(-1)).all()
+    assert np.isnan(measured("magnetic_field", segment_of(replace(imu, magnetometer=None)))).all()
+
+
+def test_noise_of_the_magnetometer_has_its_own_seed_and_density_and_grows_alike():
+    noisy = replace(NOISY, magnetometer=Magnetometer(EARTH, 6e-8, seed=NOISY.seed))
+    stamps = np.arange(20_000) * 2_500_000
+    exact, errors = noisy.measure_field(segment_of(noisy).state_at(stamps), stamps)
+    spread = errors.std(axis=0)
+    # 20 000 numbers: half a per cent, four sigma
+    assert spread == pytest.approx(np.full(3, 6e-8 * math.sqrt(400.0)), rel=0.02)
+    assert noisy.magnetometer.variance(400.0) == pytest.approx(spread[0] ** 2, rel=0.04)
+    together = np.concatenate((errors, noisy.noise(stamps)), axis=1)
+    assert np.abs(np.corrcoef(together.T) - np.eye(9))[:3].max() < 4 / math.sqrt(20_000)
+    other = replace(noisy, magnetometer=replace(noisy.magnetometer, seed=12))
+    assert (other.noise(stamps) == noisy.noise(stamps)).all()
+    walking = replace(noisy, magnetometer=Magnetometer(EARTH, 0.0, 1e-8, seed=12))
+    numbers = measured("magnetic_field", segment_of(walking), stamps)
+    walks = 1e-8 * random_walks(12, [15, 16, 17], stamps)
+    assert numbers[:, :3] - exact == pytest.approx(walks.T, abs=4 * EPS * 5e-5)
+
+
 @pytest.mark.parametrize(
     "values",
     [
@@ -167,4 +199,7 @@ def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     run.change({"publish_rate": 50.0, "top.Mgl": 0.05})
     assert run.simulation.segment.rig.imu.rate == 50.0
     assert run.simulation.segment.motion.top.Mgl == 0.05
+    only = Run(**{"magnetic_field.enabled": True, "imu.orientation": [0.0, 0.6, 0.0, 0.8]})
+    (frame,) = list_fixed_frames("top", only.simulation.settings.imu, None)
+    assert frame.rotation == (0.0, 0.6, 0.0, 0.8)
     assert list_fixed_frames("top", Run().simulation.settings.imu, None) == []

@@ -12,7 +12,8 @@ from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import View
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor import Imu, Rig
+from symtop_ros.simulation.sensor.imu import Imu
+from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
 RUN = Run(seconds=2.0)

@@ -1,0 +1,143 @@
+"""The inertial sensor on the top, exact or with noise."""
+
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any
+
+from symtop_ros.arrays import Real, Vector, compose
+from symtop_ros.physics import Motion, State, specific_force
+from symtop_ros.simulation.sensor.magnetometer import Magnetometer
+from symtop_ros.simulation.sensor.noise import MAX_NOISE, Noise
+from symtop_ros.simulation.validation import number, vector
+
+EXACT = 1e-18  # (1e-9)^2, a covariance of what is exact: zero would mean "unknown" (sensor_msgs)
+CENTRE: Vector = (0.0, 0.0, 0.0)
+ALONG = (0.0, 0.0, 0.0, 1.0)
+MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz
+MAX_DISTANCE = 1e6  # m
+NOISE = (
+    "gyroscope_noise_density",
+    "gyroscope_random_walk",
+    "accelerometer_noise_density",
+    "accelerometer_random_walk",
+)
+
+
+@dataclass(frozen=True)
+class Imu:
+    """An inertial measurement unit on a top.
+
+    Noise densities and random walks are in the units of datasheets and of Kalibr's YAML. A sample
+    has white noise of a density times the root of the rate.
+
+    Attributes
+    ----------
+    position : tuple (3,)
+        Its place in the body frame in m.
+    orientation : tuple (4,)
+        Quaternion x, y, z, w, sensor to body.
+    gyroscope_noise_density : float
+        White noise in rad/s/sqrt(Hz).
+    gyroscope_random_walk : float
+        Random walk of the bias in rad/s^2/sqrt(Hz).
+    accelerometer_noise_density : float
+        White noise in m/s^2/sqrt(Hz).
+    accelerometer_random_walk : float
+        Random walk of the bias in m/s^3/sqrt(Hz).
+    seed : int
+        Of the noise, >= 0.
+    rate : float
+        Samples per second.
+    begin : int
+        Stamp in ns at which the biases are zero.
+    magnetometer : Magnetometer or None
+        In the same frame.
+
+    Raises
+    ------
+    ValueError
+        If a number is refused.
+
+    Examples
+    --------
+    >>> from symtop_ros.imu import Imu
+    >>> Imu(position=(0, 0, 0.02), rate=1000).has_noise
+    False
+    >>> Imu(rate=0)
+    Traceback (most recent call last):
+    symtop_ros.simulation.validation.RefusedError: rate must be 0.001 to 1e+06 Hz, got 0
+    """
+
+    position: Vector = CENTRE
+    orientation: tuple[float, float, float, float] = ALONG
+    gyroscope_noise_density: float = 0.0
+    gyroscope_random_walk: float = 0.0
+    accelerometer_noise_density: float = 0.0
+    accelerometer_random_walk: float = 0.0
+    seed: int = 0
+    rate: float = 200.0
+    begin: int = 0
+    magnetometer: Magnetometer | None = None
+
+    def __post_init__(self) -> None:
+        vector("position", self.position, 3, MAX_DISTANCE, "m, body frame")
+        number("rate", self.rate, "Hz", MIN_RATE, MAX_RATE)
+        number("seed", self.seed, "", 0, 2**63 - 1)
+        values = asdict(self)
+        for name in NOISE:
+            number(name, values[name], "in SI units", 0.0, MAX_NOISE)
+        _ = self.mount  # refused here if it is no unit quaternion
+
+    @property
+    def has_noise(self) -> bool:
+        """True if the gyroscope or the accelerometer is not exact."""
+        return any((*self._noise.densities, *self._noise.walks))
+
+    @property
+    def covariances(self) -> dict[str, float]:
+        """Variance of each axis of what is measured, by the names in the message."""
+        gyroscope, accelerometer = (
+            density * density * self.rate if density else EXACT for density in self._noise.densities
+        )
+        return {
+            "orientation": EXACT,
+            "angular_velocity": gyroscope,
+            "linear_acceleration": accelerometer,
+        }
+
+    @cached_property
+    def _noise(self) -> Noise:
+        densities = self.gyroscope_noise_density, self.accelerometer_noise_density
+        walks = self.gyroscope_random_walk, self.accelerometer_random_walk
+        return Noise(densities, walks, self.seed, self.rate, self.begin)
+
+    @cached_property
+    def mount(self) -> State:
+        """The orientation as a state: `mount.to_body` turns components into the sensor frame."""
+        x, y, z, w = self.orientation
+        return State((w, x, y, z), CENTRE)
+
+    def measure(self, motion: Motion, state: State, gravity: float) -> tuple[Real, Real, Real]:
+        """Return what an exact sensor measures."""
+        force = specific_force(motion, state, self.position, gravity)
+        orientation = compose(state.orientation, self.mount.orientation)
+        turned = self.mount.to_body(state.angular_velocity), self.mount.to_body(force)
+        return orientation[..., [1, 2, 3, 0]], *turned
+
+    def noise(self, stamps: Any) -> Real:
+        """Return the errors of angular velocity and acceleration at stamps."""
+        return self._noise.draw(stamps)
+
+    def biases(self, stamps: Any) -> Real:
+        """Return the slow part of the errors: the random walks."""
+        return self._noise.biases(stamps)
+
+    def measure_field(self, state: State, stamps: Any) -> tuple[Real, Real]:
+        """Return the field in T that an exact magnetometer measures, and the errors of this one."""
+        assert self.magnetometer
+        noise = self.magnetometer.noise(self.rate, self.begin)
+        return self.magnetometer.measure(state, self.mount), noise.draw(stamps)
+
+
+# A good consumer sensor (Bosch BMI088, with walks from its bias stability).
+CONSUMER = Imu(CENTRE, ALONG, 2.4e-4, 1e-5, 1.7e-3, 1e-4)
