@@ -5,11 +5,13 @@ import json
 import re
 from collections.abc import Mapping
 from hashlib import sha256
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
-from symtop_ros.models.formats import FORMATS, FREE_FORMATS
+from symtop_ros.models.descriptions import describe
+from symtop_ros.models.formats import FORMATS, FREE_FORMATS, UNSAID
 from symtop_ros.models.snippets import format_snippets, format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.testset import score
@@ -26,8 +28,9 @@ INTRODUCTION = """\
 
 A problem of the test set that is described [below](#a-test-set-of-heavy-tops), in a folder that
 stands alone: `{name}.json` has all of it, `problems.csv`, `states.csv`, `forces.csv` and
-`world.csv` have it as tables, `{name}.mjcf`, `.sdf` and `.urdf` are models. Each of these scores a
-trajectory and prints the same:
+`world.csv` have it as tables, `{name}.mjcf`, `.sdf` and `.urdf` are models, and
+`{name}.turned.mjcf` and the like say the same of the body in other words (see Descriptions). Each
+of these scores a trajectory and prints the same:
 
     python score.py {name} trajectory.csv
     node score.mjs {name} trajectory.csv
@@ -119,11 +122,15 @@ def _sum_up(texts: Mapping[str, str]) -> str:
 
 
 def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
-    """Return the models of a problem; without weight, also those that nothing holds."""
+    """Return the models of a problem in all descriptions; without weight, also with no joint."""
     top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
     formats = FORMATS if top.Mgl else {**FORMATS, **FREE_FORMATS}
-    start, body = _read_start(facts), _read_body(facts)
-    return {f"{facts['name']}.{form}": write(top, start, body) for form, write in formats.items()}
+    start, body, name = _read_start(facts), _read_body(facts), facts["name"]
+    texts = {f"{name}.{form}": write(top, start, body) for form, write in formats.items()}
+    for each, (form, write) in product(score.DESCRIPTIONS, formats.items()):
+        if (each, form) not in UNSAID:
+            texts[f"{name}.{each}.{form}"] = write(top, start, body, describe(each, body))
+    return texts
 
 
 def _read_start(facts: Mapping[str, Any]) -> State:

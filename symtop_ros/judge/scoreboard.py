@@ -12,13 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.testset.score import Problem, Score, read_trajectory
+from symtop_ros.testset.score import DESCRIPTIONS, Problem, Score, find_problem, read_trajectory
 from symtop_ros.testset.tables import TABLES
 
 # rk4-0.001 and rk4-1e-3: the step of this entry. The first part is as short as it can be, so that
 # the sign of an exponent belongs to the step.
 STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
 SOLVED = 0.01  # rad; an attitude that is never further off
+APART = 3.0  # errors in two descriptions of a body: an engine takes them for two bodies
+ENDINGS = ("", *(f".{each}" for each in DESCRIPTIONS))
 ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
 
 
@@ -33,6 +35,12 @@ class Entry:
     def problem(self) -> dict[str, Any]:
         """The problem in problems.json."""
         return self.score.problem.facts
+
+    @property
+    def described(self) -> tuple[str, str]:
+        """Names of the problem and of the description of its body, which is empty for its own."""
+        name, _, description = self.problem["name"].partition(".")
+        return name, description
 
     @property
     def limits(self) -> float:
@@ -72,11 +80,12 @@ class Entry:
 
 
 def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
-    """Return the scores of all PROBLEM/NAME.csv in a folder."""
+    """Return the scores of all PROBLEM/NAME.csv in a folder; PROBLEM.turned is a description."""
+    described = [f"{name}{end}" for name in problems for end in ENDINGS]
     entries = [
         Entry(path.stem, problem.score(*read_trajectory(path, problem)))
-        for name, problem in problems.items()
-        for path in sorted((folder / name).glob("*.csv"))
+        for problem in (find_problem(problems, name) for name in described)
+        for path in sorted((folder / problem.facts["name"]).glob("*.csv"))
         if path.name not in TABLES  # the problem and its exact motion are no entries
     ]
     if not entries:
@@ -104,6 +113,21 @@ def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
     return orders
 
 
+def find_differences(entries: Sequence[Entry]) -> dict[tuple[str, str], dict[str, float]]:
+    """Return the errors (rad) by description where an entry's differ more than rounding does."""
+    found: dict[tuple[str, str], dict[str, Entry]] = {}
+    for each in entries:
+        name, description = each.described
+        found.setdefault((name, each.name), {})[description or "plain"] = each
+    return {
+        key: {description: each.error for description, each in own.items()}
+        for key, own in found.items()
+        if max(each.limits for each in own.values()) > ROUNDING
+        and max(each.error for each in own.values())
+        > APART * min(each.error for each in own.values())
+    }
+
+
 @dataclass(frozen=True)
 class Rank:
     """Result of an entry in the problems of a level."""
@@ -120,12 +144,15 @@ def rank(
 ) -> Iterator[tuple[int, list[Rank]]]:
     """Yield each level with its entries, best first: those that solved most of its problems.
 
+    Other descriptions of a body are no further problems.
+
     Of those that solved as many, the one with the smaller median of these comes first. If nothing
     is solved, the median is that of all problems, and the worst for those that were not tried.
     """
-    for level in sorted({each.problem["level"] for each in entries}):
+    plain = [each for each in entries if each.problem["name"] in problems]
+    for level in sorted({each.problem["level"] for each in plain}):
         count = sum(each.facts["level"] == level for each in problems.values())
-        ours = [each for each in entries if each.problem["level"] == level]
+        ours = [each for each in plain if each.problem["level"] == level]
         rows = []
         for name in {each.name for each in ours}:
             own = [each for each in ours if each.name == name]
@@ -139,14 +166,18 @@ def rank(
 
 def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
     """Return the table of all entries, the orders, and the ranking of each level."""
-    lines = [f"{'problem':19}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"]
+    width = max(19, *(len(each.problem["name"]) + 1 for each in entries))
+    lines = [f"{'problem':{width}}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"]
     lines += [
-        f"{each.problem['name']:19}{each.problem['level']:>5}  {each.name:24}"
+        f"{each.problem['name']:{width}}{each.problem['level']:>5}  {each.name:24}"
         f"{each.error:>11.1e}{each.limits:>10.2g}"
         for each in entries
     ]
     for (problem, method), order in find_orders(entries).items():
         lines.append(f"order of {method} in {problem}: {order:.2f}")
+    for (problem, name), errors in find_differences(entries).items():
+        each = ", ".join(f"{description} {error:.2g}" for description, error in errors.items())
+        lines.append(f"descriptions of {problem} differ in {name}: {each} rad")
     for level, rows in rank(entries, problems):
         lines.append(f"level {level}, by problems solved (within {SOLVED:g} rad) and by limits:")
         lines += [
@@ -164,5 +195,10 @@ def format_json(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> st
         for (problem, method), order in find_orders(entries).items()
     ]
     ranking = {str(level): [asdict(row) for row in rows] for level, rows in rank(entries, problems)}
+    differences = [
+        {"problem": problem, "entry": name, "errors": errors}
+        for (problem, name), errors in find_differences(entries).items()
+    ]
     scores = [each.facts() for each in entries]
-    return json.dumps({"scores": scores, "orders": orders, "ranking": ranking}, indent=1)
+    facts = {"scores": scores, "orders": orders, "differences": differences, "ranking": ranking}
+    return json.dumps(facts, indent=1)

@@ -9,6 +9,14 @@ joints ends in an empty link. If the node does not publish /tf, the chain ends i
 import math
 from xml.sax.saxutils import escape
 
+from symtop_ros.models.descriptions import (
+    PLAIN,
+    ROLL_PITCH_YAW,
+    Description,
+    Inertial,
+    describe_body,
+    join,
+)
 from symtop_ros.physics import Body, Top
 
 # What an empty link needs in MuJoCo, in kg and in kg m^2: mjMINVAL. No other engine reads it.
@@ -28,6 +36,7 @@ def robot_description(
     *,
     tf_moves_it: bool = True,
     body: Body | None = None,
+    described: Description = PLAIN,
 ) -> str:
     """Return the URDF of a top, with a body that moves as it does; by default one is chosen."""
     world_frame, top_frame = (escape(name, QUOTES) for name in (world_frame, top_frame))
@@ -37,9 +46,8 @@ def robot_description(
   <joint name="tf" type="floating">
     <parent link="{world_frame}"/><child link="{top_frame}"/>
   </joint>"""
-    # The drawing keeps its size whatever the body is, so that every top can be seen.
-    distance = 0.6 * LENGTH * (1 if top.Mgl >= 0 else -1)
-    radius = LENGTH * min(0.8, 0.5 * math.sqrt(top.Iz / top.Ix) + 0.2)
+    axis = join(described.axis) if described.turned else "0 0 1"
+    turned = f'<origin rpy="{join(ROLL_PITCH_YAW)}"/>' if described.turned else ""
     return f"""<?xml version="1.0"?>
 <robot name="symtop">
   <material name="steel"><color rgba="0.55 0.6 0.66 1"/></material>
@@ -54,14 +62,11 @@ def robot_description(
     <parent link="{top_frame}_precession"/><child link="{top_frame}_tilt"/><axis xyz="1 0 0"/>
   </joint>
   <joint name="spin" type="continuous">
-    <parent link="{top_frame}_tilt"/><child link="{end}"/><axis xyz="0 0 1"/>
+    <parent link="{top_frame}_tilt"/><child link="{end}"/>{turned}<axis xyz="{axis}"/>
   </joint>{floating if tf_moves_it else ""}
   <link name="{top_frame}">
-    {describe_inertial(top, body)}
-    {_cylinder("steel", 0.04 * LENGTH, LENGTH, LENGTH / 2)}
-    {_cylinder("brass", radius, 0.12 * LENGTH, distance)}
-    {_box("mark", radius, 0.122 * LENGTH, distance)}
-  </link>
+    {describe_inertial(top, body, described)}{_draw(top) if described == PLAIN else ""}
+  </link>{join_child(top_frame, body, described)}
   <link name="{top_frame}_precession">
     {MASSLESS}
   </link>
@@ -72,27 +77,50 @@ def robot_description(
 """
 
 
-def describe_inertial(top: Top, body: Body | None) -> str:
-    """Return the inertia of the body, and the sentence that describes it."""
+def describe_inertial(top: Top, body: Body | None, described: Description = PLAIN) -> str:
+    """Return the inertia of the link, and the sentence that describes the body."""
     try:
         body = body or Body.of(top)
     except ValueError as error:
         return f"<!-- No body moves like this top: {escape(str(error))}. -->"
-    return f"""<!-- {describe_body(top, body)} -->
-    <inertial>
-      <origin xyz="0 0 {body.arm!r}"/>
-      <mass value="{body.mass!r}"/>
-      <inertia ixx="{body.Ix!r}" iyy="{body.Ix!r}" izz="{body.Iz!r}" ixy="0" ixz="0" iyz="0"/>
+    inertia = _inertial(described.link(body)) if described.share else MASSLESS
+    return f"<!-- {describe_body(top, body)} -->\n    {inertia}"
+
+
+def join_child(frame: str, body: Body | None, described: Description) -> str:
+    """Return the fixed child with its joint; nothing if there is none."""
+    if not (body and described.has_child):
+        return ""
+    place = f'xyz="{join(described.place_child())}" rpy="{join(ROLL_PITCH_YAW)}"'
+    return f"""
+  <link name="{frame}_part">
+    {_inertial(described.part(body))}
+  </link>
+  <joint name="fixed" type="fixed">
+    <parent link="{frame}"/><child link="{frame}_part"/><origin {place}/>
+  </joint>"""
+
+
+def _inertial(part: Inertial) -> str:
+    names = "ixx", "iyy", "izz", "ixy", "ixz", "iyz"
+    numbers = zip(names, (*part.moments, *part.products), strict=True)
+    tensor = " ".join(f'{name}="{each!r}"' for name, each in numbers)
+    return f"""<inertial>
+      <origin xyz="{join(part.centre)}"/>
+      <mass value="{part.mass!r}"/>
+      <inertia {tensor}/>
     </inertial>"""
 
 
-def describe_body(top: Top, body: Body) -> str:
-    """Return the sentence that says which body stands for a top."""
-    return (
-        f"Ix = {top.Ix!r} kg m^2 and Iz = {top.Iz!r} kg m^2 about the pivot, Mgl = {top.Mgl!r} J "
-        f"with g = {body.gravity!r} m/s^2. These fix the product of mass and arm only. Here: "
-        f"{body.mass:.6g} kg, {body.arm:.6g} m along z."
-    )
+def _draw(top: Top) -> str:
+    """Return an axis, a disc and a mark on it."""
+    # The drawing keeps its size whatever the body is, so that every top can be seen.
+    distance = 0.6 * LENGTH * (1 if top.Mgl >= 0 else -1)
+    radius = LENGTH * min(0.8, 0.5 * math.sqrt(top.Iz / top.Ix) + 0.2)
+    return f"""
+    {_cylinder("steel", 0.04 * LENGTH, LENGTH, LENGTH / 2)}
+    {_cylinder("brass", radius, 0.12 * LENGTH, distance)}
+    {_box("mark", radius, 0.122 * LENGTH, distance)}"""
 
 
 def _cylinder(material: str, radius: float, length: float, height: float) -> str:

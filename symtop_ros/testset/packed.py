@@ -25,6 +25,10 @@ WORLD = {
     "world_angular_velocities": ("omega_x", "omega_y", "omega_z"),
 }
 STATES = ("orientations", "angular_velocities")
+# The states of a body whose frame is turned against the principal axes, by this quaternion w, x, y,
+# z from the frame to the axes, which is that of symtop_ros.models.
+TURNED = tuple(f"turned_{name}" for name in STATES)
+TURN = tuple(map(Decimal, ("0.7", "0.1", "0.5", "0.5")))
 # Digits that are shown, and those with which they are computed.
 ROUNDED, WORKING = Context(prec=30), Context(prec=80)
 FIXED = Decimal("1e-9")  # smaller numbers are shown with an exponent
@@ -46,7 +50,7 @@ def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
 
     Newton's and Euler's equations; the lists that follow begin with the start.
     """
-    lists: dict[str, list[Numbers]] = {
+    lists: dict[str, Sequence[Numbers]] = {
         name: [[Decimal(x) for x in each] for each in facts[name]] for name in STATES
     }
     start = normalise(facts["orientation"]), [Decimal(x) for x in facts["angular_velocity"]]
@@ -54,6 +58,8 @@ def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
     with localcontext(WORKING):
         moments = [start, *zip(*lists.values(), strict=True)]
         found = [_derive([*constants, Decimal(gravity)], *each) for each in moments]
+        turned = [_turn_frame(*each) for each in moments[1:]]
+    lists |= dict(zip(TURNED, zip(*turned, strict=True), strict=True))
     lists |= {name: [each[k] for each in found] for k, name in enumerate((*FORCES, *WORLD))}
     shown: dict[str, Any] = {name: _show_all(rows) for name, rows in lists.items()}
     shown["energies"] = [energy for (energy,) in shown["energies"]]
@@ -61,6 +67,19 @@ def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
     entries = list(facts.items())
     place = list(facts).index(STATES[0])
     return dict([*entries[:place], *shown.items(), *entries[place + len(STATES) :]])
+
+
+def _turn_frame(q: Numbers, omega: Numbers) -> tuple[Numbers, Numbers]:
+    """Return a state in the turned frame."""
+    w, x, y, z = q
+    a, b, c, d = TURN
+    turned = (
+        w * a - x * b - y * c - z * d,
+        w * b + x * a + y * d - z * c,
+        w * c - x * d + y * a + z * b,
+        w * d + x * c - y * b + z * a,
+    )
+    return turned, _turn(_rotation(a, -b, -c, -d), omega)
 
 
 def _derive(constants: Numbers, q: Numbers, omega: Numbers) -> tuple[Numbers, ...]:

@@ -3,6 +3,7 @@
      g++ -O2 -std=c++17 score.cpp -o score
      ./score                          # lists the problems
      ./score cusps trajectory.csv     # scores a trajectory
+     ./score cusps.turned turned.csv  # that of another description of the body
 
 It reads problems.csv and states.csv next to the program, and prints what score.py prints. */
 
@@ -32,6 +33,7 @@ using Quaternion = std::array<double, 4>;  // w, x, y, z
 using Vector = std::array<double, 3>;
 
 const Strings QUATERNION = {"w", "x", "y", "z"}, RATES = {"wx", "wy", "wz"};
+const Strings DESCRIPTIONS = {"turned", "offset", "nested", "nested_half"};  // of the body
 const Strings WORLD_RATES = {"omega_x", "omega_y", "omega_z"};
 constexpr double SAME_TIME = 1e-9;  // relatively: a clock that adds up its steps
 constexpr double LARGEST_NORM_ERROR = 0.01, LARGEST_NUMBER = 1e100;
@@ -210,7 +212,8 @@ std::size_t place_of(const Strings& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) - names.begin();
 }
 
-std::vector<State> read_states(const std::string& text, const std::string& name) {
+std::vector<State> read_states(const std::string& text, const std::string& name,
+                               const std::string& prefix) {
   const Strings lines = split_lines(text), names = split(lines[0], ',');
   std::vector<State> states;
   for (const std::string& line : lines) {
@@ -224,11 +227,11 @@ std::vector<State> read_states(const std::string& text, const std::string& name)
     state.limit = number("orientation_limit");
     state.limit32 = number("orientation_limit_float32");
     for (std::size_t i = 0; i < 4; i++) {
-      const Sum sum = read_decimal(cells[place_of(names, QUATERNION[i])]);
+      const Sum sum = read_decimal(cells[place_of(names, prefix + QUATERNION[i])]);
       state.q[i] = sum.high, state.q_low[i] = sum.low;
     }
     for (std::size_t i = 0; i < 3; i++) {
-      const Sum sum = read_decimal(cells[place_of(names, RATES[i])]);
+      const Sum sum = read_decimal(cells[place_of(names, prefix + RATES[i])]);
       state.omega[i] = sum.high, state.omega_low[i] = sum.low;
     }
     states.push_back(state);
@@ -457,6 +460,15 @@ std::string score(const std::string& name, const std::vector<Row>& rows,
   return line + print("; angular velocity %.1e rad/s at most", largest(rates)) + mistakes;
 }
 
+void demand(const std::string& what, const Strings& known, const std::string& name,
+            const std::string& text) {
+  if (place_of(known, name) < known.size()) return;
+  std::string all, got;
+  for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
+  for (const std::string& each : split_at_spaces(text)) got += (got.empty() ? "" : " ") + each;
+  throw Refused(what + " must be one of " + all + ", got " + got.substr(0, SHOWN));
+}
+
 std::string run(int count, char** args) {
   const auto folder = std::filesystem::absolute(args[0]).parent_path();
   const auto read_set = [&](const char* name) { return read_file((folder / name).string(), name); };
@@ -465,14 +477,12 @@ std::string run(int count, char** args) {
   const std::string name = args[1];
   Strings known;
   for (const Problem& each : problems) known.push_back(each.name);
-  if (place_of(known, name) == known.size()) {
-    std::string all, got;
-    for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
-    for (const std::string& each : split_at_spaces(name)) got += (got.empty() ? "" : " ") + each;
-    throw Refused("problem must be one of " + all + ", got " + got.substr(0, SHOWN));
-  }
+  const auto dot = std::min(name.find('.'), name.size());
+  const std::string base = name.substr(0, dot), description = name.substr(std::min(dot + 1, name.size()));
+  demand("problem", known, base, name);
+  if (dot < name.size()) demand("description", DESCRIPTIONS, description, description);
   if (count == 2) throw Refused("trajectory must be a CSV file for " + name + ", got none");
-  const std::vector<State> states = read_states(read_set("states.csv"), name);
+  const std::vector<State> states = read_states(read_set("states.csv"), base, description == "turned" ? "turned_" : "");
   return score(name, read_trajectory(read_file(args[2], args[2]), args[2], states), states) + "\n";
 }
 

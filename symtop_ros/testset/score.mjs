@@ -2,6 +2,7 @@
 
      node score.mjs                          # lists the problems
      node score.mjs cusps trajectory.csv     # scores a trajectory
+     node score.mjs cusps.turned turned.csv  # that of another description of the body
 
 It reads problems.csv and states.csv next to it, and prints what score.py prints. A page imports
 run(args, read), where read(name) returns the text of a file with a character for each byte. */
@@ -9,6 +10,7 @@ run(args, read), where read(name) returns the text of a file with a character fo
 const QUATERNION = ["w", "x", "y", "z"];
 const RATES = ["wx", "wy", "wz"];
 const WORLD_RATES = ["omega_x", "omega_y", "omega_z"];
+const DESCRIPTIONS = ["turned", "offset", "nested", "nested_half"]; // of the body
 const BOM = "\u00ef\u00bb\u00bf"; // of UTF-8, with a character for each byte
 const SAME_TIME = 1e-9; // relatively: a clock that adds up its steps
 const LARGEST_NORM_ERROR = 0.01;
@@ -131,7 +133,7 @@ function readProblems(read) {
   );
 }
 
-function readStates(read, name) {
+function readStates(read, name, prefix) {
   const [head, ...rows] = read("states.csv").split(LINE);
   const names = head.split(",");
   const places = (columns) => columns.map((each) => names.indexOf(each));
@@ -140,7 +142,8 @@ function readStates(read, name) {
     .filter((row) => row.startsWith(`${name},`))
     .map((row) => {
       const cells = row.split(",");
-      const pairs = (columns) => places(columns).map((each) => splitDecimal(cells[each]));
+      const pairs = (columns) =>
+        places(columns.map((each) => prefix + each)).map((each) => splitDecimal(cells[each]));
       const [q, omega] = [pairs(QUATERNION), pairs(RATES)];
       return {
         t: Number(cells[time]),
@@ -285,20 +288,25 @@ function listProblems(problems) {
   return ["level  name              duration  what", ...rows].join("\n");
 }
 
+function demand(what, known, name, text) {
+  if (known.includes(name)) return;
+  const got = text.trim().split(/\s+/).join(" ").slice(0, SHOWN);
+  throw new Refused(`${what} must be one of ${known.join(", ")}, got ${got}`);
+}
+
 /** Score, or list the problems; the functions return the text of a file, or throw. */
 export function run([name, path], readSet, readFile) {
   try {
     const problems = readProblems(readSet);
     if (!name) return { status: 0, out: listProblems(problems), err: "" };
-    if (!problems.has(name)) {
-      const known = [...problems.keys()].join(", ");
-      const got = name.trim().split(/\s+/).join(" ").slice(0, SHOWN);
-      throw new Refused(`problem must be one of ${known}, got ${got}`);
-    }
+    const [base, ...rest] = name.split(".");
+    const description = rest.join(".");
+    demand("problem", [...problems.keys()], base, name);
+    if (rest.length) demand("description", DESCRIPTIONS, description, description);
     if (path === undefined) {
       throw new Refused(`trajectory must be a CSV file for ${name}, got none`);
     }
-    const states = readStates(readSet, name);
+    const states = readStates(readSet, base, description === "turned" ? "turned_" : "");
     const found = score(readTrajectory(readFile(path), path, states), states);
     return { status: 0, out: formatScore(name, found, states), err: "" };
   } catch (error) {

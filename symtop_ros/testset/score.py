@@ -2,6 +2,7 @@
 
     python score.py                          # lists the problems
     python score.py cusps trajectory.csv     # scores a trajectory
+    python score.py cusps.turned turned.csv  # that of another description of the body
 
 A trajectory is a table with the columns t, w, x, y, z, and wx, wy, wz if it has angular velocities
 in the body frame, or omega_x, omega_y, omega_z in the world frame, in any order. Commas,
@@ -29,6 +30,9 @@ PACKED = ".json.xz"  # of the same file in the package, which writes the set fro
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
+# Of the body: its frame turned, or with its origin off the pivot; all or half of the mass in a
+# fixed child. The states of the first are in the turned frame, those of the others as ever.
+DESCRIPTIONS = ("turned", "offset", "nested", "nested_half")
 SEPARATORS = (",", ";", "\t", None)  # None: any white space
 LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is another error than that of a motion
 # A row belongs to a time if it is this close to it, relatively: a clock that adds up its steps.
@@ -460,18 +464,28 @@ def score_file(problems: dict[str, Problem], name: str, path: Path | None) -> Sc
 
 
 def find_problem(problems: dict[str, Problem], name: str) -> Problem:
-    """Return a problem by its name.
+    """Return a problem by its name, in the description that follows a dot, such as cusps.turned.
 
     Raises
     ------
     ValueError
         If there is none.
     """
-    if name not in problems:
+    base, _, description = name.partition(".")
+    if base not in problems:
         raise ValueError(
             f"problem must be one of {', '.join(problems)}, got {' '.join(name.split())[:60]}"
         )
-    return problems[name]
+    if base == name:
+        return problems[name]
+    if description not in DESCRIPTIONS:
+        got = " ".join(description.split())[:60]
+        raise ValueError(f"description must be one of {', '.join(DESCRIPTIONS)}, got {got}")
+    facts = problems[base].facts | {"name": name}
+    if description == "turned":
+        states = ("orientations", "angular_velocities")
+        facts |= {each: facts[f"turned_{each}"] for each in states}
+    return Problem(facts)
 
 
 if __name__ == "__main__":

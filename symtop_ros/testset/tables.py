@@ -11,11 +11,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import chain
 from typing import Any
 
-from symtop_ros.testset.packed import FORCES, WORLD, normalise, show
+from symtop_ros.testset.packed import FORCES, STATES, TURNED, WORLD, normalise, show
 
-VERSION = "4.0"
+VERSION = "5.0"
 CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+TURNED_COLUMNS = tuple(f"turned_{name}" for name in (*QUATERNION, *RATES))
 LIMITS = tuple(
     f"{name}_limits{form}"
     for form in ("", "_float32")
@@ -44,7 +45,7 @@ def tabulate(problems: Sequence[Facts]) -> dict[str, str]:
     limits = (name.replace("limits", "limit") for name in LIMITS)
     tables = (
         _list_starts(problems),
-        _list_rows(problems, (*QUATERNION, *RATES, *limits), _list_states),
+        _list_rows(problems, (*QUATERNION, *RATES, *limits, *TURNED_COLUMNS), _list_states),
         _list_rows(problems, chain(*FORCES.values()), _list_forces),
         _list_rows(problems, (*QUATERNION, *chain(*WORLD.values())), _list_world),
     )
@@ -74,7 +75,8 @@ def _list_rows(
 
 def _list_states(facts: Facts) -> ColumnGroups:
     limits = zip(*(map(repr, facts[name]) for name in LIMITS), strict=True)
-    return facts["times"], facts["orientations"], facts["angular_velocities"], limits
+    states, turned = ([facts[name] for name in names] for names in (STATES, TURNED))
+    return facts["times"], *states, limits, *turned
 
 
 def _list_forces(facts: Facts) -> ColumnGroups:

@@ -9,14 +9,14 @@ from testset.test_scorers import NAMES, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.scoreboard import Entry
-from symtop_ros.testset.score import read_problems
+from symtop_ros.testset.score import find_problem, read_problems
 
 PROBLEMS = ("cusps", "plane_pendulum")
 
 
 def write_entry(folder, problem, name, error):
     """Write the exact states, turned about the x axis of the body by an angle in rad."""
-    facts = read_problems()[problem].facts
+    facts = find_problem(read_problems(), problem).facts
     q = np.array(facts["orientations"], dtype=float)[:, [1, 2, 3, 0]]
     turned = (Rotation.from_quat(q) * Rotation.from_rotvec([error, 0, 0])).as_quat()
     table = np.column_stack((facts["times"], turned[:, [3, 0, 1, 2]]))
@@ -76,6 +76,21 @@ def test_the_same_is_given_as_json(folder, capsys):
     assert np.array(score["errors"]) == pytest.approx(5e-9, abs=2e-15)
     assert [each["order"] for each in facts["orders"]] == pytest.approx([4.0, 4.0], abs=1e-3)
     assert facts["ranking"]["1"][0]["entry"] == "rk4-1e-3"
+
+
+def test_descriptions_of_one_body_are_compared_and_are_no_further_problems(tmp_path, capsys):
+    for description, error in (("", 0.02), (".turned", 0.02), (".nested", 3.0)):
+        write_entry(tmp_path, f"cusps{description}", "engine", error)
+    write_entry(tmp_path, "cusps", "other", 1e-9)
+    write_entry(tmp_path, "cusps.offset", "other", 1.2e-9)
+    assert main(["--testset", "all", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    assert "descriptions of cusps differ in engine: plain 0.02, turned 0.02, nested 3 rad" in text
+    assert "differ in other" not in text
+    assert "2. engine: solved 0 of 10, tried 1," in text
+    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    (difference,) = json.loads(capsys.readouterr().out)["differences"]
+    assert difference["errors"] == pytest.approx({"plain": 0.02, "turned": 0.02, "nested": 3.0})
 
 
 def test_a_folder_without_trajectories_is_refused_in_one_line(tmp_path, capsys):

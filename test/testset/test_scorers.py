@@ -10,16 +10,19 @@ import pytest
 from browser import running_browser
 
 from symtop_ros.physics import State
-from symtop_ros.testset.score import FILE, main, read_problems
+from symtop_ros.testset.score import FILE, find_problem, main, read_problems
 
 SCORER = FILE.with_name("score.mjs")
 NAMES = ("t", "w", "x", "y", "z", "wx", "wy", "wz")
-PROBLEMS = ("cusps", "gentle_pole", "plane_pendulum", "free_rod", "cusps_100000", "large")
+PROBLEMS = (
+    *("cusps", "gentle_pole", "plane_pendulum", "free_rod", "cusps_100000", "large"),
+    *("cusps.turned", "gentle_pole.turned", "free_rod.nested", "large.offset"),
+)
 
 
 def read_exact(name):
     """Times, quaternions and rates in doubles."""
-    facts = read_problems()[name].facts
+    facts = find_problem(read_problems(), name).facts
     parts = [np.array(facts[key], dtype=float) for key in ("orientations", "angular_velocities")]
     return np.array(facts["times"]), *parts
 
@@ -185,7 +188,7 @@ def test_the_three_scorers_print_the_same_of_other_problems(
 
 
 def test_the_three_scorers_list_and_refuse_the_same(tmp_path, capsys, cpp, javascript):
-    for args in ((), ("no  such",), ("cusps",)):
+    for args in ((), ("no  such",), ("cusps",), ("cusps.bent",), ("no.turned",), ("cusps.turned",)):
         assert_same(capsys, cpp, javascript, *args)
     if shutil.which("node"):
         for path in (tmp_path / "none.csv", tmp_path):
