@@ -29,7 +29,7 @@ class Explanation:
     """Explanation of most of the errors."""
 
     offset: Offset = NONE
-    # what the motion cannot show: "delay", "drift", or "rotations" (the world's and the body's)
+    # what the motion cannot show: "delay", or "rotations" (the world's and the body's)
     hidden: tuple[str, ...] = ()
     residual: float = 0.0  # root mean square of the angle that is left in rad
 

@@ -154,17 +154,6 @@ class Fit:
         moved[~(begun & goes_on)] = 0.0
         return moved * ((1 + offset.scale) * NANOSECONDS / (2 * SPEED_STEP))
 
-    def find_hidden(self) -> list[str]:
-        """Return what the motion cannot show, from the rank of the derivatives."""
-        columns = self.derive(replace(NONE, begin=int(self.some.stamps[0])))
-        hidden = []
-        if len(self._null_space(columns[:, ROTATIONS])):
-            hidden.append("rotations")
-        for name, place in (("delay", DELAY), ("drift", DRIFT)):
-            if self._hides(columns[:, [*ROTATIONS, place]]):
-                hidden.append(name)
-        return hidden
-
     def hides(self, offset: Offset, others: list[int], place: int) -> bool:
         """Return whether a parameter near an offset changes nothing that others do not."""
         return self._hides(self.derive(offset)[:, [*others, place]])

@@ -120,7 +120,6 @@ class Judgement:
 
 HIDDEN = {
     "delay": "the delay (in this steady motion it is the same as constant rotations)",
-    "drift": "the drift (it is the same as constant rotations)",
     "rotations": "the rotations of world and body alone (only together)",
 }
 
@@ -208,7 +207,8 @@ def _describe_cause(cause: Cause) -> dict[str, Any]:
 def _describe_finding(found: Finding) -> dict[str, Any]:
     """Return what was found, for JSON."""
     best = found.best
-    hidden: dict[str, Any] = {name: None for name in ("delay", "drift") if name in found.hidden}
+    is_hidden = "delay" in found.hidden and "delay" not in best.parameters
+    hidden: dict[str, Any] = {"delay": None} if is_hidden else {}
     return {
         "explained": found.explained,
         "estimates_move": not found.still,

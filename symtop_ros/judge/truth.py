@@ -57,6 +57,11 @@ class Truth:
         return bool(self._events) and self._segment(0).motion.is_driven
 
     @property
+    def kind(self) -> str:
+        """Kind of the motion of a run of one motion; empty for several."""
+        return self._segment(0).motion.kind if len(self._events) == 1 else ""
+
+    @property
     def period(self) -> float | None:
         """Nutation period under gravity of a run of one motion in s of its clock, or None."""
         if len(self._events) != 1:

@@ -45,6 +45,9 @@ LOUD = 0.3  # rad; noise of an attitude is smaller
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
 STILL = 0.05  # rad; estimates that stay this close to one attitude do not move
 MOVED = 10.0  # and the exact attitudes move so many times as far
+# What a steady motion cannot show, by its kind: a delay is a rotation of both frames, and rotations
+# of both frames about one axis are one.
+HIDDEN = {"regular": ("delay",), "sleeping": ("rotations", "delay")}
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 
 
@@ -68,12 +71,8 @@ class Search:
     def __post_init__(self) -> None:
         """Find what the motion hides."""
         self.fit = self._fit("", self.some)
-        self.hidden = tuple(self.fit.find_hidden())
-        self.names = [
-            name
-            for name in PARAMETERS
-            if name not in self.hidden and not (name == "clock" and "delay" in self.hidden)
-        ]
+        self.hidden = HIDDEN.get(self.truth.kind, ())
+        self.names = list(PARAMETERS)
         if count_steps(self.some.stamps) > MOST_STEPS:
             self.names.remove("scale")
         span = float(self.fit.seconds[-1])
@@ -189,8 +188,6 @@ class Search:
         """Yield explanations with a change and a parameter, or none, next to those of an offset."""
         table = self.grids.tabulate(change, name, known)
         for level in CHANGES[change][1]:
-            if level == "body" and "rotations" in self.hidden:
-                continue
             costs = table.costs(level)
             for valley in find_valleys(costs, VALLEYS):
                 if name and costs[valley] > HOPELESS:
