@@ -1,17 +1,13 @@
-"""The constant rotations, the delay and the drift that are to be removed from estimates.
-
-A steady motion cannot show all of them: the top in regular precession looks the same after any
-delay, but for rotations of the world and of the body. The rank of the problem says what it hides.
-"""
+"""The rotations, the delay and the drift that are to be removed, and stated models of these."""
 
 from dataclasses import dataclass, replace
 
-from symtop_ros.judge.causes.cause import PARAMETERS, Cause
+from symtop_ros.judge.causes.cause import LEVELS, Cause
 from symtop_ros.judge.causes.causes import MOST_SAMPLES, Search, refine
-from symtop_ros.judge.causes.search import LEVELS, fit_level
+from symtop_ros.judge.causes.tables import fit_rotations
 from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import SAMPLES, Fit
+from symtop_ros.judge.fit import PARAMETERS, Fit
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
 
@@ -29,8 +25,7 @@ class Explanation:
     """Explanation of most of the errors."""
 
     offset: Offset = NONE
-    # what the motion cannot show: "delay", or "rotations" (the world's and the body's)
-    hidden: tuple[str, ...] = ()
+    hidden: tuple[str, ...] = ()  # what the motion cannot show
     residual: float = 0.0  # root mean square of the angle that is left in rad
 
 
@@ -47,12 +42,12 @@ def explain(
     All delays and drifts are tried, and then a delay next to the best drift. Of those that leave as
     little, the one with the fewest numbers and the smallest delay is taken.
     """
-    some = truth.select(estimates).thin(SAMPLES)
-    if len(some) < 2:
+    run = truth.select(estimates)
+    if len(run) < 2:
         return Explanation()
-    search = Search(some, truth, some)
+    search = Search(run, truth)
     level = "none" if not rotations else "world" if "rotations" in search.hidden else "both"
-    names = [name for name in search.names if {"delay": delay, "drift": drift}.get(name)]
+    names = [name for name, wanted in (("delay", delay), ("drift", drift)) if wanted]
     found = [each for name in ("", *names) for each in search.search("", name)]
     if len(names) == 2:
         found += [
@@ -61,14 +56,13 @@ def explain(
             if first.parameters == ("drift",)
             for each in search.search("", "delay", first.offset)
         ]
-    found += search.shift_periods("", found)
-    found = [
-        search.refine("", level, each.parameters, each.offset)
+    found += search.shift_periods(found)
+    causes = [
+        search.refine(("", level, each.parameters), each.offset)
         for each in found
         if rotations or each.level == "none"
     ]
-    limit = search.allow(min(found, key=lambda each: each.cost), len(some))
-    good = [each for each in found if each.cost <= limit]
+    good = search.select(causes, len(search.some))
     best = min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
     return Explanation(best.offset, search.hidden, best.residual)
 
@@ -81,8 +75,10 @@ def align(estimates: Estimates, truth: Truth, model: str) -> Cause:
     """
     rotations, *names = model.split("+")
     fit, level = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth), LEVELS_OF[rotations]
-    exact, *_ = fit.exact(0.0)
-    start = replace(fit_level(fit.some.orientations, exact, level), begin=int(fit.some.stamps[0]))
+    exact, known = fit.exact(fit.start)
+    models = fit.some.orientations[None], exact[None], known[None].astype(float)
+    _, world, body = fit_rotations(models, level)
+    start = replace(fit.start, world=world[0], body=body[0])
     found = refine(fit, ("", level, tuple(names)), start, is_sure=True)
     for name in names:
         others = [*LEVELS[level][0], *(PARAMETERS[each] for each in names if each != name)]

@@ -1,13 +1,13 @@
 """Least squares of estimates: rotations, a delay, drifts, the rate of a clock, a scale."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real, Stamps, compose, find_rotation_vectors, invert
-from symtop_ros.judge.causes.search import from_vector
+from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
 from symtop_ros.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
@@ -15,21 +15,18 @@ from symtop_ros.wire.layout import NANOSECONDS
 
 SAMPLES = 500  # estimates that a search takes, spread over the run
 MOST_DELAY = 0.5  # s
-ITERATIONS = 30  # of Gauss and Newton; they converge quadratically
+# Of Gauss and Newton, which converge quadratically, and the part of the mean square that is no
+# improvement.
+ITERATIONS, ENOUGH = 30, 1e-6
 STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried, until one is an improvement
-ENOUGH = 1e-6  # part of the mean square; less is no improvement
 ROUNDING = 1e-28  # mean square of errors that are rounding
-# Columns of the derivatives: a rotation vector of the world and of the body, delay, and drift.
-# The last three are the rate of the clock, a drift about the axis of the body, and the scale of a
-# gyroscope.
-ROTATIONS, DELAY, DRIFT, CLOCK, SPIN, SCALE = range(6), 6, 7, 8, 9, 10
+# Columns of the derivatives: a rotation vector of the world and of the body, and these, which are
+# rates about the vertical of the world (drift) and about the axis of the body (spin).
+PARAMETERS = {"delay": 6, "drift": 7, "clock": 8, "spin": 9, "scale": 10}
+DELAY, DRIFT, CLOCK, SPIN, SCALE = PARAMETERS.values()
 COLUMNS = 11
 SPEED_STEP = 500  # ns, in which a fast top turns by 0.1 mrad
-# Singular values below this are zero. Those of steady motions are rounding, those of visible
-# nutation are larger than its amplitude.
-RANK = 1e-7
-VISIBLE = 1e-3  # part of a parameter in what the motion hides
-Exact = tuple[Real, Real, NDArray[np.bool_]]  # quaternions, rates, and the mask of those known
+RANK = 1e-7  # singular values below this part of the largest are zero
 
 
 @dataclass(eq=False)
@@ -38,57 +35,54 @@ class Fit:
 
     some: Estimates
     truth: Truth
-    # delay, clock and scale, and their motion
-    _last: tuple[tuple[float, float, float], Exact] | None = None
-    _scaling: tuple[tuple[float, float], Scaling] | None = None  # by delay and clock
+    # the last motion and gyroscope, by delay, clock and scale
+    _exact: dict[tuple[float, ...], tuple[Real, NDArray[np.bool_]]] = field(default_factory=dict)
+    _scalings: dict[tuple[float, ...], Scaling] = field(default_factory=dict)
 
     @cached_property
-    def seconds(self) -> Real:
-        """Times since the first estimate in s, (n,)."""
-        return np.asarray((self.some.stamps - self.some.stamps[0]) / NANOSECONDS)
+    def start(self) -> Offset:
+        """No error, from the first estimate on."""
+        return replace(NONE, begin=int(self.some.stamps[0]))
 
-    def exact(self, delay: float, clock: float = 0.0, scale: float = 0.0) -> Exact:
-        """Return exact quaternions, rates and the mask of those known, for a delay.
+    def exact(self, offset: Offset) -> tuple[Real, NDArray[np.bool_]]:
+        """Return exact quaternions, as such a gyroscope shows them, and which are known."""
+        key = offset.delay, offset.clock, offset.scale
+        if key not in self._exact:
+            q, _, known = self.truth.states_at(offset.shift(self.some.stamps), self.some.of_sensor)
+            q = compose(self.scaling(offset).turn(offset.scale), q) if offset.scale else q
+            self._exact = {key: (q, known)}
+        return self._exact[key]
 
-        With a scale the quaternions are those that a gyroscope of this scale would show.
-        """
-        if self._last is None or self._last[0] != (delay, clock, scale):
-            q, rates, known = self.truth.states_at(self.shift(delay, clock), self.some.of_sensor)
-            if scale:
-                q = compose(self.scaling(delay, clock).turn(scale), q)
-            self._last = (delay, clock, scale), (q, rates * (1 + scale), known)
-        return self._last[1]
+    def scaling(self, offset: Offset) -> Scaling:
+        """Return the attitudes of gyroscopes whose scale is wrong."""
+        key = offset.delay, offset.clock
+        if key not in self._scalings:
+            self._scalings = {key: Scaling(self.truth, offset.shift(self.some.stamps))}
+        return self._scalings[key]
 
-    def shift(self, delay: float, clock: float) -> Stamps:
-        """Return the stamps of the exact states, for a delay and a clock."""
-        begin = int(self.some.stamps[0])
-        return replace(NONE, delay=delay, clock=clock, begin=begin).shift(self.some.stamps)
-
-    def scaling(self, delay: float, clock: float) -> Scaling:
-        """Return the attitudes of gyroscopes whose scale is wrong, for a delay and a clock."""
-        if self._scaling is None or self._scaling[0] != (delay, clock):
-            scaling = Scaling(self.truth, self.shift(delay, clock))
-            self._scaling = (delay, clock), scaling
-        return self._scaling[1]
-
-    def residuals(self, offset: Offset) -> tuple[Real, Real, NDArray[np.bool_]]:
-        """Return q_est, the model of it, and the mask of those known."""
-        exact, _, known = self.exact(offset.delay, offset.clock, offset.scale)
+    def residuals(self, offset: Offset) -> tuple[Real, Real]:
+        """Return the known estimates, and the model of them."""
+        exact, known = self.exact(offset)
         world = offset.turn_world(self.some.stamps)
         model = compose(compose(world, exact), offset.turn_body(self.some.stamps))
-        return self.some.orientations, model, known
+        return self.some.orientations[known], model[known]
+
+    def find_left(self, offset: Offset) -> Real:
+        """Return the rotation vectors in the world that are left, (n, 3)."""
+        q, model = self.residuals(offset)
+        return find_rotation_vectors(compose(q, invert(model)))
 
     def cost(self, offset: Offset) -> float:
         """Return the mean square of the distances of quaternions."""
-        q, model, known = self.residuals(offset)
-        if known.sum() < max(2, len(known) // 2):
-            return np.inf
-        return float((subtract(q[known], model[known]) ** 2).sum(axis=1).mean())
+        q, model = self.residuals(offset)
+        enough = len(q) >= max(2, len(self.some) // 2)
+        return float((subtract(q, model) ** 2).sum(axis=1).mean()) if enough else np.inf
 
     @cached_property
     def fastest(self) -> float:
         """Largest angular velocity of the motion in rad/s."""
-        return float(np.linalg.norm(self.exact(0.0)[1], axis=1).max(initial=0.0))
+        rates = self.truth.states_at(self.some.stamps, self.some.of_sensor)[1]
+        return float(np.linalg.norm(rates, axis=1).max(initial=0.0))
 
     @property
     def rounding(self) -> float:
@@ -98,55 +92,43 @@ class Fit:
     def refine(self, offset: Offset, free: list[int]) -> Offset:
         """Return the least squares near an offset, in the columns that are free."""
         best, cost = offset, self.cost(offset)
-        for _ in range(ITERATIONS):
-            step = np.zeros(COLUMNS)
-            if free:
-                step[free] = self._solve(best, free)
-            moved = (_move(best, step * part) for part in STEPS)
-            tried = ((each, self.cost(each)) for each in moved)
-            found = next(((each, new) for each, new in tried if new < cost), None)
-            if found is None:
-                break
-            best, gain, cost = found[0], cost - found[1], found[1]
-            if gain < ENOUGH * cost:
+        for _ in range(ITERATIONS if free else 0):
+            columns, step = self.derive(best, free), np.zeros(COLUMNS)
+            sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
+            left = self.find_left(best).ravel()
+            step[free] = np.linalg.lstsq(columns / sizes, left, rcond=RANK)[0] / sizes
+            tried = (_move(best, step * part) for part in STEPS)
+            found = ((each, new) for each in tried if (new := self.cost(each)) < cost)
+            before, (best, cost) = cost, next(found, (best, cost))
+            if not before - cost > ENOUGH * cost:
                 break
         return best
 
-    def _solve(self, offset: Offset, free: list[int]) -> Real:
-        q, model, known = self.residuals(offset)
-        left = to_rotation(compose(q[known], invert(model[known]))).as_rotvec().ravel()
-        columns = self.derive(offset, SCALE in free)[:, free]
-        norms = np.linalg.norm(columns, axis=0)
-        norms[norms == 0] = 1.0
-        return np.asarray(np.linalg.lstsq(columns / norms, left, rcond=RANK)[0] / norms)
-
-    def derive(self, offset: Offset, with_scale: bool = False) -> Real:
-        """Return derivatives of the model's rotation vectors in the world frame, (3 n, 11)."""
-        speeds = self._find_speeds(offset)
-        exact, _, known = self.exact(offset.delay, offset.clock, offset.scale)
+    def derive(self, offset: Offset, free: list[int]) -> Real:
+        """Return the derivatives of the model's rotation vectors in the world, (3 n, free)."""
+        exact, known = self.exact(offset)
         world = offset.turn_world(self.some.stamps)[known]
         turned = compose(world, exact[known])
-        columns = np.zeros((int(known.sum()), 3, COLUMNS))
+        seconds = (self.some.stamps[known] - self.some.stamps[0]) / NANOSECONDS
+        columns = np.zeros((len(seconds), 3, COLUMNS))
         model = compose(turned, offset.turn_body(self.some.stamps)[known])
-        drifted = compose(world, invert(offset.world))
-        columns[:, :, :3] = to_rotation(drifted).as_matrix()
+        columns[:, :, :3] = to_rotation(compose(world, invert(offset.world))).as_matrix()
         columns[:, :, 3:6] = to_rotation(model).as_matrix()
-        columns[:, :, DELAY] = -to_rotation(world).apply(speeds[known])
-        seconds = self.seconds[known]
+        columns[:, :, DELAY] = -to_rotation(world).apply(self._find_speeds(offset)[known])
         columns[:, :, CLOCK] = columns[:, :, DELAY] * seconds[:, np.newaxis]
         columns[:, 2, DRIFT] = seconds
         columns[:, :, SPIN] = to_rotation(turned).as_matrix()[:, :, 2] * seconds[:, np.newaxis]
-        if with_scale:
-            turned_by = self.scaling(offset.delay, offset.clock).derive(offset.scale)[known]
-            columns[:, :, SCALE] = to_rotation(world).apply(turned_by)
-        return columns.reshape(-1, COLUMNS)
+        if SCALE in free:
+            turns = self.scaling(offset).derive(offset.scale)[known]
+            columns[:, :, SCALE] = to_rotation(world).apply(turns)
+        return np.asarray(columns.reshape(-1, COLUMNS)[:, free])
 
     def _find_speeds(self, offset: Offset) -> Real:
         """Return the angular velocities in the world by the stamps, not by a run's slower time.
 
         They are zero, which says nothing of a delay, at the ends of the run.
         """
-        stamps, of_sensor = self.shift(offset.delay, offset.clock), self.some.of_sensor
+        stamps, of_sensor = offset.shift(self.some.stamps), self.some.of_sensor
         (earlier, _, begun), (later, _, goes_on) = (
             self.truth.states_at(stamps + step, of_sensor) for step in (-SPEED_STEP, SPEED_STEP)
         )
@@ -156,47 +138,35 @@ class Fit:
 
     def hides(self, offset: Offset, others: list[int], place: int) -> bool:
         """Return whether a parameter near an offset changes nothing that others do not."""
-        return self._hides(self.derive(offset)[:, [*others, place]])
-
-    def _hides(self, columns: Real) -> bool:
-        """Return whether the motion hides the last of the columns."""
-        return bool(np.abs(self._null_space(columns)[:, -1]).max(initial=0.0) > VISIBLE)
+        columns = self.derive(offset, [*others, place])
+        sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
+        ranks = [
+            np.linalg.matrix_rank(each, RANK * np.linalg.norm(each, 2)) if each.size else 0
+            for each in ((columns / sizes)[:, :-1], columns / sizes)
+        ]
+        return bool(ranks[0] == ranks[1])
 
     def find_deviations(self, offset: Offset, free: list[int]) -> Real:
         """Return the standard deviations of the columns, (11,), if what is left is noise.
 
         Noise of the same size in each of the three components; 0 in columns that are not free.
         """
-        deviations, known = np.zeros(COLUMNS), int(self.residuals(offset)[2].sum())
-        if free and 3 * known > len(free):
-            columns = self.derive(offset, SCALE in free)[:, free]
-            noise = 4 * self.cost(offset) * known / (3 * known - len(free))
+        deviations, columns = np.zeros(COLUMNS), self.derive(offset, free)
+        if free and len(columns) > len(free):
+            noise = 4 / 3 * self.cost(offset) * len(columns) / (len(columns) - len(free))
             inverse = np.linalg.pinv(columns.T @ columns, hermitian=True)
             deviations[free] = np.sqrt(noise * np.diag(inverse))
         return deviations
 
-    @staticmethod
-    def _null_space(columns: Real) -> Real:
-        """Return the directions that change nothing, (k, m), of columns scaled to norm 1."""
-        norms = np.linalg.norm(columns, axis=0)
-        _, sizes, directions = np.linalg.svd(
-            columns / np.where(norms > 0, norms, 1.0), full_matrices=False
-        )
-        return np.asarray(directions[sizes <= RANK * sizes[0]])
-
 
 def _move(offset: Offset, step: Real) -> Offset:
     """Return the offset changed by a step in its columns; a delay stays within its bound."""
-    world = compose(from_vector(step[:3]), offset.world)
-    delay = float(np.clip(offset.delay + step[DELAY], -MOST_DELAY, MOST_DELAY))
-    body = compose(offset.body, from_vector(step[3:6]))
+    moved = {name: getattr(offset, name) + float(step[k]) for name, k in PARAMETERS.items()}
+    moved["delay"] = min(max(moved["delay"], -MOST_DELAY), MOST_DELAY)
+    world, body = (Rotation.from_rotvec(each).as_quat() for each in (step[:3], step[3:6]))
     return replace(
         offset,
-        world=world,
-        body=body,
-        delay=delay,
-        drift=offset.drift + float(step[DRIFT]),
-        clock=offset.clock + float(step[CLOCK]),
-        spin=offset.spin + float(step[SPIN]),
-        scale=offset.scale + float(step[SCALE]),
+        world=compose(world[[3, 0, 1, 2]], offset.world),
+        body=compose(offset.body, body[[3, 0, 1, 2]]),
+        **moved,
     )

@@ -30,6 +30,8 @@ LOGS = [
     ("cusps", Made(NED), "ned", "none", ()),
     ("looping", Made(body=FRD, noise=N), "frd", "none", ()),
     ("sleeping", Made(NED, FRD), "ned_frd", "none", ()),
+    ("unidirectional", Made(NED, delay=0.02), "ned", "none", ("delay",)),
+    ("regular_precession", Made(clock=1e-4), "", "none", ("clock",)),
     ("cusps", Made(delay=0.08), "", "none", ("delay",)),
     ("cusps", Made(heading(0.8), delay=0.05, noise=N), "", "heading", ("delay",)),
     ("cusps", Made(body=MOUNT, delay=0.012), "", "body", ("delay",)),

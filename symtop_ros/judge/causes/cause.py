@@ -7,14 +7,20 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.arrays import Real, compose, invert
-from symtop_ros.judge.causes.search import LEVELS
 from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import CLOCK, DELAY, DRIFT, SCALE, SPIN
 
-PARAMETERS = {"delay": DELAY, "drift": DRIFT, "clock": CLOCK, "spin": SPIN, "scale": SCALE}
-FLIP_WORLD = np.array([0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0])  # east-north-up to north-east-down
-FLIP_BODY = np.array([0.0, 1.0, 0.0, 0.0])  # forward-left-up to forward-right-down
+# Which rotations are free, with their columns of derivatives, and how much each counts when the
+# simplest explanation is looked for.
+LEVELS: dict[str, tuple[tuple[int, ...], float]] = {
+    "none": ((), 0.0),
+    "heading": ((2,), 1.0),
+    "world": ((0, 1, 2), 2.5),
+    "body": ((3, 4, 5), 2.5),
+    "both": ((0, 1, 2, 3, 4, 5), 5.0),
+}
+# East-north-up to north-east-down, and forward-left-up to forward-right-down.
+FLIP_WORLD, FLIP_BODY = np.array([[0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0], [0.0, 1.0, 0.0, 0.0]])
 ALL = tuple(LEVELS)
 Undoing = Callable[[Estimates], Estimates]
 
@@ -44,6 +50,11 @@ class Cause:
         return float(np.sqrt(4 * self.cost))
 
     @property
+    def turns(self) -> float:
+        """Sum of both rotations in rad."""
+        return float(sum(self.offset.angles))
+
+    @property
     def kind(self) -> tuple[str, str, tuple[str, ...]]:
         """Its kind, without numbers."""
         return self.change, self.level, self.parameters
@@ -66,11 +77,6 @@ def set_parameter(offset: Offset, name: str, value: float) -> Offset:
     """Return an offset with a parameter; without a name, the same."""
     changed: dict[str, Any] = {name: value} if name else {}
     return replace(offset, **changed)
-
-
-def measure_turns(offset: Offset) -> float:
-    """Return the sum of both rotations in rad."""
-    return float(sum(offset.angles))
 
 
 def _turn(change: Callable[[Real], Real]) -> Undoing:
