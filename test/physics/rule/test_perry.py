@@ -75,6 +75,17 @@ def test_the_direction_is_where_the_top_then_moves(seed):
     assert perrys_rule(top, state).direction == ("rises" if theta < 0 else "falls")
 
 
+@pytest.mark.parametrize("seed", range(50))
+def test_the_direction_is_the_same_from_every_side(seed):
+    # turned by phi and psi, theta' = 0 becomes a sum of products that cancel up to rounding
+    rng = Numbers(seed)
+    top = Top(1.0, rng.uniform(0.05, 2.0), rng.uniform(-300, 300))
+    start = {"theta": rng.uniform(0.05, 3.0), "phi_dot": rng.uniform(-40, 40), "psi_dot": 150.0}
+    plain = State.from_euler(**start)
+    turned = State.from_euler(**start, phi=rng.uniform(-3, 3), psi=rng.uniform(-3, 3))
+    assert perrys_rule(top, turned).direction == perrys_rule(top, plain).direction
+
+
 @pytest.mark.parametrize("hold", HOLDS)
 @pytest.mark.parametrize("factor", [0.0, 0.5, 1.05, 1.4, 3.0])
 @pytest.mark.parametrize("seed", range(20))
