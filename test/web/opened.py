@@ -19,12 +19,23 @@ WebGL2RenderingContext.prototype.drawElements = () => {};
 """
 
 
-class Opened:
-    """The file in a tab, with what went wrong."""
+# Who comes again is not asked the first question, and may have chosen rad.
+KNOWN = """
+try {
+    localStorage.setItem("symtop.answer", "rises");
+    if (localStorage.getItem("symtop.unit") === null) localStorage.setItem("symtop.unit", "rad");
+} catch {}
+"""
 
-    def __init__(self, browser, path, fragment="", script=FEW_FRAMES + UNDRAWN, **options):
+
+class Opened:
+    """The file in a tab, with what went wrong; of a browser that knows the page, or does not."""
+
+    def __init__(
+        self, browser, path, fragment="", script=FEW_FRAMES + UNDRAWN, known=KNOWN, **options
+    ):
         self.context = browser.new_context(offline=True, accept_downloads=True, **options)
-        self.context.add_init_script(script)
+        self.context.add_init_script(known + script)
         self.tab = self.context.new_page()
         self.tab.set_default_timeout(TIMEOUT * 1000)
         self.problems, self.requests = [], []
@@ -41,7 +52,7 @@ class Opened:
         assert all(request.startswith(NO_REQUESTS) for request in self.requests)
 
     def wait_for_page(self):
-        self.tab.wait_for_selector("#headline:not(:empty)")
+        self.tab.wait_for_selector("#headline:not(:empty)", state="attached")
 
     def reload(self):
         self.tab.reload()
@@ -92,13 +103,30 @@ class Opened:
         return place.get_attribute("data-text") or place.text_content()
 
     def open_tab(self, name):
-        self.tab.click(f"#tab-{name}")
+        """Open the panel of a tab, if it is not open."""
+        if not self.tab.is_visible(f"#{name}"):
+            self.tab.click(f"#tab-{name}")
+
+    def show_arrows(self, *layers):
+        """Click on the words of some arrows."""
+        for layer in layers:
+            self.tab.click(f"#legend .word[data-layer={layer}]")
+
+    def open_charts(self, *names):
+        """Open charts, or all of them."""
+        self.tab.evaluate(
+            """(names) => {
+                for (const place of document.querySelectorAll("[data-chart]"))
+                    if (!names.length || names.includes(place.dataset.chart))
+                        place.closest("details").open = true;
+            }""",
+            names,
+        )
 
     def enter(self, name, text):
-        """Type a value into a field of the tab Top, and take it over."""
+        """Type a value into a field of a tab, and take it over."""
         field = self.tab.locator(f"[id='field-{name}']")
-        if not field.is_visible():
-            self.open_tab("start")
+        self.open_tab("push" if name == "factor" else "start")
         field.fill(text)
         field.press("Enter")
 

@@ -1,6 +1,5 @@
 """The page for people on phones, with zoom, with a keyboard or a screen reader, in the dark."""
 
-import re
 from itertools import combinations
 
 import numpy as np
@@ -23,7 +22,8 @@ def test_there_is_no_finding_of_axe(open_page, scheme, options):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
     page = open_page(color_scheme=scheme)
     page.tab.click("#hurry")
-    page.tab.click("summary")
+    page.open_charts()
+    page.tab.click("#reason summary")
     for name in TABS:
         page.open_tab(name)
         check(axe, page, options)
@@ -54,9 +54,10 @@ def test_a_keyboard_reaches_the_tabs_and_gives_no_key_away(opened):
 
 def test_symbols_are_formulas_and_explained_at_their_first_place(opened):
     opened.tab.click("#hurry")
-    opened.tab.click("summary")
+    opened.tab.click("#reason summary")
     assert "theta''" in opened.say("why")
     assert opened.tab.locator("#why math mover").count() >= 2
+    opened.open_tab("start")
     label = opened.tab.locator("label[for=field-phi_dot]")
     assert label.text_content() == "precession rate φ. (rad/s)"
     assert opened.tab.get_by_label("precession rate phi' (rad/s)").count() == 2  # and its slider
@@ -67,35 +68,67 @@ def test_symbols_are_formulas_and_explained_at_their_first_place(opened):
     assert "'" not in opened.tab.inner_text("#charts h2 >> nth=0").replace("Perry's", "")
 
 
-def test_forced_colours_keep_the_marks_of_the_legend(open_page):
-    page = open_page(forced_colors="active")
-    marks = page.tab.locator("#legend li:visible i")
-    colors = marks.evaluate_all("all => all.map(e => getComputedStyle(e).backgroundColor)")
-    assert len(set(colors)) == len(colors) == 7
+def read_marks(page):
+    """Colours of the marks in the tab View, by the name of their layer."""
+    page.open_tab("view")
+    found = page.tab.locator("#layers label").evaluate_all(
+        """all => all.map(label => [label.textContent.trim(), [...label.querySelectorAll("i")]
+            .map(e => getComputedStyle(e).backgroundColor.match(/\\d+/g).map(Number))])"""
+    )
+    return {name: colors for name, colors in found if colors}
 
 
-def test_the_legend_has_what_is_drawn(opened):
-    def read():
-        return opened.tab.locator("#legend li:visible").all_inner_texts()
+def test_forced_colours_keep_the_marks_of_what_is_drawn(open_page):
+    marks = read_marks(open_page(forced_colors="active"))
+    colors = [tuple(each) for colors in marks.values() for each in colors]
+    assert len(set(colors)) == len(colors) == 12
 
-    before = read()
+
+def test_arrows_come_one_by_one_by_their_words(opened):
+    opened.press("Space")
+    label = opened.tab.locator(".label:visible", has_text="torque")
+    word = opened.tab.locator("#legend .word[data-layer=torque]")
+    assert label.count() == 0
+    word.hover()
+    label.wait_for()
+    opened.tab.mouse.move(5, 5)
+    label.wait_for(state="detached")
+    word.click()
+    opened.tab.mouse.move(5, 5)
+    opened.wait_for_frames()
+    assert label.count() == 1
+    assert word.get_attribute("aria-pressed") == "true"
     opened.open_tab("view")
-    for name in ("torque", "ghost"):
-        opened.tab.get_by_label(name, exact=True).uncheck()
-    assert [each for each in before if each not in read()] == ["torque", "pale: ghost, not kicked"]
+    assert opened.tab.get_by_label("torque", exact=True).is_checked()
+
+
+def test_a_word_of_the_reason_has_the_colour_of_its_arrow_and_shows_it(opened):
+    opened.tab.click("#hurry")
+    opened.tab.click("#reason summary")
+    word = opened.tab.locator("#because .word[data-layer=L]")
+    legend = opened.tab.locator("#legend .word[data-layer=L]")
+    read = "e => getComputedStyle(e).color"
+    assert word.evaluate(read) == legend.evaluate(read)
+    word.focus()
+    opened.tab.locator(".label:visible", has_text="L").wait_for()
+
+
+def test_the_legend_has_what_is_drawn_and_was_not_at_first(opened):
+    names = opened.tab.locator("#legend li:visible")
+    before = names.all_inner_texts()
+    assert len(before) == 3
+    opened.open_tab("view")
     opened.tab.get_by_label("fictitious torques").check()
-    assert "Coriolis" in read()
+    assert "Coriolis" in names.all_inner_texts()
+    opened.tab.get_by_label("fictitious torques").uncheck()
+    assert names.all_inner_texts() == before
 
 
 def test_the_arrows_are_of_different_colours_without_seeing_green(opened):
-    opened.open_tab("view")
-    opened.tab.get_by_label("fictitious torques").check()
-    entries = opened.tab.locator("#legend li:visible").evaluate_all(
-        """all => all.map(e => [
-            e.textContent, getComputedStyle(e.firstChild).backgroundColor.match(/\\d+/g).map(Number)
-        ])"""
-    )
-    colors = {re.match(r"\w+", text)[0]: color for text, color in entries}
-    for group in (("L", "ω", "torque", "trace"), ("gravity", "Coriolis", "centrifugal", "sum")):
-        pairs = combinations([perceive(colors[name], "deuteranopia") for name in group], 2)
-        assert min(np.linalg.norm(a - b) for a, b in pairs) > 35  # 2.3 can just be seen
+    marks = read_marks(opened)
+    arrows = [color for name in ("L", "ω", "torque", "trace") for color in marks[name]]
+    torques = marks["fictitious torques"]
+    assert len(arrows) == len(torques) == 4
+    for group in (arrows, torques, [marks["torque"][0], torques[0]]):
+        pairs = combinations([perceive(color, "deuteranopia") for color in group], 2)
+        assert min(np.linalg.norm(a - b) for a, b in pairs) > 20  # 2.3 can just be seen

@@ -32,6 +32,7 @@ def read_chart(page, name):
 @pytest.mark.parametrize("root", ["slow", "fast"])
 def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_page, root):
     page = open_page(f"#theta=0.5&psi_dot=200&precession={root}")
+    page.open_charts("phi_dot", "psi_dot")
     page.wait_for_time(0.03)
     page.tab.click("#pause")
     page.tab.locator("#psi_dot").scroll_into_view_if_needed()
@@ -48,7 +49,9 @@ def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_pag
 
 def test_what_changes_fills_its_chart(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=0")
+    page.open_charts("phi_dot")
     page.wait_for_time(0.1)
+    page.wait_for_frames()
     for name in ("theta", "phi_dot"):
         values, span = read_chart(page, name)
         assert np.ptp(values) > 0.8 * span
@@ -124,6 +127,7 @@ def test_kinds_are_decided_as_in_the_article(tab):
 
 
 def test_a_chart_shows_the_quantities_that_are_chosen(opened):
+    opened.open_charts("free")
     opened.tab.select_option("#free-x", "time")
     opened.tab.select_option("#free-y", "theta_ddot")
     opened.tab.click("#hurry")
@@ -149,6 +153,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
 
 
 def test_a_run_is_kept_for_comparison(opened):
+    opened.open_charts("free")
     opened.tab.select_option("#free-x", "time")
     opened.tab.select_option("#free-y", "theta")
     opened.tab.click("#hurry")

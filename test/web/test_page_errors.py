@@ -36,7 +36,7 @@ def test_a_stored_choice_of_another_version_is_dropped(open_page):
     )
     opened = open_page(script=stored + FEW_FRAMES + UNDRAWN)
     assert opened.tab.input_value("#free-x") == "theta"
-    assert opened.tab.input_value("#unit") == "rad"
+    assert opened.tab.input_value("#unit") == "deg"
     opened.wait_for_time(0.02)
 
 

@@ -24,7 +24,7 @@ def test_an_angle_is_understood_with_its_unit(opened):
 
 
 def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
-    opened.tab.click("#tab-view")
+    opened.open_tab("view")
     opened.tab.select_option("#unit", "deg")
     opened.enter("theta", "200")
     assert opened.say("refusal") == "tilt theta must be 0 to 180°, got 200"
@@ -67,6 +67,7 @@ def test_caps_lock_disables_no_key(opened):
 
 def test_keys_that_move_through_the_list_of_scenes_start_none(opened):
     events = opened.read_events()
+    opened.open_tab("start")
     opened.tab.focus("#scenes")
     opened.tab.keyboard.press("L")
     assert opened.tab.input_value("#scenes") == "looping"
@@ -82,6 +83,7 @@ def test_keys_that_move_through_the_list_of_scenes_start_none(opened):
 
 
 def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
+    opened.open_tab("start")
     opened.tab.dispatch_event("#scenes", "pointerdown")
     opened.tab.select_option("#scenes", "looping")
     assert opened.say("headline").startswith("The top precesses in loops")
@@ -98,6 +100,7 @@ def test_a_rate_that_is_refused_has_the_name_of_its_field(opened):
 
 def test_the_view_is_turned_and_moved_by_keys_and_the_top_is_not_touched(opened):
     opened.press("Space")
+    opened.show_arrows("torque")
 
     def read():
         """Return the places of the labels, which move with the camera."""

@@ -75,16 +75,18 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
     opened.tab.click("text=Pause")
     event = opened.read_events()[0]
     head, *rows = opened.save("Series (CSV)", tmp_path).read_text().splitlines()
-    assert head == "time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"
+    angles, rates = "phi (rad),theta (rad),psi (rad)", "phi_dot (rad/s),theta_dot (rad/s)"
+    assert head == f"time (s),{angles},{rates},psi_dot (rad/s)"
     table = np.array([row.split(",") for row in rows], float)
     stamps = np.rint(table[:, 0] * 1e9).astype(np.int64)
     states = read_motion(event).at(ExactTimes(stamps))
-    assert table[:, 1].tolist() == states.euler_angles.theta.tolist()
-    assert table[:, 2] == pytest.approx(states.euler_rates.phi, rel=1e-14)
+    assert table[:, 1:4].T.tolist() == np.array(states.euler_angles).tolist()
+    assert table[:, 4] == pytest.approx(states.euler_rates.phi, rel=1e-14)
+    assert table[:, 6] == pytest.approx(states.euler_rates.psi, rel=1e-14)
 
 
 def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
-    opened.tab.click("#tab-push")
+    opened.open_tab("push")
     button = opened.tab.locator("[data-hold='1']")
     button.dispatch_event("pointerdown")
     opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
@@ -96,9 +98,9 @@ def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
 
 def test_a_push_changes_the_rates_as_it_says(opened):
     opened.tab.click("text=Pause")
-    opened.tab.click("#tab-push")
+    opened.open_tab("push")
     before = opened.read_events()[-1]
-    opened.tab.click("#tab-push")
+    opened.open_tab("push")
     for way in ("up", "along"):
         opened.tab.click(f"[data-push={way}]")
     *_, up, along = opened.read_events()
@@ -111,7 +113,7 @@ def test_a_push_changes_the_rates_as_it_says(opened):
 def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
     opened.wait_for_time(0.01)
     opened.tab.click("#hurry")
-    opened.tab.click("#tab-push")
+    opened.open_tab("push")
     for way in ("up", "along"):
         opened.tab.click(f"[data-push={way}]")
     _, kick, up, along = opened.read_events()
@@ -126,6 +128,7 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
 
 def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     opened.tab.click("#pause")
+    opened.show_arrows("torque")
     opened.wait_for_frames()
 
     def read():

@@ -24,6 +24,7 @@ def count_colors(opened):
 
 def test_a_lost_picture_is_said_and_comes_back(open_page):
     opened = open_page(script=FEW_FRAMES)
+    opened.show_arrows("torque", "L")
     labels = opened.tab.locator(".label:visible")
     opened.until(lambda: labels.count() > 1 and count_colors(opened) > 50)
     opened.tab.evaluate(LOSE)

@@ -6,6 +6,7 @@ import time
 
 import pytest
 from simulation.page_runs import change
+from web.opened import KNOWN
 
 from symtop_ros.panel.server import LOCAL_HOST, PageServer
 from symtop_ros.web.join import write_file
@@ -76,6 +77,7 @@ def serving(page, node=None):
 @pytest.fixture
 def tab(browser):
     context = browser.new_context()
+    context.add_init_script(KNOWN)
     yield context.new_page()
     context.close()
 

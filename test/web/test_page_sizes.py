@@ -63,6 +63,7 @@ def is_in_sight(box, size):
 @pytest.mark.parametrize("size", WINDOWS)
 def test_hurry_is_in_the_window_and_the_scene_and_charts_in_reach(open_page, size):
     page = open_in(open_page, size)
+    page.open_charts()
     hurry = settle(page, "#hurry")
     assert is_inside(hurry, size)
     page.until(lambda: is_large(find_box(page, "canvas"), 0.25 * min(size)))
@@ -109,7 +110,7 @@ def test_labels_do_not_cover_each_other(open_page):
         page.tab.click("text=Step")
         page.tab.wait_for_timeout(200)
         boxes = [each.bounding_box() for each in page.tab.locator(".label:visible").all()]
-        assert len(boxes) >= 5
+        assert len(boxes) >= 3
         for k, a in enumerate(boxes):
             for b in boxes[:k]:
                 apart_x = max(a["x"], b["x"]) - min(a["x"] + a["width"], b["x"] + b["width"])

@@ -9,7 +9,7 @@ from symtop_ros.web.lesson import LessonStep, read_lesson
 PAGE = Path(__file__).parents[2] / "docs/lesson.md"
 FIRST = "## 1. "  # what is above the first step is written by hand
 WIDTH = 100
-# Options of the viewer for what the page shows in a step
+# Options of the viewer for what it does not show by itself
 OPTIONS = {"fictitious torques": "--fictitious"}
 
 
@@ -41,7 +41,7 @@ def _write_step(number: int, step: LessonStep) -> str:
 
 def _name_view(step: LessonStep) -> str:
     """Return how the viewer shows what the page shows in a step only."""
-    options = " ".join(OPTIONS[layer] for layer in step.layers)
+    options = " ".join(OPTIONS[layer] for layer in step.layers if layer in OPTIONS)
     return (
         f" (With ROS: `top_live {options}`, or `top_replay {options}` of a log.)" if options else ""
     )

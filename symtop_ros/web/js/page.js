@@ -2,25 +2,27 @@
 
 import { followAddress } from "./run/address.js";
 import { Charts } from "./charts/charts.js";
-import { keepChoice } from "./controls/choices.js";
+import { choose, keepChoice, read } from "./controls/choices.js";
 import { find, findAll, make, say, write, writeSymbols } from "./controls/document.js";
 import { Fields } from "./controls/fields.js";
-import { offerFiles, openDropped } from "./run/files.js";
+import { offerFiles, openDropped, save } from "./run/files.js";
 import { actWhileHeld } from "./controls/hold.js";
 import { listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
-import { Lesson } from "./controls/lesson.js";
+import { Lesson, writePredictions } from "./controls/lesson.js";
 import { recall } from "./run/memory.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
 import { inDegrees } from "./words/quantities.js";
+import { Question, readAnswer } from "./controls/question.js";
 import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
 import { SpeedList } from "./controls/speed.js";
 import { addTabs } from "./controls/tabs.js";
-import { followTheme } from "./controls/theme.js";
+import { followSize, followTheme } from "./controls/theme.js";
 import { Timeline } from "./controls/timeline.js";
+import { Writer } from "./words/wording.js";
 
 /** @import { Facts } from "./words/facts.js" */
 /** @import { Now } from "./controls/roots.js" */
@@ -34,9 +36,10 @@ const showLedger = guard("the chart of the energies", drawLedger);
 const showKinds = guard("the chart of the kinds of motion", drawKinds);
 
 export class Page {
-  /** @param {{node?: string, opening?: string, run?: any}} content of the file */
+  /** @param {import("./start.js").Content} content of the file */
   constructor(content) {
     this.content = content;
+    this.writer = new Writer(content.templates);
     /** @type {Top | null} */
     this.top = null; // while the kernel is loaded
     /** What holds after the last act, and for the motion. @type {Facts | null} */
@@ -53,8 +56,13 @@ export class Page {
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
     this.charts = new Charts((kept) => send({ act: "keep", kept }));
+    this.question = new Question(this.writer, () => {
+      this.act("hurry");
+      this.send({ act: "run" });
+    });
     followTheme();
     keepChoice("unit", () => this.showUnit());
+    followSize();
     this.fields.showUnit();
     this.listen();
   }
@@ -91,7 +99,8 @@ export class Page {
   /** @param {string} name */
   act(name) {
     const { factor } = this.fields.values;
-    if (name === "hurry") this.send({ act: "kick", factor });
+    if (name === "projector") choose("size", find("size", HTMLSelectElement).value ? "" : name);
+    else if (name === "hurry") this.send({ act: "kick", factor });
     else if (name === "delay") this.send({ act: "kick", factor: 1 / factor });
     else this.send({ act: name });
   }
@@ -114,13 +123,27 @@ export class Page {
   greet({ scenes, layers, lesson: steps }) {
     offerScenes(scenes, (name) => this.send({ act: "scene", name }));
     this.layers.offer(layers);
-    const lesson = new Lesson(steps, this.send.bind(this), this.layers.choose.bind(this.layers));
+    const lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
     this.lesson = lesson;
+    find("save-predictions").addEventListener("click", () => {
+      save("predictions.txt", "text/plain", writePredictions(steps, readAnswer(), this.writer));
+    });
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const { node, run, opening = "" } = this.content;
     const isReloaded = !node && Boolean(recall().run);
     if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
+    if (!node && !run && !isReloaded && !location.hash && !opening) this.question.ask();
     followAddress(opening, isReloaded, lesson.open.bind(lesson), (link) => this.followLink(link));
+  }
+
+  /** A step of the lesson has its own question and arrows, and angles in rad unless others were chosen. */
+  /** @param {string[]} layers */
+  prepare(layers) {
+    this.question.leave();
+    this.layers.choose(layers);
+    if (read("unit") !== null) return;
+    find("unit", HTMLSelectElement).value = "rad";
+    this.showUnit();
   }
 
   /**
@@ -139,7 +162,7 @@ export class Page {
     this.showMotion(facts, true);
     say("pause", facts.running ? "Pause" : "Run");
     say("record", facts.recording ? "End the recording" : "Record (MCAP)");
-    say("pace", facts.running ? "" : "paused");
+    this.timeline.acts = facts.acts;
     this.speeds.show(facts.factor);
     find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
@@ -151,10 +174,12 @@ export class Page {
   /** Show what follows the motion. @param {Facts} facts @param {boolean} isAct that is announced */
   showMotion(facts, isAct) {
     this.facts = facts;
-    const { headline, why } = facts.texts[inDegrees() ? "degrees" : "radians"];
+    const { headline, because, why, happened } = facts.texts[inDegrees() ? "degrees" : "radians"];
     find("said").ariaLive = isAct ? "polite" : "off"; // a screen reader would never end
     say("headline", headline);
+    say("because", because);
     say("why", why);
+    if (isAct) this.question.follow(facts, happened);
     showKinds(facts.body, facts.turning);
   }
 
@@ -179,12 +204,15 @@ export class Page {
   }
 
   /** @param {Message} message of a frame: samples, their rows, constants and times */
-  showFrame({ samples, series, constants, time: [time, end] }) {
+  showFrame({ samples, series, constants, isSlow, time: [time, end] }) {
     if (!this.facts) return;
     const row = series[series.length - 1];
     Object.assign(document.body.dataset, { time: row[0], theta: row[1] });
     this.charts.draw(this.facts, { samples, series, constants }, this.fields.values.factor);
     this.timeline.show(time, end);
+    this.question.show(time);
+    const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;
+    say("pace", kind ? this.writer.write("watched", { kind }) : "");
   }
 
   showUnit() {

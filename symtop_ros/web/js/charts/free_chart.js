@@ -12,7 +12,7 @@ import { angleUnit, shorten, toUnit } from "../words/quantities.js";
 /** @import { Pair } from "./plot.js" */
 /** @typedef {"state" | "ghost" | "kept"} Whose */
 
-const HEIGHT = 180;
+const HEIGHT = 195;
 /** @type {[Whose, string][]} */
 const CURVES = [
   [

@@ -9,7 +9,7 @@ import { shorten } from "../words/quantities.js";
 /** @import { Pair } from "./plot.js" */
 /** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Turning */
 
-const HEIGHT = 190;
+const HEIGHT = 205;
 const [ROWS, COLUMNS] = [86, 84]; // cells of the regions
 const OVERLAP = 0.3; // of rows, so that no gaps are seen between them
 const POINTS = 200; // of a boundary, on each side of phi' = 0

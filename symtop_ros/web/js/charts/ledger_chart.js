@@ -9,7 +9,7 @@ import { shorten } from "../words/quantities.js";
 /** @import { Energies } from "./formulas.js" */
 /** @import { Ledger } from "../words/ledger.js" */
 
-const HEIGHT = 150;
+const HEIGHT = 160;
 const WIDTH = 0.2; // of a bar; groups are 1 apart
 /** @type {[name: string, color: string, pick: (parts: Energies) => number][]} */
 const BARS = [
@@ -66,7 +66,7 @@ export const drawLedger = (ledger, sentence) => {
     "ledger",
     HEIGHT,
     sentence,
-    `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
+    `${frame.level(0, 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
   );
   find("ledger").querySelector("svg")?.setAttribute("aria-label", sentence);
   say("ledger-text", sentence);

@@ -6,9 +6,10 @@ import { shorten } from "../words/quantities.js";
 const SVG = "http://www.w3.org/2000/svg";
 export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
-const [RIGHT, UPPER, LOWER] = [6, 8, 18]; // margins
+const [RIGHT, UPPER, LOWER] = [18, 17, 28]; // margins, in which all words are
 const FAR = 1e4; // units; out of the drawing
 const DIGITS = 5; // of a number at an axis
+const LETTER = 5.6; // units of its width
 
 /** @typedef {[number, number]} Pair */
 /** @typedef {(value: number) => number} Scale */
@@ -115,30 +116,55 @@ export class Frame {
     return `<path d="${writePath(points.map((each) => this.place(each)))}" fill="none" ${style}/>`;
   }
 
+  /** A drawing of which only what is within the axes is seen. @param {string} drawing */
+  clip(drawing) {
+    const box = `${LEFT} ${UPPER} ${WIDE - LEFT - RIGHT} ${this.bottom - UPPER}`;
+    const [x, y, width, height] = box.split(" ");
+    return `<svg x="${x}" y="${y}" width="${width}" height="${height}" viewBox="${box}">${drawing}</svg>`;
+  }
+
+  /** A line from the upper to the lower edge. @param {number} value @param {string} style */
+  upright(value, style) {
+    return `<path d="M${this.x(value).toFixed(1)} ${UPPER}V${this.bottom}" ${style}/>`;
+  }
+
+  /** A band between two values of the horizontal axis. @param {Pair} ends @param {string} style */
+  band([low, high], style) {
+    const [left, right] = [this.x(low), this.x(high)];
+    const width = Math.max(right - left, 1).toFixed(1);
+    return `<rect x="${left.toFixed(1)}" y="${UPPER}" width="${width}" height="${this.bottom - UPPER}" ${style}/>`;
+  }
+
   /** @param {Pair} point @param {string} style */
   dot(point, style) {
     const [x, y] = this.place(point).map((each) => each.toFixed(1));
     return `<circle cx="${x}" cy="${y}" r="5" ${style}/>`;
   }
 
-  /** What the vertical axis shows. @param {string} text */
+  /** What the vertical axis shows, above it. @param {string} text */
   nameVertical(text) {
-    return `<text x="${LEFT + 2}" y="18">${text}</text>`;
+    return `<text x="4" y="11">${text}</text>`;
   }
 
-  /** What the horizontal axis shows. @param {string} text */
+  /** What the horizontal axis shows, below its values. @param {string} text */
   nameHorizontal(text) {
-    return `<text x="${WIDE - 8}" y="${this.bottom - 4}" text-anchor="end">${text}</text>`;
+    return `<text x="${WIDE - RIGHT}" y="${this.bottom + 24}" text-anchor="end">${text}</text>`;
+  }
+
+  /** The name of a level, at its right end. @param {number} value @param {string} text */
+  nameLevel(value, text) {
+    return `<text x="${WIDE - RIGHT + 3}" y="${(this.y(value) + 4).toFixed(1)}">${text}</text>`;
   }
 
   /** Values below the axes. @param {number[]} values @param {(value: number) => string} write */
   writeBelow(values, write = (value) => shorten(value, DIGITS)) {
     const place = `y="${this.bottom + 12}" text-anchor="middle"`;
     return values
-      .map(
-        (each) =>
-          `<text class="tick" x="${this.x(each).toFixed(1)}" ${place}>${write(each)}</text>`,
-      )
+      .map((each) => {
+        const text = write(each);
+        const x = Math.min(this.x(each), WIDE - 1 - (LETTER * text.length) / 2);
+        return `<text class="tick" x="${x.toFixed(1)}" ${place}>${text}</text>`;
+      })
       .join("");
   }
 }

@@ -6,7 +6,7 @@ import { shorten } from "../words/quantities.js";
 
 /** @import { Facts } from "../words/facts.js" */
 
-const HEIGHT = 150;
+const HEIGHT = 165;
 const POINTS = 81;
 const LARGEST = 1e4; // rad/s; a root beyond it is not shown
 
@@ -36,13 +36,13 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
     HEIGHT,
     "Acceleration of the tilt over the precession rate",
     `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}
-    ${frame.curve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"')}
+    ${frame.clip(frame.curve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"'))}
     ${roots.map(mark).join("")}
     ${Math.abs(rate) > 1e-9 ? frame.dot(place(hurried), 'fill="none" stroke="var(--theta)" stroke-width="2" id="hurried"') : ""}
     ${frame.dot(place(rate), 'fill="var(--theta)" id="now"')}
     ${frame.nameVertical("rises \u2191 (θ̈ &lt; 0, rad/s\u00b2)")}
-    ${frame.nameHorizontal("falls \u2193")}
-    ${frame.writeBelow(listTicks(...range, 4), (value) => shorten(value))}
-    <text class="tick" x="4" y="${frame.bottom + 12}">rad/s</text>`,
+    <text x="4" y="${frame.bottom + 24}">falls \u2193</text>
+    ${frame.nameHorizontal("\u03c6\u0307 in rad/s")}
+    ${frame.writeBelow(listTicks(...range, 4), (value) => shorten(value))}`,
   );
 };

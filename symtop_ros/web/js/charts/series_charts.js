@@ -1,12 +1,12 @@
 // Charts of tilt, precession and spin over the time of the motion.
 
-import { draw, findSpan, Frame, LEFT, listTicks } from "./plot.js";
+import { draw, findSpan, Frame, listTicks } from "./plot.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
 
 /** @import { Row } from "../run/local.js" */
 /** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
 
-const HEIGHT = 96;
+const HEIGHT = 115;
 const SHARE = 0.02; // of a quantity, which its chart spans at least
 const GHOST = 4; // column of theta of the ghost
 /** @type {{[id: string]: Series}} */
@@ -62,7 +62,7 @@ export const drawOneSeries = (id, rows, facts) => {
       style,
     );
   const mark = (/** @type {number} */ time) =>
-    `<path class="kick" d="M${frame.x(time).toFixed(1)} 8V${frame.bottom}" stroke="var(--gold)" stroke-width="1.5"/>`;
+    frame.upright(time, 'class="kick" stroke="var(--gold)" stroke-width="1.5"');
   draw(
     id,
     HEIGHT,
@@ -70,7 +70,8 @@ export const drawOneSeries = (id, rows, facts) => {
     `${frame.axes}${kicks.map(mark).join("")}
     ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
     ${line(column, `stroke="${color}" stroke-width="1.8"`)}
-    <text x="${LEFT + 2}" y="17">${isTilt ? `${angleUnit()}; up is higher` : "rad/s"}</text>
+    ${frame.nameVertical(isTilt ? `\u2191 higher; tilt in ${angleUnit()}` : "rad/s")}
+    ${frame.nameHorizontal("time in s")}
     ${frame.writeBelow(listTicks(...range, 4))}`,
   );
 };

@@ -20,6 +20,13 @@ export const keep = (id, value) => {
   }
 };
 
+/** Choose a value of a list that keeps it. @param {string} id @param {string} value */
+export const choose = (id, value) => {
+  const list = find(id, HTMLSelectElement);
+  list.value = value;
+  list.dispatchEvent(new Event("change"));
+};
+
 /**
  * Keep what is chosen in a list, and take over what was.
  * @param {string} id

@@ -2,7 +2,7 @@
 // Shift the arrows turn the view instead of the top.
 
 /** @type {{[key: string]: string}} */
-const ACTS = { h: "hurry", d: "delay", " ": "pause", s: "step", r: "reset" };
+const ACTS = { h: "hurry", d: "delay", " ": "pause", s: "step", r: "reset", p: "projector" };
 /** @type {{[key: string]: string}} */
 const PUSHES = { ArrowUp: "up", ArrowDown: "down", ArrowRight: "along", ArrowLeft: "back" };
 const TURN = 20; // px of a drag

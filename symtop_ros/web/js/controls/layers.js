@@ -1,6 +1,6 @@
-// What is drawn in the scene, and the legend of it.
+// What is drawn in the scene: check boxes, the words that name an arrow, and the legend of torques.
 
-import { COLORS, LEGEND } from "../scene/colors.js";
+import { ARROWS, COLORS, LAYERS, LEGEND } from "../scene/colors.js";
 import { find, findAll, make } from "./document.js";
 import { typeset } from "../words/typeset.js";
 
@@ -13,6 +13,18 @@ const createMark = (name) => {
   return mark;
 };
 
+/** @param {[keyof typeof COLORS, string, string]} entry of the legend */
+const createEntry = ([name, text, layer]) => {
+  if (!ARROWS.includes(layer)) return make("li", {}, createMark(name), ...typeset(text));
+  return make("li", {}, ...typeset(`[${text}|${layer}]`));
+};
+
+/** The layer of the word that an event is about. @param {Event} event */
+const findLayer = ({ target }) => {
+  const word = target instanceof Element ? target.closest(".word") : null;
+  return word instanceof HTMLElement ? (word.dataset.layer ?? null) : null;
+};
+
 export class Layers {
   /** @param {Send} send */
   constructor(send) {
@@ -21,11 +33,39 @@ export class Layers {
     this.first = {};
     /** @type {{[layer: string]: HTMLInputElement}} */
     this.boxes = {};
-    for (const [name, text, layer] of LEGEND) {
-      const entry = make("li", {}, createMark(name), ...typeset(text));
-      entry.dataset.layer = layer;
+    // What is drawn at first has its name in the scene, or needs none.
+    for (const each of LEGEND.filter(([, , layer]) => !LAYERS[layer])) {
+      const entry = createEntry(each);
+      entry.dataset.layer = each[2];
       find("legend").append(entry);
     }
+    for (const name of ARROWS)
+      document.documentElement.style.setProperty(
+        `--${name}`,
+        COLORS[/** @type {keyof typeof COLORS} */ (name)],
+      );
+    this.listen();
+  }
+
+  /** Pointing at a word shows its arrow, and a click keeps it. */
+  listen() {
+    for (const [begin, end] of [
+      ["pointerover", "pointerout"],
+      ["focusin", "focusout"],
+    ]) {
+      document.addEventListener(begin, (event) => this.peek(findLayer(event), true));
+      document.addEventListener(end, (event) => this.peek(findLayer(event), false));
+    }
+    document.addEventListener("click", (event) => {
+      const layer = findLayer(event);
+      if (layer) this.show(layer, !this.boxes[layer].checked);
+    });
+  }
+
+  /** Show an arrow for as long as its word is pointed at. @param {string | null} layer @param {boolean} shown */
+  peek(layer, shown) {
+    if (layer && layer in this.boxes && !this.boxes[layer].checked)
+      this.send({ act: "show", layer, shown });
   }
 
   /** @param {{[layer: string]: boolean}} layers and whether they are shown at first */
@@ -50,9 +90,13 @@ export class Layers {
     this.send({ act: "show", layer, shown });
   }
 
-  /** The legend has what is drawn. @param {string} layer @param {boolean} shown */
+  /** The legend has the words of all arrows, and else what is drawn. @param {string} layer @param {boolean} shown */
   mark(layer, shown) {
-    for (const entry of findAll(`#legend [data-layer="${layer}"]`)) entry.hidden = !shown;
+    for (const entry of findAll(`#legend li[data-layer="${layer}"]`)) {
+      const [word] = findAll(".word", entry);
+      if (word) word.setAttribute("aria-pressed", String(shown));
+      else entry.hidden = !shown;
+    }
   }
 
   /** Of the layers that are hidden at first show those that are named. @param {string[]} named */

@@ -1,6 +1,6 @@
 // The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
 
-import { find, findAll, make, say, write } from "./document.js";
+import { find, findAll, make, say, unfold, write } from "./document.js";
 import { keep, read } from "./choices.js";
 import { recall, remember } from "../run/memory.js";
 
@@ -17,7 +17,7 @@ import { recall, remember } from "../run/memory.js";
 const PREDICTIONS = "predictions"; // as the browser keeps them
 
 /** What was predicted, by the number of the step. @returns {{[step: number]: string}} */
-const readPredictions = () => {
+export const readPredictions = () => {
   try {
     const kept = Object.entries(JSON.parse(read(PREDICTIONS) ?? "{}"));
     return Object.fromEntries(kept.filter(([, text]) => typeof text === "string"));
@@ -26,14 +26,31 @@ const readPredictions = () => {
   }
 };
 
+/**
+ * What was predicted, in words: the answer to the first question, and that of each step.
+ * @param {Step[]} steps
+ * @param {string | null} answer
+ * @param {import("../words/wording.js").Writer} writer
+ */
+export const writePredictions = (steps, answer, writer) => {
+  const predictions = Object.entries(readPredictions()).filter(([, text]) => text);
+  const lines = predictions.map(([step, text]) => {
+    const number = Number(step);
+    const title = steps[number - 1]?.title ?? "";
+    return writer.write("predictions", { kind: "step", number, title, text });
+  });
+  if (answer !== null) lines.unshift(writer.write("predictions", { kind: "first", answer }));
+  return `${lines.join("\n") || writer.write("predictions", { kind: "none" })}\n`;
+};
+
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
 
 export class Lesson {
-  /** @param {Step[]} steps @param {Send} send @param {(layers: string[]) => void} chooseLayers */
-  constructor(steps, send, chooseLayers) {
+  /** @param {Step[]} steps @param {Send} send @param {(step: Step) => void} prepare what a step shows */
+  constructor(steps, send, prepare) {
     this.steps = steps;
     this.send = send;
-    this.chooseLayers = chooseLayers;
+    this.prepare = prepare;
     this.select = find("steps", HTMLSelectElement);
     this.field = find("prediction", HTMLTextAreaElement);
     /** Number of the step that is shown. @type {number | null} */
@@ -54,7 +71,7 @@ export class Lesson {
     find("step-back").addEventListener("click", (event) => this.go(-1, event));
     find("step-next").addEventListener("click", (event) => this.go(1, event));
     find("tab-lesson").addEventListener("click", () => {
-      if (!location.hash.startsWith("#lesson=")) this.show(this.current);
+      if (!find("lesson").hidden && !location.hash.startsWith("#lesson=")) this.show(this.current);
     });
     addEventListener("popstate", () => {
       const [, number] = location.hash.match(/^#lesson=(\d+)$/) ?? [];
@@ -74,7 +91,7 @@ export class Lesson {
 
   /** Open the tab of the lesson at a step. @param {number} number */
   open(number) {
-    find("tab-lesson").click();
+    if (find("lesson").hidden) find("tab-lesson").click();
     this.show(this.limit(number));
   }
 
@@ -101,7 +118,7 @@ export class Lesson {
     for (const name of TEXTS) say(`lesson-${name}`, step[name] ?? "");
     for (const details of find("lesson").querySelectorAll("details")) details.open = false;
     this.markCharts(step.charts);
-    this.chooseLayers(step.layers);
+    this.prepare(step);
     this.field.value = this.predictions[number] ?? "";
     find("step-back", HTMLButtonElement).disabled = number === 1;
     find("step-next", HTMLButtonElement).disabled = number === this.steps.length;
@@ -114,7 +131,9 @@ export class Lesson {
   /** @param {string[]} names of the charts to look at, which come first */
   markCharts(names) {
     for (const chart of findAll("[data-chart]")) {
-      chart.classList.toggle("looked", names.includes(chart.dataset.chart ?? ""));
+      const isNamed = names.includes(chart.dataset.chart ?? "");
+      chart.closest("details")?.classList.toggle("looked", isNamed);
+      unfold(chart, isNamed);
     }
     find("charts").scrollTop = 0;
   }

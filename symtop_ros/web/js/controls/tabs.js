@@ -5,16 +5,17 @@ import { find, findAll, make } from "./document.js";
 /** @type {{[key: string]: number}} */
 const STEPS = { ArrowRight: 1, ArrowLeft: -1 };
 
-/** @param {HTMLElement} chosen */
+/** Open a panel, or none. @param {HTMLElement | null} chosen */
 const choose = (chosen) => {
-  for (const panel of findAll(".tab")) {
+  findAll(".tab").forEach((panel, k) => {
     const isChosen = panel === chosen;
     panel.hidden = !isChosen;
     const tab = find(`tab-${panel.id}`);
     tab.setAttribute("aria-selected", String(isChosen));
-    tab.tabIndex = isChosen ? 0 : -1;
-  }
-  document.body.classList.toggle("in-lesson", chosen.id === "lesson");
+    tab.tabIndex = isChosen || (!chosen && k === 0) ? 0 : -1;
+  });
+  document.body.classList.toggle("has-panel", chosen !== null);
+  document.body.classList.toggle("in-lesson", chosen?.id === "lesson");
 };
 
 /** @param {HTMLElement} panel @param {KeyboardEvent} event */
@@ -37,7 +38,7 @@ const addTab = (panel) => {
     role: "tab",
     "aria-controls": panel.id,
   });
-  tab.addEventListener("click", () => choose(panel));
+  tab.addEventListener("click", () => choose(panel.hidden ? panel : null));
   tab.addEventListener("keydown", (event) => move(panel, event));
   find("tabs").append(tab);
 };
@@ -45,5 +46,5 @@ const addTab = (panel) => {
 export const addTabs = () => {
   const panels = findAll(".tab");
   panels.forEach(addTab);
-  choose(panels[0]);
+  choose(null);
 };

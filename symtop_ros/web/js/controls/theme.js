@@ -1,4 +1,4 @@
-// Light or dark: as chosen, or as the system prefers.
+// Light or dark: as chosen, or as the system prefers. Large for a projector.
 
 import { keepChoice } from "./choices.js";
 import { find } from "./document.js";
@@ -14,4 +14,14 @@ export const followTheme = () => {
   keepChoice("theme", setTheme);
   dark.addEventListener("change", setTheme);
   setTheme();
+};
+
+const setSize = () => {
+  document.documentElement.dataset.size = find("size", HTMLSelectElement).value;
+};
+
+/** Text and lines of a usual size, or for a projector. */
+export const followSize = () => {
+  keepChoice("size", setSize);
+  setSize();
 };

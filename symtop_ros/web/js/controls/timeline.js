@@ -1,12 +1,14 @@
-// The slider over the time of the run.
+// The slider over the time of the run, with the time beside it and a mark at each act.
 
-import { find, whenReleased } from "./document.js";
+import { find, make, whenReleased } from "./document.js";
 
 export class Timeline {
   /** @param {(time: number) => void} seek */
   constructor(seek) {
     this.line = find("timeline", HTMLInputElement);
     this.isDragged = false;
+    /** Times of the acts in s. @type {number[]} */
+    this.acts = [];
     this.line.addEventListener("input", () => {
       this.isDragged = true;
       seek(Number(this.line.value));
@@ -20,5 +22,18 @@ export class Timeline {
   show(time, end) {
     if (!this.isDragged) Object.assign(this.line, { max: end, value: time });
     this.line.setAttribute("aria-valuetext", `${time.toFixed(3)} s of ${end.toFixed(3)} s`);
+    find("clock").textContent = `${time.toFixed(2)} s`;
+    this.mark(end);
+  }
+
+  /** @param {number} end s */
+  mark(end) {
+    const shown = this.acts.filter((time) => time <= end).map((time) => (end ? time / end : 0));
+    const marks = find("marks");
+    while (marks.children.length > shown.length) marks.lastElementChild?.remove();
+    while (marks.children.length < shown.length) marks.append(make("i"));
+    shown.forEach((place, k) => {
+      /** @type {HTMLElement} */ (marks.children[k]).style.left = `${(100 * place).toFixed(2)}%`;
+    });
   }
 }

@@ -2,6 +2,7 @@
 
 import { find, make } from "../controls/document.js";
 import { refuse } from "../controls/notices.js";
+import { drawPicture } from "../scene/picture.js";
 
 /** @typedef {{json: object, csv: string}} Saved what a top has to be saved */
 
@@ -22,15 +23,10 @@ const download = (href, name) => {
 };
 
 /** @param {string} name @param {string} type @param {string} text */
-const save = (name, type, text) => {
+export const save = (name, type, text) => {
   const url = URL.createObjectURL(new Blob([text], { type }));
   download(url, name);
   setTimeout(() => URL.revokeObjectURL(url), KEPT);
-};
-
-const savePicture = () => {
-  const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("canvas"));
-  download(canvas.toDataURL("image/png"), "top.png");
 };
 
 /** The page as it was opened: nothing has been written into it yet. */
@@ -71,7 +67,7 @@ export const offerFiles = (top, source) => {
     "save-page": () => save("top.html", "text/html", writePage(source, writeRun())),
     "save-run": () => save("run.json", "application/json", writeRun()),
     "save-series": () => save("top.csv", "text/csv", top.csv),
-    "save-picture": savePicture,
+    "save-picture": () => download(drawPicture().toDataURL("image/png"), "top.png"),
   };
   for (const [id, way] of Object.entries(ways)) find(id).addEventListener("click", way);
 };

@@ -35,7 +35,10 @@ import { State } from "../physics/state.js";
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
 const SPEED = 0.1; // of real time: nutation is too fast for the eye
 const FRAME_STEPS = 3000; // of an integration, for one frame
-const POINTS = 240; // of trace and charts
+const POINTS = 240; // of the charts, at most
+const TRACE = [240, 960]; // points, the fewest and the most
+const NUTATION = 64; // points of the trace in a nutation: its pieces are not seen
+const WATCHED = 5; // s in which the first nutation after a kick is shown, at least
 const FOLLOW = 250; // ms between two texts of a motion that friction or a torque changes
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
 
@@ -54,6 +57,7 @@ export class LocalTop {
     this.time = 0; // ns of the run, whole
     this.end = 0; // ns; the latest time that was reached
     this.window = 1; // s that trace and charts show
+    this.points = POINTS; // of the trace
     this.isRunning = true;
     this.isRecording = false; // a node can record
     this.speed = SPEED;
@@ -131,10 +135,17 @@ export class LocalTop {
     }
   }
 
+  /** The speed of now: slower than chosen in the nutation that follows a kick. */
+  get pace() {
+    const first = this.run.findFirstNutation(this.time);
+    if (!first || this.time >= first.end) return this.speed;
+    return Math.min(this.speed, (first.end - first.begin) / (WATCHED * NANO));
+  }
+
   /** @param {number} passed s of the clock */
   move(passed) {
     const { course, time } = this.run.find(this.time);
-    const wanted = this.time + Math.round(passed * this.speed * NANO);
+    const wanted = this.time + Math.round(passed * this.pace * NANO);
     const reached = time + course.reach(wanted - time, FRAME_STEPS);
     this.run.at(reached); // refused where the kernel computes no state; then the time stays
     this.time = reached;
@@ -186,7 +197,10 @@ export class LocalTop {
 
   /** What holds for the motion of now has changed. */
   changed() {
-    this.window = chooseWindow(this.course.free);
+    const { free } = this.course;
+    this.window = chooseWindow(free);
+    const wanted = (NUTATION * this.window) / free.motion.nutation_period || 0;
+    this.points = Math.min(Math.max(wanted, TRACE[0]), TRACE[1]);
     this.chartsDue = this.textsDue = 0;
     this.freeOfTexts = null;
     this.states.clear();
@@ -217,7 +231,7 @@ export class LocalTop {
   /** Times of the last window in ns, for trace and charts: those of a grid, and now. */
   listTimes() {
     const begin = Math.max(this.run.findStart(this.time), this.time - this.window * NANO);
-    const step = Math.max(1, Math.round((this.window * NANO) / POINTS));
+    const step = Math.max(1, Math.round((this.window * NANO) / this.points));
     const first = Math.ceil(begin / step) * step;
     const count = Math.max(0, Math.ceil((this.time - first) / step));
     return [...Array.from({ length: count }, (_, n) => first + n * step), this.time];
@@ -261,19 +275,41 @@ export class LocalTop {
     this.toldAt = time;
   }
 
+  /** @param {number} time ns @param {State} state @returns {Sample} */
+  sample(time, state) {
+    const kept = this.kept?.find(time - this.run.findStart(this.time));
+    const [{ course }, ghost] = [this.run.find(time), this.run.findGhost(time)];
+    return {
+      ...{ time, state, course, ghost },
+      ...{ kept: kept?.state ?? null, keptCourse: kept?.course ?? null },
+    };
+  }
+
+  /** Before and after each kick since a time, at one instant: a curve jumps there. @param {number} begin ns */
+  sampleKicks(begin) {
+    const kicks = this.run.moments.filter((each) => each.before && each.time >= begin);
+    const past = kicks.filter(({ time }) => time <= this.time);
+    return past.flatMap(({ time, before, course: { start } }) => [
+      { ...this.sample(time, /** @type {State} */ (before)), ghost: null },
+      this.sample(time, start),
+    ]);
+  }
+
   /** @param {number[]} times ns @param {State[]} states */
   tellSeries(times, states) {
-    const start = this.run.findStart(this.time);
-    const samples = times.map((time, n) => {
-      const kept = this.kept?.find(time - start) ?? { state: null, course: null };
-      const [{ course }, ghost] = [this.run.find(time), this.run.findGhost(time)];
-      return { time, state: states[n], course, ghost, kept: kept.state, keptCourse: kept.course };
-    });
+    const step = Math.ceil(times.length / POINTS);
+    const last = times.length - 1;
+    const chosen = [...times.keys()].filter((n) => (last - n) % step === 0);
+    const samples = [
+      ...this.sampleKicks(times[0]),
+      ...chosen.map((n) => this.sample(times[n], states[n])),
+    ].sort((a, b) => a.time - b.time);
     const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
       return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
     });
     const constants = compareConstants(this.course, states[states.length - 1]);
-    this.tell({ samples, series, constants, time: [this.time / NANO, this.end / NANO] });
+    const time = [this.time / NANO, this.end / NANO];
+    this.tell({ samples, series, constants, time, isSlow: this.pace < this.speed });
   }
 
   tellFacts() {

@@ -71,6 +71,14 @@ export class Run {
     return (this.findLastStart(time) ?? this.moments[0]).course.torque;
   }
 
+  /** The nutation that follows the last event, if that is a kick, in ns. @param {number} time ns */
+  findFirstNutation(time) {
+    const { kind, time: begin, course } = this.find(time);
+    if (kind !== "kick") return null;
+    const period = course.free.motion.nutation_period * NANO;
+    return Number.isFinite(period) ? { begin, end: begin + period } : null;
+  }
+
   /** @param {number} time ns */
   at(time) {
     const { course, time: since } = this.find(time);

@@ -8,14 +8,20 @@ const MOST = 20_000; // rows between two events; a longer time has them farther 
 
 /** @param {import("./run.js").Run} run @param {number} now ns */
 export const writeSeries = ({ moments }, now) => {
-  const lines = ["time (s),theta (rad),phi_dot (rad/s),psi_dot (rad/s)"];
+  const names = ["phi", "theta", "psi"];
+  const heads = [
+    ...names.map((each) => `${each} (rad)`),
+    ...names.map((each) => `${each}_dot (rad/s)`),
+  ];
+  const lines = [["time (s)", ...heads].join(",")];
   moments.forEach(({ time: begin, course }, k) => {
     const end = moments[k + 1]?.time ?? now;
     const wanted = Math.round((chooseWindow(course.free) / SHARE) * NANO);
     const step = Math.max(wanted, Math.ceil((end - begin) / MOST), 1);
     for (let time = begin; time < end; time += step) {
       const { angles, rates } = course.at(time - begin);
-      lines.push([time / NANO, angles.theta, rates.phi, rates.psi].join(","));
+      const numbers = [angles.phi, angles.theta, angles.psi, rates.phi, rates.theta, rates.psi];
+      lines.push([time / NANO, ...numbers].join(","));
     }
   });
   return `${lines.join("\n")}\n`;

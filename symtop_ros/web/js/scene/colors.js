@@ -5,7 +5,7 @@ export const COLORS = {
   L: "#0a46be",
   omega: "#009e73",
   torque: "#a81c10",
-  gravity: "#a81c10",
+  gravity: "#8a5a00",
   Coriolis: "#1e96f0",
   centrifugal: "#690fff",
   sum: "#d23ca5",
@@ -14,6 +14,7 @@ export const COLORS = {
   nodes: "#963cbe",
   sphere: "#8c94a2",
   ball: "#ec8c00",
+  lift: "#d81b60",
   ghost: "#c9ced6",
 };
 
@@ -21,28 +22,33 @@ export const FICTITIOUS = "fictitious torques";
 
 /** Layers of the scene, and whether they are shown at first. @type {{[layer: string]: boolean}} */
 export const LAYERS = {
-  L: true,
-  omega: true,
-  torque: true,
+  torque: false,
+  L: false,
+  omega: false,
   trace: true,
-  "turning circles": true,
-  "line of nodes": true,
   ghost: true,
-  sphere: true,
+  push: true,
+  "turning circles": false,
+  "line of nodes": false,
+  sphere: false,
   handle: true,
   [FICTITIOUS]: false,
 };
 
-/** What the legend says: a colour, its name, and the layer that has it. */
+/** Arrows that come one by one: each has a word in the scene, which shows it. */
+export const ARROWS = ["torque", "L", "omega"];
+
+/** Colours with a name, and the layer that has them. */
 /** @type {[keyof typeof COLORS, string, string][]} */
 export const LEGEND = [
+  ["torque", "torque", "torque"],
   ["L", "L, angular momentum", "L"],
   ["omega", "omega, angular velocity", "omega"],
-  ["torque", "torque", "torque"],
   ["trace", "trace of the axis", "trace"],
+  ["ghost", "ghost, not pushed", "ghost"],
+  ["ball", "push", "push"],
   ["circles", "turning circles", "turning circles"],
   ["nodes", "line of nodes", "line of nodes"],
-  ["ghost", "pale: ghost, not kicked", "ghost"],
   ["gravity", "gravity", FICTITIOUS],
   ["Coriolis", "Coriolis", FICTITIOUS],
   ["centrifugal", "centrifugal", FICTITIOUS],

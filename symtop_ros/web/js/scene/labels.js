@@ -13,7 +13,10 @@ export class Labels {
     this.camera = camera;
     /** @type {{[name: string]: HTMLElement}} */
     this.names = {};
-    /** Places of the labels of this picture, in px. @type {Map<string, {x: number, y: number}>} */
+    /**
+     * Places of the labels of this picture, in px, and on which side of them the labels stand.
+     * @type {Map<string, {x: number, y: number, side: [number, number]}>}
+     */
     this.shown = new Map();
     /** Sizes of the labels in px, once they are known. @type {Map<string, [number, number]>} */
     this.sizes = new Map();
@@ -23,12 +26,29 @@ export class Labels {
     this.shown.clear();
   }
 
-  /** @param {string} name @param {string} color @param {Vector} point */
-  put(name, color, point) {
-    const at = this.camera.project(point);
-    if (!at) return;
-    this.find(name, color);
-    this.shown.set(name, { x: at.x, y: at.y });
+  /**
+   * Put a label at a point, on the side that is farther from another: it covers no arrow from there.
+   * @param {string} name
+   * @param {string} color
+   * @param {Vector} point
+   * @param {Vector} from
+   * @param {string} text
+   */
+  put(name, color, point, from, text = name) {
+    const [at, other] = [point, from].map((each) => this.camera.project(each));
+    if (!at || !other) return;
+    this.write(this.find(name, color), name, text);
+    const [x, y] = [at.x - other.x, at.y - other.y];
+    const length = Math.max(Math.abs(x), Math.abs(y)) || 1; // of the larger half the label is clear
+    this.shown.set(name, { x: at.x, y: at.y, side: [x / length, y / length] });
+  }
+
+  /** @param {HTMLElement} label @param {string} name @param {string} text */
+  write(label, name, text) {
+    if (label.dataset.text === text) return;
+    label.dataset.text = text;
+    label.replaceChildren(...typeset(text));
+    this.sizes.delete(name);
   }
 
   /** @param {string} name @param {string} color */
@@ -36,7 +56,6 @@ export class Labels {
     if (!this.names[name]) {
       const label = document.createElement("span");
       label.className = "label";
-      label.append(...typeset(name));
       label.style.borderColor = color;
       this.place.append(label);
       this.names[name] = label;
@@ -53,6 +72,17 @@ export class Labels {
     return [offsetWidth, offsetHeight];
   }
 
+  /** Move each label to its side of its place, by half of its size. */
+  step() {
+    for (const [name, place] of this.shown) {
+      const [width, height] = this.measure(name);
+      const [x, y] = place.side;
+      place.x += x * (width / 2 + GAP);
+      place.y += y * (height / 2 + GAP);
+      this.keepInside(name, place);
+    }
+  }
+
   /** Move each label down, from the highest on, until it covers none above it. */
   separate() {
     const done = [];
@@ -66,9 +96,21 @@ export class Labels {
     }
   }
 
+  /** None leaves the picture. @param {string} name @param {{x: number, y: number}} place */
+  keepInside(name, place) {
+    const [width, height] = this.measure(name);
+    const { size } = this.camera;
+    place.x = Math.min(Math.max(place.x, width / 2), Math.max(size.width - width / 2, width / 2));
+    place.y = Math.min(
+      Math.max(place.y, height / 2),
+      Math.max(size.height - height / 2, height / 2),
+    );
+  }
+
   /** Place the labels of this picture, and hide the others. */
   end() {
     for (const [name, label] of Object.entries(this.names)) label.hidden = !this.shown.has(name);
+    this.step();
     this.separate();
     for (const [name, { x, y }] of this.shown) {
       const place = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;

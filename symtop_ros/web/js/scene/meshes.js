@@ -22,7 +22,7 @@ const STEEL = readColor("#c4cad2");
 const BRASS = readColor("#deb25c");
 const ENAMEL = readColor("#96202c");
 const IVORY = readColor("#f0e6cd");
-const STONE = readColor("#707682");
+const STONE = readColor("#8b93a1");
 
 /**
  * The surface of a profile turned about z. Normals are those of a cone for each edge.
@@ -81,18 +81,53 @@ const createRotor = (radius, height) => {
  * @param {import("../physics/kernel.js").Top} top
  */
 export const createBody = ({ Ix, Iz, Mgl }) => {
-  const [radius, height] = [0.2 + 0.26 * Math.sqrt(Iz / Ix), 0.56 * Math.sign(Mgl)];
+  const [radius, height] = [0.22 + 0.4 * Math.sqrt(Iz / Ix), 0.56 * Math.sign(Mgl)];
   const low = Math.min(0, height - 0.22);
   const heights = [low, low + 0.03, 0.93, 0.95, 0.985, 1];
   const axle = createProfile([0, 0.022, 0.022, 0.034, 0.034, 0], heights);
   return [...createLathe(axle, STEEL), ...createRotor(radius, height)];
 };
 
-export const createStand = () =>
-  createLathe(
-    createProfile([0.17, 0.17, 0.05, 0.03, 0], [-0.32, -0.28, -0.22, -0.03, -0.02]),
-    STONE,
+/** A box between two squares, by their half widths, places and heights: four sides. */
+/** @param {[x: number, y: number, z: number, half: number][]} ends @returns {Mesh} */
+const createBeam = ([[x, y, z, half], [u, v, w, last]]) =>
+  Array.from({ length: 4 }, (_, side) => {
+    const [c, s] = [Math.cos((Math.PI * side) / 2), Math.sin((Math.PI * side) / 2)];
+    return CORNERS.flatMap(([corner, isUpper]) => {
+      const [a, b, height, size] = isUpper ? [u, v, w, last] : [x, y, z, half];
+      const across = corner ? size : -size;
+      return [a + size * c - across * s, b + size * s + across * c, height, c, s, 0, ...STONE];
+    });
+  }).flat();
+
+/** The tower of a toy gyroscope: four legs that bend outwards, two floors, and a cup for the peg. */
+export const createStand = () => {
+  const heights = [-0.36, -0.31, -0.26, -0.2, -0.13, -0.08, -0.03];
+  const widths = [0.18, 0.13, 0.096, 0.072, 0.047, 0.031, 0.022];
+  const legs = [0, 1, 2, 3].flatMap((leg) =>
+    heights.slice(1).flatMap((_, k) => {
+      const ends = [k, k + 1].map((n) => {
+        const [x, y] = [leg % 2 ? 1 : -1, leg > 1 ? 1 : -1].map((sign) => sign * widths[n]);
+        return /** @type {[number, number, number, number]} */ ([
+          x,
+          y,
+          heights[n],
+          0.006 + 0.06 * widths[n],
+        ]);
+      });
+      return createBeam(ends);
+    }),
   );
+  const floors = [-0.26, -0.13].flatMap((height) => {
+    const half = 0.025 - 0.27 * height;
+    return createBeam([
+      [0, 0, height - 0.008, half],
+      [0, 0, height + 0.008, half],
+    ]);
+  });
+  const cup = createProfile([0, 0.034, 0.036, 0.026, 0], [-0.05, -0.045, -0.006, -0.002, -0.012]);
+  return [...legs, ...floors, ...createLathe(cup, STONE)];
+};
 
 /** A shaft of length 1 along z, to be scaled, and a head whose tip is the origin. @param {Color} color */
 export const createArrow = (color) => ({

@@ -78,6 +78,7 @@ void main() {
 const CORNERS = [0, 0, 1, 1, 0, 1].map((end, k) => [end, [-1, 1, -1, -1, 1, 1][k]]);
 const SMOOTH = { antialias: true, failIfMajorPerformanceCaveat: true };
 const PIECE = 6; // numbers of its two ends
+const BOLD = 1.8; // thickness of lines and arrows for a projector
 
 export class Painter {
   /** @param {HTMLCanvasElement} canvas */
@@ -93,6 +94,7 @@ export class Painter {
     /** @type {Map<WebGLProgram, {[name: string]: WebGLUniformLocation | null}>} */
     this.places = new Map();
     this.programs = this.prepare();
+    this.bold = 1;
   }
 
   /** Give the graphics card its programs: at first, and after it has lost everything. */
@@ -200,7 +202,8 @@ export class Painter {
     gl.clearColor(0, 0, 0, 0);
     gl.depthMask(true);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    this.ratio = ratio;
+    this.bold = document.documentElement.dataset.size ? BOLD : 1;
+    this.ratio = ratio * this.bold;
     this.view = view;
     this.eye = eye;
   }

@@ -15,24 +15,28 @@ import { COLORS, FICTITIOUS } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
+import { BRACKET, findPoint, findPush, findReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
+import { NANO } from "../physics/course.js";
+import { inDegrees } from "../words/quantities.js";
 
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Vector } from "../physics/kernel.js" */
 /** @import { Color } from "./meshes.js" */
 
-const LENGTHS = { L: 1.3, omega: 1.15, torque: 0.55 }; // of the largest at the start of a motion
-const DEPTHS = { gravity: 0.08, Coriolis: 0.15, centrifugal: 0.22, sum: -0.08 }; // below the pivot
+const LENGTHS = { L: 1.24, omega: 1.13, torque: 0.55 }; // of the largest at the start of a motion
+const DEPTHS = { gravity: 0.1, Coriolis: 0.2, centrifugal: 0.3, sum: -0.1 }; // below the pivot
 const LONGEST = 2.5; // of a fictitious torque
 const SHORTEST = 0.02; // arrows that are shorter have no direction that can be seen
-const GHOST_OPACITY = 0.28;
+const GHOST_OPACITY = 0.34;
 const BALL = 0.055;
+const PUSH = 0.34; // length of the arrow of a push
 const HORIZON = 1.65; // rad; the axis goes below the pivot: no stand, and the whole sphere
-const GROUND = -0.33;
+const GROUND = -0.365;
 /** @type {{eye: Vector, target: Vector}[]} */
 const VIEWS = [
-  { eye: [1.9, -2.2, 1.35], target: [0, 0, 0.45] },
+  { eye: [1.46, -1.7, 0.95], target: [0, 0, 0.33] },
   { eye: [2.75, -3.2, 1.3], target: [0, 0, 0] },
   { eye: [2.75, -3.2, -1.3], target: [0, 0, 0] },
 ];
@@ -63,6 +67,8 @@ export class Scene {
     this.bodyKey = "";
     /** The motion whose turning circles are loaded. @type {import("../physics/course.js").Course | null} */
     this.circled = null;
+    /** What the last kick did. @type {import("./push.js").Push | null} */
+    this.push = null;
     this.models = this.loadModels();
     this.grip = new Grip(canvas, this.camera, top);
     canvas.addEventListener("webglcontextlost", (event) => this.lose(event));
@@ -99,7 +105,9 @@ export class Scene {
       arrows: Object.fromEntries(arrows),
       stand: painter.loadMesh(createStand()),
       ball: painter.loadMesh(createBall(paint("ball"))),
+      ghost: painter.loadMesh(createBall(paint("ghost"))),
       disc: painter.loadMesh(createDisc([0, 0, 0])),
+      bracket: painter.loadLines([]),
       nodes: painter.loadLines([-0.4, 0, 0, 0.4, 0, 0]),
       sphere: painter.loadLines([]),
       circles: painter.loadLines([]),
@@ -124,6 +132,7 @@ export class Scene {
         ? LENGTHS[/** @type {keyof typeof LENGTHS} */ (name)] / largest
         : 0;
     }
+    this.push = findPush(top.run.find(top.time));
     const torques = findTorques(course.top, state);
     this.torqueScale =
       Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
@@ -146,9 +155,47 @@ export class Scene {
     this.drawBody(grip.preview ?? state);
     this.drawLines(state, states);
     if (!grip.preview) this.drawVectors(state);
-    const ghost = this.top.layers.ghost ? this.top.run.findGhost(this.top.time) : null;
-    if (ghost) painter.drawMesh(this.models.body, createPose(ghost.orientation), GHOST_OPACITY);
+    if (this.top.layers.push) this.drawPush(state, states);
+    if (this.top.layers.ghost) this.drawGhost(this.top.run.findGhost(this.top.time));
     this.labels.end();
+  }
+
+  /** @param {State | null} ghost the top that was not pushed */
+  drawGhost(ghost) {
+    if (!ghost) return;
+    const { painter, models } = this;
+    painter.drawMesh(models.body, createPose(ghost.orientation), GHOST_OPACITY);
+    const axis = ghost.toWorld([0, 0, 1]);
+    const size = 0.8 * BALL;
+    painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
+    const name = this.top.writer.write("scene", { kind: "ghost" });
+    const below = add(scale(axis, 1 - 2 * BALL), scale(normalize([axis[0], axis[1], 0]), 2 * BALL));
+    this.labels.put("ghost", COLORS.sphere, below, axis, name);
+  }
+
+  /** The push where it was, and the bracket from the old height to the new one. */
+  /** @param {State} state @param {State[]} states */
+  drawPush(state, states) {
+    const { push, top } = this;
+    if (!push) return;
+    const { writer, time } = top;
+    if (push.way && time < push.end) {
+      const [arrow, name] = [scale(push.way, PUSH), writer.write("scene", { kind: "push" })];
+      this.drawArrow("ball", arrow, subtract(push.tip, arrow), "");
+      const [begin, end] = [subtract(push.tip, arrow), push.tip];
+      this.labels.put("push", COLORS.ball, begin, end, name);
+    }
+    const past = states.slice(-Math.ceil(((time - push.begin) / (top.window * NANO)) * top.points));
+    const lift = findReached(push, time, past);
+    if (!lift) return;
+    const { phi } = state.angles;
+    this.painter.loadLines(listBracket(lift, phi), this.models.bracket);
+    this.painter.drawLines(this.models.bracket, paint("lift"), 3, STILL);
+    const text = writer.write("scene", lift, inDegrees() ? "degrees" : "radians");
+    const [at, inner] = [BRACKET + 0.02, 1].map((radius) =>
+      findPoint((lift.from + lift.to) / 2, phi, radius),
+    );
+    this.labels.put("bracket", COLORS.lift, at, inner, text);
   }
 
   /** The top on its stand, with its shadow and its ball. @param {State} state */
@@ -206,17 +253,14 @@ export class Scene {
     const tip = add(origin, vector);
     const { shaft, head } = this.models.arrows[name];
     const size = Math.min(1, length / 0.15);
+    const wide = size * this.painter.bold;
     this.painter.drawMesh(
       shaft,
-      createPose(rotation, [size, size, Math.max(length - 0.1 * size, 0)], origin),
+      createPose(rotation, [wide, wide, Math.max(length - 0.1 * size, 0)], origin),
     );
-    this.painter.drawMesh(head, createPose(rotation, [size, size, size], tip));
+    this.painter.drawMesh(head, createPose(rotation, [wide, wide, size], tip));
     if (label)
-      this.labels.put(
-        label,
-        COLORS[/** @type {keyof typeof COLORS} */ (name)],
-        add(tip, scale(direction, 0.08)),
-      );
+      this.labels.put(label, COLORS[/** @type {keyof typeof COLORS} */ (name)], tip, origin);
   }
 
   /** Arrows along the line of nodes, head to tail: the third ends below the pivot if theta'' is 0. */

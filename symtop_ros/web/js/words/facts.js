@@ -24,6 +24,7 @@ const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
 const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
+const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** @param {number[]} numbers */
@@ -119,9 +120,12 @@ const findAnnounced = (run, time) => {
 export const describeMotion = (run, writer, time, free) => {
   const announced = findAnnounced(run, time);
   const { headline, name, outcome } = findOutcome(run.find(time), free);
+  const isKick = name === "kick";
   const say = (/** @type {Variant} */ variant) => ({
     headline: writer.write("headline", headline, variant),
+    because: writer.write("because", { kind: isKick ? findCause(outcome) : "start" }),
     why: writer.write(name, outcome, variant),
+    happened: isKick ? writer.write("happened", headline, variant) : "",
   });
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
@@ -131,10 +135,22 @@ export const describeMotion = (run, writer, time, free) => {
   };
 };
 
+/** Why the axis moves as it does after a kick, if the torque of gravity alone explains it. @param {any} outcome */
+const findCause = ({ direction, reason: { kind, rule, subject } }) => {
+  const cause = `${kind}_${direction}`;
+  return subject === "top" && rule === "holds" && CAUSES.includes(cause) ? cause : "start";
+};
+
 /** Tilt, rates and regular rates of now. @param {Course} course @param {State} state */
 export const describeNow = ({ kernel, top }, state) => {
   const { theta, phi_dot, psi_dot } = describeStart(state);
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
+};
+
+/** The time in s at which the first nutation after a kick is half over. @param {Run} run @param {number} time ns */
+const findHalf = (run, time) => {
+  const first = run.findFirstNutation(time);
+  return first && (first.begin + first.end) / (2 * NANO);
 };
 
 /**
@@ -158,6 +174,8 @@ export const describe = (run, writer, time) => {
     window: chooseWindow(course.free),
     since: run.findStart(time) / NANO,
     marks: run.moments.filter((each) => each.kind === "kick").map((each) => each.time / NANO),
+    acts: run.moments.filter((each) => each.kind !== "torque").map((each) => each.time / NANO),
+    half: findHalf(run, time),
     link: writeLink(course),
     ledger: findLedger(announced),
     energies: writer.write("ledger", nameLedger(announced)),

@@ -35,6 +35,20 @@ const findSwing = (highest, lowest) => {
 };
 
 /**
+ * The level that a kick has moved, of the highest or of the lowest point, in rad: where it was and where
+ * it is. Null where it moves none to the eye, or friction or a torque acts.
+ * @param {Moment} moment
+ */
+export const findLift = ({ kind, asked, course, before }) => {
+  if (kind !== "kick" || !before || findForces(course)) return null;
+  const { outcome, swing } = findKick(course, before, asked.hold ?? null);
+  if (swing.kind !== "higher" && swing.kind !== "lower") return null;
+  const place = outcome.highest.amount < outcome.lowest.amount ? 1 : 0;
+  const from = course.continueFree(before).motion.turning_angles[place];
+  return { kind: swing.kind, place, from, to: outcome.turning_angles[place] };
+};
+
+/**
  * The verdict on a kick, and what its headline adds: the direction in which the top moves at first,
  * where that is not the one in which it ends, and it is seen.
  * @param {Course} course

@@ -52,12 +52,40 @@ const isSymbol = ([, letter, index, primes, power]) =>
   (primes !== "" && letter === "E") ||
   letter === "L";
 
+const WORD = /\[([^|\]]+)\|([^|\]]+)\]/;
+
+/**
+ * A word that names an arrow of the scene, as a button of its colour.
+ * @param {string} text
+ * @param {string} layer
+ */
+const createWord = (text, layer) => {
+  const word = document.createElement("button");
+  word.className = "word";
+  word.dataset.layer = layer;
+  word.append(...typesetSymbols(text));
+  return word;
+};
+
+/**
+ * The parts of a text: its symbols as formulas, and the words that name an arrow, [torque|torque].
+ * @param {string} text
+ * @returns {(Node | string)[]}
+ */
+export const typeset = (text) => {
+  const parts = text.split(WORD);
+  return parts.flatMap((part, k) => {
+    if (k % 3 === 2) return [];
+    return k % 3 ? [createWord(part, parts[k + 1])] : typesetSymbols(part);
+  });
+};
+
 /**
  * The parts of a text, with its symbols as formulas.
  * @param {string} text
  * @returns {(Node | string)[]}
  */
-export const typeset = (text) => {
+const typesetSymbols = (text) => {
   /** @type {(Node | string)[]} */
   const parts = [];
   let end = 0;

@@ -1,0 +1,77 @@
+// What a kick did, for the scene: where the axle was pushed, and the bracket between the height that the
+// top would have and the one that it reaches.
+
+import { NANO } from "../physics/course.js";
+import { findLift } from "../words/headline.js";
+import { listPieces } from "./curves.js";
+import { cross, findSize, normalize, subtract } from "./matrices.js";
+
+/** @import { Vector } from "../physics/kernel.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Moment } from "../run/run.js" */
+/** @typedef {NonNullable<ReturnType<typeof findLift>>} Lift */
+/**
+ * The end of the axle at a kick, and the direction in which it was pushed, if it was; the times in ns of
+ * the kick and of the end of its first nutation; the level that it moved.
+ * @typedef {{tip: Vector, way: Vector | null, begin: number, end: number, lift: Lift | null}} Push
+ */
+
+export const BRACKET = 1.14; // its distance from the pivot
+const INNER = 1.02; // where its ends begin
+const LEVEL = 0.3; // rad; half of the two levels of the bracket
+const ROUNDING = 1e-9; // of a velocity: less is no push
+
+/** A point of the sphere. @param {number} theta @param {number} phi @param {number} radius @returns {Vector} */
+export const findPoint = (theta, phi, radius) => [
+  radius * Math.sin(theta) * Math.sin(phi),
+  -radius * Math.sin(theta) * Math.cos(phi),
+  radius * Math.cos(theta),
+];
+
+/** @param {Moment} moment @returns {Push | null} */
+export const findPush = (moment) => {
+  const { kind, time, course, before } = moment;
+  if (kind !== "kick" || !before) return null;
+  const { start, free } = course;
+  const tip = start.toWorld([0, 0, 1]);
+  const change = cross(start.toWorld(subtract(start.omega, before.omega)), tip);
+  const isPushed = findSize(change) > ROUNDING * findSize(start.omega);
+  const end = time + free.motion.nutation_period * NANO;
+  return {
+    tip,
+    way: isPushed ? normalize(change) : null,
+    begin: time,
+    end,
+    lift: findLift(moment),
+  };
+};
+
+/**
+ * The level that has been reached since a kick, and by how much it has moved.
+ * @param {Push} push
+ * @param {number} time ns
+ * @param {State[]} states since the kick
+ */
+export const findReached = ({ lift, end }, time, states) => {
+  if (!lift) return null;
+  const { kind, place, from } = lift;
+  const tilts = states.map((each) => each.angles.theta);
+  const reached = place ? Math.max(...tilts) : Math.min(...tilts);
+  const to = time < end ? reached : lift.to;
+  const amount = kind === "higher" ? from - to : to - from;
+  return amount > 0 ? { kind, from, to, amount } : null;
+};
+
+/**
+ * The two levels next to the axle, and the bracket between them, as pieces of lines.
+ * @param {{from: number, to: number}} levels
+ * @param {number} phi
+ */
+export const listBracket = ({ from, to }, phi) => {
+  const spread = Array.from({ length: 13 }, (_, k) => k / 12);
+  const level = (/** @type {number} */ theta) =>
+    listPieces(spread.map((share) => findPoint(theta, phi + LEVEL * (2 * share - 1), INNER)));
+  const arc = spread.map((share) => findPoint(from + (to - from) * share, phi, BRACKET));
+  const ends = [from, to].map((theta) => findPoint(theta, phi, INNER));
+  return [...level(from), ...level(to), ...listPieces([ends[0], ...arc, ends[1]])];
+};

@@ -1,0 +1,149 @@
+"""The first minute: a question, a push that is seen, and the answer beside what happened."""
+
+import re
+
+import numpy as np
+import pytest
+from web.opened import FEW_FRAMES, UNDRAWN, find_time, read_motion, read_state
+
+from symtop_ros.physics import Motion, hurry
+
+PHONES = ((390, 844), (360, 640))
+PERIODS = 1.1  # of a nutation, in which all of it is seen
+PARTS = ("#question", "canvas", "#answers", "#theta svg")
+
+
+@pytest.fixture
+def new(open_page):
+    """The page in a browser that has never opened it."""
+    return open_page(known="")
+
+
+def read_kick(page):
+    """Return the motions before and after the push, and the time of the push."""
+    start, kick = page.read_events()
+    before = read_motion(start).at(find_time(start, kick))
+    motion = read_motion(kick)
+    return Motion(motion.top, before), motion, kick["time"]
+
+
+def test_a_push_is_predicted_seen_and_compared(new):
+    assert new.tab.is_visible("text=Will it rise or fall?")
+    assert not new.tab.is_visible("#headline")
+    assert not new.tab.is_visible("#hurry")
+    new.tab.click("text=It will fall")
+    before, motion, time = read_kick(new)
+    assert motion.start.angular_velocity.tolist() == (
+        hurry(before.start, 1.4).angular_velocity.tolist()
+    )
+    assert not new.tab.is_visible("#compared")  # it has not been seen yet
+    assert new.tab.is_visible("text=In slow motion")
+    new.wait_for_time(time + motion.nutation_period / 2)
+    new.tab.wait_for_selector("#compared")
+    assert new.say("predicted") == "it falls"
+    assert new.say("happened") == "it rose: 3.6° higher"
+    assert new.tab.is_visible("#headline")
+    new.tab.click("#hurry")
+    assert not new.tab.is_visible("#compared")
+
+
+def test_who_comes_again_is_not_asked(new):
+    new.tab.click("text=It will rise")
+    other = new.context.new_page()
+    other.goto(new.tab.url)
+    other.wait_for_selector("#hurry")
+    assert not other.is_visible("#question")
+
+
+@pytest.mark.parametrize("fragment", ["#scene=cusps", "#lesson=2", "#theta=0.6&psi_dot=150"])
+def test_who_follows_a_link_is_not_asked(open_page, fragment):
+    page = open_page(fragment, known="")
+    page.tab.wait_for_selector("#hurry")
+    assert not page.tab.is_visible("#question")
+
+
+def test_another_act_ends_the_question(new):
+    new.press("d")
+    assert not new.tab.is_visible("#question")
+    assert new.say("headline").startswith("The top moves lower than without the kick")
+
+
+def test_a_page_that_prefers_no_motion_moves_when_it_is_answered(open_page):
+    page = open_page(known="", reduced_motion="reduce")
+    page.tab.click("text=It will rise")
+    page.tab.wait_for_selector("#compared")
+
+
+@pytest.mark.parametrize("size", PHONES)
+def test_question_scene_buttons_and_chart_are_on_the_first_screen_of_a_phone(open_page, size):
+    width, height = size
+    page = open_page(known="", viewport={"width": width, "height": height})
+    page.tab.wait_for_selector("#theta svg")
+    boxes = [page.tab.locator(name).bounding_box() for name in PARTS]
+    for box in boxes:
+        assert box["x"] >= 0
+        assert box["y"] >= 0
+        assert box["x"] + box["width"] <= width
+        assert box["y"] + box["height"] <= height
+    assert boxes[1]["height"] > 0.35 * height
+
+
+def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_higher(open_page):
+    page = open_page(script=FEW_FRAMES + UNDRAWN)
+    page.tab.select_option("#speed", "1")
+    page.tab.click("#hurry")
+    page.until(lambda: page.say("pace") == "slow motion")
+    before, motion, time = read_kick(page)
+    bracket = page.tab.locator(".label:visible", has_text="higher")
+    page.wait_for_time(time + motion.nutation_period / 8)
+    page.tab.click("#pause")
+    page.wait_for_frames(3)
+    now = float(page.tab.get_attribute("body", "data-theta"))
+    shown = float(re.match(r"[\d.]+", bracket.text_content())[0])
+    digits = 10 ** (np.floor(np.log10(shown)) - 1)
+    assert shown == pytest.approx(before.turning_angles[0] - now, abs=0.5001 * digits)
+    assert page.tab.locator(".label:visible", has_text="push").count() == 2  # and "not pushed"
+    page.tab.click("#pause")
+    page.wait_for_time(time + PERIODS * motion.nutation_period)
+    page.until(lambda: page.say("pace") == "")  # the speed that was chosen
+    page.until(lambda: bracket.text_content() == "0.063 rad higher")
+
+
+def test_a_kick_is_a_step_in_the_chart_of_the_rate(opened):
+    opened.open_charts("phi_dot")
+    opened.wait_for_time(0.02)
+    opened.tab.click("#hurry")
+    opened.wait_for_time(0.04)
+    opened.tab.click("#pause")
+    opened.wait_for_frames(4)
+    curve = opened.tab.locator("#phi_dot path[stroke-width='1.8']").get_attribute("d")
+    points = np.array(re.findall(r"[ML]([-\d.]+) ([-\d.]+)", curve), float)
+    mark = opened.tab.locator("#phi_dot path.kick").get_attribute("d")
+    place = float(re.match(r"M([\d.]+)", mark)[1])
+    jump = np.flatnonzero(points[:, 0] == place)
+    assert np.ptp(points[jump, 1]) > 0.8 * np.ptp(points[:, 1])
+    assert np.ptp(points[points[:, 0] < place, 1]) < 0.2  # tenths: nothing begins before the kick
+
+
+def test_the_time_stands_beside_its_slider_with_a_mark_at_each_act(opened):
+    opened.wait_for_time(0.05)
+    opened.tab.click("#hurry")
+    opened.wait_for_time(0.08)
+    opened.tab.click("#pause")
+    opened.wait_for_frames(4)
+    _, kick = opened.read_events()
+    end = float(opened.tab.get_attribute("#timeline", "max"))
+    places = opened.tab.locator("#marks i").evaluate_all("all => all.map(e => e.style.left)")
+    assert [float(place[:-1]) for place in places] == pytest.approx(
+        [0.0, 100 * kick["time"] / end], abs=0.006
+    )
+    assert opened.tab.text_content("#clock") == f"{end:.2f} s"
+
+
+def test_numbers_are_in_degrees_at_first_and_in_rad_in_the_lesson(new):
+    new.tab.click("text=It will rise")
+    assert "°" in new.say("headline")
+    new.open_tab("lesson")
+    new.tab.locator("#lesson-acts button").first.click()
+    assert "rad" in new.say("headline")
+    assert read_state(new.read_events()[-1]).euler_angles.theta == pytest.approx(0.5)
