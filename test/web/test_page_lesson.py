@@ -136,3 +136,11 @@ def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     page.enter("theta", "1")  # another motion, for which the step has no words
     page.open_tab("lesson")
     assert hurry.is_disabled()
+
+
+def test_predictions_are_saved_as_a_text(open_page, tmp_path):
+    page = open_page("#lesson=2")
+    page.tab.fill("#prediction", "It falls.")
+    assert page.save("My predictions", tmp_path).read_text() == (
+        f"The first question: it rises\n2. {STEPS[1].title}: It falls.\n"
+    )

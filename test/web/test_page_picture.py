@@ -1,5 +1,8 @@
 """The picture is lost and comes back; texts are those of now, in sight or not."""
 
+import base64
+import re
+
 from web.opened import FEW_FRAMES, read_motion
 
 LOSE = """() => {
@@ -67,3 +70,68 @@ def test_a_printer_gets_the_charts_of_now(opened):
     opened.tab.evaluate("dispatchEvent(new Event('beforeprint'))")
     ticks = opened.tab.evaluate("document.querySelector('#free svg').textContent")
     assert "0.9" in ticks
+
+
+def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
+    opened.tab.click("#hurry")
+    opened.open_charts("theta", "phi_dot", "rule", "well", "ledger", "kinds")
+    opened.tab.click("#reason summary")
+    sheets = opened.tab.pdf(prefer_css_page_size=True)
+    assert len(re.findall(rb"/Type\s*/Page\b", sheets)) == 1
+    opened.tab.emulate_media(media="print")
+    assert opened.tab.is_visible("#headline")
+    assert opened.tab.is_visible("canvas")
+    for name in ("#doing", "#tabs", "summary >> text=Constants"):
+        assert not opened.tab.is_visible(name)
+
+
+# The size of a saved picture, and how many of its pixels have the colour of an arrow's frame.
+COUNT = """async ([text, color]) => {
+    const picture = new Image();
+    picture.src = `data:image/png;base64,${text}`;
+    await picture.decode();
+    const canvas = document.createElement("canvas");
+    Object.assign(canvas, { width: picture.width, height: picture.height });
+    const context = canvas.getContext("2d");
+    context.drawImage(picture, 0, 0);
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+    const wanted = [1, 3, 5].map((k) => parseInt(color.slice(k, k + 2), 16));
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4)
+        count += wanted.every((each, n) => data[k + n] === each);
+    return [picture.height, count];
+}"""
+
+
+def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
+    opened.press("Space")
+    texts = []
+    for name in ("", "torque"):
+        if name:
+            opened.show_arrows(name)
+            opened.tab.locator(".label:visible", has_text=name).wait_for()
+        picture = opened.save("Picture (PNG)", tmp_path).read_bytes()
+        color = opened.tab.evaluate(
+            "getComputedStyle(document.documentElement).getPropertyValue('--torque')"
+        )
+        arguments = [base64.b64encode(picture).decode(), color]
+        texts.append(opened.tab.evaluate(COUNT, arguments))
+    (height, before), (_, after) = texts
+    assert height > opened.tab.locator("canvas").bounding_box()["height"] + 20
+    assert before == 0  # nothing is drawn here but texts
+    assert after > 50
+
+
+def test_a_key_makes_text_large_and_it_stays(opened):
+    def read():
+        name = "getComputedStyle(document.getElementById('headline')).fontSize"
+        return float(opened.tab.evaluate(name)[:-2])
+
+    before = read()
+    opened.press("p")
+    assert read() >= 1.5 * before
+    opened.until(lambda: opened.is_stored("size", "projector"))
+    opened.reload()
+    opened.until(lambda: read() >= 1.5 * before)
+    opened.press("p")
+    assert read() == before

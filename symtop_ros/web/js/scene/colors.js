@@ -5,7 +5,7 @@ export const COLORS = {
   L: "#0a46be",
   omega: "#009e73",
   torque: "#a81c10",
-  gravity: "#8a5a00",
+  gravity: "#e0b050",
   Coriolis: "#1e96f0",
   centrifugal: "#690fff",
   sum: "#d23ca5",

@@ -46,6 +46,8 @@ export const chooseWindow = ({ motion }) => {
  */
 const describePotential = ({ top: body, start, motion }, change) => {
   const potential = findPotential(body, start);
+  const former =
+    change?.before && change.last ? findPotential(change.last.top, change.before) : null;
   const angles = motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
@@ -68,13 +70,15 @@ const describePotential = ({ top: body, start, motion }, change) => {
   return {
     left,
     right,
-    bottom: bottom - 0.08 * (top - bottom),
+    // What was before a change is seen as well, unless it is far away.
+    bottom:
+      Math.max(Math.min(bottom, former?.energy ?? bottom), 2 * bottom - top) -
+      0.08 * (top - bottom),
     top,
     energy: potential.energy,
     angles,
     ...sample(potential),
-    before:
-      change?.before && change.last ? sample(findPotential(change.last.top, change.before)) : null,
+    before: former && sample(former),
   };
 };
 
