@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.accelerations import STANDARD_GRAVITY, specific_force
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
@@ -120,6 +121,42 @@ class Body:
         if Ix <= lost:
             raise refuse("Ix", f"> mass arm^2 = {lost:g} kg m^2", Ix)
         return cls(mass, arm, Ix - lost, Iz, gravity)
+
+    @classmethod
+    def disc(
+        cls, mass: float, radius: float, distance: float, gravity: float = STANDARD_GRAVITY
+    ) -> "Body":
+        """Return a flat disc on an axle without mass.
+
+        Parameters
+        ----------
+        mass, radius : float
+            In kg and m, > 0.
+        distance : float
+            Of its centre from the pivot, on the z axis, in m.
+        gravity : float
+            Acceleration of gravity in m/s^2, > 0.
+
+        Raises
+        ------
+        ValueError
+            If a value is refused, or no top has these constants.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Body
+        >>> Body.disc(mass=0.5, radius=0.25, distance=0.125, gravity=10.0).top
+        Top(Ix=0.015625, Iz=0.015625, Mgl=0.625)
+        """
+        values = {"mass": mass, "radius": radius, "distance": distance, "gravity": gravity}
+        units = {"mass": "kg", "gravity": "m/s^2"}
+        for name, value in values.items():
+            values[name] = validate_number(name, value, units.get(name, "m"))
+            if name != "distance" and not values[name] > 0:
+                raise refuse(name, f"> 0 {units.get(name, 'm')}", value)
+        mass, radius, distance, gravity = values.values()
+        Ix, Iz, _ = door.find_disc_top(mass, radius, 0.0, gravity)  # about its centre
+        return cls(mass, distance, float(Ix), float(Iz), gravity)
 
     @classmethod
     def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> "Body":

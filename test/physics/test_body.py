@@ -9,6 +9,8 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, EPS, Case, series_of, turn
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
+from symtop_ros.physics.accelerations import STANDARD_GRAVITY
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.reference import ClosedForm
 from workshop.testset.exact import DIGITS
 
@@ -119,3 +121,28 @@ def test_a_top_without_weight_has_its_centre_in_the_pivot():
 def test_a_body_and_its_top_lead_to_each_other():
     body = Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81)
     assert Body.about_pivot(15.0, 1.0, body.top.Ix, body.top.Iz) == body
+
+
+def test_a_disc_is_the_top_that_the_kernel_makes_of_it_and_back():
+    numbers = Numbers(56)
+    for _ in range(200):
+        mass, radius, distance = (numbers.uniform(2.0**-6, 4.0) for _ in range(3))
+        top = Body.disc(mass, radius, distance).top
+        found = door.find_disc_top(mass, radius, distance, STANDARD_GRAVITY)
+        assert found.tolist() == list(top.moments)
+        # Ix - Iz/2 loses the digits of Iz/2: those of (radius/(2 distance))^2
+        lost = 8 * EPS * (1 + (radius / distance) ** 2)
+        back = door.find_disc(np.array(top.moments), STANDARD_GRAVITY)
+        assert back.tolist() == pytest.approx([mass, radius, distance], rel=lost)
+
+
+def test_no_disc_moves_as_a_top_without_weight_does_or_as_a_disc_in_its_pivot():
+    for moments in ((1.0, 0.5, 0.0), (1.0, 2.0, 0.5), (0.25, 0.5, 0.0)):
+        assert np.isnan(door.find_disc(np.array(moments), STANDARD_GRAVITY)).all()
+
+
+@pytest.mark.parametrize("name", ["mass", "radius", "gravity"])
+def test_a_disc_must_be_there(name):
+    values = {"mass": 1.0, "radius": 0.5, "distance": 0.25, "gravity": 9.81, name: 0.0}
+    with pytest.raises(ValueError, match=f"{name} must be > 0"):
+        Body.disc(**values)

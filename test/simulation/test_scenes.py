@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from physics.tops import EPS
 
+from symtop_ros.physics import Body
+from symtop_ros.physics.accelerations import STANDARD_GRAVITY
 from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
 
 KINDS = {  # scenes by the kind of their motion
     "regular": "regular_precession fast_precession hurry_slow hurry_fast perry_fails "
-    "conical_pendulum",
+    "conical_pendulum toy_gyroscope bicycle_wheel",
     "cusps": "cusps sleeping_unstable closed_cusps gray_fall",
     "looping": "looping backward_start",
     "unidirectional": "unidirectional hanging disc free spin_reversal spherical_pendulum",
@@ -36,6 +38,19 @@ def test_a_scene_starts_the_motion_that_its_name_promises(kind):
 
 def test_every_scene_has_a_kind():
     assert set(scene_names()) == set(" ".join(KINDS.values()).split())
+
+
+def test_what_a_class_has_at_hand_is_computed_from_its_mass_and_size():
+    gyroscope, wheel = (motion_of(name) for name in ("toy_gyroscope", "bicycle_wheel"))
+    disc = Body.disc(mass=0.06, radius=0.026, distance=0.035).top
+    rim = 1.5 * 0.3**2  # its moment about the axle; a diameter has half of it
+    ring = Body(mass=1.5, arm=0.15, Ix=rim / 2, Iz=rim, gravity=STANDARD_GRAVITY).top
+    assert gyroscope.top.moments == pytest.approx(disc.moments, rel=8 * EPS)
+    assert wheel.top.moments == pytest.approx(ring.moments, rel=8 * EPS)
+    # seconds for a turn, and the radius of the disc that moves as the wheel does
+    turns = [2 * math.pi / each.mean_precession_rate for each in (gyroscope, wheel)]
+    assert turns == pytest.approx([1.8, 9.6], abs=0.05)
+    assert 0.3 * math.sqrt(2) == pytest.approx(0.42, abs=0.005)
 
 
 def test_a_sleeping_top_wakes_at_the_critical_spin():

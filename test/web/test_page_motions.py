@@ -7,6 +7,7 @@ import pytest
 from web.opened import find_time, read_motion, read_state
 
 from symtop_ros.physics import (
+    Body,
     ExactTimes,
     Motion,
     Top,
@@ -147,3 +148,21 @@ def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     opened.tab.mouse.wheel(0, 300)
     assert read() != turned
     assert len(opened.read_events()) == 1  # the top is not touched
+
+
+def test_a_disc_on_an_axle_is_that_of_python(opened):
+    opened.open_tab("start")
+    shown = [
+        float(opened.tab.input_value(f"[id='field-disc.{name}']"))
+        for name in ("mass", "radius", "distance")
+    ]
+    article = Body.disc(*shown).top
+    assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
+    opened.follow("scene=toy_gyroscope")
+    opened.enter("disc.mass", "0.08")
+    assert opened.read_events()[-1]["top"] == pytest.approx(
+        Body.disc(0.08, 0.026, 0.035).top.moments, rel=1e-14
+    )
+    opened.enter("disc.radius", "0")
+    assert opened.say("refusal").startswith("its radius (m) must be positive")
+    assert len(opened.read_events()) == 3

@@ -171,6 +171,8 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "*from_angles": (_BYTES, _BYTES, _SIZE, Numbers, Numbers, _DONE),
     "*find_angles": (_BYTES, _SIZE, Numbers),
     "*find_angle_rates": (_BYTES, _BYTES, _SIZE, Numbers),
+    "find_disc_top": (_BYTES, c_double, Numbers),
+    "find_disc": (_BYTES, c_double, Numbers),
     "*find_regular_rates": (_BYTES, _BYTES, _BYTES, _SIZE, c_int, Numbers),
     "*find_tilt_torques": (_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, Numbers),
     "*find_tilt_accelerations": (_BYTES, c_int, _BYTES, _SIZE, Numbers),
@@ -461,6 +463,20 @@ def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real
         given = read_from(tops[part]), read_from(thetas[part]), read_from(spins[part])
         room = found[part]
         demand(open_door().find_regular_rates(*given, len(room), hold, write_to(room, room.size)))
+    return found
+
+
+def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -> Real:
+    """Return Ix, Iz and Mgl of a flat disc on an axle."""
+    found, disc = np.empty(3), np.array([mass, radius, distance])
+    demand(open_door().find_disc_top(read_from(disc), gravity, write_to(found, 3)))
+    return found
+
+
+def find_disc(top: Real, gravity: float) -> Real:
+    """Return mass, radius and distance of the disc that moves as a top does, nan if there is none."""
+    found = np.empty(3)
+    demand(open_door().find_disc(read_from(top), gravity, write_to(found, 3)))
     return found
 
 

@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 
+#include "functions/disc.hpp"
 #include "functions/library.hpp"
 #include "functions/many.hpp"
 #include "functions/motion.hpp"

@@ -211,6 +211,14 @@ typedef struct {
   double Ix, Iz, Mgl; /* as in symtop_start */
 } symtop_top;
 
+/* The top that a flat disc makes on an axle without mass: mass in kg, radius and distance of its
+ * centre from the pivot in m (negative: on the other side), and gravity in m/s^2. */
+SYMTOP_API symtop_status symtop_find_disc_top(const double disc[3], double gravity,
+                                              symtop_top* top);
+
+/* The disc that moves as a top does; NaN if there is none, as for Mgl = 0 and for Iz = 2 Ix. */
+SYMTOP_API symtop_status symtop_find_disc(const symtop_top* top, double gravity, double disc[3]);
+
 /* What is held, with theta', while phi' changes. */
 typedef enum {
   SYMTOP_SPIN_RATE,     /* psi': the article's comparison */

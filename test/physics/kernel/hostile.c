@@ -113,6 +113,9 @@ static void ask_of_start(const symtop_start* start, int oddness) {
   CHECK(symtop_find_angles(start->orientation, 1, angles), 0);
   CHECK(symtop_find_angle_rates(start->orientation, start->angular_velocity, 1, rates), 0);
   CHECK(symtop_find_regular_rates(&top, amounts, rates, 1, hold, found), 0);
+  CHECK(symtop_find_disc(&top, amounts[0], found), 0);
+  symtop_top disc_top;
+  CHECK(symtop_find_disc_top(amounts, amounts[1], &disc_top), 0);
   CHECK(symtop_find_tilt_torques(&top, amounts, rates, rates + 1, 1, found), 0);
   CHECK(symtop_find_tilt_accelerations(start, hold, rates, 3, found), 0);
   CHECK(symtop_compare_hurried(&top, amounts, rates, rates + 1, 1, amounts[1], hold, found, &left),

@@ -61,6 +61,9 @@ int main(int count, char** words) {
   show(symtop_from_angles(angles, rates, 1, q, omega, &done), q, 4);
   show(symtop_find_angles(start.orientation, 1, few), few, 3);
   show(symtop_find_regular_rates(&top, angles + 1, rates + 2, 1, SYMTOP_SPIN_RATE, few), q, 0);
+  show(symtop_find_disc(&top, 9.81, few), q, 0);
+  symtop_top made;
+  show(symtop_find_disc_top(few, 9.81, &made), q, 0);
   show(symtop_find_tilt_torques(&top, angles + 1, rates, rates + 2, 1, few), q, 0);
   show(symtop_compare_hurried(&top, angles + 1, rates, rates + 2, 1, 1.5, SYMTOP_SPIN_RATE, few,
                               &rule),

@@ -29,6 +29,9 @@ const FIELDS = {
   "top.Ix": { label: "Ix, across the axis (kg m\u00b2)", isPositive: true },
   "top.Iz": { label: "Iz, about the axis (kg m\u00b2)", isPositive: true },
   "top.Mgl": { label: "Mgl, moment of gravity (J)" },
+  "disc.mass": { label: "mass of the disc (kg)", isPositive: true },
+  "disc.radius": { label: "its radius (m)", isPositive: true },
+  "disc.distance": { label: "its distance from the pivot (m)" },
   "friction.axial": { label: "friction, axial (N m s)", isNotNegative: true },
   "friction.transverse": { label: "friction, transverse (N m s)", isNotNegative: true },
 };

@@ -56,6 +56,7 @@ const RECORDS = {
 const MORE_STEPS = 11; // of symtop_status
 export const VERTICAL = 15;
 const LARGEST = 1024; // bytes of a record
+const GRAVITY = 9.81; // m/s^2, as in Python
 
 /** Reads memory as C has laid it out: all records hold doubles, and begin at multiples of 8. */
 class Reader {
@@ -223,6 +224,18 @@ export class Kernel {
     const given = [[Ix, Iz, Mgl], [theta], [spin], 1, NAMES.holds.indexOf(hold)];
     const [rates] = this.call("find_regular_rates", ...given, room(2));
     return [...rates].filter((rate) => !Number.isNaN(rate));
+  }
+
+  /** The disc on an axle that moves as a top does: mass, radius, distance; NaN if there is none. */
+  /** @param {Top} top @returns {number[]} in kg and m */
+  findDisc({ Ix, Iz, Mgl }) {
+    return [...this.call("find_disc", [Ix, Iz, Mgl], GRAVITY, room(3))[0]];
+  }
+
+  /** The top that a flat disc makes. @param {number[]} disc @returns {Top} */
+  findDiscTop(disc) {
+    const [[Ix, Iz, Mgl]] = this.call("find_disc_top", disc, GRAVITY, room(3));
+    return { Ix, Iz, Mgl };
   }
 
   /**

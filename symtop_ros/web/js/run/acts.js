@@ -6,11 +6,12 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
 
 /** @import { LocalTop } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
-/** @import { Vector, Hold } from "../physics/kernel.js" */
+/** @import { Vector, Hold, Top } from "../physics/kernel.js" */
 /** @import { Beginning } from "./links.js" */
 /** @typedef {{[name: string]: any}} Message */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
 
+const DISC = ["mass", "radius", "distance"];
 const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
 const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
@@ -142,12 +143,20 @@ const restart = (top, { entry }) => {
   begin(top, { ...course, torque: top.run.findSteady(time) }, asked.request);
 };
 
+/** @param {import("../physics/kernel.js").Kernel} kernel @param {Top} own @param {string} key @param {number} value */
+const changeDisc = (kernel, own, key, value) => {
+  const disc = kernel.findDisc(own);
+  disc[DISC.indexOf(key)] = value;
+  return kernel.findDiscTop(disc);
+};
+
 /** @param {LocalTop} top @param {Message} message */
 const setParameter = (top, { name, value }) => {
   const [group, key] = name.split(".");
   const friction = /** @type {[number, number]} */ ([...top.course.friction]);
-  const own = { ...top.course.top };
-  if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
+  let own = { ...top.course.top };
+  if (group === "disc") own = changeDisc(top.kernel, own, key, value);
+  else if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
   const request = top.writer.write("request", { kind: "parameter", name: key, value });
   top.add("change", top.course.continue(top.state, { top: own, friction }), { request });

@@ -167,12 +167,14 @@ export const describe = (run, writer, time) => {
   const { course, kind } = run.find(time);
   const announced = findAnnounced(run, time);
   const { roots, ...start } = describeNow(course, course.start);
+  const [mass, radius, distance] = run.kernel.findDisc(course.top);
+  const disc = { "disc.mass": mass, "disc.radius": radius, "disc.distance": distance };
   return {
     histories: {
       radians: listHistory(run, writer, "radians"),
       degrees: listHistory(run, writer, "degrees"),
     },
-    top: course.parameters,
+    top: { ...course.parameters, ...disc },
     start,
     roots,
     window: chooseWindow(course.free),
