@@ -8,8 +8,10 @@ import pytest
 from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques
 from symtop_ros.physics import regular_precession_rates as find_roots
 from symtop_ros.web.lesson import read_lesson
+from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, SLOW, SLOW_ROOT_HURRIED, TOP
+from workshop.article.nutation import times_of_extreme_rate
 from workshop.article.pivot import SHORT_ARM
 
 THETA, SPIN, FACTOR = 0.5, 200.0, 1.4
@@ -130,6 +132,18 @@ def disc():
     return [f"{fast:.2f}", *(f"{angle:.3f}" for angle in (THETA, fallen, risen, pushed))]
 
 
+def one_fall():
+    motion = start(0.0)
+    fastest, half = times_of_extreme_rate(motion)[0], motion.nutation_period / 2
+    moved, taken = (find_impulses(motion, time) for time in (fastest, half))
+    gravity, coriolis, centrifugal = torques_at(motion, [half])[:, 0]
+    return [
+        *(f"{1e3 * each:+.3f}" for each in (*moved, moved.total, *taken)),
+        *(f"{1e3 * fastest:.1f}", f"{moved.total / TOP.Ix:.2f}"),
+        *(f"{each:.3f}" for each in (gravity, coriolis, -coriolis, centrifugal)),
+    ]
+
+
 NUMBERS = {
     1: let_go,
     3: depths,
@@ -140,6 +154,7 @@ NUMBERS = {
     8: hurry_on,
     10: observer,
     11: disc,
+    12: one_fall,
 }
 
 

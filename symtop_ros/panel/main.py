@@ -48,7 +48,7 @@ def _parser() -> argparse.ArgumentParser:
         f"its own, {FILE} in this folder, unless it is served or shows a running node.",
     )
     parser.add_argument(
-        "--lesson", action="store_true", help="open the lesson: eleven steps for a class"
+        "--lesson", action="store_true", help="open the lesson: twelve steps for a class"
     )
     parser.add_argument("--write", type=Path, metavar="FILE.html", help="write the page, and end")
     parser.add_argument(

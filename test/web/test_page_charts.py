@@ -8,6 +8,7 @@ import pytest
 from web.opened import FEW_FRAMES, read_motion, read_state
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates, theta_acceleration
+from workshop.article.answers.impulses import find_impulses
 from workshop.article.answers.ledger import KickLedger
 from workshop.article.answers.starts import find_boundaries, find_curves, loops
 
@@ -225,3 +226,39 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     kick = opened.read_events()[-1]
     assert kick["kind"] == "kick"
     assert kick["request"] == "pulled by the ball"
+
+
+def test_the_impulses_of_one_fall_are_those_of_the_article(open_page):
+    page = open_page("#theta=0.5&psi_dot=200&phi_dot=0")
+    page.open_charts("impulses")
+    event = page.read_events()[-1]
+    motion = read_motion(event)
+    half = motion.nutation_period / 2
+
+    def read():
+        names = ("gravity", "coriolis", "centrifugal", "total")
+        return [float(page.tab.text_content(f"#impulse-{name}")) for name in names]
+
+    def are_of_now():
+        """Return True if they are those up to now: to the last of 200 steps in half a nutation."""
+        passed = float(page.tab.get_attribute("body", "data-time")) - event["time"]
+        early, late = (find_impulses(motion, time) for time in (passed - half / 200, passed))
+        return all(
+            min(ends) - 1e-6 < 1e-3 * shown < max(ends) + 1e-6
+            for shown, *ends in zip(read()[:3], early, late, strict=True)
+        )
+
+    page.wait_for_time(event["time"] + 0.02)
+    page.tab.click("#pause")
+    page.until(are_of_now)
+    page.tab.click("#pause")
+    page.wait_for_time(event["time"] + half)
+    page.wait_for_frames(3)
+    *parts, total = read()
+    # trapezoids: their second differences leave 1e-5 of the whole, and four digits are shown
+    assert parts == pytest.approx([1e3 * each for each in find_impulses(motion, half)], abs=6e-4)
+    assert abs(total) < 6e-4
+    areas = page.tab.locator("#impulses path[fill-opacity]")
+    assert areas.count() == 3
+    page.follow("scene=friction")  # which has no such fall
+    page.until(lambda: not page.tab.is_visible("#impulses"))

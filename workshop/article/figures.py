@@ -15,6 +15,7 @@ from symtop_ros.physics import (
 from workshop.article.angles import draw_euler_angles
 from workshop.article.answers.drawings import draw_cusp_story, draw_release
 from workshop.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
+from workshop.article.answers.impulses import draw_impulses
 from workshop.article.answers.ledger import draw_energy_ledger
 from workshop.article.answers.resolution import draw_resolution
 from workshop.article.answers.starts import draw_map_of_kinds
@@ -252,6 +253,7 @@ FIGURES: dict[str, Callable[[], Figure]] = {
     "release": draw_release,
     "fictitious_torques": draw_fictitious_torques,
     "four_masses": draw_four_masses,
+    "impulses": draw_impulses,
     "energy_ledger": draw_energy_ledger,
     "map_of_kinds": draw_map_of_kinds,
     "resolution": draw_resolution,

@@ -26,6 +26,7 @@ from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import LessonStep, read_lesson
 from workshop.article.answers.fictitious import plot_torques
+from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import DEPTH
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
@@ -251,6 +252,15 @@ def draw_ledger(axes: Axes, runs: Runs) -> None:
     axes.legend(loc="lower left", fontsize=8)
 
 
+def draw_impulses(axes: Axes, runs: Runs) -> None:
+    """Draw the torques of one fall, and their impulses."""
+    (run,) = runs.values()
+    plot_impulses(axes, run.pieces[0][1])
+    axes.set_xlabel("$t$ (ms)")
+    above = {"loc": "lower left", "bbox_to_anchor": (-0.2, 1.0)}
+    axes.legend(**above, ncols=2, fontsize=8, title=r"and impulse ($10^{-3}$ N m s)")
+
+
 DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a step
     "tilt": draw_tilt,
     "momentum": draw_momentum,
@@ -258,6 +268,7 @@ DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a s
     "turning": draw_turning,
     "fictitious": draw_fictitious,
     "ledger": draw_ledger,
+    "impulses": draw_impulses,
 }
 # What is drawn left of these; all others: the end of the axis from above.
 LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {

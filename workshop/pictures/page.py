@@ -42,14 +42,15 @@ class Picture(NamedTuple):
     act: Mapping[str, Any]  # fields of ~/kick; empty for a motion without a kick
     nutations: tuple[float, float]  # of the motion before and after the act
     scheme: Literal["light", "dark"] = "light"
-    tab: str = "Top"
+    tab: str = ""  # none is open
 
 
 PICTURES = (
-    Picture("panel", 1280, 720, "hurry_slow", HURRY, (2.9, 2.5)),
+    Picture("panel", 1280, 720, "hurry_slow", HURRY, (1.7, 0.5)),
     Picture("panel_dark", 1280, 720, "looping", PUSH, (2.2, 2.4), "dark", "History"),
     Picture("panel_tablet", 820, 1180, "cusps", {}, (2.5, 0.0), tab="Push"),
-    Picture("panel_phone", 390, 844, "hurry_slow", HURRY, (2.0, 2.2)),
+    Picture("panel_phone", 390, 844, "hurry_slow", HURRY, (1.7, 0.5)),
+    Picture("panel_question", 390, 844, "hurry_slow", {}, (0.0, 0.0)),
 )
 LESSON = Picture("panel_lesson", 1280, 720, "cusps", {"precession_rate": 9.0}, (0.0, 4.0))
 STEP = "#lesson=10"
@@ -70,17 +71,19 @@ def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
     path = folder / f"{picture.name}.png"
     with tempfile.TemporaryDirectory() as place:
         page = Path(place, "top.html")
-        page.write_text(write_file(run=play(picture)), encoding="utf-8")
+        run = play(picture) if any(picture.nutations) else None  # without one it asks its question
+        page.write_text(write_file(run=run), encoding="utf-8")
         tab = browser.new_page(
             viewport={"width": picture.width, "height": picture.height},
             color_scheme=picture.scheme,
+            reduced_motion="reduce",  # it begins at rest
         )
         tab.add_init_script(SMOOTH)
         tab.goto(page.as_uri() + (STEP if picture is LESSON else ""))
-        tab.wait_for_selector("#headline:not(:empty)", timeout=TIMEOUT)
+        tab.wait_for_selector("#headline:not(:empty)", state="attached", timeout=TIMEOUT)
         if picture is LESSON:
             tab.get_by_label("Your prediction").fill(PREDICTION)
-        else:
+        elif picture.tab:
             tab.get_by_role("tab", name=picture.tab).click()
         tab.mouse.move(picture.width / 2, 5)
         tab.wait_for_timeout(3000)  # the browser may be some frames behind

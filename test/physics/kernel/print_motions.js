@@ -93,13 +93,14 @@ function* describe(kernel, names, pack, reader) {
   yield* describe_start(kernel, names, pack, start);
   const times = reader.numbers(reader.number());
   for (const t of times) yield* motion.at(t);
-  yield* list_rows(motion.states(times));
+  yield* list_rows(motion.fill("states", times.length, times));
   const clock = reader.numbers(5);
   const stamps = reader.stamps(reader.number());
   yield* list_rows(motion.atStamps(clock, stamps));
   if (reader.number()) {
     const [t, ...torque] = reader.numbers(4);
-    yield* motion.continue(t, torque).at(t);
+    const torqued = kernel.call("continue", motion.handle, t, torque, { writes: "handle" })[0];
+    yield* new motion.constructor(kernel, torqued).at(t);
   }
 }
 

@@ -6,6 +6,8 @@ import { showConstants } from "./constants_table.js";
 import { findAll } from "../controls/document.js";
 import { guard } from "../controls/notices.js";
 import { FreeChart } from "./free_chart.js";
+import { drawImpulses } from "./impulses_chart.js";
+import { NANO } from "../physics/course.js";
 import { drawRule } from "./rule_chart.js";
 import { drawOneSeries } from "./series_charts.js";
 import { drawWell } from "./well_chart.js";
@@ -30,6 +32,10 @@ export class Charts {
       theta: (facts, { series }) => drawOneSeries("theta", series, facts),
       phi_dot: (facts, { series }) => drawOneSeries("phi_dot", series, facts),
       psi_dot: (facts, { series }) => drawOneSeries("psi_dot", series, facts),
+      impulses: ({ began }, { samples }) => {
+        const { course, time } = last(samples);
+        drawImpulses(course, time / NANO - began);
+      },
       free: (_, { samples }) => free.draw(samples),
     };
     /** @type {Draw} */

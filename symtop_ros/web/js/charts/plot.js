@@ -6,7 +6,7 @@ import { shorten } from "../words/quantities.js";
 const SVG = "http://www.w3.org/2000/svg";
 export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
-const [RIGHT, UPPER, LOWER] = [18, 17, 28]; // margins, in which all words are
+const [RIGHT, UPPER, LOWER] = [18, 21, 28]; // margins, in which all words are
 const FAR = 1e4; // units; out of the drawing
 const DIGITS = 5; // of a number at an axis
 const LETTER = 5.6; // units of its width
@@ -111,9 +111,10 @@ export class Frame {
     return `<path d="M${LEFT} ${this.y(value).toFixed(1)}H${WIDE - RIGHT}" ${style}/>`;
   }
 
-  /** A curve, with gaps where its height is no number. @param {Pair[]} points @param {string} style */
-  curve(points, style) {
-    return `<path d="${writePath(points.map((each) => this.place(each)))}" fill="none" ${style}/>`;
+  /** A curve, with gaps where its height is no number. */
+  /** @param {Pair[]} points @param {string} style @param {string} fill of what it goes round */
+  curve(points, style, fill = "none") {
+    return `<path d="${writePath(points.map((each) => this.place(each)))}" fill="${fill}" ${style}/>`;
   }
 
   /** A drawing of which only what is within the axes is seen. @param {string} drawing */

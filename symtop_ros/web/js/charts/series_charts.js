@@ -6,7 +6,7 @@ import { angleUnit, toUnit } from "../words/quantities.js";
 /** @import { Row } from "../run/local.js" */
 /** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
 
-const HEIGHT = 115;
+const HEIGHT = 119;
 const SHARE = 0.02; // of a quantity, which its chart spans at least
 const GHOST = 4; // column of theta of the ghost
 /** @type {{[id: string]: Series}} */

@@ -29,11 +29,11 @@ export class Timeline {
   /** @param {number} end s */
   mark(end) {
     const shown = this.acts.filter((time) => time <= end).map((time) => (end ? time / end : 0));
-    const marks = find("marks");
-    while (marks.children.length > shown.length) marks.lastElementChild?.remove();
-    while (marks.children.length < shown.length) marks.append(make("i"));
-    shown.forEach((place, k) => {
-      /** @type {HTMLElement} */ (marks.children[k]).style.left = `${(100 * place).toFixed(2)}%`;
+    const marks = shown.map((place) => {
+      const mark = make("i");
+      mark.style.left = `${(100 * place).toFixed(2)}%`;
+      return mark;
     });
+    find("marks").replaceChildren(...marks);
   }
 }

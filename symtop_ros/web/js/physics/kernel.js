@@ -283,11 +283,6 @@ export class Motion {
     return this.atStamps([1, 0, 0, 0, 0], BigInt64Array.of(BigInt(passed)));
   }
 
-  /** States at times in s, four and three numbers each. @param {ArrayLike<number>} times */
-  states(times) {
-    return this.fill("states", times.length, times);
-  }
-
   /** States at stamps of a clock. @param {number[]} clock @param {BigInt64Array} stamps in ns */
   atStamps(clock, stamps) {
     return this.fill("states_of_clock", stamps.length, clock, stamps);
@@ -305,13 +300,6 @@ export class Motion {
   /** @param {number} t @param {number} steps @returns {number} */
   reach(t, steps) {
     return this.kernel.call("reach", this.handle, t, steps, room(1))[0][0];
-  }
-
-  /** The motion that goes on from a time with another torque; its times count from there. */
-  /** @param {number} t @param {number[]} torque */
-  continue(t, torque) {
-    const { kernel, handle } = this;
-    return new Motion(kernel, kernel.call("continue", handle, t, torque, room("handle"))[0]);
   }
 
   /** @returns {string} */

@@ -100,11 +100,8 @@ export class Labels {
   keepInside(name, place) {
     const [width, height] = this.measure(name);
     const { size } = this.camera;
-    place.x = Math.min(Math.max(place.x, width / 2), Math.max(size.width - width / 2, width / 2));
-    place.y = Math.min(
-      Math.max(place.y, height / 2),
-      Math.max(size.height - height / 2, height / 2),
-    );
+    place.x = Math.max(Math.min(place.x, size.width - width / 2), width / 2);
+    place.y = Math.max(Math.min(place.y, size.height - height / 2), height / 2);
   }
 
   /** Place the labels of this picture, and hide the others. */

@@ -1,33 +1,30 @@
-// The scene as a picture for a report: with its sentence, its labels and its legend, as on the page.
+// The scene as a picture for a report: with its sentence, and its labels and words as on the page.
 
 import { find, findAll } from "../controls/document.js";
 
-const EDGE = 3; // px between a label and its frame
+const EDGE = 3; // px between a text and its frame
 const LINE = 26; // px of the sentence
-
-/** @param {string} name of a style of the page */
-const readStyle = (name) => getComputedStyle(document.documentElement).getPropertyValue(name);
+const SHOWN = ".label:not([hidden]), #legend [aria-pressed=true], #legend li:not([hidden]) > i";
 
 /**
- * A text with its frame or without, where an element stands.
+ * A text where its element stands, with the frame of a label, or a mark of the legend.
  * @param {CanvasRenderingContext2D} context
  * @param {HTMLElement} element
  * @param {DOMRect} scene
- * @param {boolean} isFramed
  */
-const drawText = (context, element, scene, isFramed) => {
-  const box = element.getBoundingClientRect();
+const drawText = (context, element, scene) => {
+  const { left, top, width, height } = element.getBoundingClientRect();
   const style = getComputedStyle(element);
-  const [x, y] = [box.left - scene.left, box.top - scene.top + LINE];
+  const [x, y] = [left - scene.left, top - scene.top + LINE];
   context.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
-  if (isFramed) {
-    context.fillStyle = readStyle("--back");
-    context.strokeStyle = style.borderColor;
-    context.fillRect(x, y, box.width, box.height);
-    context.strokeRect(x, y, box.width, box.height);
-  }
+  context.fillStyle = style.backgroundColor;
+  context.strokeStyle = style.borderColor;
+  context.fillRect(x, y, width, height);
+  if (style.borderTopStyle !== "none") context.strokeRect(x, y, width, height);
   context.fillStyle = style.color;
-  context.fillText(element.textContent ?? "", x + EDGE, y + box.height / 2, box.width);
+  const named = element.tagName === "I" ? element.parentElement : element;
+  const begin = element.tagName === "I" ? width + EDGE : EDGE;
+  context.fillText(named?.textContent ?? "", x + begin, y + height / 2);
 };
 
 /** @returns {HTMLCanvasElement} */
@@ -38,19 +35,14 @@ export const drawPicture = () => {
   const height = Math.round((scene.height + LINE) * ratio);
   const picture = Object.assign(document.createElement("canvas"), { width: canvas.width, height });
   const context = /** @type {CanvasRenderingContext2D} */ (picture.getContext("2d"));
-  context.fillStyle = readStyle("--back");
+  const { backgroundColor, color, fontFamily } = getComputedStyle(document.body);
+  context.fillStyle = backgroundColor;
   context.fillRect(0, 0, picture.width, picture.height);
   context.drawImage(canvas, 0, LINE * ratio);
   context.scale(ratio, ratio);
-  context.lineWidth = 2;
-  context.textBaseline = "middle";
-  context.fillStyle = readStyle("--text");
-  context.font = `bold 15px ${getComputedStyle(document.body).fontFamily}`;
+  Object.assign(context, { lineWidth: 2, textBaseline: "middle", fillStyle: color });
+  context.font = `bold 15px ${fontFamily}`;
   context.fillText(find("headline").textContent ?? "", EDGE, LINE / 2, scene.width - 2 * EDGE);
-  for (const label of findAll(".label:not([hidden])")) drawText(context, label, scene, true);
-  for (const entry of findAll("#legend li:not([hidden])")) {
-    const [drawn] = findAll("[aria-pressed=true]", entry);
-    if (drawn) drawText(context, drawn, scene, false);
-  }
+  for (const each of findAll(SHOWN)) drawText(context, each, scene);
   return picture;
 };

@@ -151,12 +151,6 @@ export const describeNow = ({ kernel, top }, state) => {
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
 };
 
-/** The time in s at which the first nutation after a kick is half over. @param {Run} run @param {number} time ns */
-const findHalf = (run, time) => {
-  const first = run.findFirstNutation(time);
-  return first && (first.begin + first.end) / (2 * NANO);
-};
-
 /**
  * What holds after the last event until the next one.
  * @param {Run} run
@@ -164,8 +158,9 @@ const findHalf = (run, time) => {
  * @param {number} time ns
  */
 export const describe = (run, writer, time) => {
-  const { course, kind } = run.find(time);
+  const { course, kind, time: began } = run.find(time);
   const announced = findAnnounced(run, time);
+  const first = run.findFirstNutation(time);
   const { roots, ...start } = describeNow(course, course.start);
   const [mass, radius, distance] = run.kernel.findDisc(course.top);
   const disc = { "disc.mass": mass, "disc.radius": radius, "disc.distance": distance };
@@ -181,7 +176,8 @@ export const describe = (run, writer, time) => {
     since: run.findStart(time) / NANO,
     marks: run.moments.filter((each) => each.kind === "kick").map((each) => each.time / NANO),
     acts: run.moments.filter((each) => each.kind !== "torque").map((each) => each.time / NANO),
-    half: findHalf(run, time),
+    began: began / NANO,
+    half: first && (first.begin + first.end) / (2 * NANO),
     link: writeLink(course),
     ledger: findLedger(announced),
     energies: writer.write("ledger", nameLedger(announced)),
