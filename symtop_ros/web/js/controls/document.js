@@ -62,12 +62,6 @@ export const whenReleased = (slider, act) => {
 /** @param {string} id @param {string} text */
 export const say = (id, text) => write(find(id), text);
 
-/** Open or close what folds. @param {Element} place inside of it @param {boolean} open */
-export const unfold = (place, open) => {
-  const details = place.closest("details");
-  if (details) details.open = open;
-};
-
 /** Texts of the markup that have symbols. */
 export const writeSymbols = () => {
   for (const element of findAll("[data-math]")) write(element, element.textContent ?? "");

@@ -1,6 +1,6 @@
 // The lesson: a step at a time, with a prediction, buttons that make its motions, and its charts.
 
-import { find, findAll, make, say, unfold, write } from "./document.js";
+import { find, findAll, make, say, write } from "./document.js";
 import { keep, read } from "./choices.js";
 import { recall, remember } from "../run/memory.js";
 
@@ -132,8 +132,9 @@ export class Lesson {
   markCharts(names) {
     for (const chart of findAll("[data-chart]")) {
       const isNamed = names.includes(chart.dataset.chart ?? "");
-      chart.closest("details")?.classList.toggle("looked", isNamed);
-      unfold(chart, isNamed);
+      const details = /** @type {HTMLDetailsElement} */ (chart.closest("details"));
+      details.classList.toggle("looked", isNamed);
+      details.open = isNamed;
     }
     find("charts").scrollTop = 0;
   }

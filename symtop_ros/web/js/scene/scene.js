@@ -180,10 +180,16 @@ export class Scene {
     if (!push) return;
     const { writer, time } = top;
     if (push.way && time < push.end) {
-      const [arrow, name] = [scale(push.way, PUSH), writer.write("scene", { kind: "push" })];
-      this.drawArrow("ball", arrow, subtract(push.tip, arrow), "");
-      const [begin, end] = [subtract(push.tip, arrow), push.tip];
-      this.labels.put("push", COLORS.ball, begin, end, name);
+      const arrow = scale(push.way, PUSH);
+      const begin = subtract(push.tip, arrow);
+      this.drawArrow("ball", arrow, begin, "");
+      this.labels.put(
+        "push",
+        COLORS.ball,
+        begin,
+        push.tip,
+        writer.write("scene", { kind: "push" }),
+      );
     }
     const past = states.slice(-Math.ceil(((time - push.begin) / (top.window * NANO)) * top.points));
     const lift = findReached(push, time, past);
