@@ -62,7 +62,7 @@ def _tab(tmp_path_factory):
         tab = browser.new_page()
         tab.add_init_script(UNDRAWN)
         tab.goto(path.as_uri())
-        tab.wait_for_selector("#headline:not(:empty)")
+        tab.wait_for_selector("#headline:not(:empty)", state="attached")
         yield tab
 
 

@@ -296,5 +296,5 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
             until(lambda: tab.is_hidden("#lost"), look)
             tab.click("#tab-history")
             assert "again" not in tab.text_content("#refusal")
-            until(lambda: "1.25 rad" in tab.text_content("#entries"), look)
+            until(lambda: "71.62°" in tab.text_content("#entries"), look)
         assert problems == []

@@ -15,7 +15,8 @@ const createMark = (name) => {
 
 /** @param {[keyof typeof COLORS, string, string]} entry of the legend */
 const createEntry = ([name, text, layer]) => {
-  if (!ARROWS.includes(layer)) return make("li", {}, createMark(name), ...typeset(text));
+  if (!ARROWS.some((arrow) => arrow === layer))
+    return make("li", {}, createMark(name), ...typeset(text));
   return make("li", {}, ...typeset(`[${text}|${layer}]`));
 };
 
@@ -39,23 +40,17 @@ export class Layers {
       entry.dataset.layer = each[2];
       find("legend").append(entry);
     }
-    for (const name of ARROWS)
-      document.documentElement.style.setProperty(
-        `--${name}`,
-        COLORS[/** @type {keyof typeof COLORS} */ (name)],
-      );
+    const { style } = document.documentElement;
+    for (const name of ARROWS) style.setProperty(`--${name}`, COLORS[name]);
     this.listen();
   }
 
   /** Pointing at a word shows its arrow, and a click keeps it. */
   listen() {
-    for (const [begin, end] of [
-      ["pointerover", "pointerout"],
-      ["focusin", "focusout"],
-    ]) {
+    for (const begin of ["pointerover", "focusin"])
       document.addEventListener(begin, (event) => this.peek(findLayer(event), true));
+    for (const end of ["pointerout", "focusout"])
       document.addEventListener(end, (event) => this.peek(findLayer(event), false));
-    }
     document.addEventListener("click", (event) => {
       const layer = findLayer(event);
       if (layer) this.show(layer, !this.boxes[layer].checked);

@@ -36,6 +36,7 @@ export const LAYERS = {
 };
 
 /** Arrows that come one by one: each has a word in the scene, which shows it. */
+/** @type {(keyof typeof COLORS)[]} */
 export const ARROWS = ["torque", "L", "omega"];
 
 /** Colours with a name, and the layer that has them. */

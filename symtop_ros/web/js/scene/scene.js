@@ -165,8 +165,7 @@ export class Scene {
     if (!ghost) return;
     const { painter, models } = this;
     painter.drawMesh(models.body, createPose(ghost.orientation), GHOST_OPACITY);
-    const axis = ghost.toWorld([0, 0, 1]);
-    const size = 0.8 * BALL;
+    const [axis, size] = [ghost.toWorld([0, 0, 1]), 0.8 * BALL];
     painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
     const name = this.top.writer.write("scene", { kind: "ghost" });
     const below = add(scale(axis, 1 - 2 * BALL), scale(normalize([axis[0], axis[1], 0]), 2 * BALL));
@@ -198,10 +197,8 @@ export class Scene {
     this.painter.loadLines(listBracket(lift, phi), this.models.bracket);
     this.painter.drawLines(this.models.bracket, paint("lift"), 3, STILL);
     const text = writer.write("scene", lift, inDegrees() ? "degrees" : "radians");
-    const [at, inner] = [BRACKET + 0.02, 1].map((radius) =>
-      findPoint((lift.from + lift.to) / 2, phi, radius),
-    );
-    this.labels.put("bracket", COLORS.lift, at, inner, text);
+    const at = findPoint((lift.from + lift.to) / 2, phi, BRACKET);
+    this.labels.put("bracket", COLORS.lift, at, scale(at, 0.9), text);
   }
 
   /** The top on its stand, with its shadow and its ball. @param {State} state */
