@@ -38,7 +38,6 @@ export class Question {
   enter(stage) {
     if (stage) document.body.dataset.asked = stage;
     else delete document.body.dataset.asked;
-    find("question").hidden = !stage;
   }
 
   /** The push leads to what is seen, and another act ends the question. @param {Facts} facts @param {string} happened */

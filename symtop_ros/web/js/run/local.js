@@ -60,6 +60,7 @@ export class LocalTop {
     this.points = POINTS; // of the trace
     this.isRunning = true;
     this.isRecording = false; // a node can record
+    this.isSlow = false; // slower than chosen
     this.speed = SPEED;
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
@@ -135,17 +136,14 @@ export class LocalTop {
     }
   }
 
-  /** The speed of now: slower than chosen in the nutation that follows a kick. */
-  get pace() {
-    const first = this.run.findFirstNutation(this.time);
-    if (!first || this.time >= first.end) return this.speed;
-    return Math.min(this.speed, (first.end - first.begin) / (WATCHED * NANO));
-  }
-
-  /** @param {number} passed s of the clock */
+  /** Slower than chosen in the nutation that follows a kick. @param {number} passed s of the clock */
   move(passed) {
     const { course, time } = this.run.find(this.time);
-    const wanted = this.time + Math.round(passed * this.pace * NANO);
+    const first = this.run.findFirstNutation(this.time);
+    const most =
+      first && this.time < first.end ? (first.end - first.begin) / NANO / WATCHED : Infinity;
+    this.isSlow = most < this.speed;
+    const wanted = this.time + Math.round(passed * Math.min(this.speed, most) * NANO);
     const reached = time + course.reach(wanted - time, FRAME_STEPS);
     this.run.at(reached); // refused where the kernel computes no state; then the time stays
     this.time = reached;
@@ -309,7 +307,7 @@ export class LocalTop {
     });
     const constants = compareConstants(this.course, states[states.length - 1]);
     const time = [this.time / NANO, this.end / NANO];
-    this.tell({ samples, series, constants, time, isSlow: this.pace < this.speed });
+    this.tell({ samples, series, constants, time, isSlow: this.isSlow });
   }
 
   tellFacts() {
