@@ -31,6 +31,16 @@ def test_there_is_no_finding_of_axe(open_page, scheme, options):
     check(axe, page, options)
 
 
+def test_there_is_no_finding_of_axe_in_the_first_minute(open_page):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    page = open_page(known="")
+    check(axe, page)
+    page.tab.click("text=It will rise")
+    check(axe, page)
+    page.tab.wait_for_selector("#compared")
+    check(axe, page)
+
+
 def test_a_page_that_prefers_no_motion_begins_at_rest(open_page):
     page = open_page(reduced_motion="reduce")
     assert page.say("pause") == "Run"

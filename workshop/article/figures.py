@@ -13,6 +13,7 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 from workshop.article.angles import draw_euler_angles
+from workshop.article.answers.circle import draw_nutation
 from workshop.article.answers.drawings import draw_cusp_story, draw_release
 from workshop.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
 from workshop.article.answers.impulses import draw_impulses
@@ -251,6 +252,7 @@ FIGURES: dict[str, Callable[[], Figure]] = {
     "pivot_force": draw_pivot_force,
     "cusp_story": draw_cusp_story,
     "release": draw_release,
+    "nutation": draw_nutation,
     "fictitious_torques": draw_fictitious_torques,
     "four_masses": draw_four_masses,
     "impulses": draw_impulses,

@@ -43,9 +43,7 @@ def torques_at(motion: Motion, times: Real) -> Real:
     """Return gravity's, Coriolis' and the centrifugal torque (3, n) in N m at times in s."""
     states = motion.at(times)
     rates = states.euler_rates
-    torques = precessing_frame_torques(
-        motion.top, states.euler_angles.theta, rates.phi, rates.psi
-    )
+    torques = precessing_frame_torques(motion.top, states.euler_angles.theta, rates.phi, rates.psi)
     return np.array([torques.gravity, torques.coriolis, torques.centrifugal])
 
 
@@ -68,7 +66,7 @@ def plot_impulses(axes: Axes, motion: Motion) -> None:
         axes.plot(MILLI * times, torque, color=color, ls=dash, label=words)
     axes.plot(MILLI * times, torques.sum(axis=0), color=INK, label=r"sum, $I_x\ddot\theta$")
     axes.set(xmargin=0, ylabel="torque (N m)")
-    axes.legend(loc="lower left", fontsize=8, title=r"and impulse ($10^{-3}$ N m s)")
+    axes.legend(loc="lower left", fontsize=8, title=r"torque, and its impulse in $10^{-3}$ N m s")
 
 
 def draw_impulses() -> Figure:
