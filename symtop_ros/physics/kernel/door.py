@@ -474,7 +474,7 @@ def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -
 
 
 def find_disc(top: Real, gravity: float) -> Real:
-    """Return mass, radius and distance of the disc that moves as a top does, nan if there is none."""
+    """Return mass, radius and distance of the disc that moves as a top does, nan without one."""
     found = np.empty(3)
     demand(open_door().find_disc(read_from(top), gravity, write_to(found, 3)))
     return found
