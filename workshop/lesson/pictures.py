@@ -257,8 +257,8 @@ def draw_impulses(axes: Axes, runs: Runs) -> None:
     (run,) = runs.values()
     plot_impulses(axes, run.pieces[0][1])
     axes.set_xlabel("$t$ (ms)")
-    above = {"loc": "lower left", "bbox_to_anchor": (-0.2, 1.0)}
-    axes.legend(**above, ncols=2, fontsize=8, title=r"torque, and its impulse in $10^{-3}$ N m s")
+    title = r"torque, and its impulse in $10^{-3}$ N m s"
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.2, 1.0), ncols=2, fontsize=8, title=title)
 
 
 DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a step
