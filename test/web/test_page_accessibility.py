@@ -112,6 +112,7 @@ def test_arrows_come_one_by_one_by_their_words(opened):
     assert opened.tab.get_by_label("torque", exact=True).is_checked()
 
 
+@pytest.mark.wording
 def test_a_word_of_the_reason_has_the_colour_of_its_arrow_and_shows_it(opened):
     opened.tab.click("#hurry")
     opened.tab.click("#reason summary")

@@ -27,6 +27,7 @@ def read_kick(page):
     return Motion(motion.top, before), motion, kick["time"]
 
 
+@pytest.mark.wording
 def test_a_push_is_predicted_seen_and_compared(new):
     assert new.tab.is_visible("text=Will it rise or fall?")
     assert not new.tab.is_visible("#headline")
@@ -62,6 +63,7 @@ def test_who_follows_a_link_is_not_asked(open_page, fragment):
     assert not page.tab.is_visible("#question")
 
 
+@pytest.mark.wording
 def test_another_act_ends_the_question(new):
     new.press("d")
     assert not new.tab.is_visible("#question")
@@ -88,6 +90,7 @@ def test_question_scene_buttons_and_chart_are_on_the_first_screen_of_a_phone(ope
     assert boxes[1]["height"] > 0.35 * height
 
 
+@pytest.mark.wording
 def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_higher(open_page):
     page = open_page(script=FEW_FRAMES + UNDRAWN)
     page.tab.select_option("#speed", "1")
@@ -140,6 +143,7 @@ def test_the_time_stands_beside_its_slider_with_a_mark_at_each_act(opened):
     assert opened.tab.text_content("#clock") == f"{end:.2f} s"
 
 
+@pytest.mark.wording
 def test_numbers_are_in_degrees_at_first_and_in_rad_in_the_lesson(new):
     new.tab.click("text=It will rise")
     assert "°" in new.say("headline")

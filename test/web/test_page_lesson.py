@@ -139,6 +139,7 @@ def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     assert hurry.is_disabled()
 
 
+@pytest.mark.wording
 def test_predictions_are_saved_as_a_text(open_page, tmp_path):
     page = open_page("#lesson=2")
     page.tab.fill("#prediction", "It falls.")
