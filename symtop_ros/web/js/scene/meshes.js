@@ -7,6 +7,7 @@
 /** @typedef {number[]} Mesh */
 
 const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
+const LARGEST = 0.46; // radius of a rotor: it stays above the ground
 const FACETS = 10; // of a sector
 
 /** @param {number[]} radii @param {number[]} heights @returns {Profile} */
@@ -81,7 +82,8 @@ const createRotor = (radius, height) => {
  * @param {import("../physics/kernel.js").Top} top
  */
 export const createBody = ({ Ix, Iz, Mgl }) => {
-  const [radius, height] = [0.22 + 0.4 * Math.sqrt(Iz / Ix), 0.56 * Math.sign(Mgl)];
+  const radius = Math.min(0.22 + 0.4 * Math.sqrt(Iz / Ix), LARGEST);
+  const height = 0.56 * Math.sign(Mgl);
   const low = Math.min(0, height - 0.22);
   const heights = [low, low + 0.03, 0.93, 0.95, 0.985, 1];
   const axle = createProfile([0, 0.022, 0.022, 0.034, 0.034, 0], heights);

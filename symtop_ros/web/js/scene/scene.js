@@ -32,13 +32,14 @@ const SHORTEST = 0.02; // arrows that are shorter have no direction that can be 
 const GHOST_OPACITY = 0.34;
 const BALL = 0.055;
 const PUSH = 0.34; // length of the arrow of a push
-const HORIZON = 1.65; // rad; the axis goes below the pivot: no stand, and the whole sphere
+const [WIDE, HORIZON] = [1.1, 1.65]; // rad; the axis goes below the pivot: no stand, and the whole sphere
 const GROUND = -0.365;
 /** @type {{eye: Vector, target: Vector}[]} */
 const VIEWS = [
   { eye: [1.46, -1.7, 0.95], target: [0, 0, 0.33] },
-  { eye: [2.75, -3.2, 1.3], target: [0, 0, 0] },
-  { eye: [2.75, -3.2, -1.3], target: [0, 0, 0] },
+  { eye: [2, -2.33, 0.95], target: [0, 0, 0] },
+  { eye: [2, -2.33, -0.95], target: [0, 0, 0] },
+  { eye: [1.9, -2.2, 1.1], target: [0, 0, 0.25] }, // on the stand, and far from it
 ];
 const LOST = "the picture is lost: the graphics card was reset. It is drawn again when it is back";
 const STILL = createPose([1, 0, 0, 0]);
@@ -137,13 +138,13 @@ export class Scene {
     this.torqueScale =
       Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
     const isBelow = course.top.Mgl < 0 || angles[1] > HORIZON;
-    const momentum = findVectors(course, state).L[2];
-    const view = isBelow ? (course.top.Mgl < 0 && momentum < 0 ? 2 : 1) : 0;
+    const below = course.top.Mgl < 0 && findVectors(course, state).L[2] < 0 ? 2 : 1;
+    const view = isBelow ? below : angles[1] > WIDE ? 3 : 0;
     if (view !== this.view) {
       this.view = view;
       this.camera.place(VIEWS[view].eye, VIEWS[view].target);
     }
-    painter.loadLines(listSphere(view > 0), this.models.sphere);
+    painter.loadLines(listSphere(isBelow), this.models.sphere);
   }
 
   /** @param {State} state now @param {State[]} states of the trace */
@@ -205,7 +206,7 @@ export class Scene {
   drawBody(state) {
     const { painter } = this;
     const axis = state.toWorld([0, 0, 1]);
-    if (this.view === 0) {
+    if (this.view % 3 === 0) {
       painter.drawShadow(
         this.models.disc,
         createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]),
