@@ -19,12 +19,14 @@ WebGL2RenderingContext.prototype.drawElements = () => {};
 """
 
 
-# Who comes again is not asked the first question, and may have chosen rad.
+# Who comes again is not asked the first question, and may have chosen rad. Nothing is written: what is
+# written so early is lost now and then when the page is loaded again.
 KNOWN = """
-try {
-    localStorage.setItem("symtop.answer", "rises");
-    if (localStorage.getItem("symtop.unit") === null) localStorage.setItem("symtop.unit", "rad");
-} catch {}
+const getStored = Storage.prototype.getItem;
+Storage.prototype.getItem = function (key) {
+    const known = {"symtop.answer": "rises", "symtop.unit": "rad"};
+    return getStored.call(this, key) ?? known[key] ?? null;
+};
 """
 
 
