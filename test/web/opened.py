@@ -19,8 +19,8 @@ WebGL2RenderingContext.prototype.drawElements = () => {};
 """
 
 
-# Who comes again is not asked the first question, and may have chosen rad. Nothing is written: what is
-# written so early is lost now and then when the page is loaded again.
+# Who comes again is not asked the first question, and may have chosen rad. Nothing is written: what
+# is written so early is lost now and then when the page is loaded again.
 KNOWN = """
 const getStored = Storage.prototype.getItem;
 Storage.prototype.getItem = function (key) {
