@@ -5,6 +5,7 @@ import pytest
 from log_files import LAYOUTS, Run, topic
 from programs import execute
 from rerun.chunk import McapReader
+from session.test_outputs import record_with_markers
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.repair import repair
@@ -78,6 +79,13 @@ def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_pa
     done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
     assert done.returncode == 0, done.stdout
     assert all(topic(name) in done.stdout for name in LAYOUTS)
+
+
+def test_rerun_reads_a_log_with_markers(tmp_path):
+    path = record_with_markers(tmp_path)
+    assert execute([viewer.PROGRAM, "mcap", "check", "--full", path]).returncode == 0
+    rows = [each for each in McapReader(path).stream() if not each.is_static]
+    assert sum(each.num_rows for each in rows if each.entity_path == topic("markers")) == 31
 
 
 def test_rerun_recovers_the_same_samples_of_a_log_that_was_cut(tmp_path):

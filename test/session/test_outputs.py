@@ -87,14 +87,19 @@ def test_a_topic_is_published_while_it_has_a_subscriber_and_a_latched_one_always
     )
 
 
-def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_path):
-    options = {"record__enabled": True, "record__directory": str(tmp_path)}
+def record_with_markers(folder):
+    """Record a second of a run with markers; return the path of the log."""
+    options = {"record__enabled": True, "record__directory": str(folder)}
     session, clock = start(Program(), publish_markers=True, publish_rate=100.0, **options)
     path = session.recording.path
     for _ in range(10):
         advance(session, clock, 0.1)
     session.close()
-    file = McapFile(path)
+    return path
+
+
+def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_path):
+    file = McapFile(record_with_markers(tmp_path))
     data = [
         bytes(message.data)
         for messages in file.chunks()
