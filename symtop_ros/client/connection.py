@@ -16,6 +16,8 @@ from symtop_ros.simulation.validation import full_name
 
 TYPES = {"named": SetParametersAtomically, "switch": SetBool, "plain": Trigger}  # by kind
 POLL = 0.01  # s; an executor does not notice that a service was found
+PATIENCE = 1.0  # s, after which a harmless question is asked again
+QUESTION = "get_state"  # changes nothing
 
 
 class UnreachableError(Exception):
@@ -30,6 +32,7 @@ class Connection:
         self.name = full_name(name)
         self._timeout = timeout
         self._clients: dict[str, Client] = {}
+        self._known = {QUESTION}  # services whose answers reach this connection
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
 
@@ -97,6 +100,8 @@ class Connection:
                 f"no answer from {self.name} within {self._timeout:g} s: "
                 "is top_node running, with the same ROS_DOMAIN_ID and --node?"
             )
+        if service not in self._known and self._become_known():
+            self._known.add(service)
         future = client.call_async(request)
         if not self.spin_until(future.done, self._timeout):
             client.remove_pending_request(future)
@@ -104,3 +109,20 @@ class Connection:
                 f"{self.name}/{service} did not answer within {self._timeout:g} s"
             )
         return future.result()
+
+    def _become_known(self) -> bool:
+        """Wait until the top has found the readers of answers that were made up to now.
+
+        Fast DDS drops an answer whose reader it has not found after 0.1 s: on a busy machine a kick
+        would be done and not answered. Readers are found in the order in which they were made, so
+        the answer to a question that is asked last says that the others are known.
+        """
+        client = self.node.create_client(Trigger, f"{self.name}/{QUESTION}")
+        deadline = time.monotonic() + self._timeout
+        while (left := deadline - time.monotonic()) > 0:
+            if self.spin_until(client.service_is_ready, min(PATIENCE, left)):
+                future = client.call_async(Trigger.Request())
+                if self.spin_until(future.done, min(PATIENCE, left)):
+                    return True
+                client.remove_pending_request(future)
+        return False

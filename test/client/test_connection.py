@@ -23,6 +23,24 @@ def test_a_service_that_does_not_answer_is_reported_after_the_time_out():
             Connection(user.node, "/silent", timeout=3.0).trigger("reset")
 
 
+def test_a_harmless_question_is_answered_before_the_first_request_to_a_service():
+    asked = []
+
+    def note(name):
+        return lambda _, response: asked.append(name) or response
+
+    with Listener(DOMAIN, "user") as user:
+        top = rclpy.create_node("top", context=user.context)
+        for name in ("get_state", "reset"):
+            top.create_service(Trigger, f"~/{name}", note(name))
+        connection = Connection(user.node, timeout=60.0)
+        connection._executor.add_node(top)
+        for _ in range(2):
+            connection.trigger("reset")
+        connection.close()
+    assert asked == ["get_state", "reset", "reset"]
+
+
 def test_words_become_numbers_lists_and_text():
     assert parse_values(["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow"]) == {
         "a": 9.0,

@@ -25,7 +25,7 @@ from symtop_ros.simulation.validation import RefusedError
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"scene": "nowhere"}, "scene must be one of backward_start, closed_cusps,"),
+        ({"scene": "nowhere"}, "scene must be one of backward_start, bicycle_wheel,"),
         ({"top__Mg": 1.0}, "parameter name must be known (the nearest is top.Mgl), got 'top.Mg'"),
         ({"publish_rate": "fast"}, "publish_rate must be 1 to 2000 Hz, got 'fast'"),
         (
