@@ -32,7 +32,8 @@ class Connection:
         self.name = full_name(name)
         self._timeout = timeout
         self._clients: dict[str, Client] = {}
-        self._known = {QUESTION}  # services whose answers reach this connection
+        # by service, until its first call: a client made after its own
+        self._questions: dict[str, Client] = {}
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
 
@@ -91,6 +92,9 @@ class Connection:
     def _client(self, kind: Any, service: str) -> Client:
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, f"{self.name}/{service}")
+            if service != QUESTION:
+                question = f"{self.name}/{QUESTION}"
+                self._questions[service] = self.node.create_client(Trigger, question)
         return self._clients[service]
 
     def _call(self, kind: Any, service: str, request: Any) -> Any:
@@ -100,8 +104,8 @@ class Connection:
                 f"no answer from {self.name} within {self._timeout:g} s: "
                 "is top_node running, with the same ROS_DOMAIN_ID and --node?"
             )
-        if service not in self._known and self._become_known():
-            self._known.add(service)
+        if service in self._questions and self._become_known(self._questions[service]):
+            del self._questions[service]
         future = client.call_async(request)
         if not self.spin_until(future.done, self._timeout):
             client.remove_pending_request(future)
@@ -110,14 +114,13 @@ class Connection:
             )
         return future.result()
 
-    def _become_known(self) -> bool:
-        """Wait until the top has found the readers of answers that were made up to now.
+    def _become_known(self, client: Client) -> bool:
+        """Wait until the top has found the readers of answers that were made before this client.
 
         Fast DDS drops an answer whose reader it has not found after 0.1 s: on a busy machine a kick
         would be done and not answered. Readers are found in the order in which they were made, so
-        the answer to a question that is asked last says that the others are known.
+        the answer to a harmless question of the last one says that the others are known.
         """
-        client = self.node.create_client(Trigger, f"{self.name}/{QUESTION}")
         deadline = time.monotonic() + self._timeout
         while (left := deadline - time.monotonic()) > 0:
             if self.spin_until(client.service_is_ready, min(PATIENCE, left)):

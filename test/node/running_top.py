@@ -20,7 +20,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.time import Time
 
-from symtop_ros.client.connection import QUESTION, Connection
+from symtop_ros.client.connection import Connection
 from symtop_ros.node.top_node import TopNode
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
@@ -160,7 +160,7 @@ class _SharedConnection(Connection):
 
     def __init__(self, running: RunningTop) -> None:
         self.node, self.name, self._timeout, self._running = running.user, "/top", TIMEOUT, running
-        self._clients, self._known = {}, {QUESTION}
+        self._clients, self._questions = {}, {}
 
     def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
         self._running.spin_until(done, timeout)
