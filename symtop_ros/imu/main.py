@@ -100,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="top_imu", description=DESCRIPTION)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
     parser.add_argument("--rate", type=float, default=200.0, help="samples per second, default 200")
-    parser.add_argument("--seconds", type=float, default=20.0, help="length, default 20")
+    parser.add_argument("--seconds", type=float, default=20.0, help="duration, default 20")
     parser.add_argument(
         "--position",
         type=float,
@@ -126,9 +126,9 @@ def _parser() -> argparse.ArgumentParser:
         "default: as in central Europe, with y north",
     )
     parser.add_argument(
-        "--noise", metavar="FILE", help="consumer, or YAML as of Kalibr; default: exact"
+        "--noise", metavar="FILE", help="consumer, or YAML in Kalibr's form; default: exact"
     )
-    parser.add_argument("--seed", type=int, default=0, help="of the noise, default 0")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the noise, default 0")
     parser.add_argument(
         "--average",
         action="store_true",

@@ -72,7 +72,7 @@ def _parser() -> argparse.ArgumentParser:
         choices=(BODY, SENSOR),
         help="what the estimates turn; default: the sensor for Imu messages, else the body",
     )
-    parser.add_argument("--scene", help="in place of LOG: a scene that starts at the stamp 0")
+    parser.add_argument("--scene", help="a scene that starts at the stamp 0, in place of LOG")
     parser.add_argument("--node", help="full name of the top if there are several")
     parser.add_argument(
         "--estimates",
@@ -85,15 +85,15 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         choices=REMOVABLE,
         default=[],
-        help="take away the constant rotations, the delay (up to 0.1 s), or the drift of the "
+        help="subtract the constant rotations, the delay (up to 0.5 s), or the drift of the "
         "heading that were found",
     )
     parser.add_argument(
         "--aligned",
         choices=MODELS,
         metavar="MODEL",
-        help="align by a stated model and look for nothing else: none, heading, world or "
-        "world-and-body, and with +delay, +clock or +delay+clock what the stamps are off by",
+        help="align by a stated model without looking for other causes: none, heading, world or "
+        "world-and-body, and with +delay, +clock or +delay+clock the error of the stamps",
     )
     parser.add_argument(
         "--clock",
@@ -103,13 +103,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
-        "-o", "--output", type=Path, metavar="FOLDER", help="for JSON, plots, problems"
+        "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON, plots and problems"
     )
     parser.add_argument(
-        "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude is further off"
+        "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude error is larger"
     )
-    parser.add_argument("--live", action="store_true", help="a line each second, of a running node")
-    parser.add_argument("--seconds", type=positive, help="end of --live")
+    parser.add_argument("--live", action="store_true", help="judge a running node: one line each second")
+    parser.add_argument("--seconds", type=positive, help="duration of --live")
     parser.add_argument(
         "--testset",
         nargs="?",

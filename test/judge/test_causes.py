@@ -89,7 +89,7 @@ def test_a_delay_is_known_up_to_periods_of_the_nutation():
     judgement = judge(Made(delay=0.08).make(truth, STAMPS), truth, "x")
     assert judgement.found.period == pytest.approx(0.15954, abs=1e-5)
     text = judgement.format()
-    assert "or plus n x 0.1595 s, with a rotation of the world by " in text
+    assert "or plus n x 0.1595 s; for n = 1 with a rotation of the world by " in text
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -128,7 +128,7 @@ def test_a_stated_model_is_aligned_without_a_search(model, error):
     found = judge(Made(heading(1.0)).make(truth, STAMPS), truth, "x", (), model)
     assert found.found is None
     assert found.largest == pytest.approx(error, abs=1e-12)
-    assert f"aligned by {model}, nothing else was looked for" in found.format()
+    assert f"aligned by {model}, without looking for other causes" in found.format()
 
 
 @pytest.mark.parametrize("model", ["none+delay", "heading+delay+clock"])
@@ -147,4 +147,4 @@ def test_an_estimate_at_the_very_start_does_not_disturb_a_delay():
     truth, stamps = scene_truth("cusps"), STAMPS - SECOND
     exact, *_ = truth.states_at(np.maximum(stamps - 5000, 0))  # late by 5 us, but for the first
     text = judge(Estimates.of(stamps, exact), truth, "x", (), "none+delay").format()
-    assert "nothing else was looked for: a delay of 0.005 ms" in text
+    assert "without looking for other causes: a delay of 0.005 ms" in text

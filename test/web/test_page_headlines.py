@@ -15,9 +15,9 @@ def test_the_headline_of_a_driven_motion_says_what_acts(opened):
             said[name] = acts
             words = {
                 (False, False): ("The ",),
-                (True, False): ("Friction acts: without it the ",),
-                (False, True): ("A torque acts: without it the ",),
-                (True, True): ("Friction and a torque act: without them the ",),
+                (True, False): ("Friction acts. Without it, the ",),
+                (False, True): ("A torque acts. Without it, the ",),
+                (True, True): ("Friction and a torque act. Without them, the ",),
             }[tuple(acts)]
             assert opened.say("headline").startswith(words)
             if any(acts):
@@ -37,7 +37,7 @@ def test_a_kick_under_friction_is_judged_apart_from_friction(opened):
 @pytest.mark.wording
 @pytest.mark.parametrize("Mgl", [0.068, -0.068])
 def test_headline_and_reason_agree(opened, Mgl):
-    """A top that falls at first and yet moves higher is said to do both."""
+    """A top that falls at first and yet rises higher is said to do both."""
     opened.tab.click("text=Pause")
     subject = "axis" if Mgl < 0 else "top"
     swings = set()
@@ -48,12 +48,12 @@ def test_headline_and_reason_agree(opened, Mgl):
             opened.press(key)
             headline, why = opened.say("headline"), opened.say("why")
             assert headline.startswith(f"The {subject} ")
-            assert "by 0 rad" not in headline
-            for swing, direction in (("higher", "falls"), ("lower", "rises")):
-                if f"moves {swing}" in headline:
+            assert " 0 rad" not in headline
+            for swing, verb, direction in (("higher", "rises", "falls"), ("lower", "falls", "rises")):
+                if f" {swing} than" in headline:
                     swings.add(swing)
                     is_opposite = f"The {subject} {direction}" in why
-                    assert (f"{direction} at first, but moves {swing}" in headline) is is_opposite
+                    assert (f"{direction} at first, but {verb}" in headline) is is_opposite
     assert swings == {"higher", "lower"}
 
 

@@ -33,7 +33,7 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
     assert kick["angular_velocity"] == after.angular_velocity.tolist()
     verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate")
     assert why == write("kick", verdict)
-    assert opened.say("headline").startswith("The top moves higher than without the kick, by 0.063")
+    assert opened.say("headline").startswith("The top rises 0.063")
 
 
 @pytest.mark.wording
@@ -90,7 +90,7 @@ def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.open_tab("push")
     button = opened.tab.locator("[data-hold='1']")
     button.dispatch_event("pointerdown")
-    opened.until(lambda: opened.say("headline").startswith("A torque acts: without it the top "))
+    opened.until(lambda: opened.say("headline").startswith("A torque acts. Without it, the top "))
     button.dispatch_event("pointerup")
     opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
     torques = [each["torque"] for each in opened.read_events() if each["kind"] == "torque"]

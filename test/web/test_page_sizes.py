@@ -90,7 +90,8 @@ def test_no_headline_moves_the_scene_and_no_legend_covers_much_of_it(open_page, 
     page = open_in(open_page, size)
     before = settle(page, "#scene")
     words = (
-        "Friction and a torque act: without them the top precesses in cusps and is at rest in each."
+        "Friction and a torque act. Without them, the top precesses in cusps and comes to rest at "
+        "each."
     )
     page.tab.evaluate(
         "(text) => { document.querySelector('#headline').textContent = text; }", words

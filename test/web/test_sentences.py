@@ -62,7 +62,7 @@ def test_headline_and_reason_of_every_kind_agree_with_the_motion(tab, Mgl):
     for start, (headline, why, kind) in zip(starts, tab.evaluate(SAY, starts), strict=True):
         kinds.add(kind)
         direction = find_direction(start)
-        verb = {1: "falls", -1: "rises", 0: "stays"}[direction]
+        verb = {1: "falls", -1: "rises", 0: "keeps its tilt"}[direction]
         assert re.search(rf": The (top|axis) {verb}\b", why), (start, why)
         words = re.findall("falls|rises", headline)  # of no direction of its own
         assert words in ([], [verb]), (start, headline, why)
@@ -70,10 +70,10 @@ def test_headline_and_reason_of_every_kind_agree_with_the_motion(tab, Mgl):
         assert is_steady == (kind == "regular" and start["phi_dot"] != 0), (start, headline)
         assert direction == 0 or not is_steady
         if direction == 0:
-            assert "stays at" in headline or "on the vertical" in headline
+            assert "constant at" in headline or "on the vertical" in headline
             assert "will stay at" in why
-        if "in cusps" in headline or "in loops" in headline or "in a wave" in headline:
-            assert "its tilt is between" in headline
+        if "in cusps" in headline or "in loops" in headline or "in waves" in headline:
+            assert "with its tilt between" in headline
             assert "will stay between" in why
     expected = {"regular", "sleeping"}
     expected |= {"cusps", "looping", "unidirectional", "through the pole"} if Mgl else set()

@@ -213,7 +213,7 @@ def momentum_does_not_close(nodding: Motion, steady: Motion) -> Claim:
     return Claim(
         "On cusps the projection of L on the ground does not close after one turn of the "
         "precession; in regular precession it is a circle.",
-        f"at phi = 2 pi it misses its begin by {gaps[0]:.1%} of its size (cusps: {counts[0]:.3f} "
+        f"at phi = 2 pi it misses its start by {gaps[0]:.1%} of its size (cusps: {counts[0]:.3f} "
         f"nutations until then) and by {gaps[1]:.0e} (regular)",
         f"{gaps[0]:.1%}" == "13.2%" and gaps[1] < CLOSED,
         "dL/dt = Mgl sin(theta) (cos(phi), sin(phi), 0)",
