@@ -9,7 +9,7 @@ from symtop_ros.physics import Motion
 from workshop.article.answers.circle import find_nutation
 from workshop.article.motions import TOP, cusps, start
 
-ARTICLE = (Path(__file__).parents[2] / "docs/article.md").read_text()
+ARTICLE = " ".join((Path(__file__).parents[2] / "docs/article.md").read_text().split())
 
 
 def find(spin):
@@ -46,7 +46,7 @@ def test_the_numbers_of_the_article_are_those_of_the_motion():
         f"radius {found.radius:.3f} rad",
         f"within {100 * off:.1f} %",
         f"{found.rate:.1f} rad/s",
-        f"L/Ix = {found.free_rate:.1f}\nrad/s",
+        f"L/Ix = {found.free_rate:.1f} rad/s",
         f"{fast.rate:.1f} and {fast.free_rate:.1f} rad/s",
         f"{found.drift:.2f} rad/s",
         f"{found.radius * found.rate:.2f} rad/s",
