@@ -22,9 +22,9 @@ from symtop_ros.simulation.validation import one_line
 
 # Under gravity alone a state has the same bits on every machine, and so has what follows from it by
 # products, sums and the arc tangent of this package: no difference is accepted there. The noise of
-# the sensor takes a function whose last place depends on the version of SciPy, and driven motions
-# have other bits with the compiled kernel than without. The largest difference seen was 12 eps; the
-# bound leaves a factor of five.
+# the sensor takes a function whose last place depends on the version of SciPy, and version 0.3
+# recorded driven motions with other bits. The largest difference seen was 12 eps; the bound leaves
+# a factor of five.
 BOUND = 64 * float(np.finfo(float).eps)
 # Another version differs in many samples. A difference in fewer than this share is damage, however
 # small it is.
