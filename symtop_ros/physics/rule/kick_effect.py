@@ -128,7 +128,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     Perry's rule holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies between the
     regular rates 6.50 and 69.82 rad/s at this spin rate). Compared with no kick, the highest point
     is 0.063 rad higher and the lowest point unchanged. On average phi' is 6.41 rad/s, 0.157 turns
-    in a nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
+    per nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
     validate_one(motion, "motion")
     held = len(HOLDS) if hold is None else HOLDS.index(validate_hold(hold))
