@@ -108,7 +108,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude error is larger"
     )
-    parser.add_argument("--live", action="store_true", help="judge a running node: one line each second")
+    parser.add_argument(
+        "--live", action="store_true", help="judge a running node: one line each second"
+    )
     parser.add_argument("--seconds", type=positive, help="duration of --live")
     parser.add_argument(
         "--testset",

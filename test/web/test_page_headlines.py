@@ -49,7 +49,10 @@ def test_headline_and_reason_agree(opened, Mgl):
             headline, why = opened.say("headline"), opened.say("why")
             assert headline.startswith(f"The {subject} ")
             assert " 0 rad" not in headline
-            for swing, verb, direction in (("higher", "rises", "falls"), ("lower", "falls", "rises")):
+            for swing, verb, direction in (
+                ("higher", "rises", "falls"),
+                ("lower", "falls", "rises"),
+            ):
                 if f" {swing} than" in headline:
                     swings.add(swing)
                     is_opposite = f"The {subject} {direction}" in why

@@ -161,7 +161,9 @@ def test_the_digits_that_are_shown_start_the_motion_that_is_shown(opened):
         for name, text in (("theta", "0.5"), ("psi_dot", "200"), ("phi_dot", "6.497")):
             opened.enter(name, text)
             headline = opened.say("headline")
-            assert headline == "The top precesses steadily, with its tilt constant at 0.500 rad.", name
+            assert headline == "The top precesses steadily, with its tilt constant at 0.500 rad.", (
+                name
+            )
     opened.tab.click("#hurry")
     assert " at first" not in opened.say("headline")
     opened.enter("phi_dot", "6.4970")  # another number than the one that is shown
