@@ -132,7 +132,7 @@ def _check(log: TopLog) -> int:
     _print_problems([_describe(log, each) for each in found.mismatches])
     print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
     if found.mismatches:
-        print("events or what is said of the motion DO NOT agree with what is computed")
+        print("events or descriptions of the motion DO NOT agree with the computation")
     if found.first > 1:
         print(f"the log begins with event {found.first} of the run")
     if found.foreign:

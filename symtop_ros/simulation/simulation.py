@@ -233,7 +233,7 @@ class Simulation:
     def _stop_at(self, reached: float) -> None:
         """Pause a motion that cannot continue at the time (s) that it has reached."""
         verdict = self.do("pause", {"reached": reached})
-        self.host.warn(f"the motion has no state any further ({WHY_IT_ENDS}): {verdict}")
+        self.host.warn(f"the motion cannot be computed any further ({WHY_IT_ENDS}): {verdict}")
 
     def _integrate_to(self, stamp: int) -> bool:
         """Work until the state at a stamp is ready; False if a nearer stamp became the next."""
