@@ -160,7 +160,7 @@ def test_a_run_is_kept_for_comparison(opened):
     opened.tab.click("#hurry")
     opened.wait_for_time(0.05)
     opened.tab.click("#free-keep")
-    assert opened.say("free-keep") == "Let the kept run go"
+    assert opened.say("free-keep") == "Discard the kept run"
     opened.enter("theta", "0.6")
     opened.wait_for_time(0.07)
     read = "e => e.getAttribute('d')"

@@ -43,9 +43,9 @@ def three_torques_raise_or_lower(top: Top) -> Claim:
     )
     return Claim(
         "For an observer who precesses with the top three torques act about the line of nodes: "
-        "gravity's lowers the axis, Coriolis' raises it and grows with phi', and the centrifugal "
-        "one grows with phi'^2 and lowers it, as Ix > Iz and theta < pi/2. They balance at the two "
-        "roots.",
+        "gravity's torque lowers the axis, the Coriolis torque raises it and grows with phi', and "
+        "the centrifugal torque grows with phi'^2 and lowers it, as Ix > Iz and theta < pi/2. They "
+        "balance at the two roots.",
         f"gravity, Coriolis, centrifugal at {listed}",
         bool(off < SUMMED and balanced < SUMMED and signs),
         "Ix theta'' = Mgl sin(theta) - Iz psi' phi' sin(theta) "

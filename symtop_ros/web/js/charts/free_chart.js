@@ -47,7 +47,7 @@ export class FreeChart {
     const button = find("free-keep");
     button.addEventListener("click", () => {
       this.isKept = !this.isKept;
-      button.textContent = this.isKept ? "Let the kept run go" : "Keep this run for comparison";
+      button.textContent = this.isKept ? "Discard the kept run" : "Keep this run for comparison";
       keep(this.isKept);
     });
     find("free").addEventListener("pointermove", (event) => this.follow(event));

@@ -5,5 +5,5 @@ export const nameError = (error) => {
   const text = error instanceof Error ? error.message : String(error);
   if (error instanceof RangeError) return text;
   console.error(error);
-  return `this failed, by a bug in the page: ${text}`;
+  return `this failed because of a bug in the page: ${text}`;
 };

@@ -18,7 +18,7 @@ const download = (href, name) => {
   make("a", { href, download: name }).click();
   if (isSandboxed())
     refuse(
-      `a frame must allow downloads: if no ${name} was saved, open the page in a tab of its own`,
+      `a frame must allow downloads: if no ${name} was saved, open the page in its own tab`,
     );
 };
 
