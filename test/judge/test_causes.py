@@ -114,7 +114,7 @@ def test_a_delay_of_a_motion_with_friction_has_no_period():
 def test_what_is_not_explained_is_said(other):
     truth = scene_truth("cusps")
     text = judge(Made(other=other).make(truth, STAMPS), truth, "x").format()
-    wanted = {"still": "not explained: the estimates do not move", "wave": "not explained: what"}
+    wanted = {"still": "not explained: the estimates do not move", "wave": "not explained: every"}
     assert wanted[other] in text
     assert "likely mistake" not in text
 
