@@ -17,9 +17,7 @@ const isSandboxed = () =>
 const download = (href, name) => {
   make("a", { href, download: name }).click();
   if (isSandboxed())
-    refuse(
-      `a frame must allow downloads: if no ${name} was saved, open the page in its own tab`,
-    );
+    refuse(`a frame must allow downloads: if no ${name} was saved, open the page in its own tab`);
 };
 
 /** @param {string} name @param {string} type @param {string} text */
