@@ -32,8 +32,9 @@ class Connection:
         self.name = full_name(name)
         self._timeout = timeout
         self._clients: dict[str, Client] = {}
-        # by service, until its first call: a client made after its own
-        self._questions: dict[str, Client] = {}
+        # Services whose readers of answers the top may not know, and a client made after these
+        self._unknown: set[str] = set()
+        self._question: Client | None = None
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
 
@@ -88,24 +89,25 @@ class Connection:
         for name in services:
             kind = SERVICES[name].kind if name in SERVICES else "named"
             self._client(TYPES[kind], name)
+        self._find_question()
 
     def _client(self, kind: Any, service: str) -> Client:
         if service not in self._clients:
             self._clients[service] = self.node.create_client(kind, f"{self.name}/{service}")
-            if service != QUESTION:
-                question = f"{self.name}/{QUESTION}"
-                self._questions[service] = self.node.create_client(Trigger, question)
+            self._unknown.add(service)
+            self._question = None
         return self._clients[service]
 
     def _call(self, kind: Any, service: str, request: Any) -> Any:
         client = self._client(kind, service)
+        question = self._find_question() if service in self._unknown - {QUESTION} else None
         if not self.spin_until(client.service_is_ready, self._timeout):
             raise UnreachableError(
                 f"no answer from {self.name} within {self._timeout:g} s: "
                 "is top_node running, with the same ROS_DOMAIN_ID and --node?"
             )
-        if service in self._questions and self._become_known(self._questions[service]):
-            del self._questions[service]
+        if question and self._become_known(question):
+            self._unknown.clear()
         future = client.call_async(request)
         if not self.spin_until(future.done, self._timeout):
             client.remove_pending_request(future)
@@ -113,6 +115,12 @@ class Connection:
                 f"{self.name}/{service} did not answer within {self._timeout:g} s"
             )
         return future.result()
+
+    def _find_question(self) -> Client:
+        """Return a client of a harmless service that was made after all other ones."""
+        if not self._question:
+            self._question = self.node.create_client(Trigger, f"{self.name}/{QUESTION}")
+        return self._question
 
     def _become_known(self, client: Client) -> bool:
         """Wait until the top has found the readers of answers that were made before this client.

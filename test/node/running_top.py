@@ -160,7 +160,7 @@ class _SharedConnection(Connection):
 
     def __init__(self, running: RunningTop) -> None:
         self.node, self.name, self._timeout, self._running = running.user, "/top", TIMEOUT, running
-        self._clients, self._questions = {}, {}
+        self._clients, self._unknown, self._question = {}, set(), None
 
     def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
         self._running.spin_until(done, timeout)
