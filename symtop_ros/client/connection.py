@@ -32,7 +32,7 @@ class Connection:
         self.name = full_name(name)
         self._timeout = timeout
         self._clients: dict[str, Client] = {}
-        # Services whose readers of answers the top may not know, and a client made after these
+        # Services whose answers may not reach this connection yet, and a client made after theirs.
         self._unknown: set[str] = set()
         self._question: Client | None = None
         self._executor = SingleThreadedExecutor(context=node.context)

@@ -473,13 +473,6 @@ def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -
     return found
 
 
-def find_disc(top: Real, gravity: float) -> Real:
-    """Return mass, radius and distance of the disc that moves as a top does, nan without one."""
-    found = np.empty(3)
-    demand(open_door().find_disc(read_from(top), gravity, write_to(found, 3)))
-    return found
-
-
 def find_tilt_torques(tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real) -> Real:
     """Return the parts of Ix theta''/sin(theta) and sin(theta), (n, 4), of tops (n, 3)."""
     found = np.empty((len(tops), 4))
