@@ -8,13 +8,12 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import closing, suppress
 from pathlib import Path
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
-from rclpy.signals import SignalHandlerOptions
+from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
@@ -24,7 +23,7 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
 from symtop_ros.playback.replay import replay
 from symtop_ros.programs import INTERRUPTED
-from symtop_ros.shutdown import describe_failure
+from symtop_ros.shutdown import describe_failure, ros_context
 
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"
@@ -59,7 +58,7 @@ def main() -> int:
     except (DemoError, UnreachableError, LogError) as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         return INTERRUPTED
 
 
@@ -100,36 +99,20 @@ def _run(domain: int) -> Path:
     command = [sys.executable, "-c", NODE, "--ros-args", *options, "--log-level", "warn"]
     node = None
     try:
-        with _hold_signals():
+        with ros_context(["demo"]) as listen:
             node = subprocess.Popen(command)
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-        with closing(Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)) as top:
-            top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
-            if node.poll() is not None:
-                raise DemoError(f"top_node ended with status {node.returncode}")
-            return _show(top)
+            with closing(Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)) as top:
+                listen()
+                top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
+                if node.poll() is not None:
+                    raise DemoError(f"top_node ended with status {node.returncode}")
+                return _show(top)
     except RuntimeError as error:
         raise DemoError(describe_failure(error)) from None
     finally:
-        rclpy.try_shutdown()
         if node:
             node.terminate()
             node.wait(timeout=10)
-
-
-@contextmanager
-def _hold_signals() -> Iterator[None]:
-    """Deliver SIGINT and SIGTERM at the end: an exception in between would leave a node behind."""
-    held: list[int] = []
-    numbers: tuple[int, ...] = (signal.SIGINT, signal.SIGTERM)
-    usual = {number: signal.signal(number, lambda n, _: held.append(n)) for number in numbers}
-    try:
-        yield
-    finally:
-        for number, handler in usual.items():
-            signal.signal(number, handler)
-    for number in held:
-        signal.raise_signal(number)
 
 
 def _is_known(top: Connection) -> bool:
