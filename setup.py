@@ -152,12 +152,13 @@ setup(
             "web/js/*/*.js",
             "web/*.html",
             "web/*.yaml",
+            "web/texts/*.json",
             "web/*.wasm",
             # the kernel for programs in C, C++ and Rust
             "physics/kernel/*.h*",
             "physics/kernel/*.cpp",
             "physics/kernel/*/*.hpp",
-            "wording/en.json",
+            "wording/*.json",
         ],
         f"{NAME}.testset": [
             *("*.md", "*.xz", "*.mjs", "*.cpp", "LICENSE"),

@@ -35,7 +35,7 @@ def running_browser() -> Iterator[Browser]:
         new_page = browser.new_page
 
         def open_page(**options: Any) -> Page:
-            tab = new_page(**options)
+            tab = new_page(**{"locale": "en-US", **options})  # else that of the machine
             tab.add_init_script(FEW_FRAMES)
             return tab
 
@@ -72,7 +72,7 @@ def _counting(browser: Browser) -> Iterator[None]:
         new_page, close = owner.new_page, owner.close
 
         def open_page(**options: Any) -> Page:
-            tab = new_page(**options)
+            tab = new_page(**{"locale": "en-US", **options})  # else that of the machine
             counter.watch(tab)
             return tab
 

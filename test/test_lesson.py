@@ -20,7 +20,7 @@ from symtop_ros.panel import main as panel
 from symtop_ros.web.lesson import read_lesson
 from workshop import main as report
 from workshop.lesson.page import PAGE, write_page
-from workshop.lesson.pictures import picture_of, run_step, write_lesson
+from workshop.lesson.pictures import picture_of, run_step, write_sheets
 from workshop.load.domains import claim_domain
 
 ROOT = Path(__file__).parents[1]
@@ -98,7 +98,7 @@ def test_a_picture_is_what_the_command_draws(number):
 
 def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
     monkeypatch.setattr("workshop.lesson.pictures.picture_of", lambda step: b"picture")
-    assert write_lesson(tmp_path, sheets=True) == 0
+    assert write_sheets(tmp_path) == 0
     worksheet, teacher = (
         html.unescape((tmp_path / f"{name}.html").read_text()) for name in ("worksheet", "teacher")
     )

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from symtop_ros.simulation.validation import one_line
+from symtop_ros.web.texts import LANGUAGES
 
 LARGEST_MAP = 4000  # points along a side
 LARGEST_LIMIT = 3600  # s
@@ -58,6 +59,8 @@ def _parser() -> argparse.ArgumentParser:
         of[name].add_argument("--limit", type=_seconds, metavar="S", help=text)
     text = "the worksheet and the teacher's sheet (HTML, to print) instead of the pictures"
     of["lesson"].add_argument("--sheets", action="store_true", help=text)
+    text = "language of the sheets (default: en)"
+    of["lesson"].add_argument("--language", choices=LANGUAGES, default="en", help=text)
     of["maps"].add_argument("--points", type=_points, default=1000, help="along each side")
     return parser
 
@@ -102,9 +105,11 @@ def _retell(options: argparse.Namespace) -> int:
 
 
 def _draw_lesson(options: argparse.Namespace) -> int:
-    from workshop.lesson.pictures import write_lesson
+    from workshop.lesson.pictures import write_lesson, write_sheets
 
-    return write_lesson(options.folder, options.sheets)
+    if options.sheets:
+        return write_sheets(options.folder, options.language)
+    return write_lesson(options.folder)
 
 
 def _draw_pictures(options: argparse.Namespace) -> int:

@@ -12,6 +12,7 @@ from symtop_ros.command import port
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import write_file
+from symtop_ros.web.texts import LANGUAGES
 
 PORT = 8015
 PERIOD = 0.2  # s between two looks for the end
@@ -50,6 +51,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--lesson", action="store_true", help="open the lesson: twelve steps for a class"
     )
+    parser.add_argument(
+        "--language", choices=LANGUAGES, help="language of the page (default: the browser's)"
+    )
     parser.add_argument("--write", type=Path, metavar="FILE.html", help="write the page, and end")
     parser.add_argument(
         "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"
@@ -70,35 +74,35 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(options: argparse.Namespace, arguments: list[str]) -> int:
     opening = LESSON if options.lesson else ""
+    page = write_file(opening=opening, language=options.language)
     if options.write:
-        _write(options.write, opening)
+        _write(options.write, page)
         print(f"wrote {options.write}; open it in a browser")
         return 0
     if options.node:
         return _show_node(options, ["top_panel", *arguments], opening)
     if options.port is None and options.host is None:
-        return _open_file(options, opening)
-    return _serve(options, write_file(opening=opening), "a top for each page")
+        return _open_file(options, page)
+    return _serve(options, page, "a top for each page")
 
 
-def _write(path: Path, opening: str) -> None:
+def _write(path: Path, page: str) -> None:
     """Write the page."""
     if path.suffix != ".html" or not path.parent.is_dir():
         raise ValueError(f"--write must be a name that ends in .html in a folder, got {path}")
     try:
-        path.write_text(write_file(opening=opening), encoding="utf-8")
+        path.write_text(page, encoding="utf-8")
     except OSError as error:
         raise OSError(f"cannot write {path}: {error.strerror}") from None
 
 
-def _open_file(options: argparse.Namespace, opening: str) -> int:
+def _open_file(options: argparse.Namespace, page: str) -> int:
     """Write the page into this folder and open it; a run that was saved there is kept."""
     path, number = FILE, 1
-    page = write_file(opening=opening)
     while path.exists() and path.read_text(encoding="utf-8", errors="replace") != page:
         number += 1
         path = FILE.with_stem(f"{FILE.stem}_{number}")
-    _write(path, opening)
+    _write(path, page)
     is_opened = (
         not options.no_browser and _has_screen() and webbrowser.open(path.absolute().as_uri())
     )
@@ -158,7 +162,7 @@ def _show_node(options: argparse.Namespace, arguments: list[str], opening: str) 
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("top_panel", start_parameter_services=False)
         bridge = Bridge(node, options.node)
-        page = write_file(opening=opening, node=bridge.name)
+        page = write_file(opening=opening, node=bridge.name, language=options.language)
         return _serve(options, page, bridge.name, bridge)
     except Exception as error:
         raise RuntimeError(describe_failure(error)) from None

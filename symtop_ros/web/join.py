@@ -6,6 +6,7 @@ function of one script, which takes what it imports from those before it.
 
 import base64
 import dataclasses
+import gzip
 import hashlib
 import json
 import re
@@ -13,11 +14,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.simulation.presets import describe_scenes
+from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import read_lesson
-from symtop_ros.wording.templates import TEMPLATES
+from symtop_ros.web.texts import LANGUAGES, read_texts
 
 FOLDER = Path(__file__).parent
 MODULES = FOLDER.resolve() / "js"
@@ -34,11 +35,16 @@ POLICY = (
 )
 
 
-def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: str = "") -> str:
+def write_file(
+    run: Mapping[str, Any] | None = None,
+    opening: str = "",
+    node: str = "",
+    language: str | None = None,
+) -> str:
     """Return the page as one document.
 
-    It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), and belong
-    to a running node, given by its name.
+    It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), belong to
+    a running node, given by its name, and have a language of its own instead of the browser's.
     """
     page, style = (
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
@@ -50,7 +56,10 @@ def write_file(run: Mapping[str, Any] | None = None, opening: str = "", node: st
     parts = {
         "POLICY": policy,
         "STYLE": style,
-        "CONTENT": _write_data({**collect_content(), "opening": opening, "node": node}),
+        "LANGUAGE": f'lang="{language}" data-own' if language else 'lang="en"',
+        "CONTENT": _write_data(
+            {"packed": _pack(collect_content()), "opening": opening, "node": node}
+        ),
         "RUN": _write_data(run),
         "SCRIPT": script,
     }
@@ -68,14 +77,20 @@ def _write_data(data: Any) -> str:
     return json.dumps(data).replace("<", "\\u003c")
 
 
+def _pack(data: Any) -> str:
+    """Return data packed by gzip, in base64: the kernel and five languages are a third as long."""
+    text = json.dumps(data, ensure_ascii=False).encode()
+    return base64.b64encode(gzip.compress(text, mtime=0)).decode()
+
+
 def collect_content() -> dict[str, Any]:
-    """Return what the script reads: the kernel, templates, scenes, fields of a run, lesson."""
+    """Return what the script reads: the kernel, texts, scenes, fields of a run, lesson."""
     return {
         "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
-        "templates": TEMPLATES,
-        "scenes": [{**scene._asdict(), **_read_values(scene.name)} for scene in describe_scenes()],
+        "texts": {language: read_texts(language) for language in LANGUAGES},
+        "scenes": [{"name": name, **_read_values(name)} for name in scene_names()],
         "run_fields": TABLE,
-        "lesson": [dataclasses.asdict(step) for step in read_lesson()],
+        "lesson": [step.structure for step in read_lesson()],
     }
 
 

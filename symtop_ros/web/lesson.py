@@ -4,12 +4,15 @@ import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 from symtop_ros.physics import Hold
+from symtop_ros.web.texts import read_texts
 
 FILE = Path(__file__).with_name("lesson.yaml")
+TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
 NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
@@ -36,8 +39,9 @@ class LessonAct:
 
 @dataclass(frozen=True, slots=True)
 class LessonStep:
-    """A step of the lesson; `lesson.yaml` says what the fields are."""
+    """A step of the lesson, in a language; `lesson.yaml` says what the fields are."""
 
+    name: str
     title: str
     predict: str
     acts: tuple[LessonAct, ...]
@@ -60,12 +64,24 @@ class LessonStep:
         acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts]
         return [*acts, *self.also]
 
+    @property
+    def structure(self) -> dict[str, Any]:
+        """What is the same in all languages: the page has the texts by their keys."""
+        acts = [{"start": act.start, "hurry": act.hurry, "hold": act.hold} for act in self.acts]
+        names = ("name", "scene", "charts", "layers")
+        return {"acts": acts, **{name: getattr(self, name) for name in names}}
+
 
 @functools.cache
-def read_lesson() -> tuple[LessonStep, ...]:
-    """Return all steps."""
+def read_lesson(language: str = "en") -> tuple[LessonStep, ...]:
+    """Return all steps in a language."""
     steps = yaml.safe_load(FILE.read_text(encoding="utf-8"))
-    return tuple(
-        LessonStep(**{**step, "acts": tuple(LessonAct(**act) for act in step["acts"])})
-        for step in steps
-    )
+    return tuple(_read_step(step, read_texts(language)) for step in steps)
+
+
+def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:
+    key = f"lesson.{step['name']}"
+    acts = [LessonAct(texts[f"{key}.act_{k}"], **act) for k, act in enumerate(step["acts"], 1)]
+    said = {name: texts[f"{key}.{name}"] for name in TEXTS}
+    compute = texts.get(f"{key}.compute", "")  # not in every step
+    return LessonStep(**{**step, **said, "acts": tuple(acts), "compute": compute})

@@ -52,13 +52,21 @@ if TYPE_CHECKING:
 
 import math
 
-FILE = Path(__file__).with_name("en.json")
-TEMPLATES: dict[str, str] = json.loads(FILE.read_text(encoding="utf-8"))
+FOLDER = Path(__file__).parent
 Variant = Literal["radians", "degrees"]
 PLACEHOLDER = re.compile(r" ?\{([\w,]+)(?::(\w+))?\}")
 FORM = re.compile(r"(\d+)(?:to(\d+))?([fger])(deg)?")
 MOST_DIGITS = 17  # which tell any two doubles apart
 SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three digits
+
+
+def read_templates(name: str) -> dict[str, str]:
+    """Return the templates of a language, or those that only programs use and no page."""
+    templates: dict[str, str] = json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
+    return templates
+
+
+TEMPLATES = read_templates("en") | read_templates("programs")
 
 
 def write(

@@ -25,8 +25,8 @@ window.judgeCases = async (cases) => {
       verdict,
       record,
       texts: ["radians", "degrees"].flatMap((variant) => [
-        writer.write("verdict", verdict, variant),
-        writer.write("kick", record, variant),
+        phrase("verdict", verdict, variant),
+        phrase("kick", record, variant),
       ]),
       regular: kernel.findRegularRates(top, angles.theta, rates.psi),
       drawn: {

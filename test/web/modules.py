@@ -3,6 +3,8 @@
 import base64
 from pathlib import Path
 
+from symtop_ros.web.texts import read_texts
+
 FOLDER = Path(__file__).parents[2] / "symtop_ros/web"
 SITE = "http://top.test/"
 
@@ -26,18 +28,19 @@ def _answer(route):
 
 
 def load_kernel(tab):
-    """Have the tab keep the kernel and the text of its wording as `kernel` and `writer`."""
+    """Have the tab keep the kernel and the English texts as `kernel` and `phrase`."""
     arguments = [
         base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
-        (FOLDER.parent / "wording/en.json").read_text(),
+        read_texts("en"),
     ]
     tab.evaluate(
         """async ([module, templates]) => {
             const { Kernel } = await import("/physics/kernel.js");
-            const { Writer } = await import("/words/wording.js");
+            const { phrase, setTemplates } = await import("/words/wording.js");
             const decode = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
             window.kernel = await Kernel.load(decode(module));
-            window.writer = new Writer(JSON.parse(templates));
+            setTemplates(templates);
+            window.phrase = phrase;
         }""",
         arguments,
     )

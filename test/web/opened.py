@@ -36,6 +36,7 @@ class Opened:
     def __init__(
         self, browser, path, fragment="", script=FEW_FRAMES + UNDRAWN, known=KNOWN, **options
     ):
+        options = {"locale": "en-US", **options}  # else that of the machine
         self.context = browser.new_context(offline=True, accept_downloads=True, **options)
         self.context.add_init_script(known + script)
         self.tab = self.context.new_page()

@@ -94,7 +94,7 @@ def has_followed(page, before):
 def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek(open_page, scene):
     page = open_page(f"#scene={scene}", script=FEW_FRAMES + UNDRAWN + CIRCLES)
     page.open_charts("well")
-    page.tab.locator("#well").scroll_into_view_if_needed()
+    page.tab.locator("#well > svg").scroll_into_view_if_needed()
     page.tab.select_option("#speed", "1")
     before = page.tab.evaluate(READ)["circles"]
     page.wait_for_time(1.0)

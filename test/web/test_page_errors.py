@@ -21,7 +21,7 @@ def test_an_error_in_a_part_is_shown_once_and_costs_only_this_part(open_page):
     broken = "WebGL2RenderingContext.prototype.drawArrays = () => { throw new Error('no card'); };"
     opened = open_page(script=FEW_FRAMES + broken)
     opened.until(lambda: opened.say("refusal"))
-    failed = "the scene: this failed because of a bug in the page: no card"
+    failed = "scene: this failed because of a bug in the page: no card"
     assert opened.say("refusal").startswith(failed)
     opened.press("h")
     opened.wait_for_time(0.05)

@@ -18,7 +18,7 @@ SAY = """async (cases) => {
         const course = new Course(kernel, top, State.fromEuler(kernel, { theta }, rates));
         const moment = { kind: "start", asked: {}, course };
         const { headline, name, outcome } = findOutcome(moment, course);
-        const say = (...given) => writer.write(...given);
+        const say = phrase;
         return [say("headline", headline), say(name, outcome), course.motion.kind];
     });
 }"""

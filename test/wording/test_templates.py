@@ -22,7 +22,7 @@ from symtop_ros.physics.kicks import HOLDS
 from symtop_ros.physics.rule.perry import Place, Reason
 from symtop_ros.simulation.changes.outcomes import OUTCOMES
 from symtop_ros.wording import write
-from symtop_ros.wording.templates import FILE, PLACEHOLDER, TEMPLATES
+from symtop_ros.wording.templates import FOLDER, PLACEHOLDER, TEMPLATES
 
 pytestmark = pytest.mark.wording
 
@@ -61,8 +61,12 @@ def test_every_template_names_fields_of_its_record():
             } <= known
 
 
-def test_the_file_has_each_key_once_and_plain_placeholders():
-    pairs = json.loads(FILE.read_text(encoding="utf-8"), object_pairs_hook=list)
+def test_the_files_have_each_key_once_and_plain_placeholders():
+    pairs = [
+        pair
+        for path in (FOLDER / "en.json", FOLDER / "programs.json")
+        for pair in json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=list)
+    ]
     keys = [key for key, _ in pairs]
     assert len(keys) == len(set(keys))
     for _, template in pairs:

@@ -30,7 +30,7 @@ from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import DEPTH
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
-from workshop.lesson.sheets import write_teacher_sheet, write_worksheet
+from workshop.lesson.sheets import Sheets
 from workshop.pictures.pack import pack_figure
 
 KICK = 0.4  # s
@@ -278,19 +278,24 @@ LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {
 }
 
 
-def write_lesson(folder: Path, sheets: bool = False) -> int:
-    """Write the pictures step_01.png, step_02.png ..., or the sheets; return the exit status."""
+def write_lesson(folder: Path) -> int:
+    """Write the pictures step_01.png, step_02.png ...; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     steps = read_lesson()
-    if sheets:
-        pictures = [picture_of(step) for step in steps]
-        (folder / "worksheet.html").write_text(write_worksheet(steps), encoding="utf-8")
-        (folder / "teacher.html").write_text(write_teacher_sheet(steps, pictures), encoding="utf-8")
-        print(f"wrote worksheet.html and teacher.html to {folder}; print them from a browser")
-        return 0
     for number, step in enumerate(steps, start=1):
         (folder / f"step_{number:02}.png").write_bytes(picture_of(step))
     print(f"wrote {len(steps)} pictures to {folder}")
+    return 0
+
+
+def write_sheets(folder: Path, language: str = "en") -> int:
+    """Write the sheets in a language; return the exit status."""
+    folder.mkdir(parents=True, exist_ok=True)
+    sheets = Sheets(language)
+    pictures = [picture_of(step) for step in read_lesson()]
+    (folder / "worksheet.html").write_text(sheets.write_worksheet(), encoding="utf-8")
+    (folder / "teacher.html").write_text(sheets.write_teacher_sheet(pictures), encoding="utf-8")
+    print(f"wrote worksheet.html and teacher.html to {folder}; print them from a browser")
     return 0
 
 

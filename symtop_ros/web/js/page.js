@@ -3,7 +3,7 @@
 import { followAddress } from "./run/address.js";
 import { Charts } from "./charts/charts.js";
 import { choose, keepChoice, read } from "./controls/choices.js";
-import { find, findAll, make, say, write, writeSymbols } from "./controls/document.js";
+import { find, findAll, make, say, write, writeTexts } from "./controls/document.js";
 import { Fields } from "./controls/fields.js";
 import { offerFiles, openDropped, save } from "./run/files.js";
 import { actWhileHeld } from "./controls/hold.js";
@@ -22,7 +22,7 @@ import { SpeedList } from "./controls/speed.js";
 import { addTabs } from "./controls/tabs.js";
 import { followSize, followTheme } from "./controls/theme.js";
 import { Timeline } from "./controls/timeline.js";
-import { Writer } from "./words/wording.js";
+import { phrase } from "./words/wording.js";
 
 /** @import { Facts } from "./words/facts.js" */
 /** @import { Now } from "./controls/roots.js" */
@@ -32,20 +32,19 @@ import { Writer } from "./words/wording.js";
  * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
  */
 
-const showLedger = guard("the chart of the energies", drawLedger);
-const showKinds = guard("the chart of the kinds of motion", drawKinds);
+const showLedger = guard("ledger", drawLedger);
+const showKinds = guard("kinds", drawKinds);
 
 export class Page {
   /** @param {import("./start.js").Content} content of the file */
   constructor(content) {
     this.content = content;
-    this.writer = new Writer(content.templates);
     /** @type {Top | null} */
     this.top = null; // while the kernel is loaded
     /** What holds after the last act, and for the motion. @type {Facts | null} */
     this.facts = null;
     const send = this.send.bind(this);
-    writeSymbols();
+    writeTexts();
     dismissRefusals();
     addTabs();
     this.fields = new Fields(send);
@@ -56,7 +55,7 @@ export class Page {
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
     this.charts = new Charts((kept) => send({ act: "keep", kept }));
-    this.question = new Question(this.writer, () => {
+    this.question = new Question(() => {
       this.act("hurry");
       this.send({ act: "run" });
     });
@@ -126,7 +125,7 @@ export class Page {
     const lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
     this.lesson = lesson;
     find("save-predictions").addEventListener("click", () => {
-      save("predictions.txt", "text/plain", writePredictions(steps, readAnswer(), this.writer));
+      save("predictions.txt", "text/plain", writePredictions(steps, readAnswer()));
     });
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const { node, run, opening = "" } = this.content;
@@ -153,15 +152,18 @@ export class Page {
    */
   followLink(link) {
     const fields = Object.entries(link).map((pair) => pair.join(" = "));
-    const question = `A link asks ${this.content.node} for this start: ${fields.join(", ")}. Start it?`;
+    const question = phrase("page.link_asks", {
+      node: this.content.node,
+      start: fields.join(", "),
+    });
     if (!this.content.node || confirm(question)) this.send({ act: "link", link });
   }
 
   /** @param {Facts} facts */
   showFacts(facts) {
     this.showMotion(facts, true);
-    say("pause", facts.running ? "Pause" : "Run");
-    say("record", facts.recording ? "End the recording" : "Record (MCAP)");
+    say("pause", phrase(facts.running ? "page.pause" : "page.run"));
+    say("record", phrase(facts.recording ? "page.end_record" : "page.record"));
     this.timeline.acts = facts.acts;
     this.speeds.show(facts.factor);
     find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
@@ -212,7 +214,7 @@ export class Page {
     this.timeline.show(time, end);
     this.question.show(time);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;
-    say("pace", kind ? this.writer.write("watched", { kind }) : "");
+    say("pace", kind ? phrase("watched", { kind }) : "");
   }
 
   showUnit() {

@@ -7,44 +7,55 @@ import { NodeTop } from "./run/node.js";
 import { turnByKeys } from "./controls/keys.js";
 import { guard, refuse, showLoss } from "./controls/notices.js";
 import { Page } from "./page.js";
+import { chooseLanguage } from "./controls/language.js";
 import { Scene } from "./scene/scene.js";
 import { find } from "./controls/document.js";
 import { copyPage, readData } from "./run/files.js";
-import { Writer } from "./words/wording.js";
+import { setTemplates } from "./words/wording.js";
 
 /**
- * What the file holds: the module in base64, the templates, scenes, the lesson and the fields of a run;
- * what it opens as the end of an address does; a run, if one was saved; and the name of a node, if it
- * shows one.
- * @typedef {{kernel: string, templates: {[key: string]: string}, scenes: any[], lesson: any[],
- *   run_fields: import("./run/reader.js").Table, opening?: string, run?: any, node?: string}} Content
+ * What the file holds: the module in base64, the texts of each language, scenes, the lesson and the
+ * fields of a run; what it opens as the end of an address does; a run, if one was saved; and the name of
+ * a node, if it shows one.
+ * @typedef {{kernel: string, texts: {[language: string]: {[key: string]: string}}, scenes: any[],
+ *   lesson: any[], run_fields: import("./run/reader.js").Table, opening?: string, run?: any,
+ *   node?: string}} Content
  */
 
 /** @param {string} text base64 */
 const decode = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
+/** What is packed by gzip. @param {string} text base64 */
+const unpack = (text) => {
+  const packed = new Blob([decode(text)]).stream();
+  return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).json();
+};
+
 export const start = async () => {
   const source = copyPage();
-  /** @type {Content} */
-  const content = { ...readData("top-content"), run: readData("top-run") };
-  const page = new Page(content);
   try {
+    const { packed, ...own } = readData("top-content");
+    /** @type {Content} */
+    const content = { ...(await unpack(packed)), ...own, run: readData("top-run") };
+    setTemplates(content.texts[chooseLanguage(content.texts)]);
+    const page = new Page(content);
     const kernel = await Kernel.load(decode(content.kernel));
     const Top = content.node ? NodeTop : LocalTop;
-    const top = new Top(kernel, new Writer(content.templates), { ...content, layers: LAYERS });
+    const top = new Top(kernel, { ...content, layers: LAYERS });
     // For scripts of the page: motions of their own, and the run as in run.json.
     const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
     Object.assign(window, { symtop });
     const scene = new Scene(find("scene"), top);
     turnByKeys(scene.camera);
     scene.tellLoss = (text) => showLoss(text, "picture-lost");
-    top.tell = guard("the texts", page.receive.bind(page));
-    top.draw = guard("the scene", scene.draw.bind(scene));
-    top.begin = guard("the scene", scene.begin.bind(scene));
-    top.advance = guard("the motion", top.advance.bind(top));
+    top.tell = guard("texts", page.receive.bind(page));
+    top.draw = guard("scene", scene.draw.bind(scene));
+    top.begin = guard("scene", scene.begin.bind(scene));
+    top.advance = guard("motion", top.advance.bind(top));
     page.connect(top, source);
     top.open();
   } catch (error) {
+    // In English: it may be the texts that are missing.
     refuse(`the top cannot be shown: ${error instanceof Error ? error.message : error}`);
     console.error(error);
   }

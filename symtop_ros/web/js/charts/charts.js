@@ -39,12 +39,11 @@ export class Charts {
       free: (_, { samples }) => free.draw(samples),
     };
     /** @type {Draw} */
-    this.write = guard("the tables", ({ table }, { samples, constants }) => {
+    this.write = guard("tables", ({ table }, { samples, constants }) => {
       showConstants(table, constants);
       free.write(samples);
     });
-    for (const [name, draw] of Object.entries(this.all))
-      this.all[name] = guard(`the chart ${name}`, draw);
+    for (const [name, draw] of Object.entries(this.all)) this.all[name] = guard(name, draw);
     /** Names of the charts in sight. @type {Set<string>} */
     this.seen = new Set();
     /** Those that are still to be drawn. @type {string[]} */

@@ -3,20 +3,17 @@
 import { find, make } from "../controls/document.js";
 import { shorten } from "../words/quantities.js";
 import { typeset } from "../words/typeset.js";
+import { phrase } from "../words/wording.js";
 
 /** @typedef {{[name: string]: [value: number, change: number, unit: string]}} Constants */
 
-/** @type {{[name: string]: string}} */
-const NAMES = {
-  energy: "energy E",
-  L_z: "L_z, about the axis of the top",
-  "L_z'": "L_z', about the vertical",
-};
 const ROUNDING = 1e-12;
 
 /** @param {number} value @param {number} change */
 const writeChange = (value, change) =>
-  Math.abs(change) <= ROUNDING * Math.abs(value) ? "constant" : `changed by ${shorten(change, 2)}`;
+  Math.abs(change) <= ROUNDING * Math.abs(value)
+    ? phrase("table.constant")
+    : phrase("table.changed", { change: shorten(change, 2) });
 
 /** @param {[name: string, text: string]} row */
 const createRow = ([name, text]) =>
@@ -27,7 +24,7 @@ let shown = ""; // a table that stays as it is can be read, and its text marked
 /** @param {string[][]} rates names and texts @param {Constants} constants */
 export const showConstants = (rates, constants) => {
   const rows = Object.entries(constants).map(([name, [value, change, unit]]) => [
-    NAMES[name],
+    phrase(`table.${name}`),
     `${shorten(value, 6)} ${unit}, ${writeChange(value, change)}`,
   ]);
   const all = /** @type {[string, string][]} */ ([...rates, ...rows]);

@@ -1,11 +1,12 @@
 // The chart whose axes the user chooses, with the values under the pointer, and a run that is kept
 // for comparison.
 
-import { QUANTITIES } from "./axes_list.js";
+import { nameQuantity, QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
 import { find, make, write } from "../controls/document.js";
 import { draw, findSpan, Frame, listTicks, WIDE } from "./plot.js";
 import { angleUnit, shorten, toUnit } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Sample } from "../run/local.js" */
 /** @import { Quantity } from "./axes_list.js" */
@@ -47,7 +48,7 @@ export class FreeChart {
     const button = find("free-keep");
     button.addEventListener("click", () => {
       this.isKept = !this.isKept;
-      button.textContent = this.isKept ? "Discard the kept run" : "Keep this run for comparison";
+      write(button, phrase(this.isKept ? "page.free_discard" : "page.free_keep"));
       keep(this.isKept);
     });
     find("free").addEventListener("pointermove", (event) => this.follow(event));
@@ -56,8 +57,8 @@ export class FreeChart {
   /** @param {string} id @param {string} chosen */
   offer(id, chosen) {
     const list = find(id, HTMLSelectElement);
-    for (const [value, { name, unit }] of Object.entries(QUANTITIES)) {
-      list.append(make("option", { value, textContent: `${name} (${unit})` }));
+    for (const [value, { unit }] of Object.entries(QUANTITIES)) {
+      list.append(make("option", { value, textContent: `${nameQuantity(value)} (${unit})` }));
     }
     list.value = chosen;
     keepChoice(id, () => {});
@@ -97,7 +98,7 @@ export class FreeChart {
     draw(
       "free",
       HEIGHT,
-      `${vertical.name} over ${horizontal.name}`,
+      phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
       `${frame.axes}${paths.join("")}
       ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
       ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}
@@ -116,7 +117,7 @@ export class FreeChart {
     const texts = [this.x, this.y].map((list) => {
       const quantity = QUANTITIES[list.value];
       const value = measure(quantity, sample, "state");
-      return `${quantity.name} ${shorten(value, 5)} ${nameUnit(quantity)}`;
+      return `${nameQuantity(list.value)} ${shorten(value, 5)} ${nameUnit(quantity)}`;
     });
     write(find("free-values"), texts.join(", "));
     this.place.setAttribute("aria-valuetext", texts.join(", "));

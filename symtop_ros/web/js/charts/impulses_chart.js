@@ -6,6 +6,7 @@ import { findFrameTorques } from "./formulas.js";
 import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { NANO } from "../physics/course.js";
 import { shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Course } from "../physics/course.js" */
 /** @import { Pair } from "./plot.js" */
@@ -70,14 +71,14 @@ export const drawImpulses = (course, passed) => {
   draw(
     "impulses",
     HEIGHTS[0] + HEIGHTS[1] - LOWER,
-    "Torques about the line of nodes and tilt rate over time",
+    phrase("chart.impulses"),
     `${upper.axes}${zero(upper)}${curves.join("")}${now(upper)}${upper.nameVertical("N m")}
     <g transform="translate(0,${HEIGHTS[0] - LOWER})">${lower.axes}${zero(lower)}${now(lower)}
     ${lower.curve(
       fall.map(({ time, rate }) => [time, rate]),
       'stroke="var(--text)" stroke-width="1.8"',
     )}
-    ${lower.nameVertical("\u03b8\u0307 in rad/s")}${lower.nameHorizontal("time in s")}
+    ${lower.nameVertical(phrase("axis.theta_dot"))}${lower.nameHorizontal(phrase("axis.time"))}
     ${lower.writeBelow(listTicks(0, last, 4))}</g>`,
   );
 };

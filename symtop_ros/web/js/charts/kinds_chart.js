@@ -4,6 +4,7 @@ import { find } from "../controls/document.js";
 import { findBoundaries, makesLoops } from "./kinds.js";
 import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Top } from "../physics/kernel.js" */
 /** @import { Pair } from "./plot.js" */
@@ -102,11 +103,11 @@ export const drawKinds = (top, turning) => {
   draw(
     "kinds",
     HEIGHT,
-    "Kinds of motion over spin rate and precession rate",
+    phrase("chart.kinds"),
     `${drawn.text}${frame.level(0, LOOKS.cusps)}
     ${frame.dot([turning.psi_dot, turning.phi_dot], 'fill="var(--theta)" id="present"')}
-    ${frame.nameVertical("\u03c6\u0307 in rad/s")}
-    ${frame.nameHorizontal("\u03c8\u0307 in rad/s")}
+    ${frame.nameVertical(phrase("axis.phi_dot"))}
+    ${frame.nameHorizontal(phrase("axis.psi_dot"))}
     ${frame.writeBelow(listTicks(...horizontal, 4), (value) => shorten(value))}`,
   );
 };

@@ -5,6 +5,7 @@ import { findRest } from "./formulas.js";
 import { ROUNDING } from "../words/ledger.js";
 import { draw, findSpan, Frame } from "./plot.js";
 import { shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Energies } from "./formulas.js" */
 /** @import { Ledger } from "../words/ledger.js" */
@@ -58,9 +59,9 @@ export const drawLedger = (ledger, sentence) => {
   const bars = heights.flatMap((group, g) =>
     group.map((height, k) => drawBar(frame, g, k, height)),
   );
-  const names = ["just after the kick", `at its ${ledger.point} point`].map(
-    (name, group) =>
-      `<text class="tick" x="${frame.x(group)}" y="${frame.bottom + 12}" text-anchor="middle">${name}</text>`,
+  const names = ["kick", ledger.point].map(
+    (key, group) =>
+      `<text class="tick" x="${frame.x(group)}" y="${frame.bottom + 12}" text-anchor="middle">${phrase(`ledger.bar_${key}`)}</text>`,
   );
   draw(
     "ledger",

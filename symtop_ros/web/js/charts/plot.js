@@ -144,7 +144,7 @@ export class Frame {
 
   /** What the vertical axis shows, above it. @param {string} text */
   nameVertical(text) {
-    return `<text x="4" y="11">${text}</text>`;
+    return `<text x="4" y="11">${text.replace("<", "&lt;")}</text>`;
   }
 
   /** What the horizontal axis shows, below its values. @param {string} text */

@@ -3,6 +3,7 @@
 import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
 import { findTiltAcceleration } from "./formulas.js";
 import { shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Facts } from "../words/facts.js" */
 
@@ -34,15 +35,15 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
   draw(
     "rule",
     HEIGHT,
-    "Acceleration of the tilt over the precession rate",
+    phrase("chart.rule"),
     `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}
     ${frame.clip(frame.curve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"'))}
     ${roots.map(mark).join("")}
     ${Math.abs(rate) > 1e-9 ? frame.dot(place(hurried), 'fill="none" stroke="var(--theta)" stroke-width="2" id="hurried"') : ""}
     ${frame.dot(place(rate), 'fill="var(--theta)" id="now"')}
-    ${frame.nameVertical("rises \u2191 (θ̈ &lt; 0, rad/s\u00b2)")}
-    <text x="4" y="${frame.bottom + 24}">falls \u2193</text>
-    ${frame.nameHorizontal("\u03c6\u0307 in rad/s")}
+    ${frame.nameVertical(phrase("axis.rises"))}
+    <text x="4" y="${frame.bottom + 24}">${phrase("axis.falls")}</text>
+    ${frame.nameHorizontal(phrase("axis.phi_dot"))}
     ${frame.writeBelow(listTicks(...range, 4), (value) => shorten(value))}`,
   );
 };

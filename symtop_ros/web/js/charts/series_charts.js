@@ -2,6 +2,7 @@
 
 import { draw, findSpan, Frame, listTicks } from "./plot.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Row } from "../run/local.js" */
 /** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
@@ -66,12 +67,12 @@ export const drawOneSeries = (id, rows, facts) => {
   draw(
     id,
     HEIGHT,
-    `${id} over time`,
+    phrase(`chart.${id}`),
     `${frame.axes}${kicks.map(mark).join("")}
     ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
     ${line(column, `stroke="${color}" stroke-width="1.8"`)}
-    ${frame.nameVertical(isTilt ? `\u2191 higher; tilt in ${angleUnit()}` : "rad/s")}
-    ${frame.nameHorizontal("time in s")}
+    ${frame.nameVertical(isTilt ? phrase("axis.tilt", { unit: angleUnit() }) : "rad/s")}
+    ${frame.nameHorizontal(phrase("axis.time"))}
     ${frame.writeBelow(listTicks(...range, 4))}`,
   );
 };

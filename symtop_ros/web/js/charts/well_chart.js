@@ -2,6 +2,7 @@
 
 import { draw, Frame } from "./plot.js";
 import { writeAngle } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @typedef {import("../words/facts.js").Facts["potential"]} Potential */
 
@@ -26,14 +27,14 @@ export const drawWell = (potential, theta) => {
   draw(
     "well",
     HEIGHT,
-    "Effective potential over the tilt",
+    phrase("chart.well"),
     `${frame.band(angles, 'fill="var(--band)"')}
     ${frame.axes}
     ${before ? drawPotential(frame, before, 'stroke="var(--grey)" stroke-dasharray="4 3" id="before"') : ""}
     ${frame.level(energy, 'stroke="var(--gold)" stroke-width="2"')}
     ${frame.nameLevel(energy, "E'")}
     ${drawPotential(frame, potential, 'stroke="var(--phi)" stroke-width="2" id="potential"')}
-    ${frame.nameVertical("U in J")}
+    ${frame.nameVertical(phrase("axis.U"))}
     ${frame.nameHorizontal("\u03b8")}
     ${frame.dot([theta, energy], 'fill="var(--theta)"')}
     ${frame.writeBelow(named, writeAngle)}`,

@@ -1,6 +1,7 @@
 // Elements of the page's document.
 
 import { typeset } from "../words/typeset.js";
+import { phrase } from "../words/wording.js";
 
 /**
  * The element of an id; another kind of element is a mistake in the markup.
@@ -62,7 +63,12 @@ export const whenReleased = (slider, act) => {
 /** @param {string} id @param {string} text */
 export const say = (id, text) => write(find(id), text);
 
-/** Texts of the markup that have symbols. */
-export const writeSymbols = () => {
-  for (const element of findAll("[data-math]")) write(element, element.textContent ?? "");
+/** Write the texts of the markup, which names their keys: of elements, and of attributes. */
+export const writeTexts = () => {
+  document.title = phrase("page.title");
+  for (const element of findAll("[data-say]")) write(element, phrase(element.dataset.say ?? ""));
+  for (const element of findAll("[data-label]"))
+    element.ariaLabel = phrase(element.dataset.label ?? "");
+  for (const element of findAll("[data-title]"))
+    element.title = phrase(element.dataset.title ?? "");
 };

@@ -6,34 +6,29 @@
 import { findAll, make, whenReleased, write } from "./document.js";
 import { refuse } from "./notices.js";
 import { angleUnit, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /**
  * A field; low, high and step are those of its slider.
- * @typedef {{label: string, isAngle?: boolean, isRate?: boolean, isPositive?: boolean,
+ * @typedef {{isAngle?: boolean, isRate?: boolean, isPositive?: boolean,
  *   isNotNegative?: boolean, low?: number, high?: number, step?: number}} Field
  */
 /** @typedef {(name: string, value: number) => void} Change */
 
 /** @type {{[name: string]: Field}} */
 const FIELDS = {
-  factor: {
-    label: "factor of the precession rate phi'",
-    isPositive: true,
-    low: 1.05,
-    high: 3,
-    step: 0.05,
-  },
-  theta: { label: "tilt theta", isAngle: true, low: 0, high: Math.PI, step: 0.01 },
-  psi_dot: { label: "spin rate psi' (rad/s)", isRate: true, low: -400, high: 400, step: 1 },
-  phi_dot: { label: "precession rate phi' (rad/s)", isRate: true, low: -12, high: 12, step: 0.1 },
-  "top.Ix": { label: "Ix, across the axis (kg m\u00b2)", isPositive: true },
-  "top.Iz": { label: "Iz, about the axis (kg m\u00b2)", isPositive: true },
-  "top.Mgl": { label: "Mgl, moment of gravity (J)" },
-  "disc.mass": { label: "mass of the disc (kg)", isPositive: true },
-  "disc.radius": { label: "its radius (m)", isPositive: true },
-  "disc.distance": { label: "its distance from the pivot (m)" },
-  "friction.axial": { label: "friction, axial (N m s)", isNotNegative: true },
-  "friction.transverse": { label: "friction, transverse (N m s)", isNotNegative: true },
+  factor: { isPositive: true, low: 1.05, high: 3, step: 0.05 },
+  theta: { isAngle: true, low: 0, high: Math.PI, step: 0.01 },
+  psi_dot: { isRate: true, low: -400, high: 400, step: 1 },
+  phi_dot: { isRate: true, low: -12, high: 12, step: 0.1 },
+  "top.Ix": { isPositive: true },
+  "top.Iz": { isPositive: true },
+  "top.Mgl": {},
+  "disc.mass": { isPositive: true },
+  "disc.radius": { isPositive: true },
+  "disc.distance": {},
+  "friction.axial": { isNotNegative: true },
+  "friction.transverse": { isNotNegative: true },
 };
 /** @type {{[key: string]: number}} */
 const SIGNS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
@@ -50,7 +45,8 @@ class Entry {
     this.field = FIELDS[this.name];
     this.fields = fields;
     const id = `field-${this.name}`;
-    const { label } = this.field;
+    const label = phrase(`field.${this.name}`);
+    this.title = label;
     this.label = make("label", { htmlFor: id });
     write(this.label, label);
     this.text = make("input", { id, type: "text", autocomplete: "off", "aria-label": label });
@@ -108,19 +104,21 @@ class Entry {
     });
     const value = shown?.[0] ?? parseQuantity(typed, Boolean(this.field.isAngle));
     const refusal = this.check(value);
-    if (refusal) this.refuse(`${this.field.label} must be ${refusal}, got ${typed || "nothing"}`);
+    if (refusal)
+      this.refuse(
+        phrase("refused", { name: this.title, ...refusal, got: typed || phrase("nothing") }),
+      );
     else this.fields.change(this.name, value);
   }
 
-  /** What a value must be, if it is not; otherwise empty. @param {number} value */
+  /** What a value must be, if it is not; otherwise null. @param {number} value */
   check(value) {
     const { isAngle, isPositive, isNotNegative } = this.field;
-    if (!Number.isFinite(value)) return "a number";
-    if (isAngle && !(value >= 0 && value <= Math.PI)) {
-      return `0 to ${inDegrees() ? "180\u00b0" : "pi rad"}`;
-    }
-    if (isPositive && !(value > 0)) return "positive";
-    return isNotNegative && value < 0 ? "0 or more" : "";
+    if (!Number.isFinite(value)) return { kind: "number" };
+    if (isAngle && !(value >= 0 && value <= Math.PI))
+      return { kind: "angle", most: inDegrees() ? "180\u00b0" : "pi rad" };
+    if (isPositive && !(value > 0)) return { kind: "positive" };
+    return isNotNegative && value < 0 ? { kind: "not_negative" } : null;
   }
 
   /** @param {string} text */
@@ -131,8 +129,14 @@ class Entry {
 
   /** @param {HTMLElement} place */
   addSlider(place) {
-    const { low: min, high: max, label } = this.field;
-    const slider = make("input", { type: "range", min, max, step: "any", "aria-label": label });
+    const { low: min, high: max } = this.field;
+    const slider = make("input", {
+      type: "range",
+      min,
+      max,
+      step: "any",
+      "aria-label": this.title,
+    });
     this.slider = slider;
     slider.addEventListener("keydown", (event) => this.moveByKey(event));
     slider.addEventListener("input", () => this.drag());
@@ -181,7 +185,7 @@ class Entry {
 
   showUnit() {
     if (!this.field.isAngle) return;
-    const text = `${this.field.label} (${angleUnit()})`;
+    const text = `${this.title} (${angleUnit()})`;
     write(this.label, text);
     this.text.setAttribute("aria-label", text);
     this.slider?.setAttribute("aria-label", text);
@@ -254,10 +258,11 @@ export class Fields {
    */
   markRefused(refusal) {
     if (!this.asked) return refusal;
-    const { field, value, text } = this.asked;
+    const { field, title: name, value, text } = this.asked;
     text.setAttribute("aria-invalid", "true");
     if (!field.isRate || !refusal.startsWith("angular_velocity")) return refusal;
-    return `${field.label} must be smaller in size, got ${value}: ${refusal}`;
+    const got = `${value}: ${refusal}`;
+    return phrase("refused", { kind: "smaller", name, got });
   }
 
   /** @param {import("../words/facts.js").Facts} facts */

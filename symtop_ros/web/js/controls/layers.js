@@ -3,6 +3,7 @@
 import { ARROWS, COLORS, LAYERS, LEGEND } from "../scene/colors.js";
 import { find, findAll, make } from "./document.js";
 import { typeset } from "../words/typeset.js";
+import { phrase } from "../words/wording.js";
 
 /** @typedef {(message: {[name: string]: any}) => void} Send */
 
@@ -13,8 +14,9 @@ const createMark = (name) => {
   return mark;
 };
 
-/** @param {[keyof typeof COLORS, string, string]} entry of the legend */
-const createEntry = ([name, text, layer]) => {
+/** @param {[keyof typeof COLORS, string]} entry of the legend */
+const createEntry = ([name, layer]) => {
+  const text = phrase(`legend.${name}`);
   if (!ARROWS.some((arrow) => arrow === layer))
     return make("li", {}, createMark(name), ...typeset(text));
   return make("li", {}, ...typeset(`[${text}|${layer}]`));
@@ -35,9 +37,9 @@ export class Layers {
     /** @type {{[layer: string]: HTMLInputElement}} */
     this.boxes = {};
     // What is drawn at first has its name in the scene, or needs none.
-    for (const each of LEGEND.filter(([, , layer]) => !LAYERS[layer])) {
+    for (const each of LEGEND.filter(([, layer]) => !LAYERS[layer])) {
       const entry = createEntry(each);
-      entry.dataset.layer = each[2];
+      entry.dataset.layer = each[1];
       find("legend").append(entry);
     }
     const { style } = document.documentElement;
@@ -67,12 +69,13 @@ export class Layers {
   offer(layers) {
     this.first = layers;
     for (const [layer, checked] of Object.entries(layers)) {
-      const box = make("input", { type: "checkbox", checked, "aria-label": layer });
+      const name = phrase(`layer.${layer}`);
+      const box = make("input", { type: "checkbox", checked, "aria-label": name });
       this.boxes[layer] = box;
       box.addEventListener("change", () => this.show(layer, box.checked));
-      const marks = LEGEND.filter(([, , own]) => own === layer).map(([name]) => createMark(name));
+      const marks = LEGEND.filter(([, own]) => own === layer).map(([name]) => createMark(name));
       find("layers").append(
-        make("div", {}, make("label", {}, box, ...typeset(` ${layer} `), ...marks)),
+        make("div", {}, make("label", {}, box, ...typeset(` ${name} `), ...marks)),
       );
       this.mark(layer, checked);
     }

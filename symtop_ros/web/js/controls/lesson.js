@@ -3,15 +3,13 @@
 import { find, findAll, make, say, write } from "./document.js";
 import { keep, read } from "./choices.js";
 import { recall, remember } from "../run/memory.js";
+import { isKnown, phrase } from "../words/wording.js";
 
 /**
  * A button of a step, as in lesson.yaml.
- * @typedef {{button: string, start: {[name: string]: any} | null, hurry: number | null, hold: string}} Act
+ * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: string}} Act
  */
-/**
- * @typedef {{title: string, acts: Act[], scene: string, charts: string[], layers: string[],
- *   [text: string]: any}} Step
- */
+/** @typedef {{name: string, acts: Act[], scene: string, charts: string[], layers: string[]}} Step */
 /** @typedef {(message: {[name: string]: any}) => void} Send */
 
 const PREDICTIONS = "predictions"; // as the browser keeps them
@@ -30,17 +28,17 @@ export const readPredictions = () => {
  * What was predicted, in words: the answer to the first question, and that of each step.
  * @param {Step[]} steps
  * @param {string | null} answer
- * @param {import("../words/wording.js").Writer} writer
  */
-export const writePredictions = (steps, answer, writer) => {
+export const writePredictions = (steps, answer) => {
   const predictions = Object.entries(readPredictions()).filter(([, text]) => text);
-  const lines = predictions.map(([step, text]) => {
-    const number = Number(step);
-    const title = steps[number - 1]?.title ?? "";
-    return writer.write("predictions", { kind: "step", number, title, text });
+  const lines = predictions.map(([place, text]) => {
+    const number = Number(place);
+    const step = steps[number - 1];
+    const title = step ? phrase(`lesson.${step.name}.title`) : "";
+    return phrase("predictions", { kind: "step", number, title, text });
   });
-  if (answer !== null) lines.unshift(writer.write("predictions", { kind: "first", answer }));
-  return `${lines.join("\n") || writer.write("predictions", { kind: "none" })}\n`;
+  if (answer !== null) lines.unshift(phrase("predictions", { kind: "first", answer }));
+  return `${lines.join("\n") || phrase("predictions", { kind: "none" })}\n`;
 };
 
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
@@ -60,7 +58,9 @@ export class Lesson {
     this.isAwaited = false; // the motion that a button has asked for
     this.predictions = readPredictions();
     this.select.append(
-      ...steps.map(({ title }, k) => make("option", { textContent: `${k + 1}. ${title}` })),
+      ...steps.map(({ name }, k) =>
+        make("option", { textContent: `${k + 1}. ${phrase(`lesson.${name}.title`)}` }),
+      ),
     );
     this.listen();
   }
@@ -115,7 +115,10 @@ export class Lesson {
     this.shown = number;
     const step = this.steps[number - 1];
     this.select.selectedIndex = number - 1;
-    for (const name of TEXTS) say(`lesson-${name}`, step[name] ?? "");
+    for (const text of TEXTS) {
+      const key = `lesson.${step.name}.${text}`;
+      say(`lesson-${text}`, isKnown(key) ? phrase(key) : ""); // few steps have something to compute
+    }
     for (const details of find("lesson").querySelectorAll("details")) details.open = false;
     this.markCharts(step.charts);
     this.prepare(step);
@@ -140,11 +143,12 @@ export class Lesson {
   }
 
   /** @param {Step} step */
-  offerActs({ acts, scene }) {
+  offerActs({ name, acts, scene }) {
     this.hurries = [];
-    const buttons = acts.map((act) => {
-      const button = make("button", { disabled: !act.start, "aria-label": act.button });
-      write(button, act.button);
+    const buttons = acts.map((act, k) => {
+      const text = phrase(`lesson.${name}.act_${k + 1}`);
+      const button = make("button", { disabled: !act.start, "aria-label": text });
+      write(button, text);
       if (!act.start) this.hurries.push(button);
       button.addEventListener("click", () => this.do(act, scene));
       return button;

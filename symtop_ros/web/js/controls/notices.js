@@ -2,6 +2,7 @@
 
 import { nameError } from "../run/errors.js";
 import { find, write } from "./document.js";
+import { phrase } from "../words/wording.js";
 
 /**
  * A refusal or a notice stands until the next act; an empty one takes it away.
@@ -34,7 +35,7 @@ export const guard =
       work(...given);
     } catch (error) {
       const key = `${name}: ${error}`;
-      if (!shown.has(key)) refuse(`${name}: ${nameError(error)}; the rest of the page works`);
+      if (!shown.has(key)) refuse(phrase("page.broken", { part: name, error: nameError(error) }));
       shown.add(key);
     }
   };

@@ -2,9 +2,9 @@
 
 import { keep, read } from "./choices.js";
 import { find, findAll, say } from "./document.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Facts } from "../words/facts.js" */
-/** @import { Writer } from "../words/wording.js" */
 
 const KEPT = "answer"; // as the browser keeps it: who comes again is not asked
 
@@ -12,9 +12,8 @@ const KEPT = "answer"; // as the browser keeps it: who comes again is not asked
 export const readAnswer = () => read(KEPT);
 
 export class Question {
-  /** @param {Writer} writer @param {() => void} push */
-  constructor(writer, push) {
-    this.writer = writer;
+  /** @param {() => void} push */
+  constructor(push) {
     /** The answer of now. @type {string | null} */
     this.answer = null;
     this.end = Infinity; // s of the run at which the answer is seen
@@ -49,7 +48,7 @@ export class Question {
     if (this.answer === null || half === null || this.end < Infinity) this.leave();
     else {
       this.end = half;
-      say("predicted", this.writer.write("predicted", { kind: this.answer }));
+      say("predicted", phrase("predicted", { kind: this.answer }));
       this.enter("watch");
     }
   }

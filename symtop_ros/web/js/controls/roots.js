@@ -2,6 +2,7 @@
 
 import { find, make } from "./document.js";
 import { shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Now */
 
@@ -26,11 +27,12 @@ export class Roots {
   show(now) {
     this.now = now;
     const { roots } = now;
-    const names = roots.length === 2 ? ["slow root", "fast root"] : ["only root"];
-    this.text.data = roots.length ? "steady at the" : "no steady precession at this tilt and spin";
+    const names = roots.length === 2 ? ["slow", "fast"] : ["only"];
+    this.text.data = phrase(roots.length ? "roots.some" : "roots.none");
     this.buttons.forEach((button, k) => {
       button.hidden = k >= roots.length;
-      if (!button.hidden) button.textContent = `${names[k]} ${shorten(roots[k])} rad/s`;
+      if (!button.hidden)
+        button.textContent = phrase(`roots.${names[k]}`, { rate: shorten(roots[k]) });
     });
   }
 }

@@ -1,11 +1,12 @@
 // The list of scenes, and the story of the one that is chosen.
 
 import { find, make, say } from "./document.js";
+import { phrase } from "../words/wording.js";
 
 /**
  * A scene is started when it is picked with the pointer, or by its button or Enter: keys that move
  * through the list start nothing.
- * @param {{name: string, title: string, story: string}[]} scenes
+ * @param {{name: string}[]} scenes
  * @param {(name: string) => void} start
  */
 export const offerScenes = (scenes, start) => {
@@ -13,8 +14,10 @@ export const offerScenes = (scenes, start) => {
   const button = find("start-scene", HTMLButtonElement);
   let isPicked = false; // with the pointer
   list.append(
-    make("option", { value: "", textContent: "choose ..." }),
-    ...scenes.map(({ name, title }) => make("option", { value: name, textContent: title })),
+    make("option", { value: "", textContent: phrase("scene.choose") }),
+    ...scenes.map(({ name }) =>
+      make("option", { value: name, textContent: phrase(`scene.${name}.title`) }),
+    ),
   );
   const startChosen = () => {
     button.hidden = true;
@@ -30,7 +33,7 @@ export const offerScenes = (scenes, start) => {
     startChosen();
   });
   list.addEventListener("change", () => {
-    say("story", scenes.find(({ name }) => name === list.value)?.story ?? "");
+    say("story", list.value && phrase(`scene.${list.value}.story`));
     button.hidden = !list.value;
     if (isPicked) startChosen();
   });

@@ -2,6 +2,7 @@
 
 import { find, make } from "./document.js";
 import { shorten } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 const SPEEDS = [1, ...[2, 5, 10, 20, 50, 100].map((n) => 1 / n)];
 
@@ -11,7 +12,12 @@ export class SpeedList {
   constructor(choose) {
     this.list = find("speed", HTMLSelectElement);
     for (const speed of SPEEDS)
-      this.add(speed, speed === 1 ? "real time" : `1/${Math.round(1 / speed)} of real time`);
+      this.add(
+        speed,
+        speed === 1
+          ? phrase("speed.real")
+          : phrase("speed.part", { factor: `1/${Math.round(1 / speed)}` }),
+      );
     this.list.addEventListener("change", () => choose(Number(this.list.value)));
   }
 
@@ -23,7 +29,7 @@ export class SpeedList {
   /** @param {number} factor */
   show(factor) {
     const isListed = [...this.list.options].some((option) => Number(option.value) === factor);
-    if (!isListed) this.add(factor, `${shorten(factor, 3)} of real time`);
+    if (!isListed) this.add(factor, phrase("speed.part", { factor: shorten(factor, 3) }));
     if (document.activeElement !== this.list) this.list.value = String(factor);
   }
 }

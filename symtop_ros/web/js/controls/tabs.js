@@ -1,6 +1,7 @@
 // The tabs of the controls, as the authoring practices of ARIA describe them.
 
 import { find, findAll, make } from "./document.js";
+import { phrase } from "../words/wording.js";
 
 /** @type {{[key: string]: number}} */
 const STEPS = { ArrowRight: 1, ArrowLeft: -1 };
@@ -34,7 +35,7 @@ const addTab = (panel) => {
   panel.setAttribute("aria-labelledby", `tab-${panel.id}`);
   const tab = make("button", {
     id: `tab-${panel.id}`,
-    textContent: panel.dataset.name ?? "",
+    textContent: phrase(`tab.${panel.id}`),
     role: "tab",
     "aria-controls": panel.id,
   });

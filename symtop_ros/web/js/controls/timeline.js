@@ -1,6 +1,8 @@
 // The slider over the time of the run, with the time beside it and a mark at each act.
 
 import { find, make, whenReleased } from "./document.js";
+import { phrase } from "../words/wording.js";
+import { writeNumber } from "../words/numbers.js";
 
 export class Timeline {
   /** @param {(time: number) => void} seek */
@@ -21,8 +23,8 @@ export class Timeline {
   /** @param {number} time s of the run @param {number} end s */
   show(time, end) {
     if (!this.isDragged) Object.assign(this.line, { max: end, value: time });
-    this.line.setAttribute("aria-valuetext", `${time.toFixed(3)} s of ${end.toFixed(3)} s`);
-    find("clock").textContent = `${time.toFixed(2)} s`;
+    this.line.setAttribute("aria-valuetext", phrase("time", { time, end }));
+    find("clock").textContent = `${writeNumber(time, "2f")} s`;
     this.mark(end);
   }
 

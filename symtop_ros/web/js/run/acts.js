@@ -3,6 +3,7 @@
 import { Course, NANO } from "../physics/course.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { LocalTop } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
@@ -37,7 +38,7 @@ const kick = (top, { factor, hold = "spin_rate" }) => {
  */
 const addImpulse = (top, impulse, kind) => {
   const after = top.state.kick(top.course.top, "impulse", impulse);
-  const request = top.writer.write("request", { kind });
+  const request = phrase("request", { kind });
   addKick(top, after, { act: { angular_impulse: impulse }, hold: null, request });
 };
 
@@ -119,7 +120,7 @@ const tilt = (top, { theta, phi }) => {
 /** @param {LocalTop} top @param {Message} message */
 const chooseScene = (top, { name }) => {
   const scene = findScene(top.content.scenes, name);
-  begin(top, readScene(top.kernel, scene), scene.title);
+  begin(top, readScene(top.kernel, scene), phrase(`scene.${name}.title`));
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -128,12 +129,16 @@ const followLink = (top, { link: { scene: name, ...texts } }) => {
   const { event } = top.content.run_fields;
   const given = scene ? readScene(top.kernel, scene) : present(top);
   const beginning = readLink(top.kernel, texts, given, event);
-  begin(top, beginning, scene && !Object.keys(texts).length ? scene.title : undefined);
+  begin(
+    top,
+    beginning,
+    scene && !Object.keys(texts).length ? phrase(`scene.${name}.title`) : undefined,
+  );
 };
 
 /** @param {LocalTop} top */
 const reset = (top) => {
-  const request = top.writer.write("request", { kind: "reset" });
+  const request = phrase("request", { kind: "reset" });
   begin(top, { ...present(top), start: top.initial }, request);
 };
 
@@ -158,7 +163,7 @@ const setParameter = (top, { name, value }) => {
   if (group === "disc") own = changeDisc(top.kernel, own, key, value);
   else if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
-  const request = top.writer.write("request", { kind: "parameter", name: key, value });
+  const request = phrase("request", { kind: "parameter", name: key, value });
   top.add("change", top.course.continue(top.state, { top: own, friction }), { request });
 };
 

@@ -12,6 +12,7 @@ export const followAddress = (opening, isReloaded, openLesson, start) => {
     const text = location.hash.slice(1) || opening;
     // A plus is that of 1e+20, and no space, as it would be in a form.
     const pairs = new URLSearchParams(text.replaceAll("+", "%2B"));
+    pairs.delete("lang");
     const { lesson, ...link } = Object.fromEntries(pairs);
     if (lesson !== undefined) openLesson(Number(lesson));
     if (isNew && Object.keys(link).length) start(link);

@@ -3,6 +3,7 @@
 import { find, make } from "../controls/document.js";
 import { refuse } from "../controls/notices.js";
 import { drawPicture } from "../scene/picture.js";
+import { phrase } from "../words/wording.js";
 
 /** @typedef {{json: object, csv: string}} Saved what a top has to be saved */
 
@@ -16,8 +17,7 @@ const isSandboxed = () =>
 /** @param {string} href @param {string} name */
 const download = (href, name) => {
   make("a", { href, download: name }).click();
-  if (isSandboxed())
-    refuse(`a frame must allow downloads: if no ${name} was saved, open the page in its own tab`);
+  if (isSandboxed()) refuse(phrase("page.frame", { name }));
 };
 
 /** @param {string} name @param {string} type @param {string} text */
@@ -47,6 +47,8 @@ export const readData = (id) => {
  */
 const writePage = (source, run) => {
   const place = /** @type {Element} */ (source.querySelector(`#${RUN}`));
+  source.setAttribute("lang", document.documentElement.lang);
+  source.setAttribute("data-own", "");
   place.textContent = run.replaceAll("<", "\\u003c");
   return `<!doctype html>\n${source.outerHTML}`;
 };
@@ -77,7 +79,7 @@ const open = async (file, load) => {
   try {
     run = JSON.parse(findRun(text));
   } catch {
-    refuse(`${file.name} must be a run.json or a saved page`);
+    refuse(phrase("page.not_a_run", { name: file.name }));
     return;
   }
   load(run);

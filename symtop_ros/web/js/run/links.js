@@ -2,6 +2,7 @@
 
 import { readField } from "./reader.js";
 import { State } from "../physics/state.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Vector, Top, Kernel } from "../physics/kernel.js" */
 /**
@@ -64,7 +65,7 @@ export const createStart = (kernel, top, numbers, precession) => {
     if (!PRECESSIONS.includes(precession))
       throw new RangeError(`precession must be slow or fast, got ${precession || "nothing"}`);
     const roots = kernel.findRegularRates(top, theta, psi_dot);
-    if (!roots.length) throw new RangeError("spin must be such that a regular precession exists");
+    if (!roots.length) throw new RangeError(phrase("refused.no_root"));
     rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
   }
   const rates = { phi: rate, theta: theta_dot, psi: psi_dot };

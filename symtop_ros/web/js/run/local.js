@@ -18,7 +18,6 @@ import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
 /** @import { Kernel } from "../physics/kernel.js" */
-/** @import { Writer } from "../words/wording.js" */
 /** @import { Course } from "../physics/course.js" */
 /** @typedef {{[name: string]: any}} Message */
 /**
@@ -45,13 +44,11 @@ const CHARTS = 60; // ms between two drawings of the charts: no eye follows numb
 export class LocalTop {
   /**
    * @param {Kernel} kernel
-   * @param {Writer} writer
    * @param {{scenes: import("./links.js").SceneFile[], lesson: any[],
    *   layers: {[layer: string]: boolean}, run_fields: import("./reader.js").Table, run?: any}} content
    */
-  constructor(kernel, writer, content) {
+  constructor(kernel, content) {
     this.kernel = kernel;
-    this.writer = writer;
     this.content = content;
     this.run = new Run(kernel);
     this.time = 0; // ns of the run, whole
@@ -158,7 +155,7 @@ export class LocalTop {
    * @param {import("./run.js").Asked} asked
    */
   add(kind, course, asked = {}) {
-    const request = nameRequest(this.writer, kind, asked, course);
+    const request = nameRequest(kind, asked, course);
     this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
     this.changed();
   }
@@ -265,11 +262,11 @@ export class LocalTop {
   tellMotion(now) {
     if (now < this.textsDue) return;
     this.textsDue = now + FOLLOW;
-    const { run, writer, time, state } = this;
+    const { run, time, state } = this;
     this.tell({ now: describeNow(this.course, state) });
     if (!this.course.isDriven || this.toldAt === time) return;
     this.freeOfTexts = null;
-    this.tell({ motion: describeMotion(run, writer, time, this.free) });
+    this.tell({ motion: describeMotion(run, time, this.free) });
     this.toldAt = time;
   }
 
@@ -312,10 +309,10 @@ export class LocalTop {
 
   tellFacts() {
     this.freeOfTexts = null;
-    const { run, writer, time } = this;
+    const { run, time } = this;
     const facts = {
-      ...describe(run, writer, time),
-      ...describeMotion(run, writer, time, this.free),
+      ...describe(run, time),
+      ...describeMotion(run, time, this.free),
     };
     this.toldAt = time;
     const { isRunning: running, speed: factor, isRecording: recording } = this;

@@ -2,9 +2,9 @@
 // site may have no history; then it lasts as long as the page.
 
 /**
- * The step of the lesson that has started a motion, with its link; the run as in run.json, the speed of
- * its top, and whether it runs.
- * @typedef {{begun?: {step: number, link: string},
+ * The step of the lesson that has started a motion, with its link; the language that was chosen; the run
+ * as in run.json, the speed of its top, and whether it runs.
+ * @typedef {{begun?: {step: number, link: string}, language?: string,
  *   run?: any | null, speed?: number, isRunning?: boolean}} Memory
  */
 

@@ -6,12 +6,12 @@ import { NANO } from "../physics/course.js";
 import { nameError } from "./errors.js";
 import { LocalTop } from "./local.js";
 import { State } from "../physics/state.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { Message } from "./local.js" */
 /** @import { Course } from "../physics/course.js" */
 /** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
 
-const DISCONNECTED = "the connection is lost: is top_panel still running?";
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
@@ -26,7 +26,7 @@ export class NodeTop extends LocalTop {
   open() {
     const news = new EventSource("/news");
     news.onmessage = ({ data }) => this.follow(JSON.parse(data));
-    news.onerror = () => this.tell({ lost: DISCONNECTED });
+    news.onerror = () => this.tell({ lost: phrase("page.disconnected") });
   }
 
   /** @param {Message} message of the server */
@@ -49,7 +49,7 @@ export class NodeTop extends LocalTop {
    */
   beginRun(events) {
     const isKnown = events.some(({ stamp }) => stamp === this.stamp);
-    if (this.stamp && !isKnown) this.tell({ said: "new run: the node was started again" });
+    if (this.stamp && !isKnown) this.tell({ said: phrase("page.new_run") });
     this.run.moments = [];
   }
 
@@ -153,7 +153,7 @@ export class NodeTop extends LocalTop {
   }
 
   load() {
-    throw new RangeError("a run must be opened in a page without a node, got one with a node");
+    throw new RangeError(phrase("page.not_with_node"));
   }
 
   /** Ask one after the other, until one is refused. @param {Request[]} requests */
@@ -192,6 +192,6 @@ const post = async (request) => {
     if (answer.ok) return await answer.json();
     return { granted: false, answer: await answer.text() };
   } catch {
-    return { granted: false, answer: DISCONNECTED };
+    return { granted: false, answer: phrase("page.disconnected") };
   }
 };

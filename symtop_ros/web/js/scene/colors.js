@@ -39,19 +39,19 @@ export const LAYERS = {
 /** @type {(keyof typeof COLORS)[]} */
 export const ARROWS = ["torque", "L", "omega"];
 
-/** Colours with a name, and the layer that has them. */
-/** @type {[keyof typeof COLORS, string, string][]} */
+/** Colours that the legend names, and the layer that has them. */
+/** @type {[keyof typeof COLORS, string][]} */
 export const LEGEND = [
-  ["torque", "torque", "torque"],
-  ["L", "L, angular momentum", "L"],
-  ["omega", "omega, angular velocity", "omega"],
-  ["trace", "trace of the axis", "trace"],
-  ["ghost", "ghost, not pushed", "ghost"],
-  ["ball", "push", "push"],
-  ["circles", "turning circles", "turning circles"],
-  ["nodes", "line of nodes", "line of nodes"],
-  ["gravity", "gravity", FICTITIOUS],
-  ["Coriolis", "Coriolis", FICTITIOUS],
-  ["centrifugal", "centrifugal", FICTITIOUS],
-  ["sum", "sum, Ix theta''", FICTITIOUS],
+  ["torque", "torque"],
+  ["L", "L"],
+  ["omega", "omega"],
+  ["trace", "trace"],
+  ["ghost", "ghost"],
+  ["ball", "push"],
+  ["circles", "turning circles"],
+  ["nodes", "line of nodes"],
+  ["gravity", FICTITIOUS],
+  ["Coriolis", FICTITIOUS],
+  ["centrifugal", FICTITIOUS],
+  ["sum", FICTITIOUS],
 ];

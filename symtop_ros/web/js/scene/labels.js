@@ -34,7 +34,7 @@ export class Labels {
    * @param {Vector} from
    * @param {string} text
    */
-  put(name, color, point, from, text = name) {
+  put(name, color, point, from, text) {
     const [at, other] = [point, from].map((each) => this.camera.project(each));
     if (!at || !other) return;
     this.write(this.find(name, color), name, text);

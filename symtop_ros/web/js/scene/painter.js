@@ -1,5 +1,7 @@
 // WebGL 2 for the scene: lit meshes, and lines as ribbons of equal width on the screen.
 
+import { phrase } from "../words/wording.js";
+
 /** @import { Mesh, Color } from "./meshes.js" */
 /**
  * Corners of triangles on the graphics card, and how many numbers one has.
@@ -88,7 +90,7 @@ export class Painter {
     const gl =
       canvas.getContext("webgl2", { ...options, ...SMOOTH }) ??
       canvas.getContext("webgl2", { ...options, antialias: false });
-    if (!gl) throw new Error("this browser has no WebGL 2: the scene cannot be drawn");
+    if (!gl) throw new Error(phrase("page.no_webgl"));
     this.gl = gl;
     this.canvas = canvas;
     /** @type {Map<WebGLProgram, {[name: string]: WebGLUniformLocation | null}>} */

@@ -19,6 +19,7 @@ import { BRACKET, findPoint, findPush, findReached, listBracket } from "./push.j
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
 import { inDegrees } from "../words/quantities.js";
+import { phrase } from "../words/wording.js";
 
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { State } from "../physics/state.js" */
@@ -41,7 +42,6 @@ const VIEWS = [
   { eye: [2, -2.33, -0.95], target: [0, 0, 0] },
   { eye: [1.9, -2.2, 1.1], target: [0, 0, 0.25] }, // on the stand, and far from it
 ];
-const LOST = "the picture is lost: the graphics card was reset. It is drawn again when it is back";
 const STILL = createPose([1, 0, 0, 0]);
 
 /** @param {keyof typeof COLORS} name */
@@ -52,7 +52,7 @@ export class Scene {
   constructor(place, top) {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", "The top in three dimensions");
+    canvas.setAttribute("aria-label", phrase("page.picture"));
     const labels = document.createElement("div");
     place.prepend(canvas, labels);
     this.painter = new Painter(canvas);
@@ -81,7 +81,7 @@ export class Scene {
     event.preventDefault(); // the browser gives it back
     this.labels.begin();
     this.labels.end();
-    this.tellLoss(LOST);
+    this.tellLoss(phrase("page.picture_lost"));
   }
 
   restore() {
@@ -168,7 +168,7 @@ export class Scene {
     painter.drawMesh(models.body, createPose(ghost.orientation), GHOST_OPACITY);
     const [axis, size] = [ghost.toWorld([0, 0, 1]), 0.8 * BALL];
     painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
-    const name = this.top.writer.write("scene", { kind: "ghost" });
+    const name = phrase("scene.ghost");
     const below = add(scale(axis, 1 - 2 * BALL), scale(normalize([axis[0], axis[1], 0]), 2 * BALL));
     this.labels.put("ghost", COLORS.sphere, below, axis, name);
   }
@@ -178,18 +178,12 @@ export class Scene {
   drawPush(state, states) {
     const { push, top } = this;
     if (!push) return;
-    const { writer, time } = top;
+    const { time } = top;
     if (push.way && time < push.end) {
       const arrow = scale(push.way, PUSH);
       const begin = subtract(push.tip, arrow);
       this.drawArrow("ball", arrow, begin, "");
-      this.labels.put(
-        "push",
-        COLORS.ball,
-        begin,
-        push.tip,
-        writer.write("scene", { kind: "push" }),
-      );
+      this.labels.put("push", COLORS.ball, begin, push.tip, phrase("scene.push"));
     }
     const past = states.slice(-Math.ceil(((time - push.begin) / (top.window * NANO)) * top.points));
     const lift = findReached(push, time, past);
@@ -197,7 +191,7 @@ export class Scene {
     const { phi } = state.angles;
     this.painter.loadLines(listBracket(lift, phi), this.models.bracket);
     this.painter.drawLines(this.models.bracket, paint("lift"), 3, STILL);
-    const text = writer.write("scene", lift, inDegrees() ? "degrees" : "radians");
+    const text = phrase("scene", lift, inDegrees() ? "degrees" : "radians");
     const at = findPoint((lift.from + lift.to) / 2, phi, BRACKET);
     this.labels.put("bracket", COLORS.lift, at, scale(at, 0.9), text);
   }
@@ -263,8 +257,8 @@ export class Scene {
       createPose(rotation, [wide, wide, Math.max(length - 0.1 * size, 0)], origin),
     );
     this.painter.drawMesh(head, createPose(rotation, [wide, wide, size], tip));
-    if (label)
-      this.labels.put(label, COLORS[/** @type {keyof typeof COLORS} */ (name)], tip, origin);
+    const color = COLORS[/** @type {keyof typeof COLORS} */ (name)];
+    if (label) this.labels.put(label, color, tip, origin, phrase(`label.${name}`));
   }
 
   /** Arrows along the line of nodes, head to tail: the third ends below the pivot if theta'' is 0. */

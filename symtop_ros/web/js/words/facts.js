@@ -8,11 +8,13 @@ import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findConstants, findPotential } from "../charts/formulas.js";
 import { spread } from "../charts/plot.js";
+import { phrase } from "./wording.js";
+import { shorten } from "./quantities.js";
 
 /** @import { Run, Moment } from "../run/run.js" */
 /** @import { Course } from "../physics/course.js" */
 /** @import { State } from "../physics/state.js" */
-/** @import { Writer, Variant } from "./wording.js" */
+/** @import { Variant } from "./wording.js" */
 /**
  * What holds after an act until the next one, what follows the motion, and how its top runs.
  * @typedef {ReturnType<typeof describe> & MotionFacts & {running: boolean, factor: number, recording: boolean}} Facts
@@ -85,11 +87,11 @@ const describePotential = ({ top: body, start, motion }, change) => {
 /** @param {Course} course */
 const listRates = ({ motion }) => {
   const { nutation_period, mean_precession_rate } = motion.rates;
-  const rows = [["motion", motion.kind]];
+  const rows = [[phrase("table.motion"), phrase(`motion.${motion.kind}`)]];
   if (Number.isFinite(nutation_period))
-    rows.push(["nutation period", `${Number(nutation_period.toPrecision(4))} s`]);
+    rows.push([phrase("table.nutation_period"), `${shorten(nutation_period)} s`]);
   if (Number.isFinite(mean_precession_rate))
-    rows.push(["mean phi'", `${Number(mean_precession_rate.toPrecision(4))} rad/s`]);
+    rows.push([phrase("table.mean_phi_dot"), `${shorten(mean_precession_rate)} rad/s`]);
   return rows;
 };
 
@@ -117,19 +119,18 @@ const findAnnounced = (run, time) => {
  * What follows the motion where friction or a torque acts: what gravity alone would make of the
  * state of now. Of a kick the sentences are those of the kick.
  * @param {Run} run
- * @param {Writer} writer
  * @param {number} time ns
  * @param {Course} free the motion that would follow under gravity alone
  */
-export const describeMotion = (run, writer, time, free) => {
+export const describeMotion = (run, time, free) => {
   const announced = findAnnounced(run, time);
   const { headline, name, outcome } = findOutcome(run.find(time), free);
   const isKick = name === "kick";
   const say = (/** @type {Variant} */ variant) => ({
-    headline: writer.write("headline", headline, variant),
-    because: writer.write("because", { kind: isKick ? findCause(outcome) : "start" }),
-    why: writer.write(name, outcome, variant),
-    happened: isKick ? writer.write("happened", headline, variant) : "",
+    headline: phrase("headline", headline, variant),
+    because: phrase("because", { kind: isKick ? findCause(outcome) : "start" }),
+    why: phrase(name, outcome, variant),
+    happened: isKick ? phrase("happened", headline, variant) : "",
   });
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
@@ -154,10 +155,9 @@ export const describeNow = ({ kernel, top }, state) => {
 /**
  * What holds after the last event until the next one.
  * @param {Run} run
- * @param {Writer} writer
  * @param {number} time ns
  */
-export const describe = (run, writer, time) => {
+export const describe = (run, time) => {
   const { course, kind, time: began } = run.find(time);
   const announced = findAnnounced(run, time);
   const first = run.findFirstNutation(time);
@@ -166,8 +166,8 @@ export const describe = (run, writer, time) => {
   const disc = { "disc.mass": mass, "disc.radius": radius, "disc.distance": distance };
   return {
     histories: {
-      radians: listHistory(run, writer, "radians"),
-      degrees: listHistory(run, writer, "degrees"),
+      radians: listHistory(run, "radians"),
+      degrees: listHistory(run, "degrees"),
     },
     top: { ...course.parameters, ...disc },
     start,
@@ -180,7 +180,7 @@ export const describe = (run, writer, time) => {
     half: first && (first.begin + first.end) / (2 * NANO),
     link: writeLink(course),
     ledger: findLedger(announced),
-    energies: writer.write("ledger", nameLedger(announced)),
+    energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
     isFresh: kind === "start",
   };

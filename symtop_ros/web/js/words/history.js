@@ -1,8 +1,10 @@
 // The history of a run: what was asked for, as records for the templates `request`.
 
+import { phrase } from "./wording.js";
+
 /** @import { Run, Asked } from "../run/run.js" */
 /** @import { Course } from "../physics/course.js" */
-/** @import { Writer, Variant } from "./wording.js" */
+/** @import { Variant } from "./wording.js" */
 
 const LISTED = 10; // entries
 
@@ -24,34 +26,32 @@ const findRequest = (kind, { act = {} }, { start }) => {
 
 /**
  * What was asked for, in words.
- * @param {Writer} writer
  * @param {import("../run/run.js").Kind} kind
  * @param {Asked} asked
  * @param {Course} course
  * @param {Variant} variant
  */
-export const nameRequest = (writer, kind, asked, course, variant = "radians") => {
+export const nameRequest = (kind, asked, course, variant = "radians") => {
   const record = findRequest(kind, asked, course);
-  const text = writer.write("request", record);
+  const text = phrase("request", record);
   // Words that are not those of the record, such as the title of a scene, have no variant.
   if (asked.request !== undefined && asked.request !== text) return asked.request;
-  return writer.write("request", record, variant);
+  return phrase("request", record, variant);
 };
 
 /**
  * The last events: their places in the run, and what was asked for.
  * @param {Run} run
- * @param {Writer} writer
  * @param {Variant} variant
  * @returns {[number, string][]}
  */
-export const listHistory = ({ moments }, writer, variant) => {
+export const listHistory = ({ moments }, variant) => {
   const places = [...moments.keys()].filter((place) => moments[place].kind !== "torque");
   return places
     .slice(-LISTED)
     .reverse()
     .map((place) => {
       const { kind, asked, course } = moments[place];
-      return [place, nameRequest(writer, kind, asked, course, variant)];
+      return [place, nameRequest(kind, asked, course, variant)];
     });
 };

@@ -1,4 +1,5 @@
-// Twin of the rounding in wording/templates.py: how a number is written, in every sentence.
+// Twin of the rounding in wording/templates.py: how a number is written, in every sentence, with the
+// decimal point of the language.
 
 const [SMALLEST_RATE, LARGEST_RATE] = [0.1, 1e5]; // rad/s; others are written with three digits
 const DIGITS = 100; // which browsers write exactly, at most
@@ -63,6 +64,16 @@ const writeScientific = (size, decimals) => {
   return `${digits[0]}.${digits.slice(1)}${writeExponent(exponent)}`;
 };
 
+let point = ".";
+
+/** Write numbers with this decimal point from now on. @param {string} chosen */
+export const setPoint = (chosen) => {
+  point = chosen;
+};
+
+/** A number as JavaScript writes it, in the language of the page. @param {string} text */
+export const localize = (text) => text.replace(".", point);
+
 const WRITERS = { f: writeFixed, g: writeGeneral, e: writeScientific };
 
 const FORM = /^(\d+)(?:to(\d+))?([fger])(deg)?$/;
@@ -73,7 +84,7 @@ const writePlain = (value, digits, letter) => {
   if (Number.isNaN(value)) return "nan";
   if (!Number.isFinite(value)) return value < 0 ? "-inf" : "inf";
   const text = WRITERS[/** @type {"f" | "g" | "e"} */ (letter)](Math.abs(value), digits);
-  return value < 0 && Number(text) !== 0 ? `-${text}` : text;
+  return localize(value < 0 && Number(text) !== 0 ? `-${text}` : text);
 };
 
 /**

@@ -1,6 +1,7 @@
 // Quantities as the page writes and reads them: numbers, and angles in rad or degrees.
 
 import { find } from "../controls/document.js";
+import { localize, writeNumber } from "./numbers.js";
 
 export const inDegrees = () => find("unit", HTMLSelectElement).value === "deg";
 
@@ -17,12 +18,12 @@ export const angleUnit = () => (inDegrees() ? "\u00b0" : "rad");
 export const shorten = (value, digits = 4) =>
   value === null || value === undefined || Number.isNaN(value)
     ? ""
-    : String(Number(value.toPrecision(digits)));
+    : localize(String(Number(value.toPrecision(digits))));
 
 /** An angle in the unit of the page, with its unit. @param {number} value in rad */
 export const writeAngle = (value) => {
   const shown = toUnit(value);
-  return `${(Math.round(shown * 1e4) / 1e4).toFixed(inDegrees() ? 1 : 3)} ${angleUnit()}`;
+  return `${writeNumber(Math.round(shown * 1e4) / 1e4, inDegrees() ? "1f" : "3f")} ${angleUnit()}`;
 };
 
 const NUMBER =

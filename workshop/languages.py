@@ -1,0 +1,85 @@
+"""Whether the texts of a language are complete: `make -C workshop language ARGS=de`."""
+
+import argparse
+import json
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping
+
+from symtop_ros.web.texts import FOLDER, LANGUAGES, TERMS, read_file, read_texts
+from symtop_ros.wording.templates import PLACEHOLDER, read_templates
+
+# What must be the same in every language: placeholders, arrows of the scene, symbols, numbers.
+ARROW = re.compile(r"\[[^|\]]+\|([^|\]]+)\]")
+SYMBOL = re.compile(
+    r"\b(?:theta|phi|psi|omega|lambda|p_phi|p_psi|U_eff|Mgl|Ix|Iz)\b'{0,2}|\brad/s\b|\bmJ\b"
+)
+NUMBER = re.compile(r"(?<![\w{:^_])\d+(?:[.,]\d+)?")
+GLUED = re.compile(r"\}['\u2019]?[^\W\d_]")  # a suffix of a language at a number or a symbol
+
+
+def find_faults(language: str) -> Iterator[str]:
+    """Yield what is wrong in the files of a language, compared with the English ones."""
+    for files in (read_templates, read_file):
+        yield from _compare_keys(files("en"), files(language))
+    yield from _compare_keys(_read_terms("en"), _read_terms(language))
+    texts = read_texts(language)
+    for key, english in read_texts("en").items():
+        if key in texts and language != "en":
+            yield from (f"{key}: {fault}" for fault in _compare(english, texts[key]))
+
+
+def _compare_keys(english: Mapping[str, str], texts: Mapping[str, str]) -> Iterator[str]:
+    yield from (f"{key}: is missing" for key in english.keys() - texts.keys())
+    yield from (f"{key}: is no key" for key in texts.keys() - _known(english))
+    yield from (f"{key}: is empty" for key in texts if english.get(key) and not texts[key].strip())
+
+
+def _known(english: Mapping[str, str]) -> set[str]:
+    """Return the keys that a language may have: scenes have their English text in config."""
+    scenes = {key for key in read_texts("en") if key.startswith("scene.")}
+    return {*english, *scenes} if "page.title" in english else set(english)
+
+
+def _read_terms(language: str) -> dict[str, str]:
+    text = (FOLDER / f"{language}.json").read_text(encoding="utf-8")
+    terms: dict[str, str] = json.loads(text)[TERMS]
+    return terms
+
+
+def _compare(english: str, text: str) -> Iterator[str]:
+    for name, pattern in (("arrow", ARROW), ("symbol", SYMBOL)):
+        yield from _compare_parts(name, pattern.findall(english), pattern.findall(text))
+    parts = [["".join(each) for each in PLACEHOLDER.findall(one)] for one in (english, text)]
+    yield from _compare_parts("placeholder", *parts)
+    plain = [NUMBER.findall(PLACEHOLDER.sub("", one)) for one in (english, text)]
+    numbers = [[each.replace(",", ".") for each in one] for one in plain]
+    yield from _compare_parts("number", *numbers)
+    if GLUED.search(text):
+        yield "a number must have no suffix"
+    if "'" in SYMBOL.sub("", re.sub(r"\b[EL]_?z?'", "", text)) and "'" not in english:
+        yield "an apostrophe must be U+2019: ' is a derivative"
+
+
+def _compare_parts(name: str, english: list[str], text: list[str]) -> Iterator[str]:
+    missing, more = Counter(english) - Counter(text), Counter(text) - Counter(english)
+    yield from (f"{name} {each} is missing" for each in missing)
+    yield from (f"{name} {each} is not in the English text" for each in more)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Print what is wrong; return 0 if nothing is."""
+    parser = argparse.ArgumentParser(prog="languages", description=__doc__)
+    parser.add_argument("language", nargs="*", default=LANGUAGES)
+    faults = [
+        f"{language}: {fault}"
+        for language in parser.parse_args(args).language
+        for fault in find_faults(language)
+    ]
+    print("\n".join(faults) or "complete")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
