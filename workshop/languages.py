@@ -16,30 +16,28 @@ SYMBOL = re.compile(
     r"\b(?:theta|phi|psi|omega|lambda|p_phi|p_psi|U_eff|Mgl|Ix|Iz)\b'{0,2}|\brad/s\b|\bmJ\b"
 )
 NUMBER = re.compile(r"(?<![\w{:^_])\d+(?:[.,]\d+)?")
+SCENE = re.compile(r"scene\.\w+\.(?:title|story)")
 GLUED = re.compile(r"\}['\u2019]?[^\W\d_]")  # a suffix of a language at a number or a symbol
 
 
 def find_faults(language: str) -> Iterator[str]:
-    """Yield what is wrong in the files of a language, compared with the English ones."""
-    for files in (read_templates, read_file):
-        yield from _compare_keys(files("en"), files(language))
+    """Yield what is wrong in the files of a language, compared with the English texts."""
+    yield from _compare_keys(read_templates("en"), read_templates(language))
     yield from _compare_keys(_read_terms("en"), _read_terms(language))
-    texts = read_texts(language)
-    for key, english in read_texts("en").items():
-        if key in texts and language != "en":
-            yield from (f"{key}: {fault}" for fault in _compare(english, texts[key]))
+    english, texts = read_texts("en"), read_texts(language)
+    # English titles and stories of scenes are those of their files.
+    scenes = {key: text for key, text in english.items() if SCENE.fullmatch(key)}
+    yield from _compare_keys(
+        read_file("en") | (scenes if language != "en" else {}), read_file(language)
+    )
+    for key in english.keys() & texts.keys():
+        yield from (f"{key}: {fault}" for fault in _compare(english[key], texts[key]))
 
 
 def _compare_keys(english: Mapping[str, str], texts: Mapping[str, str]) -> Iterator[str]:
     yield from (f"{key}: is missing" for key in english.keys() - texts.keys())
-    yield from (f"{key}: is no key" for key in texts.keys() - _known(english))
+    yield from (f"{key}: is no key" for key in texts.keys() - english.keys())
     yield from (f"{key}: is empty" for key in texts if english.get(key) and not texts[key].strip())
-
-
-def _known(english: Mapping[str, str]) -> set[str]:
-    """Return the keys that a language may have: scenes have their English text in config."""
-    scenes = {key for key in read_texts("en") if key.startswith("scene.")}
-    return {*english, *scenes} if "page.title" in english else set(english)
 
 
 def _read_terms(language: str) -> dict[str, str]:

@@ -13,8 +13,9 @@ const CLOSING = [".", ",", ":", ";", ")"];
 // Dots of derivatives by time, as many as primes. Full stops, which stand on their line: WebKit places
 // a line of text over the letter, and the sign \u02d9 would float high in its line.
 const DOTS = ["", ".", ".."];
+// In every language: no L begins Lösung, nor l’axe.
 const SYMBOL =
-  /\b(theta|phi|psi|omega|lambda|p|L|U|u|E|I|Mgl|Ix|Iy|Iz)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?:\^(\d))?(?![\w'])|(rad\/s|kg m|\))\^2/g;
+  /(?<![\p{L}\d_])(theta|phi|psi|omega|lambda|p|L|U|u|E|I|Mgl|Ix|Iy|Iz)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?:\^(\d))?(?![\p{L}\d_'’])|(rad\/s|kg m|\))\^2/gu;
 
 /** @param {string} name @param {(Node | string)[]} children */
 const create = (name, ...children) => {

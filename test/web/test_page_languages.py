@@ -1,0 +1,203 @@
+"""The page in each language: its words, its numbers, and room for them."""
+
+import json
+import random
+
+import pytest
+from web.modules import load_kernel, open_tab
+
+from symtop_ros.panel.main import main
+from symtop_ros.web.texts import FOLDER, LANGUAGES, read_texts
+from workshop.languages import find_faults
+
+TESTED = "de"  # a third longer than English; the others in the long run
+EACH = [
+    pytest.param(each, marks=() if each in ("en", TESTED) else pytest.mark.long)
+    for each in LANGUAGES
+]
+WINDOWS = (360, 640), (1366, 768), (1920, 1080)
+KICKS = 300
+# Headline, reason, history and energies of starts and kicks at random.
+SAY = """async ([texts, cases]) => {
+    const { Course } = await import("/physics/course.js");
+    const { State } = await import("/physics/state.js");
+    const { findOutcome } = await import("/words/headline.js");
+    const { nameRequest } = await import("/words/history.js");
+    const { nameLedger } = await import("/words/ledger.js");
+    const { setTemplates } = await import("/words/wording.js");
+    setTemplates(texts);
+    const said = cases.flatMap(({ top, theta, rates, friction, kick, value, hold }) => {
+        const before = State.fromEuler(kernel, { theta }, rates);
+        const after = before.kick(top, kick, [value].flat(), hold ?? undefined);
+        const acts = { factor: "precession_rate_factor", impulse: "angular_impulse" };
+        const course = new Course(kernel, top, after, friction);
+        const asked = { hold, act: { [acts[kick]]: value } };
+        return ["kick", "start"].flatMap((kind) => {
+            const moment = { kind, asked, course, before: kind === "kick" ? before : null };
+            const { headline, name, outcome } = findOutcome(moment, course.free);
+            return ["radians", "degrees"].flatMap((variant) => [
+                phrase("headline", headline, variant),
+                phrase(name, outcome, variant),
+                phrase("ledger", nameLedger(moment), variant),
+                nameRequest(kind, asked, course, variant),
+            ]);
+        });
+    });
+    return [...new Set(said)];
+}"""
+# What is wider or higher than its place, and what another element of its row covers.
+FIND_CUT = """() => {
+    const seen = (element) => element.checkVisibility() && element.getClientRects().length;
+    const name = (element) => `${element.id || element.className} "${element.textContent}"`;
+    const places = "#strip, #bar, button, summary, label, th, td, p, h2, #legend li, #entries";
+    const cut = [...document.querySelectorAll(places)].filter((each) => seen(each)
+        && (each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).display !== "inline"
+            || each.id === "strip" && each.scrollHeight > each.clientHeight + 1));
+    const beyond = [...document.querySelectorAll("svg[role=img] text")].filter((text) => {
+        const svg = text.closest("svg[role=img]");
+        const [own, all] = [text, svg].map((each) => each.getBoundingClientRect());
+        return all.width && (own.left < all.left - 1 || own.right > all.right + 1);
+    });
+    const wide = document.documentElement.scrollWidth > innerWidth ? ["the page is too wide"] : [];
+    return [...wide, ...cut.map(name), ...beyond.map(name)];
+}"""
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_language_has_every_text_placeholder_symbol_and_number(language):
+    assert list(find_faults(language)) == []
+
+
+def draw_case(rng):
+    """A top with a kick: numbers over powers of two, friction in one of four."""
+    Mgl = rng.choice((1, 1, -1)) * rng.randrange(1, 128) / 1024
+    case = {
+        "top": {"Ix": 15 / 65536, "Iz": rng.choice((4, 20)) / 65536, "Mgl": Mgl},
+        "theta": rng.randrange(1, 400) / 128,
+        "rates": {
+            "phi": rng.randrange(-200, 1000) / 16,
+            "theta": 0,
+            "psi": rng.randrange(-250, 250),
+        },
+        "friction": [rng.choice((0, 0, 0, 1)) / 65536, 0],
+    }
+    if rng.random() < 0.2:
+        impulse = [rng.randrange(-64, 64) / 65536 for _ in range(3)]
+        return {**case, "kick": "impulse", "value": impulse, "hold": None}
+    hold = rng.choice(("spin_rate", "spin_momentum"))
+    return {**case, "kick": "factor", "value": rng.randrange(1, 64) / 16, "hold": hold}
+
+
+@pytest.mark.parametrize("language", EACH)
+def test_random_kicks_give_sentences_without_a_leftover_key(browser, language):
+    rng, tab = random.Random(57), open_tab(browser)
+    load_kernel(tab)
+    cases = [draw_case(rng) for _ in range(KICKS)]
+    texts = read_texts(language)
+    said = tab.evaluate(SAY, [texts, cases])
+    tab.close()
+    assert len(said) > KICKS
+    for sentence in said:
+        assert not set("{}@|") & set(sentence.replace("[torque|", "")), sentence
+        assert "undefined" not in sentence
+        assert "  " not in sentence, sentence
+
+
+@pytest.mark.parametrize("language", EACH)
+@pytest.mark.parametrize("size", WINDOWS)
+def test_nothing_is_cut_in_any_window(open_page, language, size):
+    width, height = size
+    window = {"viewport": {"width": width, "height": height}, "locale": language}
+    page = open_page(known="", **window)
+    page.wait_for_frames()
+    assert page.tab.evaluate(FIND_CUT) == []
+    page.tab.click("[data-answer=rises]")
+    page.until(lambda: page.tab.is_visible("#compared"))
+    assert page.tab.evaluate(FIND_CUT) == []
+    page.follow("#lesson=3")
+    page.open_charts()
+    page.tab.locator("#lesson-predict:not(:empty)").wait_for()
+    page.wait_for_frames(20)
+    assert page.tab.evaluate(FIND_CUT) == []
+    for tab in ("start", "push", "view", "save"):
+        page.open_tab(tab)
+        assert page.tab.evaluate(FIND_CUT) == [], tab
+
+
+def is_in(page, language):
+    texts = read_texts(language)
+    return (
+        page.tab.get_attribute("html", "lang") == language
+        and page.tab.title() == texts["page.title"]
+        and page.say("hurry") == texts["page.hurry"]
+    )
+
+
+def test_the_language_is_that_of_the_address_or_the_choice_or_the_browser(open_page):
+    assert is_in(open_page(), "en")
+    assert is_in(open_page(locale="de-AT"), "de")
+    assert is_in(open_page(locale="ja-JP"), "en")
+    page = open_page("#lang=de&theta=0.7", locale="en-GB")
+    assert is_in(page, "de")
+    assert page.read_last().euler_angles.theta == pytest.approx(0.7, rel=1e-15)
+    page.follow("#lang=en")
+    page.until(lambda: is_in(page, "en"))
+
+
+def test_a_chosen_language_stays_and_keeps_the_run(open_page, tmp_path):
+    page = open_page()
+    page.tab.click("#hurry")
+    page.wait_for_time(0.02)
+    page.tab.click("#pause")
+    run = page.read_run()
+    page.open_tab("view")
+    with page.tab.expect_navigation():
+        page.tab.select_option("#language", "de")
+    page.wait_for_page()
+    assert is_in(page, "de")
+    assert page.read_events() == run["events"]
+    assert "rad höher als ohne den Stoß" in page.say("headline")
+    page.reload()
+    assert is_in(page, "de")
+    saved = page.save("Dieser Lauf als Seite", tmp_path)
+    other = open_page(file=saved, locale="en-US")
+    assert is_in(other, "de")
+    assert other.read_events() == run["events"]
+    other.open_tab("view")
+    with other.tab.expect_navigation():
+        other.tab.select_option("#language", "en")
+    other.wait_for_page()
+    assert is_in(other, "en")
+
+
+def test_numbers_have_a_decimal_comma_where_the_language_has_one(open_page):
+    page = open_page("#lang=de")
+    page.enter("theta", "0,625")
+    assert page.read_last().euler_angles.theta == pytest.approx(0.625, rel=1e-15)
+    page.tab.locator("#field-theta").blur()
+    page.until(lambda: page.tab.input_value("#field-theta") == "0,625")
+    page.enter("theta", "9,5")
+    assert page.say("refusal").endswith("eingegeben: 9,5")
+    page.open_charts("theta")
+    page.until(lambda: "," in page.tab.inner_text("#theta"))
+    assert "." not in page.tab.inner_text("#theta").replace("θ", "")
+    assert "," in page.tab.inner_text("#clock")
+
+
+def test_the_program_writes_the_page_in_a_language_of_its_own(open_page, tmp_path, capsys):
+    path = tmp_path / "seite.html"
+    assert main(["--language", "de", "--write", str(path)]) == 0
+    assert is_in(open_page(file=path, locale="en-US"), "de")
+    with pytest.raises(SystemExit) as ended:
+        main(["--language", "xx"])
+    assert ended.value.code == 2
+    assert "--language" in capsys.readouterr().err
+
+
+def test_the_file_of_a_language_is_sorted_as_the_english_one():
+    """A translator compares two files line by line; the scenes are at the end."""
+    keys = {
+        each: list(json.loads((FOLDER / f"{each}.json").read_text("utf-8"))) for each in LANGUAGES
+    }
+    for language in LANGUAGES:
+        assert keys[language][: len(keys["en"])] == keys["en"], language
