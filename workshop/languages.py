@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from symtop_ros.web.texts import FOLDER, LANGUAGES, TERMS, read_file, read_texts
+from symtop_ros.wording.templates import FOLDER as WORDING
 from symtop_ros.wording.templates import PLACEHOLDER, read_templates
 
 # What must be the same in every language: placeholders, arrows of the scene, symbols, numbers.
@@ -22,6 +23,10 @@ GLUED = re.compile(r"\}['\u2019]?[^\W\d_]")  # a suffix of a language at a numbe
 
 def find_faults(language: str) -> Iterator[str]:
     """Yield what is wrong in the files of a language, compared with the English texts."""
+    files = [folder / f"{language}.json" for folder in (WORDING, FOLDER)]
+    if missing := [path for path in files if not path.exists()]:
+        yield from (f"{path.parent.name}/{path.name}: is missing" for path in missing)
+        return
     yield from _compare_keys(read_templates("en"), read_templates(language))
     yield from _compare_keys(_read_terms("en"), _read_terms(language))
     english, texts = read_texts("en"), read_texts(language)

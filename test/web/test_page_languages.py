@@ -8,7 +8,8 @@ from web.modules import load_kernel, open_tab
 
 from symtop_ros.panel.main import main
 from symtop_ros.web.texts import FOLDER, LANGUAGES, read_texts
-from workshop.languages import find_faults
+from workshop.languages import _compare, find_faults
+from workshop.languages import main as check_languages
 
 TESTED = "de"  # a third longer than English; the others in the long run
 EACH = [
@@ -66,6 +67,32 @@ FIND_CUT = """() => {
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_language_has_every_text_placeholder_symbol_and_number(language):
     assert list(find_faults(language)) == []
+
+
+def test_the_command_names_each_fault(capsys):
+    assert check_languages(["it"]) == 1
+    assert capsys.readouterr().out.splitlines() == [
+        "it: wording/it.json: is missing",
+        "it: texts/it.json: is missing",
+    ]
+    assert check_languages([]) == 0
+    assert capsys.readouterr().out == "complete\n"
+
+
+@pytest.mark.parametrize(
+    ("english", "text", "fault"),
+    [
+        ("{name} is {value:3f}", "{name} ist {value:2f}", "placeholder value3f is missing"),
+        ("theta'' is 0.5 rad/s", "theta' ist 0,5 rad/s", "symbol theta'' is missing"),
+        ("0.5 rad", "0,6 rad", "number 0.6 is not in the English text"),
+        ("the [torque|torque] of {x}", "das Moment von {x}", "arrow torque is missing"),
+        ("{x} s", "{x}lik s", "a number must have no suffix"),
+        ("the axis", "l'axe", "an apostrophe must be U+2019: ' is a derivative"),
+    ],
+)
+def test_a_fault_of_a_translation_is_found(english, text, fault):
+    assert fault in list(_compare(english, text))
+    assert list(_compare(english, english)) == []
 
 
 def draw_case(rng):
