@@ -6,8 +6,7 @@ from dataclasses import asdict, dataclass
 from functools import lru_cache
 
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
-from symtop_ros.simulation.sensor.imu import NOISE, Imu
-from symtop_ros.simulation.sensor.magnetometer import MAGNETOMETER_NOISE, Magnetometer
+from symtop_ros.simulation.sensor.imu import MAGNETOMETER_NOISE, NOISE, Imu, Magnetometer
 
 
 @dataclass(frozen=True)
