@@ -37,6 +37,12 @@ class Inertial(NamedTuple):
     moments: Vector  # xx, yy, zz in kg m^2
     products: Vector  # xy, xz, yz in kg m^2
 
+    @property
+    def tensor(self) -> dict[str, float]:
+        """Moments and products by the names that URDF and SDF give them."""
+        names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+        return dict(zip(names, (*self.moments, *self.products), strict=True))
+
 
 @dataclass(frozen=True)
 class Description:

@@ -11,7 +11,7 @@ import pytest
 from python_runs import run_python
 from testset.test_scorers import make_table, write
 
-from symtop_ros.models.formats import FORMATS, FREE_FORMATS
+from symtop_ros.models import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
 from symtop_ros.physics.reference import ClosedForm, Inputs
 from symtop_ros.testset.packed import FORCES, STATES, WORLD
