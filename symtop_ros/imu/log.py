@@ -3,13 +3,13 @@
 import os
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.imu.record import ImuRecord
-from symtop_ros.log.definitions import Channel
 from symtop_ros.log.writer import LogFile
 from symtop_ros.simulation.sensor.imu import EXACT, EXACT_FIELD
 from symtop_ros.simulation.topics import EVENTS, SENSOR_TOPICS, STATE_TOPICS, StateTopic, imu_frame
@@ -23,8 +23,8 @@ Content = tuple[str, StateTopic, tuple[str, ...], Real]  # name, type, frames an
 def write_log(record: ImuRecord, path: Path) -> None:
     """Write the topics of a record in the order of their stamps."""
     contents = [*_contents(record)]
-    channels = [Channel(f"{NODE}/events", EVENTS)]
-    channels += [Channel(f"{NODE}/{name}", topic) for name, topic, *_ in contents]
+    topics = [("events", EVENTS), *(content[:2] for content in contents)]
+    channels = [replace(topic, ros_name=f"{NODE}/{name}") for name, topic in topics]
     layouts = [topic.format.layout(*frames) for _, topic, frames, _ in contents]
     rows = [numbers.tolist() for *_, numbers in contents]
     with tempfile.TemporaryDirectory(dir=path.absolute().parent) as folder:
