@@ -1,11 +1,11 @@
 """The rotations, the delay and the drift that are to be removed, and stated models of these."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Collection
+from dataclasses import replace
 
-from symtop_ros.judge.causes.cause import LEVELS, Cause
+from symtop_ros.judge.causes.cause import LEVELS, NO_CAUSE, Cause
 from symtop_ros.judge.causes.causes import MOST_SAMPLES, Search, refine
 from symtop_ros.judge.causes.tables import fit_rotations
-from symtop_ros.judge.compare import NONE, Offset
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import PARAMETERS, Fit
 from symtop_ros.judge.truth import Truth
@@ -20,34 +20,20 @@ MODELS = [
 ]
 
 
-@dataclass(frozen=True, eq=False)
-class Explanation:
-    """Explanation of most of the errors."""
-
-    offset: Offset = NONE
-    hidden: tuple[str, ...] = ()  # what the motion cannot show
-    residual: float = 0.0  # root mean square of the angle that is left in rad
-
-
 def explain(
-    estimates: Estimates,
-    truth: Truth,
-    *,
-    rotations: bool = True,
-    delay: bool = True,
-    drift: bool = True,
-) -> Explanation:
-    """Return the least squares of constant rotations, a delay up to 0.5 s, and a drift.
+    estimates: Estimates, truth: Truth, removed: Collection[str] = ("offset", "delay", "drift")
+) -> Cause:
+    """Return the least squares of constant rotations (offset), a delay up to 0.5 s, and a drift.
 
     All delays and drifts are tried, and then a delay next to the best drift. Of those that leave as
     little, the one with the fewest numbers and the smallest delay is taken.
     """
     run = truth.select(estimates)
     if len(run) < 2:
-        return Explanation()
-    search = Search(run, truth)
-    level = "none" if not rotations else "world" if "rotations" in search.hidden else "both"
-    names = [name for name, wanted in (("delay", delay), ("drift", drift)) if wanted]
+        return NO_CAUSE
+    search, turned = Search(run, truth), "offset" in removed
+    level = "none" if not turned else "world" if "rotations" in search.hidden else "both"
+    names = [name for name in ("delay", "drift") if name in removed]
     found = [each for name in ("", *names) for each in search.search("", name)]
     if len(names) == 2:
         found += [
@@ -60,11 +46,10 @@ def explain(
     causes = [
         search.refine(("", level, each.parameters), each.offset)
         for each in found
-        if rotations or each.level == "none"
+        if turned or each.level == "none"
     ]
     good = search.select(causes, len(search.some))
-    best = min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
-    return Explanation(best.offset, search.hidden, best.residual)
+    return min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
 
 
 def align(estimates: Estimates, truth: Truth, model: str) -> Cause:

@@ -144,12 +144,7 @@ def judge(
         own = estimates.left_out, estimates.notes
         return Judgement(source, errors, None, aligned, fitted, (), *own)
     found = find_causes(estimates, truth)
-    wanted = {
-        "rotations": "offset" in removed,
-        "delay": "delay" in removed,
-        "drift": "drift" in removed,
-    }
-    taken = explain(estimates, truth, **wanted).offset if removed else NONE
+    taken = explain(estimates, truth, removed).offset if removed else NONE
     errors = compare(estimates, truth, taken)
     mistakes = find_mistakes(estimates, truth, found)
     notes = *(f"likely mistake: {each}" for each in mistakes), *estimates.notes

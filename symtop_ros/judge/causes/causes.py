@@ -11,7 +11,14 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes.cause import CHANGES, LEVELS, Cause, Finding, set_parameter
+from symtop_ros.judge.causes.cause import (
+    CHANGES,
+    LEVELS,
+    NO_CAUSE,
+    Cause,
+    Finding,
+    set_parameter,
+)
 from symtop_ros.judge.causes.tables import Tables, fit_rotations
 from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps
 from symtop_ros.judge.estimates import Estimates
@@ -47,7 +54,7 @@ def find_causes(estimates: Estimates, truth: Truth) -> Finding:
     """Return the simplest explanation that leaves little."""
     run = truth.select(estimates)
     if len(run) < 2:
-        return Finding(Cause("", "none", (), NONE, 0.0))
+        return Finding(NO_CAUSE)
     return Search(run, truth).find()
 
 
