@@ -279,6 +279,12 @@ def validate_vector(name: str, value: Any, unit: str) -> Vector:
         raise refuse(name, f"3 finite numbers ({unit})", repr(value)) from None
 
 
+def validate_vectors(name: str, value: Any, unit: str) -> Any:
+    """Return three finite numbers as floats, or an array (..., 3) of them."""
+    is_many = np.ndim(value) > 1
+    return validate_array(name, value, 3, unit) if is_many else validate_vector(name, value, unit)
+
+
 def _is_array(value: Any) -> bool:
     return isinstance(value, list | tuple) or (hasattr(value, "__array__") and np.ndim(value) > 0)
 

@@ -292,7 +292,6 @@ class Settings:
             raise RefusedError(f"top.{error}") from None
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
-        odometry = clean["odometry.enabled"]
         return cls(
             values=clean,
             top=top,
@@ -300,7 +299,7 @@ class Settings:
             initial=InitialConditions(**_group(clean, "initial.")),
             record=RecordSettings(**_group(clean, "record.")),
             imu=_build_imu(clean),
-            odometry=odometry,
+            odometry=clean["odometry.enabled"],
             **{**plain, "steady_torque": (x, y, z)},
         )
 

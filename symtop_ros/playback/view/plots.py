@@ -69,8 +69,9 @@ class Plots:
         if "angular_momentum" in columns:
             momentum = columns["angular_momentum"]
             self._stream.send_scalars(entities.L, momentum.stamps, momentum.numbers)
-            square = quantities.horizontal_square(momentum)
-            self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square[:, None])
+            # L^2 - L_z'^2, as L_x'^2 + L_y'^2, where nothing cancels
+            square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
+            self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
         if segment:
             self._send_drift(columns, segment.motion.top)
             self._send_constants(columns, segment.motion)

@@ -73,11 +73,6 @@ def nodes_of(phi: Real) -> Real:
     return np.stack([np.cos(phi), np.sin(phi), np.zeros_like(phi)], axis=-1)
 
 
-def horizontal_square(momentum: Columns) -> Real:
-    """Return L^2 - L_z'^2 (n,), computed as L_x'^2 + L_y'^2, where nothing cancels."""
-    return np.asarray((momentum.numbers[:, :2] ** 2).sum(axis=1))
-
-
 def constants(samples: ColumnsByTopic, top: Top) -> tuple[Stamps, Real] | None:
     """Return stamps and constants of motion (n, 3): energy, L_z, L_z'; None if a topic is missing.
 

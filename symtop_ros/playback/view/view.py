@@ -87,12 +87,9 @@ class View:
         self._trace = Trace()
         self._log_styles()
 
+    @np.errstate(all="ignore")
     def send(self, batch: Batch) -> None:
         """Send a batch; numbers that cannot be drawn (nan) are not visible."""
-        with np.errstate(all="ignore"):
-            self._send_batch(batch)
-
-    def _send_batch(self, batch: Batch) -> None:
         for event, columns in batch.stretches():
             if self._stream.origin is None:
                 self._stream.origin = _first_stamp(event, columns)
