@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
 from symtop_ros.simulation.sensor.imu import MAGNETOMETER_NOISE, NOISE, Imu, Magnetometer
+from symtop_ros.wire.diagnostics import write_text
 
 
 @dataclass(frozen=True)
@@ -21,13 +22,13 @@ class Rig:
         values = {"gravity": repr(self.gravity)}
         if self.imu:
             imu = asdict(self.imu)
-            values["imu.mount"] = _write(*imu["position"], *imu["orientation"])
-            values["imu.noise"] = _write(*(imu[name] for name in (*NOISE, "rate")))
+            values["imu.mount"] = write_text((*imu["position"], *imu["orientation"]))
+            values["imu.noise"] = write_text([imu[name] for name in (*NOISE, "rate")])
             values["imu.seed"], values["imu.begin"] = str(imu["seed"]), str(imu["begin"])
         if self.imu and (magnetometer := self.imu.magnetometer):
-            noise = (getattr(magnetometer, name) for name in MAGNETOMETER_NOISE)
-            values["magnetic_field.vector"] = _write(*magnetometer.vector)
-            values["magnetic_field.noise"] = _write(*noise)
+            noise = [getattr(magnetometer, name) for name in MAGNETOMETER_NOISE]
+            values["magnetic_field.vector"] = write_text(magnetometer.vector)
+            values["magnetic_field.noise"] = write_text(noise)
             values["magnetic_field.seed"] = str(magnetometer.seed)
         return values
 
@@ -38,10 +39,6 @@ class Rig:
         if not 0 < gravity < math.inf:
             raise ValueError(f"gravity must be > 0 m/s^2, got {gravity:g}")
         return cls(gravity, _read_imu(values) if "imu.mount" in values else None)
-
-
-def _write(*numbers: float) -> str:
-    return " ".join(map(repr, numbers))
 
 
 def _read_imu(values: Mapping[str, str]) -> Imu:
