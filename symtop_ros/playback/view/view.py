@@ -10,7 +10,6 @@ import rerun as rr
 from symtop_ros.arrays import Real, rotate
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.playback.panel import describe_motion
 from symtop_ros.playback.view import (
     angles,
     cones,
@@ -24,7 +23,7 @@ from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VI
 from symtop_ros.playback.view.fictitious import FictitiousView
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.mesh import create_body
-from symtop_ros.playback.view.plots import Plots
+from symtop_ros.playback.view.plots import Plots, describe_motion
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.events import Event
