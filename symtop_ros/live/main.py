@@ -151,7 +151,3 @@ def _listens(port: int) -> bool:
     with socket.socket() as probe:
         probe.settimeout(0.5)
         return probe.connect_ex((HOST, port)) == 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
