@@ -1,7 +1,7 @@
 """Entry point of `top_imu`: a record of an inertial sensor on the top of a scene."""
 
 import argparse
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +66,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
     if name is None:
         return {}
     if name == "consumer":
-        inertial = {each: asdict(CONSUMER)[each] for each in NOISE}
+        inertial = {each: getattr(CONSUMER, each) for each in NOISE}
         return {**inertial, MAGNETOMETER_NOISE[0]: BMM150}
     path = Path(name)
     with path.open("rb") as file:

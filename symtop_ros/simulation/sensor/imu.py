@@ -1,6 +1,6 @@
 """The sensor on the top, exact or with noise: an IMU, and a magnetometer in its frame."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -142,9 +142,8 @@ class Imu:
         vector("position", self.position, 3, MAX_DISTANCE, "m, body frame")
         number("rate", self.rate, "Hz", MIN_RATE, MAX_RATE)
         number("seed", self.seed, "", 0, 2**63 - 1)
-        values = asdict(self)
         for name in NOISE:
-            number(name, values[name], "in SI units", 0.0, MAX_NOISE)
+            number(name, getattr(self, name), "in SI units", 0.0, MAX_NOISE)
         _ = self.mount  # refused here if it is no unit quaternion
 
     @property
