@@ -4,6 +4,7 @@ Quaternions are (w, x, y, z), one or many. The components of one are Python's fl
 products are those of NumPy, bit for bit, in a tenth of its time.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -16,17 +17,26 @@ Quaternion = tuple[float, float, float, float]  # (w, x, y, z)
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
+def multiply(p: Iterable[Any], q: Iterable[Any]) -> tuple[Any, Any, Any, Any]:
+    """Return the components of the product p q, from those of both: numbers or arrays of any kind.
+
+    They are the rotation q, followed by p.
+    """
+    (w, x, y, z), (a, b, c, d) = p, q
+    return (
+        w * a - x * b - y * c - z * d,
+        w * b + x * a + y * d - z * c,
+        w * c - x * d + y * a + z * b,
+        w * d + x * c - y * b + z * a,
+    )
+
+
 def compose(p: Real, q: Real) -> Real:
-    """Return the products p q, (..., 4): the rotation q, followed by p."""
+    """Return the products p q, (..., 4)."""
     p, q = np.asarray(p), np.asarray(q)
-    w, x, y, z = (p[..., k] for k in range(4))
-    a, b, c, d = (q[..., k] for k in range(4))
-    real = w * a - x * b - y * c - z * d
-    product = np.empty((*real.shape, 4))
-    product[..., 0] = real
-    product[..., 1] = w * b + x * a + y * d - z * c
-    product[..., 2] = w * c - x * d + y * a + z * b
-    product[..., 3] = w * d + x * c - y * b + z * a
+    parts = multiply((p[..., k] for k in range(4)), (q[..., k] for k in range(4)))
+    product = np.empty((*parts[0].shape, 4))  # NumPy's own stack takes twice the time
+    product[..., 0], product[..., 1], product[..., 2], product[..., 3] = parts
     return product
 
 

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import warnings
+from functools import partial
 from typing import Any, NoReturn
 
 # Statuses of programs that a signal has ended, as shells have them: SIGINT, and SIGPIPE, which says
@@ -21,45 +22,10 @@ EXTRAS = {
 }
 
 
-def top_node() -> int:
-    """Run the node (needs ROS)."""
-    return run("top_node", "symtop_ros.node.main")
-
-
 def top_ctl() -> int:
-    """Call the services of a running node (needs ROS); it ends the process."""
+    """Call the services of a running node; it ends the process."""
     _use_udp_only()
     return _leave(run("top_ctl", "symtop_ros.client.main"))
-
-
-def top_replay() -> int:
-    """Play, check, repair or convert a log or a run (needs Rerun only to play)."""
-    return run("top_replay", "symtop_ros.playback.main", interruptible=True)
-
-
-def top_live() -> int:
-    """Show a running node in Rerun (needs ROS and Rerun)."""
-    return run("top_live", "symtop_ros.live.main")
-
-
-def top_panel() -> int:
-    """Write, open or serve the page (needs ROS only for a running node)."""
-    return run("top_panel", "symtop_ros.panel.main")
-
-
-def top_model() -> int:
-    """Write a top as a model for other engines."""
-    return run("top_model", "symtop_ros.models.main")
-
-
-def top_imu() -> int:
-    """Write a record of an inertial sensor on a top."""
-    return run("top_imu", "symtop_ros.imu.main", interruptible=True)
-
-
-def top_judge() -> int:
-    """Compare estimates with the exact motion; score trajectories of the test set."""
-    return run("top_judge", "symtop_ros.judge.main", interruptible=True)
 
 
 def _use_udp_only() -> None:
@@ -109,6 +75,16 @@ def run(name: str, module: str, interruptible: bool = False) -> int:
         return BROKEN_PIPE
     finally:
         _set_signals(signal.SIG_IGN)
+
+
+# Of these the first two and a node on the page need ROS, and the scene in 3D needs Rerun.
+top_node = partial(run, "top_node", "symtop_ros.node.main")
+top_live = partial(run, "top_live", "symtop_ros.live.main")
+top_panel = partial(run, "top_panel", "symtop_ros.panel.main")
+top_replay = partial(run, "top_replay", "symtop_ros.playback.main", interruptible=True)
+top_model = partial(run, "top_model", "symtop_ros.models.main")
+top_imu = partial(run, "top_imu", "symtop_ros.imu.main", interruptible=True)
+top_judge = partial(run, "top_judge", "symtop_ros.judge.main", interruptible=True)
 
 
 def _spare_the_user() -> None:

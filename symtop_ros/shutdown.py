@@ -1,16 +1,17 @@
-"""Orderly shutdown of a ROS program by SIGINT, SIGTERM and SIGHUP."""
+"""A ROS program from its start to its orderly end by SIGINT, SIGTERM and SIGHUP."""
 
 import argparse
 import os
 import re
 import signal
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
 import rclpy
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.signals import (
     SignalHandlerOptions,
     install_signal_handlers,
@@ -104,3 +105,9 @@ def run_with_ros(
     except Exception as error:
         print(f"{parser.prog}: {describe_failure(error)}", file=sys.stderr)
         return 1
+
+
+def spin_until(executor: SingleThreadedExecutor, deadline: float) -> None:
+    """Let the executor work until a time of `time.monotonic`."""
+    while (left := deadline - time.monotonic()) > 0:
+        executor.spin_once(timeout_sec=left)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from mcap.writer import Writer
 from symtop_ros.arrays import Real
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.log.writer import Channel, LogFile
+from symtop_ros.log.writer import LogFile
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
 from symtop_ros.simulation.changes.kick import plan_kick
@@ -114,7 +114,7 @@ class Run:
 
     def write(self, folder: Path) -> Path:
         """Write the log, with a chunk for each half second, and return its path."""
-        channels = [Channel(each.resolve("/top"), each) for each in TOPICS]
+        channels = [replace(each, ros_name=each.resolve("/top")) for each in TOPICS]
         log = LogFile(folder, channels, {"version": "test"}, {})
         flushed = BEGIN
         if self.described:

@@ -17,6 +17,7 @@ from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.command import has_screen
 from symtop_ros.distribution import use_profile
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
@@ -134,14 +135,14 @@ def _show(top: Connection) -> Path:
     logs: list[str] = []
     top.subscribe(DiagnosticArray, "events", lambda message: logs.extend(_list_logs(message)))
     top.subscribe(JointState, "euler_angles", lambda message: thetas.append(message.position[1]))
-    top.switch("pause", True)
-    top.trigger("reset")
+    top.request("pause", True)
+    top.request("reset")
     _say(f"let go at rest:       {_watch(top, thetas)}")
-    top.trigger("reset")
-    state = json.loads(top.trigger("get_state")[1])
-    top.set("step", {"duration": state["nutation_period"] / 2})
+    top.request("reset")
+    state = json.loads(top.request("get_state")[1])
+    top.request("step", {"duration": state["nutation_period"] / 2})
     _say("at its lowest point:  ~/hurry_precession multiplies phi' by 1.4")
-    _, answer = top.trigger("hurry_precession")
+    _, answer = top.request("hurry_precession")
     _say(f"the answer:           {answer}")
     _say(f"the motion after it:  {_watch(top, thetas)}")
     return _end_log(top, logs)
@@ -149,7 +150,7 @@ def _show(top: Connection) -> Path:
 
 def _end_log(top: Connection, logs: list[str]) -> Path:
     """End the recording and return its path; DemoError if the disk is full, for example."""
-    _, answer = top.switch("record", False)
+    _, answer = top.request("record", False)
     if not top.spin_until(lambda: bool(logs), PATIENCE):
         raise DemoError(f"the log must be complete, got: {answer} (top_node has reported why)")
     return Path(logs[-1])
@@ -172,7 +173,7 @@ def _replay(log: Path) -> int:
     _say(f"to check it:          {_command('top_replay', log, '--check')}")
     _say(f"to open the replay:   {_command('rerun', recording)}")
     _say(f"  without a screen:   {_command('rerun', recording, '--serve-web')}")
-    if viewer.has_screen():
+    if has_screen():
         _say("the viewer is open; closing it ends the demonstration")
         viewer.show(recording, web=False)
     _say("stopped; nothing is left running")
@@ -187,12 +188,12 @@ def _command(program: str, file: Path, *options: str) -> str:
 
 def _watch(top: Connection, thetas: list[float]) -> str:
     """Resume the paused motion, pause it after some samples and return the range of the tilt."""
-    resting = json.loads(top.trigger("get_state")[1])["euler_angles"]["theta"]
+    resting = json.loads(top.request("get_state")[1])["euler_angles"]["theta"]
     top.spin_until(lambda: thetas[-1:] == [resting], 5.0)
     thetas.clear()
-    top.switch("pause", False)
+    top.request("pause", False)
     top.spin_until(lambda: len(thetas) - thetas.count(resting) >= SAMPLES, 10.0)
-    top.switch("pause", True)
+    top.request("pause", True)
     moving = [resting, *(theta for theta in thetas if theta != resting)][: SAMPLES + 1]
     return f"theta {min(moving):.3f} to {max(moving):.3f} rad in {SAMPLES} samples"
 

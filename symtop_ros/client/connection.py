@@ -42,30 +42,20 @@ class Connection:
         """End the executor; else Python may end its parts in an order that prints an exception."""
         self._executor.shutdown()
 
-    def set(self, service: str, values: Mapping[str, Any]) -> tuple[bool, str]:
-        """Call a service that takes named values; return success and the answer."""
-        named = [Parameter(name, value=each).to_parameter_msg() for name, each in values.items()]
-        request = SetParametersAtomically.Request(parameters=named)
-        result = self._call(SetParametersAtomically, service, request).result
-        return result.successful, result.reason
-
-    def trigger(self, service: str) -> tuple[bool, str]:
-        """Call a service without arguments; return success and the answer."""
-        answer = self._call(Trigger, service, Trigger.Request())
-        return answer.success, answer.message
-
-    def switch(self, service: str, on: bool) -> tuple[bool, str]:
-        """Call a service that switches on or off; return success and the answer."""
-        answer = self._call(SetBool, service, SetBool.Request(data=on))
-        return answer.success, answer.message
-
-    def request(self, service: str, argument: Mapping[str, Any] | bool | None) -> tuple[bool, str]:
-        """Call a service with the argument of its kind; return success and the answer."""
+    def request(
+        self, service: str, argument: Mapping[str, Any] | bool | None = None
+    ) -> tuple[bool, str]:
+        """Call a service with named values, on or off, or nothing; return success and answer."""
         if argument is None:
-            return self.trigger(service)
-        if isinstance(argument, bool):
-            return self.switch(service, argument)
-        return self.set(service, argument)
+            answer = self._call(Trigger, service, Trigger.Request())
+        elif isinstance(argument, bool):
+            answer = self._call(SetBool, service, SetBool.Request(data=argument))
+        else:
+            named = [Parameter(each, value=argument[each]).to_parameter_msg() for each in argument]
+            request = SetParametersAtomically.Request(parameters=named)
+            result = self._call(SetParametersAtomically, service, request).result
+            return result.successful, result.reason
+        return answer.success, answer.message
 
     @property
     def doubles(self) -> int:

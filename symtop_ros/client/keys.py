@@ -6,7 +6,7 @@ import os
 import select
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
@@ -16,7 +16,8 @@ from sensor_msgs.msg import JointState
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.session.services import Response
 
-DELAY_FACTOR = 1 / 1.4  # of the precession rate; undoes a hurry with the default hurry_factor
+# Undoes a hurry with the default hurry_factor.
+DELAY = {"precession_rate_factor": 1 / 1.4}
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
 QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
@@ -39,12 +40,12 @@ def follow_keys(top: Connection) -> None:
 
 
 def _toggle_pause(top: Connection) -> Response:
-    return top.switch("pause", json.loads(top.trigger("get_state")[1])["running"])
+    return top.request("pause", json.loads(top.request("get_state")[1])["running"])
 
 
 def _push_along(change: float) -> Callable[[Connection], Response]:
     """Return a push on the axle that changes phi' (rad/s)."""
-    return _kick(precession_rate_change=change, hold="spin_momentum")
+    return _ask("kick", {"precession_rate_change": change, "hold": "spin_momentum"})
 
 
 def _push_tilt(change: float) -> Callable[[Connection], Response]:
@@ -54,21 +55,18 @@ def _push_tilt(change: float) -> Callable[[Connection], Response]:
     """
 
     def push(top: Connection) -> Response:
-        state = json.loads(top.trigger("get_state")[1])
+        state = json.loads(top.request("get_state")[1])
         phi, size = state["euler_angles"]["phi"], state["top"]["Ix"] * change
-        return top.set(
-            "kick", {"angular_impulse": [size * math.cos(phi), size * math.sin(phi), 0.0]}
-        )
+        impulse = [size * math.cos(phi), size * math.sin(phi), 0.0]
+        return top.request("kick", {"angular_impulse": impulse})
 
     return push
 
 
-def _kick(**values: float | str) -> Callable[[Connection], Response]:
-    return lambda top: top.set("kick", values)
-
-
-def _trigger(service: str) -> Callable[[Connection], Response]:
-    return lambda top: top.trigger(service)
+def _ask(
+    service: str, argument: Mapping[str, Any] | None = None
+) -> Callable[[Connection], Response]:
+    return lambda top: top.request(service, argument)
 
 
 class Key(NamedTuple):
@@ -81,12 +79,10 @@ class Key(NamedTuple):
 
 # By the bytes that a terminal sends.
 KEYS = {
-    "h": Key(
-        "h", "hurry: multiply phi' by the parameter hurry_factor", _trigger("hurry_precession")
-    ),
-    "d": Key("d", "delay: divide phi' by 1.4", _kick(precession_rate_factor=DELAY_FACTOR)),
+    "h": Key("h", "hurry: multiply phi' by the parameter hurry_factor", _ask("hurry_precession")),
+    "d": Key("d", "delay: divide phi' by 1.4", _ask("kick", DELAY)),
     " ": Key("space", "pause or resume", _toggle_pause),
-    "r": Key("r", "reset", _trigger("reset")),
+    "r": Key("r", "reset", _ask("reset")),
     "\x1b[A": Key("up", "push the axle up: theta' - 1 rad/s", _push_tilt(-PUSH)),
     "\x1b[B": Key("down", "push the axle down: theta' + 1 rad/s", _push_tilt(PUSH)),
     "\x1b[C": Key("right", "push the axle forward: phi' + 1 rad/s", _push_along(PUSH)),
@@ -128,12 +124,8 @@ def _split(data: str) -> Iterator[str]:
 
 def watch(connection: Connection, seconds: float, timeout: float) -> None:
     """Show tilt, precession and spin in one line of a terminal, updated 10 times a second."""
-    latest: list[Any] = []
-
-    def take(message: JointState) -> None:
-        latest[:] = [message]
-
-    connection.subscribe(JointState, "euler_angles", take)
+    latest: list[JointState] = []
+    connection.subscribe(JointState, "euler_angles", latest.append)
     end = math.inf
     try:
         while time.monotonic() < end:
@@ -141,7 +133,7 @@ def watch(connection: Connection, seconds: float, timeout: float) -> None:
             if not connection.spin_until(lambda: bool(latest), timeout):
                 raise UnreachableError(f"no samples from {connection.name} within {timeout:g} s")
             end = min(end, time.monotonic() + seconds)
-            _show(latest[0])
+            _show(latest[-1])
             connection.spin_until(lambda: False, UPDATE_PERIOD)
     finally:
         if sys.stdout.isatty():

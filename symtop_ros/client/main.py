@@ -93,7 +93,7 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
         watch(top, options.seconds, options.timeout)
         return True, ""
     if options.command == "resume":
-        return top.switch("pause", False)
+        return top.request("pause", False)
     service = BY_COMMAND[options.command]
     on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
     argument = {"named": values, "switch": on, "plain": None}[SERVICES[service].kind]

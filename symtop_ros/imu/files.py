@@ -1,7 +1,7 @@
 """Files of a sensor record: one table, or the folders of EuRoC with poses as TUM has them."""
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -9,8 +9,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.imu.record import ImuRecord
-from symtop_ros.simulation.sensor.imu import NOISE
-from symtop_ros.simulation.sensor.magnetometer import MAGNETOMETER_NOISE
+from symtop_ros.simulation.sensor.imu import MAGNETOMETER_NOISE, NOISE
 from symtop_ros.wire.layout import NANOSECONDS
 
 XYZ = "xyz"
@@ -58,15 +57,16 @@ def write_folder(record: ImuRecord, folder: Path) -> None:
     inertial, truth = folder / "imu0", folder / "state_groundtruth_estimate0"
     for each in (inertial, truth):
         each.mkdir(parents=True, exist_ok=True)
-    stamps = record.stamps.tolist()
+    imu, stamps = record.imu, record.stamps.tolist()
     _write_csv(inertial / "data.csv", EUROC_IMU, stamps, [record.measured])
-    (inertial / "sensor.yaml").write_text(_describe_sensor(record), encoding="utf-8")
+    (inertial / "sensor.yaml").write_text(_describe("imu", imu.rate, imu, NOISE), encoding="utf-8")
     states = [record.positions, record.orientations, record.velocities, record.biases]
     _write_csv(truth / "data.csv", EUROC_TRUTH, stamps, states)
     if record.measured_fields is not None:
         (folder / "mag0").mkdir(exist_ok=True)
         _write_csv(folder / "mag0/data.csv", EUROC_FIELD, stamps, [record.measured_fields])
-        (folder / "mag0/sensor.yaml").write_text(_describe_magnetometer(record), encoding="utf-8")
+        text = _describe("magnetometer", imu.rate, imu.magnetometer, MAGNETOMETER_NOISE)
+        (folder / "mag0/sensor.yaml").write_text(text, encoding="utf-8")
     _write_tum(record, folder / "poses.tum")
     write_events(record, folder / "events.json")
 
@@ -78,19 +78,10 @@ def write_events(record: ImuRecord, path: Path) -> None:
     path.write_text(text + "\n", encoding="utf-8")
 
 
-def _describe_sensor(record: ImuRecord) -> str:
+def _describe(kind: str, rate: float, sensor: object, names: Sequence[str]) -> str:
     """Return sensor.yaml: the noise by its names in EuRoC and in Kalibr."""
-    return _describe("imu", record.imu.rate, {name: asdict(record.imu)[name] for name in NOISE})
-
-
-def _describe_magnetometer(record: ImuRecord) -> str:
-    noise = {name: getattr(record.imu.magnetometer, name) for name in MAGNETOMETER_NOISE}
-    return _describe("magnetometer", record.imu.rate, noise)
-
-
-def _describe(kind: str, rate: float, noise: Mapping[str, float]) -> str:
     lines = ["%YAML:1.0", f"sensor_type: {kind}", f"rate_hz: {rate!r}"]
-    return "\n".join([*lines, *(f"{name}: {value!r}" for name, value in noise.items()), ""])
+    return "\n".join([*lines, *(f"{name}: {getattr(sensor, name)!r}" for name in names), ""])
 
 
 def _write_tum(record: ImuRecord, path: Path) -> None:

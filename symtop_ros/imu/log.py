@@ -3,18 +3,17 @@
 import os
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.imu.record import ImuRecord
-from symtop_ros.log.definitions import Channel
 from symtop_ros.log.writer import LogFile
-from symtop_ros.simulation.sensor.imu import EXACT
-from symtop_ros.simulation.sensor.magnetometer import EXACT_FIELD
+from symtop_ros.simulation.sensor.imu import EXACT, EXACT_FIELD
 from symtop_ros.simulation.topics import EVENTS, SENSOR_TOPICS, STATE_TOPICS, StateTopic, imu_frame
-from symtop_ros.wire.messages import IMU, ODOMETRY
+from symtop_ros.wire.messages import IMU, MAGNETIC_FIELD, ODOMETRY
 
 NODE, WORLD = "/top", "world"
 SENSOR = imu_frame("top")
@@ -24,8 +23,8 @@ Content = tuple[str, StateTopic, tuple[str, ...], Real]  # name, type, frames an
 def write_log(record: ImuRecord, path: Path) -> None:
     """Write the topics of a record in the order of their stamps."""
     contents = [*_contents(record)]
-    channels = [Channel(f"{NODE}/events", EVENTS)]
-    channels += [Channel(f"{NODE}/{name}", topic) for name, topic, *_ in contents]
+    topics = [("events", EVENTS), *(content[:2] for content in contents)]
+    channels = [replace(topic, ros_name=f"{NODE}/{name}") for name, topic in topics]
     layouts = [topic.format.layout(*frames) for _, topic, frames, _ in contents]
     rows = [numbers.tolist() for *_, numbers in contents]
     with tempfile.TemporaryDirectory(dir=path.absolute().parent) as folder:
@@ -59,32 +58,30 @@ def _contents(record: ImuRecord) -> Iterator[Content]:
 def _inertial(
     name: str, record: ImuRecord, values: Real, variances: tuple[float, ...] = (EXACT, EXACT)
 ) -> Content:
-    numbers, places = np.zeros((len(values), IMU.width)), IMU.quantities
-    numbers[:, places["orientation"]] = record.orientations[:, [1, 2, 3, 0]]
-    numbers[:, places["angular_velocity"]] = values[:, :3]
-    numbers[:, places["linear_acceleration"]] = values[:, 3:]
-    for each, variance in zip(
-        ("orientation", "angular_velocity", "linear_acceleration"),
-        (EXACT, *variances),
-        strict=True,
-    ):
-        numbers[:, places[f"{each}_covariance"]] = variance * np.eye(3).reshape(-1)
+    measured = {
+        "orientation": record.orientations[:, [1, 2, 3, 0]],
+        "angular_velocity": values[:, :3],
+        "linear_acceleration": values[:, 3:],
+    }
+    covariances = zip([f"{each}_covariance" for each in measured], (EXACT, *variances), strict=True)
+    numbers = IMU.arrange((len(values),), {**measured, **dict(covariances)})
     return name, SENSOR_TOPICS["imu"], (SENSOR,), numbers
 
 
 def _magnetic(name: str, fields: Real, variance: float) -> Content:
-    covariances = np.tile(variance * np.eye(3).reshape(-1), (len(fields), 1))
-    numbers = np.concatenate((fields, covariances), axis=1)
+    values = {"magnetic_field": fields, "magnetic_field_covariance": variance}
+    numbers = MAGNETIC_FIELD.arrange((len(fields),), values)
     return name, SENSOR_TOPICS["magnetic_field"], (SENSOR,), numbers
 
 
 def _odometry(record: ImuRecord) -> Real:
     """Return pose of the sensor in the world, and twist in its own frame."""
-    numbers, places = np.zeros((len(record.stamps), ODOMETRY.width)), ODOMETRY.quantities
-    numbers[:, places["position"]] = record.positions
-    numbers[:, places["orientation"]] = record.orientations[:, [1, 2, 3, 0]]
-    numbers[:, places["linear"]] = record.to_sensor(record.velocities)
-    numbers[:, places["angular"]] = record.rates
-    for name in ("pose_covariance", "twist_covariance"):
-        numbers[:, places[name]] = EXACT * np.eye(6).reshape(-1)
-    return numbers
+    values = {
+        "position": record.positions,
+        "orientation": record.orientations[:, [1, 2, 3, 0]],
+        "pose_covariance": EXACT,
+        "linear": record.to_sensor(record.velocities),
+        "angular": record.rates,
+        "twist_covariance": EXACT,
+    }
+    return ODOMETRY.arrange((len(record.stamps),), values)

@@ -1,7 +1,7 @@
 """Entry point of `top_imu`: a record of an inertial sensor on the top of a scene."""
 
 import argparse
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +11,7 @@ from symtop_ros.command import tell_failures
 from symtop_ros.imu.files import write_folder, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
 from symtop_ros.simulation.changes.initial import start_motion
-from symtop_ros.simulation.sensor.imu import CONSUMER, NOISE
-from symtop_ros.simulation.sensor.magnetometer import BMM150, MAGNETOMETER_NOISE
+from symtop_ros.simulation.sensor.imu import BMM150, CONSUMER, MAGNETOMETER_NOISE, NOISE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, one_line
 
@@ -67,7 +66,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
     if name is None:
         return {}
     if name == "consumer":
-        inertial = {each: asdict(CONSUMER)[each] for each in NOISE}
+        inertial = {each: getattr(CONSUMER, each) for each in NOISE}
         return {**inertial, MAGNETOMETER_NOISE[0]: BMM150}
     path = Path(name)
     with path.open("rb") as file:

@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.judge.causes.cause import Cause, Finding
-from symtop_ros.judge.causes.causes import find_causes
+from symtop_ros.judge.causes.causes import align, explain, find_causes
 from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.explain import align, explain
 from symtop_ros.judge.mistakes import find_mistakes
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
@@ -144,12 +143,7 @@ def judge(
         own = estimates.left_out, estimates.notes
         return Judgement(source, errors, None, aligned, fitted, (), *own)
     found = find_causes(estimates, truth)
-    wanted = {
-        "rotations": "offset" in removed,
-        "delay": "delay" in removed,
-        "drift": "drift" in removed,
-    }
-    taken = explain(estimates, truth, **wanted).offset if removed else NONE
+    taken = explain(estimates, truth, removed).offset if removed else NONE
     errors = compare(estimates, truth, taken)
     mistakes = find_mistakes(estimates, truth, found)
     notes = *(f"likely mistake: {each}" for each in mistakes), *estimates.notes

@@ -15,7 +15,7 @@ from symtop_ros.judge.compare import Errors, compare
 from symtop_ros.judge.estimates import decode_estimates
 from symtop_ros.judge.judgement import summarize
 from symtop_ros.judge.truth import Truth
-from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.shutdown import describe_failure, ros_context, spin_until
 from symtop_ros.simulation.events import decode_events
 from symtop_ros.simulation.topics import DEFAULT_NAME, EVENTS, Topic
 from symtop_ros.simulation.validation import RefusedError, full_name, one_line
@@ -73,7 +73,7 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
             court = Court(node, full_name(options.node or DEFAULT_NAME), topic, kind, options.frame)
             end = time.monotonic() + seconds if seconds else np.inf
             while time.monotonic() < end:
-                _spin(executor, min(end, time.monotonic() + PERIOD))
+                spin_until(executor, min(end, time.monotonic() + PERIOD))
                 errors = court.judge()
                 worst = max(worst, float(errors.total.max()) if errors else 0.0)
                 text = _dump(errors) if options.json else _format(errors, court.truth)
@@ -98,13 +98,8 @@ def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
         found = dict(node.get_topic_names_and_types()).get(topic)
         if found:
             return str(found[0])
-        _spin(executor, time.monotonic() + 0.1)
+        spin_until(executor, time.monotonic() + 0.1)
     raise RefusedError(f"--topic must be a topic that is published, got {one_line(topic)}")
-
-
-def _spin(executor: SingleThreadedExecutor, until: float) -> None:
-    while (left := until - time.monotonic()) > 0:
-        executor.spin_once(timeout_sec=left)
 
 
 def _dump(errors: Errors | None) -> str:

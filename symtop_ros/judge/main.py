@@ -8,9 +8,9 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from symtop_ros.command import positive, tell_failures
+from symtop_ros.judge.causes.causes import MODELS
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
-from symtop_ros.judge.explain import MODELS
 from symtop_ros.judge.judgement import Judgement, format_several, judge
 from symtop_ros.judge.problems import run_testset
 from symtop_ros.judge.tables import TABLES, read_table

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
+from symtop_ros.models import FORMATS, FREE_FORMATS, UNSAID
 from symtop_ros.models.descriptions import describe
-from symtop_ros.models.formats import FORMATS, FREE_FORMATS, UNSAID
 from symtop_ros.models.snippets import format_snippets, format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.testset import score

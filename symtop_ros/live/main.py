@@ -14,7 +14,7 @@ import rclpy
 import rerun as rr
 from rclpy.executors import SingleThreadedExecutor
 
-from symtop_ros.command import port
+from symtop_ros.command import has_screen, port
 from symtop_ros.live.feed import Feed
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
@@ -22,7 +22,7 @@ from symtop_ros.playback.main import add_view_options, view_options
 from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.playback.viewer import HOST
-from symtop_ros.shutdown import run_with_ros
+from symtop_ros.shutdown import run_with_ros, spin_until
 from symtop_ros.simulation.validation import full_name
 
 PORT = 9876  # default of Rerun
@@ -70,7 +70,7 @@ def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
     if _listens(port):
         yield None
         return
-    if not web and not viewer.has_screen():
+    if not web and not has_screen():
         raise LogError(
             f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
         )
@@ -101,7 +101,7 @@ def _stream(
             if now - probed > PROBE_PERIOD:
                 probed = now
                 view = _connect(view, feed, options)
-            _spin(executor, now + SEND_PERIOD)
+            spin_until(executor, now + SEND_PERIOD)
             batch = feed.batch()
             if batch.columns or batch.events:
                 heard = math.inf
@@ -147,16 +147,7 @@ def _end(view: View | None) -> None:
             print("top_live: the viewer does not answer", file=sys.stderr, flush=True)
 
 
-def _spin(executor: SingleThreadedExecutor, deadline: float) -> None:
-    while (left := deadline - time.monotonic()) > 0:
-        executor.spin_once(timeout_sec=left)
-
-
 def _listens(port: int) -> bool:
     with socket.socket() as probe:
         probe.settimeout(0.5)
         return probe.connect_ex((HOST, port)) == 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -9,10 +9,10 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from symtop_ros.log.definitions import Channel
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.topics import Topic
 
@@ -36,7 +36,7 @@ class Recorder:
 
     def __init__(self, settings: RecordSettings) -> None:
         self.settings = settings  # its limits may be changed while a recording runs
-        self._channels: list[Channel] = []
+        self._channels: list[Topic] = []  # with their full names
         self._latched: dict[int, bytes] = {}
         self._queue: deque[Queued] = deque()
         # While one channel is put first: its index, and the messages of all others.
@@ -53,7 +53,7 @@ class Recorder:
 
     def add_channel(self, name: str, topic: Topic) -> int:
         """Add a topic before the first recording; return the index of its channel."""
-        self._channels.append(Channel(name, topic))
+        self._channels.append(replace(topic, ros_name=name))
         return len(self._channels) - 1
 
     @property
@@ -83,7 +83,7 @@ class Recorder:
 
     def add(self, channel: int, stamp: int, data: bytes) -> None:
         """Queue a message with its stamp (ns); the last latched ones are kept for later files."""
-        if self._channels[channel].topic.latched:
+        if self._channels[channel].latched:
             self._latched[channel] = data
         if not self.running:
             return
@@ -174,5 +174,5 @@ class Recorder:
         for _ in range(len(self._queue)):
             channel, stamp, data = self._queue.popleft()
             file.write(channel, stamp, data)
-            if self._channels[channel].topic.latched:
+            if self._channels[channel].latched:
                 latched[channel] = data

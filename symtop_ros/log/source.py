@@ -2,6 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -47,13 +48,9 @@ class MessageSource(ABC):
 def _unpack(messages: list[Message]) -> Iterator[Message]:
     """Yield messages, decompressed; one that is damaged is left out."""
     for message in messages:
-        if not message.data.startswith(ZSTD_START):
-            yield message
-            continue
-        try:
-            yield replace(message, data=_decompress(message.data))
-        except zstandard.ZstdError:
-            continue
+        is_packed = message.data.startswith(ZSTD_START)
+        with suppress(zstandard.ZstdError):
+            yield replace(message, data=_decompress(message.data)) if is_packed else message
 
 
 def _decompress(data: bytes) -> bytes:

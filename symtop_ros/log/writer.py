@@ -1,9 +1,12 @@
 """One MCAP file from its first byte to its index; what was flushed survives any failure."""
 
+import json
 import os
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from datetime import datetime, timezone
+from functools import cache
+from importlib.resources import files
 from pathlib import Path
 
 from mcap.data_stream import RecordBuilder
@@ -12,7 +15,6 @@ from mcap.well_known import MessageEncoding, Profile, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
 from symtop_ros import __version__
-from symtop_ros.log.definitions import Channel, load_definition
 from symtop_ros.simulation.topics import Topic
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -28,7 +30,7 @@ class LogFile:
     def __init__(
         self,
         directory: Path,
-        channels: Iterable[Channel],
+        channels: Iterable[Topic],  # with their full names
         metadata: Mapping[str, str],
         head: Mapping[int, bytes],
     ) -> None:
@@ -115,14 +117,27 @@ class LogFile:
             return os.path.samestat(self.path.stat(), os.fstat(self._file.fileno()))
         return False
 
-    def _register(self, channel: Channel) -> int:
-        known = load_definition(channel.topic.type)
-        schema = self._writer.register_schema(known.type, SchemaEncoding.ROS2, known.text.encode())
+    def _register(self, topic: Topic) -> int:
+        known = load_definitions()[topic.type]
+        data = known["text"].encode()
+        schema = self._writer.register_schema(topic.type, SchemaEncoding.ROS2, data)
         metadata = {
-            "offered_qos_profiles": _qos_profile(channel.topic),
-            "topic_type_hash": known.type_hash,
+            "offered_qos_profiles": _qos_profile(topic),
+            "topic_type_hash": known["hash"],
         }
-        return self._writer.register_channel(channel.name, MessageEncoding.CDR, schema, metadata)
+        return self._writer.register_channel(topic.ros_name, MessageEncoding.CDR, schema, metadata)
+
+
+@cache
+def load_definitions() -> dict[str, dict[str, str]]:
+    """Return "text" and "hash" of each logged type, by its name.
+
+    The text is the .msg of the type, followed by those of all dependencies in the form of rosbag2,
+    the hash that of its description (REP-2016). They are shipped, so that a log can be written
+    without ROS; a test compares them with those of the installed ROS 2.
+    """
+    text = files("symtop_ros.log").joinpath("definitions.json").read_text(encoding="utf-8")
+    return dict(json.loads(text))
 
 
 def _qos_profile(topic: Topic) -> str:

@@ -1,1 +1,36 @@
-"""The top as a model file for other engines. Imported by session, node, check and judge."""
+"""The top and its start as URDF, SDF and MJCF. Imported by session, node, check and judge.
+
+All of them hold a body that moves as the top does, with its doubles in full, in any of its
+descriptions. Friction and applied torques are left out: no format has friction that differs along
+and across the axis.
+
+A top without weight turns about its centre of mass, and the pivot does nothing. Engines have code
+of their own for free bodies, which a ball joint does not reach: such a body has models that nothing
+holds, too.
+"""
+
+from typing import Protocol
+
+from symtop_ros.models.descriptions import PLAIN, Description
+from symtop_ros.models.mjcf import format_free_mjcf, format_mjcf
+from symtop_ros.models.sdf import format_free_sdf, format_sdf
+from symtop_ros.models.urdf import format_free_urdf, format_urdf
+from symtop_ros.physics import Body, State, Top
+
+
+class Format(Protocol):
+    """Writes a model file."""
+
+    def __call__(self, top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
+        """Return the text of a description of a body."""
+
+
+FORMATS: dict[str, Format] = {"urdf": format_urdf, "sdf": format_sdf, "mjcf": format_mjcf}
+FREE_FORMATS: dict[str, Format] = {
+    "free.urdf": format_free_urdf,
+    "free.sdf": format_free_sdf,
+    "free.mjcf": format_free_mjcf,
+}
+# What a format cannot say: the axis of a URDF's joint goes through the origin of its link, and a
+# link of SDF has mass.
+UNSAID = {("offset", "urdf"), ("nested", "sdf"), ("nested", "free.sdf")}

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from symtop_ros.arrays import Vector
+from symtop_ros.arrays import Vector, multiply
 from symtop_ros.physics import Body, State, Top
 
 STEP = 1e-4  # s, of all models; at 200 rad/s a step of 0.02 rad
@@ -36,6 +36,12 @@ class Inertial(NamedTuple):
     centre: Vector  # m
     moments: Vector  # xx, yy, zz in kg m^2
     products: Vector  # xy, xz, yz in kg m^2
+
+    @property
+    def tensor(self) -> dict[str, float]:
+        """Moments and products by the names that URDF and SDF give them."""
+        names = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+        return dict(zip(names, (*self.moments, *self.products), strict=True))
 
 
 @dataclass(frozen=True)
@@ -81,14 +87,7 @@ class Description:
         """Return the start of a motion, as the frame of the link has it."""
         if not self.turned:
             return start
-        w, x, y, z = map(Fraction, start.orientation.tolist())
-        a, b, c, d = TURN
-        q = (
-            w * a - x * b - y * c - z * d,
-            w * b + x * a + y * d - z * c,
-            w * c - x * d + y * a + z * b,
-            w * d + x * c - y * b + z * a,
-        )
+        q = multiply(map(Fraction, start.orientation.tolist()), TURN)
         omega = [Fraction(each) for each in start.angular_velocity.tolist()]
         columns = zip(*MATRIX, strict=True)
         return State([*map(float, q)], _round(_dot(column, omega) for column in columns))

@@ -83,13 +83,12 @@ def _write(
 
 
 def _inertial(part: Inertial) -> str:
-    names = "ixx", "iyy", "izz", "ixy", "ixz", "iyz"
-    numbers = zip(names, (*part.moments, *part.products), strict=True)
+    tensor = "".join(f"<{name}>{each!r}</{name}>" for name, each in part.tensor.items())
     return f"""\
         <inertial>
           <pose>{join(part.centre)} 0 0 0</pose>
           <mass>{part.mass!r}</mass>
-          <inertia>{"".join(f"<{name}>{each!r}</{name}>" for name, each in numbers)}</inertia>
+          <inertia>{tensor}</inertia>
         </inertial>"""
 
 

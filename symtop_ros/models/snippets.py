@@ -1,4 +1,4 @@
-"""The start of a motion as programs for each engine, next to the model files of `formats`.
+"""The start of a motion as programs for each engine, next to the model files.
 
 Some engines have joint coordinates. Others (Bullet, Jolt, Rapier and DART) hold bodies in the
 world: they have the place and the velocity of the centre of mass, and rates in the world frame. A

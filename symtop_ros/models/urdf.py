@@ -17,7 +17,7 @@ from symtop_ros.models.descriptions import (
     describe_body,
     join,
 )
-from symtop_ros.physics import Body, Top
+from symtop_ros.physics import Body, State, Top
 
 # What an empty link needs in MuJoCo, in kg and in kg m^2: mjMINVAL. No other engine reads it.
 MUJOCO_BOUND = 1e-15
@@ -101,10 +101,47 @@ def join_child(frame: str, body: Body | None, described: Description) -> str:
   </joint>"""
 
 
+def format_urdf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
+    """Return the top as URDF: three revolute joints, since the format has no ball joint."""
+    angles, rates = start.euler_angles, start.euler_rates
+    text = robot_description(top, "world", "top", tf_moves_it=False, body=body, described=described)
+    first, _, rest = text.partition("\n")
+    return f"""{first}
+<!--
+     A heavy symmetric top with its pivot in the origin. URDF has no ball joint: three joints with
+     the axes z-x-z (precession, tilt, spin) take its place. Start of the motion, in this order:
+     position {angles.phi!r} {angles.theta!r} {angles.psi!r} rad, \
+velocity {rates.phi!r} {rates.theta!r} {rates.psi!r} rad/s. The chain has its pole where the
+     axis is vertical (tilt 0 or pi): a motion through it needs a ball joint.
+-->
+{rest}"""
+
+
+def format_free_urdf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
+    """Return the body as URDF with one link, and its child; its start is in a comment."""
+    state = described.begin(start)
+    w, x, y, z = state.orientation.tolist()
+    rest = "at rest in the origin"
+    if described.is_moved:
+        place, velocity = map(join, described.find_origin(start))
+        rest = f"place {place} m and velocity {velocity} m/s of the frame (world),\n    "
+    return f"""<?xml version="1.0"?>
+<!--
+     One link: the engine gives it a floating base, and no gravity. Start of the motion:
+     {rest}, quaternion x, y, z, w {join((x, y, z, w))}, angular velocity \
+{join(state.angular_velocity.tolist())} rad/s
+     (frame of the body).
+-->
+<robot name="symtop">
+  <link name="top">
+    {describe_inertial(top, body, described)}
+  </link>{join_child("top", body, described)}
+</robot>
+"""
+
+
 def _inertial(part: Inertial) -> str:
-    names = "ixx", "iyy", "izz", "ixy", "ixz", "iyz"
-    numbers = zip(names, (*part.moments, *part.products), strict=True)
-    tensor = " ".join(f'{name}="{each!r}"' for name, each in numbers)
+    tensor = " ".join(f'{name}="{each!r}"' for name, each in part.tensor.items())
     return f"""<inertial>
       <origin xyz="{join(part.centre)}"/>
       <mass value="{part.mass!r}"/>

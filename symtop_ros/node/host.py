@@ -1,19 +1,20 @@
 """The node as the host of a session: publishers, messages to the user, duplicate nodes."""
 
 import warnings
-from typing import Any
+from typing import Any, cast
 
 from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import ROSClock
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from symtop_ros.node.duplicates import find_duplicates
+from symtop_ros.session.diagnostics import make_status
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.topics import MARKERS, SAMPLE_TOPICS, Topic
+from symtop_ros.simulation.topics import CLOCK, MARKERS, SAMPLE_TOPICS, Topic
 from symtop_ros.simulation.validation import RefusedError, one_line
-from symtop_ros.wire.diagnostics import OK, Status
+from symtop_ros.wire.diagnostics import OK, WARN, Status
 
 
 class NodePublisher:
@@ -88,7 +89,8 @@ class NodeHost:
 
     def update_statuses(self) -> list[Status]:
         """Return statuses on duplicates; log when these appear and when they are gone."""
-        statuses = find_duplicates(self._node, self._publishes_clock)
+        clocks = _look_for_clocks(self._node, self._publishes_clock)
+        statuses = [_look_for_nodes(self._node), clocks]
         for status in statuses:
             before = self._levels.get(status.name, OK)
             if status.level > before:
@@ -111,3 +113,31 @@ class NodeHost:
     def report_error(self, text: str) -> None:
         """Log an error."""
         self._node.get_logger().error(text)
+
+
+def _look_for_nodes(node: Node) -> Status:
+    """Look for other nodes of the name of this node: a request reaches any of them."""
+    name = node.get_fully_qualified_name()
+    count = max(0, node.get_fully_qualified_node_names().count(name) - 1)
+    sentence = f"no other node has the name {name}"
+    if count:
+        others = "another node has" if count == 1 else f"{count} other nodes have"
+        sentence = (
+            f"{others} the name {name}, and a request reaches any of them: rename this one "
+            "with --ros-args -r __node:=NAME or -r __ns:=/NAME (a killed node is listed for 20 s)"
+        )
+    return make_status("name", WARN if count else OK, sentence, {"name": name, "others": count})
+
+
+def _look_for_clocks(node: Node, publishes_clock: bool) -> Status:
+    """Look for several publishers of /clock: the time steps back and forth between them."""
+    concerns = publishes_clock or cast(ROSClock, node.get_clock()).ros_time_is_active
+    count = node.count_publishers(CLOCK.ros_name)
+    level, sentence = OK, f"no duplicate publisher of {CLOCK.ros_name} concerns this node"
+    if concerns and count > 1:
+        level = WARN
+        sentence = (
+            f"{count} programs publish {CLOCK.ros_name}, and the time steps back and forth between "
+            "them: end all but one, or start this node with publish_clock:=false"
+        )
+    return make_status("clock", level, sentence, {"publishers": count})

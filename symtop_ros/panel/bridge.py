@@ -8,7 +8,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import rclpy
@@ -37,6 +37,7 @@ ALIVE = 2.0  # s after which a page without news is sent an empty message: a clo
 KEPT = 200  # events of a run that a page is sent when it is opened
 
 Message = dict[str, Any]
+Place = tuple[int, int, Message]  # what a page was sent: run, number of its events, and state
 
 
 class Polled(CallbackGroup):
@@ -67,15 +68,6 @@ class SharedConnection(Connection):
         while not done() and time.monotonic() < deadline:
             time.sleep(0.002)
         return done()
-
-
-@dataclass
-class _Place:
-    """The news that one page was sent: run, number of its events, and state."""
-
-    run: int = -1
-    count: int = 0
-    state: Message = field(default_factory=dict)
 
 
 class Bridge:
@@ -141,31 +133,32 @@ class Bridge:
 
         A page that does not keep up gets fewer samples, and all events.
         """
-        place = _Place()
+        place: Place = (-1, 0, {})
         with self._news:
             self._pages += 1
         try:
             while not self._ending.is_set():
                 with self._news:
-                    is_new = self._news.wait_for(lambda: self._has_news(place), ALIVE)
-                    message = self._take_news(place) if is_new else {}
+                    message = self._news.wait_for(partial(self._list_news, place), ALIVE)
+                    place = self._place
                 yield message
                 self._ending.wait(PERIOD)
         finally:
             with self._news:
                 self._pages -= 1
 
-    def _has_news(self, place: "_Place") -> bool:
-        return (place.run, place.count, place.state) != (self._runs, self._count, self._state)
+    def _list_news(self, place: Place) -> Message:
+        """Return what a page has not been sent; nothing if it has all."""
+        if place == self._place:
+            return {}
+        run, count, _ = place
+        message, is_new = self._state, run != self._runs
+        missed = self._count if is_new else self._count - count
+        return message | {"new": is_new, "events": [*self._events][-missed:]} if missed else message
 
-    def _take_news(self, place: "_Place") -> Message:
-        """Return what a page has not been sent, which is sent from now on."""
-        message, is_new = {**self._state}, place.run != self._runs
-        missed = self._count if is_new else self._count - place.count
-        if missed:
-            message |= {"new": is_new, "events": [*self._events][-missed:]}
-        place.run, place.count, place.state = self._runs, self._count, self._state
-        return message
+    @property
+    def _place(self) -> Place:
+        return self._runs, self._count, self._state
 
     @property
     def _state(self) -> Message:

@@ -8,7 +8,7 @@ import threading
 import webbrowser
 from pathlib import Path
 
-from symtop_ros.command import port
+from symtop_ros.command import has_screen, port
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import write_file
@@ -104,16 +104,10 @@ def _open_file(options: argparse.Namespace, page: str) -> int:
         path = FILE.with_stem(f"{FILE.stem}_{number}")
     _write(path, page)
     is_opened = (
-        not options.no_browser and _has_screen() and webbrowser.open(path.absolute().as_uri())
+        not options.no_browser and has_screen() and webbrowser.open(path.absolute().as_uri())
     )
     print(f"wrote {path}, {'and opened it' if is_opened else 'open it'} in a browser")
     return 0
-
-
-def _has_screen() -> bool:
-    """Return True if a browser can open a window; else some systems open one in the terminal."""
-    names = ("DISPLAY", "WAYLAND_DISPLAY")
-    return sys.platform in {"darwin", "win32"} or any(os.environ.get(name) for name in names)
 
 
 def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None = None) -> int:
@@ -137,7 +131,7 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
     thread.start()
     try:
         print(f"{name}: open {server.url} in a browser; Ctrl-C ends it", flush=True)
-        if not options.no_browser and _has_screen():
+        if not options.no_browser and has_screen():
             webbrowser.open(server.url)
         # With a time-out, because on Windows a wait without one does not see Ctrl-C.
         while not ending.wait(PERIOD):

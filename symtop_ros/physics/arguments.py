@@ -12,7 +12,7 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import fit_shapes, refuse, validate_array, validate_vector
+from symtop_ros.physics.values import fit_shapes, refuse, validate_array, validate_vectors
 
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 TORQUE_UNIT = "N m, world frame"
@@ -28,9 +28,7 @@ def validate_torque(torque: Any) -> Any:
     """Return three floats, or an array (..., 3)."""
     if torque is NO_TORQUE:
         return NO_TORQUE
-    if np.ndim(torque) <= 1:
-        return validate_vector("torque", torque, TORQUE_UNIT)
-    return validate_array("torque", torque, 3, TORQUE_UNIT)
+    return validate_vectors("torque", torque, TORQUE_UNIT)
 
 
 def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:

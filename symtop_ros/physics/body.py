@@ -7,6 +7,7 @@ chosen here that exists for every top for which any exists.
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.accelerations import STANDARD_GRAVITY, specific_force
@@ -66,10 +67,8 @@ class Body:
     def __post_init__(self) -> None:
         units = {"mass": "kg", "arm": "m", "Ix": "kg m^2", "Iz": "kg m^2", "gravity": "m/s^2"}
         for name, unit in units.items():
-            value = validate_number(name, getattr(self, name), unit)
-            if name != "arm" and not value > 0:
-                raise refuse(name, f"> 0 {unit}", value)
-            object.__setattr__(self, name, value)
+            validate = validate_number if name == "arm" else _validate_positive
+            object.__setattr__(self, name, validate(name, getattr(self, name), unit))
         if self.Iz > 2 * self.Ix:
             raise refuse("Iz", f"<= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
 
@@ -148,13 +147,10 @@ class Body:
         >>> Body.disc(mass=0.5, radius=0.25, distance=0.125, gravity=10.0).top
         Top(Ix=0.015625, Iz=0.015625, Mgl=0.625)
         """
-        values = {"mass": mass, "radius": radius, "distance": distance, "gravity": gravity}
-        units = {"mass": "kg", "gravity": "m/s^2"}
-        for name, value in values.items():
-            values[name] = validate_number(name, value, units.get(name, "m"))
-            if name != "distance" and not values[name] > 0:
-                raise refuse(name, f"> 0 {units.get(name, 'm')}", value)
-        mass, radius, distance, gravity = values.values()
+        mass = _validate_positive("mass", mass, "kg")
+        radius = _validate_positive("radius", radius, "m")
+        distance = validate_number("distance", distance, "m")
+        gravity = _validate_positive("gravity", gravity, "m/s^2")
         Ix, Iz, _ = door.find_disc_top(mass, radius, 0.0, gravity)  # about its centre
         return cls(mass, distance, float(Ix), float(Iz), gravity)
 
@@ -181,9 +177,7 @@ class Body:
         ValueError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J to exist, got 2
         """
         validate_one(top)
-        gravity = validate_number("gravity", gravity, "m/s^2")
-        if gravity <= 0:
-            raise refuse("gravity", "> 0 m/s^2", gravity)
+        gravity = _validate_positive("gravity", gravity, "m/s^2")
         if top.Mgl == 0:
             return cls(1.0, 0.0, top.Ix, top.Iz, gravity)
         largest = top.Ix - top.Iz / 2  # of M r^2
@@ -246,3 +240,10 @@ class Body:
             raise refuse("motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)
+
+
+def _validate_positive(name: str, value: Any, unit: str) -> float:
+    number = validate_number(name, value, unit)
+    if number <= 0:
+        raise refuse(name, f"> 0 {unit}", number)
+    return number

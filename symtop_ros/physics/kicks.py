@@ -16,10 +16,9 @@ from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     fit_shapes,
     refuse,
-    validate_array,
     validate_numbers,
     validate_rate,
-    validate_vector,
+    validate_vectors,
 )
 
 Hold = Literal["spin_rate", "spin_momentum"]
@@ -117,11 +116,7 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     >>> apply_impulse(top, state, (0.000228, 0, 0)).angular_velocity.tolist()
     [1.0, 0.0, 200.0]
     """
-    unit = "N m s, world frame"
-    if np.ndim(impulse) <= 1:
-        J = np.array(validate_vector("impulse", impulse, unit))
-    else:
-        J = validate_array("impulse", impulse, 3, unit)
+    J = np.asarray(validate_vectors("impulse", impulse, "N m s, world frame"))
     tops = np.stack([np.asarray(each) for each in top.moments], axis=-1)
     return _kick(tops, state, IMPULSE, "spin_rate", J, "impulse")
 

@@ -23,25 +23,24 @@ from symtop_ros.physics.values import (
 class _Numbers:
     """Numbers of one thing, or arrays of many: compared, hashed and copied by what was given."""
 
-    __slots__ = ()
+    __slots__: tuple[str, ...] = ()
 
     @property
     def _given(self) -> tuple[Any, ...]:
         """The arguments, validated."""
-        raise NotImplementedError
+        return tuple(getattr(self, name) for name in self.__slots__)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """() for one, (...) for many."""
-        return getattr(self._given[0], "shape", ())
+        return getattr(getattr(self, self.__slots__[0]), "shape", ())
 
     def spread(self, motions: tuple[int, ...], states: tuple[int, ...]) -> Self:
         """Return the same numbers in the shape of states at times of motions of a shape."""
         if not self.shape:
             return self
         found, times = object.__new__(type(self)), (1,) * (len(states) - len(motions))
-        names: tuple[str, ...] = type(self).__slots__
-        for name, value in zip(names, self._given, strict=True):
+        for name, value in zip(self.__slots__, self._given, strict=True):
             column = np.broadcast_to(value, motions).reshape(*motions, *times)
             object.__setattr__(found, name, np.broadcast_to(column, states))
         return found
@@ -110,10 +109,6 @@ class Top(_Numbers):
     def moments(self) -> Vector:
         """(Ix, Iz, Mgl)."""
         return self.Ix, self.Iz, self.Mgl
-
-    @property
-    def _given(self) -> Vector:
-        return self.moments
 
     @property
     def critical_spin(self) -> Any:
@@ -247,10 +242,6 @@ class Friction(_Numbers):
             if np.min(value, initial=0.0) < 0:
                 raise refuse(name, ">= 0 N m s", float(np.min(value)))
             object.__setattr__(self, name.removeprefix("friction."), value)
-
-    @property
-    def _given(self) -> tuple[float, float]:
-        return self.axial, self.transverse
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""

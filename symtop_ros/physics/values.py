@@ -10,18 +10,13 @@ from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, Vector
 
 P = ParamSpec("P")
 T = TypeVar("T")
-Complex = NDArray[np.complex128]
 
 EPS = 2.0**-52  # distance from 1 to the next double
-# A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A
-# sum below this share of its terms is treated as zero.
-START_ROUNDING = 64 * EPS
 # Products of two moments, of a moment and the square of a rate, and their quotients are doubles
 # within these limits.
 LARGEST_ANGULAR_VELOCITY = 1e100  # rad/s
@@ -282,6 +277,12 @@ def validate_vector(name: str, value: Any, unit: str) -> Vector:
         return float(x), float(y), float(z)
     except (TypeError, ValueError):
         raise refuse(name, f"3 finite numbers ({unit})", repr(value)) from None
+
+
+def validate_vectors(name: str, value: Any, unit: str) -> Any:
+    """Return three finite numbers as floats, or an array (..., 3) of them."""
+    is_many = np.ndim(value) > 1
+    return validate_array(name, value, 3, unit) if is_many else validate_vector(name, value, unit)
 
 
 def _is_array(value: Any) -> bool:

@@ -8,7 +8,7 @@ from pathlib import Path
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
-from symtop_ros.command import tell_failures
+from symtop_ros.command import has_screen, tell_failures
 from symtop_ros.log.reader import LogError, McapFile, list_problems
 from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
@@ -182,7 +182,7 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         _print_problems(log.problems)
         print(f"wrote {save}; open it with: rerun {save}")
         return 0
-    if not options.web and not viewer.has_screen():
+    if not options.web and not has_screen():
         raise LogError(
             "no screen for the viewer: use --save OUT.rrd to write a recording, or --web for a "
             "browser"

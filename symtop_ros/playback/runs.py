@@ -14,12 +14,7 @@ from symtop_ros.simulation.settings import MAX_PUBLISH_RATE
 from symtop_ros.simulation.validation import number
 from symtop_ros.web.join import write_file
 
-SUFFIX = ".json"
-
-
-def is_run(paths: Sequence[Path]) -> bool:
-    """Return True if the name of a file says that it is a run of the page."""
-    return any(path.suffix == SUFFIX for path in paths)
+SUFFIX = ".json"  # of a run of the page
 
 
 def read(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
@@ -33,7 +28,7 @@ def read(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
 @contextmanager
 def open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
     """Open a log, or the log that a node would have written of a run of the page."""
-    if not is_run(paths):
+    if all(path.suffix != SUFFIX for path in paths):
         yield TopLog(open_run(paths), node)
         return
     with tempfile.TemporaryDirectory() as folder:

@@ -38,13 +38,6 @@ def settings() -> dict[str, str]:
     return environment
 
 
-def has_screen() -> bool:
-    """Return True if a window can be opened."""
-    return sys.platform in {"darwin", "win32"} or any(
-        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
-    )
-
-
 def start(*files: str, port: int | None = None, web: bool = False) -> subprocess.Popen[bytes]:
     """Start a viewer, or a server for browsers whose address is printed.
 

@@ -107,7 +107,8 @@ class Ticker:
     def restart(self, rate: float, start: int) -> None:
         """Begin a new grid with its first tick at `start` (ns)."""
         self.rate, self._start = rate, start  # ticks per second, and ns
-        self._ticks, self._nanoseconds = _ratio(rate)
+        self._ticks, seconds = rate.as_integer_ratio()
+        self._nanoseconds = seconds * NANOSECONDS  # the rate is the quotient of both
         self._go_to(0)
 
     def _go_to(self, number: int) -> None:
@@ -136,12 +137,6 @@ class Ticker:
 
     def _stamp(self, k: int) -> int:
         return self._start + _divide(k * self._nanoseconds, self._ticks)
-
-
-def _ratio(rate: float) -> tuple[int, int]:
-    """Return ticks and nanoseconds, whose quotient is the rate."""
-    ticks, seconds = rate.as_integer_ratio()
-    return ticks, seconds * NANOSECONDS
 
 
 def _divide(numerator: int, denominator: int) -> int:

@@ -90,11 +90,9 @@ class OwnTimeSimulation(Simulation):
     def _follow_jump(self) -> None:
         """Do nothing: this clock is not set."""
 
-    def _prepare(self, stamp: int) -> bool:
-        ready = self.budget.prepare(self.segment, stamp, self._clock.factor)
-        if self.budget.end is not None:
-            self._stop_at(self.budget.end)
-        return ready
+    @property
+    def _pace(self) -> float:
+        return self._clock.factor
 
     def _stop_at(self, reached: float) -> None:
         """Bring a motion that cannot continue to its last time in s, and pause it there."""

@@ -10,8 +10,7 @@ from typing import Any
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
 from symtop_ros.simulation.presets import load_scene
-from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, Imu
-from symtop_ros.simulation.sensor.magnetometer import EARTH, MAX_FIELD, Magnetometer
+from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, EARTH, MAX_FIELD, Imu, Magnetometer
 from symtop_ros.simulation.sensor.noise import MAX_NOISE
 from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.validation import (
@@ -293,7 +292,6 @@ class Settings:
             raise RefusedError(f"top.{error}") from None
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
-        odometry = clean["odometry.enabled"]
         return cls(
             values=clean,
             top=top,
@@ -301,7 +299,7 @@ class Settings:
             initial=InitialConditions(**_group(clean, "initial.")),
             record=RecordSettings(**_group(clean, "record.")),
             imu=_build_imu(clean),
-            odometry=odometry,
+            odometry=clean["odometry.enabled"],
             **{**plain, "steady_torque": (x, y, z)},
         )
 

@@ -223,9 +223,14 @@ class Simulation:
         self._release_torque()
         self._integrate_to(self.stamp)
 
+    @property
+    def _pace(self) -> float:
+        """Seconds of the stamps per second of real time."""
+        return 1.0
+
     def _prepare(self, stamp: int) -> bool:
         """Work towards a stamp; return True if its state is ready."""
-        ready = self.budget.prepare(self.segment, stamp)
+        ready = self.budget.prepare(self.segment, stamp, self._pace)
         if self.budget.end is not None:
             self._stop_at(self.budget.end)
         return ready

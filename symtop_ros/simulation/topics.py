@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics import Motion, State
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import EXACT
@@ -138,47 +138,43 @@ def _joints(samples: Samples) -> Real:
 
 def _imu(samples: Samples) -> Real:
     """Orientation, angular velocity and specific force of the sensor, each with its covariance."""
-    imu, places = samples.rig.imu, messages.IMU.quantities
-    numbers = np.full((*np.shape(samples.stamps), messages.IMU.width), np.nan)
+    imu, shape = samples.rig.imu, np.shape(samples.stamps)
     if not imu:
-        return numbers
+        return np.full((*shape, messages.IMU.width), np.nan)
     orientation, rates, force = imu.measure(samples.motion, samples.state, samples.rig.gravity)
     if imu.has_noise:
         errors = imu.noise(samples.stamps)
         rates, force = rates + errors[..., :3], force + errors[..., 3:]
-    measured = orientation, rates, force
-    for (name, variance), each in zip(imu.covariances.items(), measured, strict=True):
-        numbers[..., places[name]] = each
-        numbers[..., places[f"{name}_covariance"]] = variance * np.eye(3).reshape(-1)
-    return numbers
+    measured = zip(imu.covariances, (orientation, rates, force), strict=True)
+    variances = {f"{name}_covariance": each for name, each in imu.covariances.items()}
+    return messages.IMU.arrange(shape, {**dict(measured), **variances})
 
 
 def _magnetic_field(samples: Samples) -> Real:
     """Magnetic field in the frame of the sensor, and its covariance."""
-    imu, form = samples.rig.imu, messages.MAGNETIC_FIELD
-    numbers = np.full((*np.shape(samples.stamps), form.width), np.nan)
-    if imu and imu.magnetometer:
-        exact, errors = imu.measure_field(samples.state, samples.stamps)
-        numbers[..., form.quantities["magnetic_field"]] = exact + errors
-        covariance = imu.magnetometer.variance(imu.rate) * np.eye(3).reshape(-1)
-        numbers[..., form.quantities["magnetic_field_covariance"]] = covariance
-    return numbers
+    imu, form, shape = samples.rig.imu, messages.MAGNETIC_FIELD, np.shape(samples.stamps)
+    if not (imu and imu.magnetometer):
+        return np.full((*shape, form.width), np.nan)
+    exact, errors = imu.measure_field(samples.state, samples.stamps)
+    variance = imu.magnetometer.variance(imu.rate)
+    values = {"magnetic_field": exact + errors, "magnetic_field_covariance": variance}
+    return form.arrange(shape, values)
 
 
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
-    state, places = samples.state, messages.ODOMETRY.quantities
-    body = find_body(samples.motion.top, samples.rig.gravity)
+    state, body = samples.state, find_body(samples.motion.top, samples.rig.gravity)
     omega, arm = state.angular_velocity, body.arm if body else np.nan
-    numbers = np.zeros((*state.orientation.shape[:-1], messages.ODOMETRY.width))
-    numbers[..., places["position"]] = state.to_world([0.0, 0.0, 1.0]) * arm
-    numbers[..., places["orientation"]] = _quaternion(samples)
-    first = places["linear"].start  # of omega x (0, 0, arm), whose last component is zero
-    numbers[..., first], numbers[..., first + 1] = omega[..., 1] * arm, -omega[..., 0] * arm
-    numbers[..., places["angular"]] = omega
-    for name in ("pose_covariance", "twist_covariance"):
-        numbers[..., places[name]] = EXACT * np.eye(6).reshape(-1)
-    return numbers
+    x, y, _ = split(omega)
+    values = {
+        "position": state.to_world([0.0, 0.0, 1.0]) * arm,
+        "orientation": _quaternion(samples),
+        "pose_covariance": EXACT,
+        "linear": stack(y * arm, -x * arm, 0.0 * abs(x)),  # omega x (0, 0, arm)
+        "angular": omega,
+        "twist_covariance": EXACT,
+    }
+    return messages.ODOMETRY.arrange(omega.shape[:-1], values)
 
 
 def choose_description(node: str) -> Topic:

@@ -194,7 +194,7 @@ def read_problems(path: Path = FILE) -> dict[str, Problem]:
     if path.exists():
         found = json.loads(path.read_bytes())["problems"]
     elif packed.exists():
-        from symtop_ros.testset.packed import unpack  # a copy of this file has no package
+        from symtop_ros.testset.tables import unpack  # a copy of this file has no package
 
         found = unpack(packed.read_bytes())
     else:

@@ -22,6 +22,7 @@ DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR = range(3)
 T = TypeVar("T")
 MAX_RECORDS = 100  # in a tuple that is read; a log may be hostile
+_get_hints = lru_cache(typing.get_type_hints)
 
 
 class Status(NamedTuple):
@@ -109,11 +110,6 @@ def read_fields(prefix: str, kind: type[T], values: Mapping[str, str]) -> T:
     return record
 
 
-@lru_cache
-def _hints(kind: type) -> Mapping[str, Any]:
-    return typing.get_type_hints(kind)
-
-
 def _read(hint: Any, name: str, values: Mapping[str, str]) -> Any:
     """Return the value of a type hint: a record, a tuple or a plain value."""
     choices = _list_choices(hint)
@@ -123,7 +119,7 @@ def _read(hint: Any, name: str, values: Mapping[str, str]) -> Any:
         choices = tuple(each for each in choices if each is not type(None))
     (only, *others) = choices
     if not others and is_dataclass(only):
-        types_of = _hints(typing.cast(type, only))
+        types_of = _get_hints(typing.cast(type, only))
         names = [each.name for each in fields(only)]
         build = typing.cast("Callable[..., Any]", only)
         return build(**{each: _read(types_of[each], f"{name}.{each}", values) for each in names})

@@ -161,8 +161,7 @@ class Writer:
 
     def integer(self, value: int, code: str = "I") -> None:
         """Append an integer; `code` is its format character of the struct module."""
-        self._data += bytes(-(len(self._data) - len(HEADER)) % struct.calcsize(f"<{code}"))
-        self._data += struct.pack(f"<{code}", value)
+        self.numbers((value,), code)
 
     def stamp(self, stamp: int) -> None:
         """Append a stamp (ns): seconds and nanoseconds."""

@@ -4,14 +4,17 @@ Doubles are in the order of the message: quaternions x, y, z, w; linear (or forc
 (or torque); positions before velocities.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.wire.layout import (
     Count,
     DecodeError,
@@ -44,6 +47,18 @@ class Format:
     def width(self) -> int:
         """Number of doubles in a message."""
         return max(int(place.stop) for place in self.quantities.values())
+
+    def arrange(self, shape: tuple[int, ...], values: Mapping[str, Any]) -> Real:
+        """Return the doubles of messages (..., width) from some quantities; the others are zero.
+
+        A covariance is given by the variance of each axis.
+        """
+        numbers = np.zeros((*shape, self.width))
+        for name, value in values.items():
+            place, is_covariance = self.quantities[name], name.endswith("_covariance")
+            axes = np.eye(math.isqrt(place.stop - place.start)).reshape(-1)
+            numbers[..., place] = value * axes if is_covariance else value
+        return numbers
 
 
 def _place(**sizes: int) -> dict[str, slice]:

@@ -20,7 +20,7 @@ def test_a_service_that_does_not_answer_is_reported_after_the_time_out():
         silent = rclpy.create_node("silent", context=user.context)  # it is never spun
         silent.create_service(Trigger, "~/reset", lambda _, response: response)
         with pytest.raises(UnreachableError, match=r"/silent/reset did not answer within 3 s"):
-            Connection(user.node, "/silent", timeout=3.0).trigger("reset")
+            Connection(user.node, "/silent", timeout=3.0).request("reset")
 
 
 def test_a_harmless_question_is_answered_before_the_first_request_to_a_service():
@@ -36,7 +36,7 @@ def test_a_harmless_question_is_answered_before_the_first_request_to_a_service()
         connection = Connection(user.node, timeout=60.0)
         connection._executor.add_node(top)
         for _ in range(2):
-            connection.trigger("reset")
+            connection.request("reset")
         connection.close()
     assert asked == ["get_state", "reset", "reset"]
 

@@ -8,7 +8,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosidl_generator_type_description import calculate_type_hash
 
-from symtop_ros.log.definitions import load_definition
+from symtop_ros.log.writer import load_definitions
 from symtop_ros.simulation.topics import TOPICS
 from workshop.definitions import TARGET, TF_HASH, TF_MESSAGE, definitions
 
@@ -21,7 +21,7 @@ def test_the_shipped_file_is_the_one_that_the_installed_ros_gives():
 
 @pytest.mark.parametrize("name", TYPES)
 def test_the_text_defines_the_type_and_all_its_dependencies(name):
-    parsed = get_types_from_msg(load_definition(name).text, name)
+    parsed = get_types_from_msg(load_definitions()[name]["text"], name)
     known = get_typestore(Stores.ROS2_JAZZY).fielddefs
     assert name in parsed
     for each, (_, fields) in parsed.items():
@@ -44,9 +44,4 @@ def test_the_hash_of_tf_is_the_one_ros_computes():
         "type_description": {"type_name": TF_MESSAGE, "fields": [field]},
         "referenced_type_descriptions": sorted(others, key=lambda each: each["type_name"]),
     }
-    assert calculate_type_hash(whole) == TF_HASH == load_definition(TF_MESSAGE).type_hash
-
-
-def test_a_type_of_no_topic_is_refused():
-    with pytest.raises(KeyError, match="some_msgs/msg/Unknown"):
-        load_definition("some_msgs/msg/Unknown")
+    assert calculate_type_hash(whole) == TF_HASH == load_definitions()[TF_MESSAGE]["hash"]

@@ -10,7 +10,6 @@ from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
 
-from symtop_ros.log.definitions import Channel
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.repair import repair
 from symtop_ros.log.writer import LogFile
@@ -32,7 +31,7 @@ def test_channels_store_the_quality_of_service_that_the_node_offers(tmp_path):
 
 def test_the_distribution_is_written_where_ros2_bag_info_reads_it(tmp_path):
     """rosbag2_storage_mcap: record "rosbag2", an empty text for no further metadata."""
-    log = LogFile(tmp_path, [Channel("/x", EVENTS)], {"ros_distro": "jazzy"}, {})
+    log = LogFile(tmp_path, [EVENTS], {"ros_distro": "jazzy"}, {})
     log.write(0, 0, b"")
     log.finish({})
     with log.path.open("rb") as stream:
@@ -42,7 +41,7 @@ def test_the_distribution_is_written_where_ros2_bag_info_reads_it(tmp_path):
 
 def test_a_log_without_any_message_is_removed(tmp_path):
     """As of a node that is ended before its first sample."""
-    log = LogFile(tmp_path, [Channel("/x", EVENTS)], {}, {0: b"latched"})
+    log = LogFile(tmp_path, [EVENTS], {}, {0: b"latched"})
     log.finish({})
     assert list(tmp_path.iterdir()) == []
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from physics.tops import ARTICLE
 
-from symtop_ros.models.formats import FORMATS
+from symtop_ros.models import FORMATS
 from symtop_ros.models.main import main
 from symtop_ros.models.urdf import MUJOCO_BOUND, robot_description
 from symtop_ros.physics import Body, Motion

@@ -143,16 +143,16 @@ class RunningTop(Listener):
 
     def change(self, values: Mapping[str, Any]) -> tuple[bool, str]:
         """Set parameters."""
-        return self.connection.set("set_parameters_atomically", values)
+        return self.connection.request("set_parameters_atomically", values)
 
     def set(self, service: str, **values: Any) -> tuple[bool, str]:
-        return self.connection.set(service, values)
+        return self.connection.request(service, values)
 
     def trigger(self, service: str) -> tuple[bool, str]:
-        return self.connection.trigger(service)
+        return self.connection.request(service)
 
     def switch(self, service: str, on: bool) -> tuple[bool, str]:
-        return self.connection.switch(service, on)
+        return self.connection.request(service, on)
 
 
 class _SharedConnection(Connection):

@@ -1,5 +1,7 @@
 """~/markers: drawn from the samples, only for a subscriber, and only if it is asked for."""
 
+import sys
+
 import numpy as np
 import pytest
 from geometry_msgs.msg import Vector3Stamped
@@ -7,7 +9,6 @@ from node.running_top import stamp_of
 
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.session import markers
-from symtop_ros.simulation.topics import MARKERS, Topic
 
 messages = pytest.importorskip("visualization_msgs.msg")
 
@@ -44,8 +45,7 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
 
 
 def test_a_missing_package_is_one_line_and_the_markers_are_logged(start_top, monkeypatch, capfd):
-    load = Topic.load_message_class
-    monkeypatch.setattr(Topic, "load_message_class", lambda t: None if t is MARKERS else load(t))
+    monkeypatch.setitem(sys.modules, "visualization_msgs.msg", None)  # as if it were missing
     run = start_top(publish_markers=True)
     run.spin_until(lambda: run.top.simulation.ticker._next > 10)
     line = "visualization_msgs is not installed: ~/markers is only logged"

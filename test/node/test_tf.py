@@ -7,7 +7,7 @@ import pytest
 from node.built_messages import with_messages
 from programs import command, environment, execute, running
 
-from symtop_ros.log.definitions import load_definition
+from symtop_ros.log.writer import load_definitions
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 
@@ -69,4 +69,4 @@ def test_tf_is_published_with_the_quaternion_of_the_topic_and_the_type_of_the_lo
     assert all(found["equal"])  # bit for bit
     assert found["names"] == [["world", "a/top"]]
     assert found["translations"] == [True]
-    assert found["hash"] == load_definition("tf2_msgs/msg/TFMessage").type_hash
+    assert found["hash"] == load_definitions()["tf2_msgs/msg/TFMessage"]["hash"]

@@ -89,7 +89,7 @@ def test_it_runs_where_there_is_no_ros_and_no_mcap():
 def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(module.webbrowser, "open", lambda url: opened.append(url) or True)
-    monkeypatch.setattr(module, "_has_screen", lambda: True)
+    monkeypatch.setenv("DISPLAY", ":0")
     assert module.main([]) == 0
     assert opened == [Path("top.html").absolute().as_uri()]
     assert capsys.readouterr().out == "wrote top.html, and opened it in a browser\n"
@@ -118,7 +118,7 @@ def test_a_screen_is_found(platform, display, expected, monkeypatch):
     monkeypatch.setattr(module.sys, "platform", platform)
     monkeypatch.setenv("DISPLAY", display)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    assert module._has_screen() is expected
+    assert module.has_screen() is expected
 
 
 def test_a_run_in_the_page_ends_no_script():

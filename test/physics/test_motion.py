@@ -29,16 +29,6 @@ def rate_of(case):
     )
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_a_state_is_the_same_bit_for_bit_alone_and_among_others(seed):
-    _, motion = case_and_motion(seed)
-    times = np.linspace(-20.0, 30.0, 5001)  # more than one block
-    together = motion.at(times)
-    for i in (0, 1, 7, 4095, 4096, 5000):
-        alone = motion.at(times[i])
-        assert alone == together[i]
-
-
 @pytest.mark.parametrize("friction", [Friction(), Friction(2e-6, 1e-5)])
 @pytest.mark.parametrize("shape", [(), (0,), (1,), (7,), (2, 3)])
 def test_shapes_follow_those_of_the_times(shape, friction):

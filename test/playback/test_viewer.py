@@ -12,7 +12,7 @@ from waiting import until
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback import viewer
-from symtop_ros.playback.panel import describe_motion
+from symtop_ros.playback.view.plots import describe_motion
 from symtop_ros.simulation.segment import Segment
 
 

@@ -9,8 +9,7 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import Imu
-from symtop_ros.simulation.sensor.magnetometer import Magnetometer
+from symtop_ros.simulation.sensor.imu import Imu, Magnetometer
 from symtop_ros.simulation.sensor.rig import Rig
 
 CLOSED = Motion(ARTICLE, CUSPS)

@@ -7,8 +7,7 @@ import time
 import pytest
 from odd_values import assert_one_sentence
 
-from symtop_ros.simulation import presets
-from symtop_ros.simulation.presets import load_scene
+from symtop_ros.simulation.presets import CONFIG, load_scene
 from symtop_ros.simulation.validation import RefusedError
 
 HEAD = "/**:\n  ros__parameters:\n"
@@ -49,8 +48,10 @@ REFUSED = {
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(presets, "config_folder", lambda: tmp_path)
-    return tmp_path
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    scenes = tmp_path / CONFIG
+    scenes.mkdir(parents=True)
+    return scenes
 
 
 @pytest.mark.parametrize(("content", "sentence"), REFUSED.values(), ids=REFUSED)

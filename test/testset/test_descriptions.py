@@ -6,12 +6,12 @@ from mpmath import mp, mpf
 from testset.model_files import DIGITS, read_model
 from testset.rigid_body import integrate
 
+from symtop_ros.models import UNSAID
 from symtop_ros.models.descriptions import TURN as OF_MODELS
 from symtop_ros.models.descriptions import describe
-from symtop_ros.models.formats import UNSAID
 from symtop_ros.physics import STANDARD_GRAVITY
-from symtop_ros.testset.packed import TURN
 from symtop_ros.testset.score import DESCRIPTIONS, find_problem, main, read_problems
+from symtop_ros.testset.tables import TURN
 from workshop.testset.exact import distance
 from workshop.testset.problems import SETTINGS
 

@@ -11,11 +11,11 @@ import pytest
 from python_runs import run_python
 from testset.test_scorers import make_table, write
 
-from symtop_ros.models.formats import FORMATS, FREE_FORMATS
+from symtop_ros.models import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
 from symtop_ros.physics.reference import ClosedForm, Inputs
-from symtop_ros.testset.packed import FORCES, STATES, WORLD
 from symtop_ros.testset.score import main, read_problems
+from symtop_ros.testset.tables import FORCES, STATES, WORLD
 from workshop.testset.exact import DIGITS
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import COUNT, SETTINGS

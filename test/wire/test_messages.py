@@ -147,3 +147,8 @@ def test_the_quantities_of_a_message_follow_one_another_and_are_all_of_it(form):
 def test_a_layout_without_one_stamp_is_refused(parts, count):
     with pytest.raises(ValueError, match=rf"^a layout must have one Stamp, got {count}$"):
         Layout(*parts)
+
+
+def test_doubles_are_arranged_by_quantity_and_a_covariance_by_its_variance():
+    numbers = messages.MAGNETIC_FIELD.arrange((2,), {"magnetic_field_covariance": 4.0})
+    assert numbers.tolist() == [[0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4]] * 2

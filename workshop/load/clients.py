@@ -21,7 +21,7 @@ from rclpy.node import Node
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from workshop.load.bare import LATCHED
-from workshop.load.follower import DEPTH, TIMEOUT, request
+from workshop.load.follower import DEPTH, TIMEOUT
 
 SUBSCRIBED_RATE = 200.0  # Hz, of the top that `subscribe` follows
 CALLS: tuple[tuple[str, Any], ...] = (
@@ -47,12 +47,12 @@ def call(domain: int, seconds: float) -> dict[str, Any]:
     """Call services as fast as they answer; return the time of each call, and the failures."""
     with client_node(domain) as node:
         connection = Connection(node, timeout=TIMEOUT)
-        connection.trigger("get_state")
+        connection.request("get_state")
         times: list[float] = []
         unanswered, end = 0, time.monotonic() + seconds
         while (began := time.monotonic()) < end:
             try:
-                request(connection, *CALLS[len(times) % len(CALLS)])
+                connection.request(*CALLS[len(times) % len(CALLS)])
             except UnreachableError:
                 unanswered += 1
             times.append(time.monotonic() - began)

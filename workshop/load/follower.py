@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Mapping
-from typing import Any
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -99,12 +97,3 @@ class Follower:
         # next diagnostics would be taken for lost samples.
         self.lost = max(0, self._gaps - self.missed)
         self.balance = max(self.balance, abs(float(self._facts["energy.balance"])))
-
-
-def request(connection: Connection, service: str, values: Mapping[str, Any] | bool | None) -> bool:
-    """Call a service with named values, a bool or nothing; return True if it was granted."""
-    if values is None:
-        return connection.trigger(service)[0]
-    if isinstance(values, bool):
-        return connection.switch(service, values)[0]
-    return connection.set(service, values)[0]

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from workshop.load.follower import Follower, request
+from workshop.load.follower import Follower
 from workshop.load.processes import program, run_program, running, top_node
 from workshop.load.usage import descriptors, memory
 
@@ -149,7 +149,7 @@ class User(Follower):
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             self.spin(min(left, self._random.uniform(0.0, LONGEST_PAUSE)))
-            request(self.connection, *self._random.choice(REQUESTS))
+            self.connection.request(*self._random.choice(REQUESTS))
             self._requests += 1
 
     def read(self, seconds: float) -> Reading:

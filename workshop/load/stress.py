@@ -182,7 +182,7 @@ def _late_joiners(seconds: float) -> Outcome:
     """Subscribers that come after the events, one after the other."""
     with _top(FAST) as top:
         for _ in range(EVENTS):
-            top[0].connection.trigger("hurry_precession")
+            top[0].connection.request("hurry_precession")
         joining = _start("join", JOINERS, EVENTS + 1)
         outcome = _measure(f"{JOINERS} late joiners, {FAST:g} Hz", [top], seconds)
         times = json.loads(joining.communicate(timeout=JOINERS * TIMEOUT)[0])

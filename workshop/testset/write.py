@@ -20,9 +20,8 @@ from mpmath import mp, mpf
 
 from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
-from symtop_ros.testset.packed import FORCES, STATES, WORLD, complete
 from symtop_ros.testset.score import FILE, read_problems
-from symtop_ros.testset.tables import LIMITS, format_problems
+from symtop_ros.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
 from workshop.testset.exact import DIGITS, distance, perturb
 from workshop.testset.forces import find_forces, find_world_state
 from workshop.testset.links import find_link_effect

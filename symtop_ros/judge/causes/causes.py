@@ -1,22 +1,30 @@
-"""The simplest cause that explains the errors of estimates.
+"""The causes that explain the errors of estimates: the simplest, a wanted one, or a stated model.
 
 A cause is at most one mistake of convention, one level of rotations, and one parameter, such as a
 delay. It is named if what it leaves is noise, or next to nothing, and if no simpler cause leaves as
 little; causes that are as simple and as good are all named.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes.cause import CHANGES, LEVELS, Cause, Finding, set_parameter
+from symtop_ros.judge.causes.cause import (
+    CHANGES,
+    LEVELS,
+    NO_CAUSE,
+    Cause,
+    Finding,
+    set_parameter,
+)
 from symtop_ros.judge.causes.tables import Tables, fit_rotations
 from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
 from symtop_ros.judge.truth import Truth
+from symtop_ros.simulation.validation import RefusedError
 
 MOST_SAMPLES = 20_000  # estimates from which a cause that was found is estimated again
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each
@@ -41,13 +49,20 @@ STILL, MOVED = 0.05, 10.0
 # of both frames about one axis are one.
 HIDDEN = {"regular": ("delay",), "sleeping": ("rotations", "delay")}
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
+LEVELS_OF = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
+# Rotations, and what the stamps may be off by.
+MODELS = [
+    f"{rotations}{times}"
+    for rotations in LEVELS_OF
+    for times in ("", "+delay", "+clock", "+delay+clock")
+]
 
 
 def find_causes(estimates: Estimates, truth: Truth) -> Finding:
     """Return the simplest explanation that leaves little."""
     run = truth.select(estimates)
     if len(run) < 2:
-        return Finding(Cause("", "none", (), NONE, 0.0))
+        return Finding(NO_CAUSE)
     return Search(run, truth).find()
 
 
@@ -204,3 +219,55 @@ def refine(
     sure = fit.find_deviations(best, [*turns, *free]) if is_sure else np.zeros(0)
     turn = float(np.linalg.norm(sure[list(turns)])) if is_sure else 0.0
     return Cause(*kind, best, fit.cost(best), tuple(sure[free].tolist()) if is_sure else (), turn)
+
+
+def explain(
+    estimates: Estimates, truth: Truth, removed: Collection[str] = ("offset", "delay", "drift")
+) -> Cause:
+    """Return the least squares of constant rotations (offset), a delay up to 0.5 s, and a drift.
+
+    All delays and drifts are tried, and then a delay next to the best drift. Of those that leave as
+    little, the one with the fewest numbers and the smallest delay is taken.
+    """
+    run = truth.select(estimates)
+    if len(run) < 2:
+        return NO_CAUSE
+    search, turned = Search(run, truth), "offset" in removed
+    level = "none" if not turned else "world" if "rotations" in search.hidden else "both"
+    names = [name for name in ("delay", "drift") if name in removed]
+    found = [each for name in ("", *names) for each in search.search("", name)]
+    if len(names) == 2:
+        found += [
+            replace(each, parameters=("delay", "drift"))
+            for first in found
+            if first.parameters == ("drift",)
+            for each in search.search("", "delay", first.offset)
+        ]
+    found += search.shift_periods(found)
+    causes = [
+        search.refine(("", level, each.parameters), each.offset)
+        for each in found
+        if turned or each.level == "none"
+    ]
+    good = search.select(causes, len(search.some))
+    return min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
+
+
+def align(estimates: Estimates, truth: Truth, model: str) -> Cause:
+    """Return the least squares of a stated model, one of MODELS, without any search.
+
+    Refused is a model with a delay or a clock that changes nothing but its other parameters: in a
+    sleeping top a delay is a heading.
+    """
+    rotations, *names = model.split("+")
+    fit, level = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth), LEVELS_OF[rotations]
+    exact, known = fit.exact(fit.start)
+    models = fit.some.orientations[None], exact[None], known[None].astype(float)
+    _, world, body = fit_rotations(models, level)
+    start = replace(fit.start, world=world[0], body=body[0])
+    found = refine(fit, ("", level, tuple(names)), start, is_sure=True)
+    for name in names:
+        others = [*LEVELS[level][0], *(PARAMETERS[each] for each in names if each != name)]
+        if fit.hides(found.offset, others, PARAMETERS[name]):
+            raise RefusedError(f"--aligned must be a model that this motion can show, got {model}")
+    return found

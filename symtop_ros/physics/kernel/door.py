@@ -320,44 +320,28 @@ class KernelMotion:
             return None
         raise refuse_status(status)
 
-    def fill(self, times: Real, orientation: Real, omega: Real, steps: float) -> tuple[int, int]:
-        """Write the states at times (n,) in s; return how many were written, and the status."""
-        count, done = times.size, c_size_t()
-        if not count:  # ctypes takes no empty array
-            return 0, OK
-        status = self._door.states(
-            self._handle,
-            read_from(times),
-            count,
-            steps,
-            write_to(orientation, 4 * count),
-            write_to(omega, 3 * count),
-            done,
-        )
-        return done.value, status
-
-    def fill_stamps(
+    def fill(
         self,
-        stamps: NDArray[np.int64],
-        clock: tuple[float, tuple[float, ...]],
+        times: NDArray[Any],
         orientation: Real,
         omega: Real,
         steps: float,
+        clock: tuple[float, tuple[float, ...]] | None = None,
     ) -> tuple[int, int]:
-        """Write the states at stamps (n,) in ns of a clock, its factor and elapsed time."""
-        count, done, (factor, elapsed) = stamps.size, c_size_t(), clock
-        if not count:
+        """Write the states at times (n,) in s; return how many were written, and the status.
+
+        With a clock, its factor and elapsed time, the times are its stamps, int64 in ns.
+        """
+        count, done = times.size, c_size_t()
+        if not count:  # ctypes takes no empty array
             return 0, OK
-        status = self._door.states_of_clock(
-            self._handle,
-            ClockRecord(factor, elapsed),
-            read_from(stamps, INT64),
-            count,
-            steps,
-            write_to(orientation, 4 * count),
-            write_to(omega, 3 * count),
-            done,
-        )
+        to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
+        if clock:
+            given: Any = self._handle, ClockRecord(*clock), read_from(times, INT64), count
+            status = self._door.states_of_clock(*given, steps, *to, done)
+        else:
+            given = self._handle, read_from(times), count
+            status = self._door.states(*given, steps, *to, done)
         return done.value, status
 
     def reach(self, t: float, steps: float) -> tuple[float, int]:
@@ -438,22 +422,28 @@ def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
     return orientation, omega
 
 
+def _compute(name: str, width: int, *given: Real) -> Real:
+    """Return what a function finds for each of some elements, (..., width), of (..., columns)."""
+    found = np.empty((*given[0].shape[:-1], width))
+    if found.size:
+        count, room = found.size // width, write_to(found, found.size)
+        demand(getattr(open_door(), name)(*map(read_from, given), count, room))
+    return found
+
+
 def find_angles(orientation: Real) -> Real:
     """Return Euler angles (..., 3) of unit quaternions (..., 4)."""
-    found = np.empty((*orientation.shape[:-1], 3))
-    if found.size:
-        count = found.size // 3
-        demand(open_door().find_angles(read_from(orientation), count, write_to(found, found.size)))
-    return found
+    return _compute("find_angles", 3, orientation)
 
 
 def find_angle_rates(orientation: Real, omega: Real) -> Real:
     """Return rates of the Euler angles (..., 3) of states (..., 4) and (..., 3)."""
-    found = np.empty(omega.shape)
-    if found.size:
-        state, count = (read_from(orientation), read_from(omega)), found.size // 3
-        demand(open_door().find_angle_rates(*state, count, write_to(found, found.size)))
-    return found
+    return _compute("find_angle_rates", 3, orientation, omega)
+
+
+def find_tilt_torques(tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real) -> Real:
+    """Return the parts of Ix theta''/sin(theta) and sin(theta), (n, 4), of tops (n, 3)."""
+    return _compute("find_tilt_torques", 4, tops, thetas, phi_dots, psi_dots)
 
 
 def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real:
@@ -470,25 +460,6 @@ def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -
     """Return Ix, Iz and Mgl of a flat disc on an axle."""
     found, disc = np.empty(3), np.array([mass, radius, distance])
     demand(open_door().find_disc_top(read_from(disc), gravity, write_to(found, 3)))
-    return found
-
-
-def find_tilt_torques(tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real) -> Real:
-    """Return the parts of Ix theta''/sin(theta) and sin(theta), (n, 4), of tops (n, 3)."""
-    found = np.empty((len(tops), 4))
-    if len(tops):
-        given = map(read_from, (tops, thetas, phi_dots, psi_dots))
-        demand(open_door().find_tilt_torques(*given, len(tops), write_to(found, found.size)))
-    return found
-
-
-def find_tilt_accelerations(start: bytes, hold: int, phi_dots: Real) -> Real:
-    """Return theta'' (n,) of a start at precession rates (n,)."""
-    found = np.empty(len(phi_dots))
-    if len(found):
-        to = write_to(found, len(found))
-        door = open_door()
-        demand(door.find_tilt_accelerations(start, hold, read_from(phi_dots), len(found), to))
     return found
 
 

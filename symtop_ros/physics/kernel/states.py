@@ -48,7 +48,7 @@ def _fill_part(
 ) -> tuple[int, int]:
     """Write the states at times (n,) in one call; return how many, and the kernel's status."""
     if isinstance(times, ExactTimes):
-        return motion.fill_stamps(np.asarray(times.nanoseconds), times.clock, q, omega, STEPS)
+        return motion.fill(np.asarray(times.nanoseconds), q, omega, STEPS, times.clock)
     return motion.fill(times, q, omega, STEPS)
 
 

@@ -1,5 +1,6 @@
-"""The plots next to the 3D scene: angles, momenta, energies, drift, charts of the potential."""
+"""The plots next to the 3D scene, the charts of the potential, and the table of the motion."""
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -7,9 +8,8 @@ import rerun as rr
 
 from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
-from symtop_ros.physics import EffectivePotential, Motion, Top
+from symtop_ros.physics import EffectivePotential, Motion, State, Top, perrys_rule
 from symtop_ros.playback.view import entities, quantities
-from symtop_ros.playback.view.energy import EnergyBook
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE
 from symtop_ros.playback.view.inertial import Torques
 from symtop_ros.playback.view.potential import PotentialView
@@ -40,7 +40,7 @@ class Plots:
 
     def __init__(self, stream: Stream) -> None:
         self._stream = stream
-        self._potential, self._energy = PotentialView(stream), EnergyBook()
+        self._potential, self._energy = PotentialView(stream), quantities.EnergyBook()
         self._reference: Real | None = None  # constants of motion when the segment began
         for entity, (names, colors) in LINES.items():
             series = rr.SeriesLines(names=names, colors=colors, widths=[1.6] * len(names))
@@ -69,8 +69,9 @@ class Plots:
         if "angular_momentum" in columns:
             momentum = columns["angular_momentum"]
             self._stream.send_scalars(entities.L, momentum.stamps, momentum.numbers)
-            square = quantities.horizontal_square(momentum)
-            self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square[:, None])
+            # L^2 - L_z'^2, as L_x'^2 + L_y'^2, where nothing cancels
+            square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
+            self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
         if segment:
             self._send_drift(columns, segment.motion.top)
             self._send_constants(columns, segment.motion)
@@ -112,3 +113,47 @@ class Plots:
         for entity, strips in self._potential.draw(potentials).items():
             lines = rr.LineStrips2D.columns(strips=strips)
             self._stream.send(entity, euler.stamps[instants], lines)
+
+
+def describe_motion(
+    segment: Segment, state: State, scales: dict[str, str], equations: Mapping[str, str]
+) -> str:
+    """Return the table for the segment that begins with an event."""
+    motion = segment.motion
+    top = motion.top
+    low, high = motion.turning_angles
+    rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(top, state).regular_rates) or "no"
+    facts = {
+        "motion": f"{motion.kind}, {f'speed {segment.factor:g}' if segment.running else 'paused'}",
+        "theta": f"{low:.4f} .. {high:.4f} rad",
+        "nutation": f"{_number(motion.nutation_period, 's')}, "
+        f"{_number(motion.nutation_rate, 'rad/s')} "
+        f"(p_psi/Ix: {_number(motion.fast_top_nutation_rate)})",
+        "mean precession": f"{_number(motion.mean_precession_rate, 'rad/s')} "
+        f"(Mgl/p_psi: {_number(motion.fast_top_precession_rate)})",
+        "in a nutation": f"{_number(motion.precession_per_nutation, 'turns')}"
+        + (", psi' changes sign" if motion.spin_reverses else ""),
+        "regular precession": f"{rates} rad/s",
+        "Ix, Iz; Mgl": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2; {top.Mgl:g} J",
+        **_added_torques(motion),
+    }
+    if scales:
+        facts[f"1 unit of {', '.join(scales)}"] = ", ".join(scales.values())
+    rows = [f"| {name} | **{value}** |" for name, value in {**facts, **equations}.items()]
+    return "\n".join(["| | |", "|---|---|", *rows])
+
+
+def _added_torques(motion: Motion) -> dict[str, str]:
+    """Return friction and applied torque; angles, period and rates then hold at the event only."""
+    if not motion.is_driven:
+        return {}
+    friction = motion.friction
+    torque = " ".join(f"{part:g}" for part in motion.applied_torque)
+    return {
+        "friction axial, transverse": f"{friction.axial:g}, {friction.transverse:g} N m s",
+        "applied torque": f"{torque} N m",
+    }
+
+
+def _number(value: float, unit: str = "") -> str:
+    return f"{value:.5g} {unit}".rstrip() if math.isfinite(value) else "-"

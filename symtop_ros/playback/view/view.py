@@ -10,7 +10,6 @@ import rerun as rr
 from symtop_ros.arrays import Real, rotate
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.playback.panel import describe_motion
 from symtop_ros.playback.view import (
     angles,
     cones,
@@ -24,7 +23,7 @@ from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VI
 from symtop_ros.playback.view.fictitious import FictitiousView
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.mesh import create_body
-from symtop_ros.playback.view.plots import Plots
+from symtop_ros.playback.view.plots import Plots, describe_motion
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.events import Event
@@ -87,12 +86,9 @@ class View:
         self._trace = Trace()
         self._log_styles()
 
+    @np.errstate(all="ignore")
     def send(self, batch: Batch) -> None:
         """Send a batch; numbers that cannot be drawn (nan) are not visible."""
-        with np.errstate(all="ignore"):
-            self._send_batch(batch)
-
-    def _send_batch(self, batch: Batch) -> None:
         for event, columns in batch.stretches():
             if self._stream.origin is None:
                 self._stream.origin = _first_stamp(event, columns)

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import lru_cache
 
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Top
-from symtop_ros.simulation.sensor.imu import NOISE, Imu
-from symtop_ros.simulation.sensor.magnetometer import MAGNETOMETER_NOISE, Magnetometer
+from symtop_ros.simulation.sensor.imu import MAGNETOMETER_NOISE, NOISE, Imu, Magnetometer
+from symtop_ros.wire.diagnostics import write_text
 
 
 @dataclass(frozen=True)
@@ -20,16 +20,20 @@ class Rig:
     def to_values(self) -> dict[str, str]:
         """Return the values for an event, in decimals that read back to the same doubles."""
         values = {"gravity": repr(self.gravity)}
-        if self.imu:
-            imu = asdict(self.imu)
-            values["imu.mount"] = _write(*imu["position"], *imu["orientation"])
-            values["imu.noise"] = _write(*(imu[name] for name in (*NOISE, "rate")))
-            values["imu.seed"], values["imu.begin"] = str(imu["seed"]), str(imu["begin"])
-        if self.imu and (magnetometer := self.imu.magnetometer):
-            noise = (getattr(magnetometer, name) for name in MAGNETOMETER_NOISE)
-            values["magnetic_field.vector"] = _write(*magnetometer.vector)
-            values["magnetic_field.noise"] = _write(*noise)
-            values["magnetic_field.seed"] = str(magnetometer.seed)
+        if imu := self.imu:
+            values |= {
+                "imu.mount": write_text((*imu.position, *imu.orientation)),
+                "imu.noise": write_text([getattr(imu, name) for name in (*NOISE, "rate")]),
+                "imu.seed": str(imu.seed),
+                "imu.begin": str(imu.begin),
+            }
+            if found := imu.magnetometer:
+                noise = [getattr(found, name) for name in MAGNETOMETER_NOISE]
+                values |= {
+                    "magnetic_field.vector": write_text(found.vector),
+                    "magnetic_field.noise": write_text(noise),
+                    "magnetic_field.seed": str(found.seed),
+                }
         return values
 
     @classmethod
@@ -39,10 +43,6 @@ class Rig:
         if not 0 < gravity < math.inf:
             raise ValueError(f"gravity must be > 0 m/s^2, got {gravity:g}")
         return cls(gravity, _read_imu(values) if "imu.mount" in values else None)
-
-
-def _write(*numbers: float) -> str:
-    return " ".join(map(repr, numbers))
 
 
 def _read_imu(values: Mapping[str, str]) -> Imu:

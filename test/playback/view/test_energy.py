@@ -6,7 +6,7 @@ from log_files import ARTICLE, CUSPS, Run
 from physics.tops import EPS
 
 from symtop_ros.physics import Friction
-from symtop_ros.playback.view.energy import EnergyBook
+from symtop_ros.playback.view.quantities import EnergyBook
 
 LOWEST = abs(ARTICLE.Mgl)
 SIZE = float(ARTICLE.energy(CUSPS)) + LOWEST

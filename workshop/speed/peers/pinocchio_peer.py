@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio
 
 from symtop_ros.arrays import Real
-from symtop_ros.models.formats import format_urdf
+from symtop_ros.models.urdf import format_urdf
 from symtop_ros.physics import Body
 from workshop.speed.peers.peer import (
     Peer,
