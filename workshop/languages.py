@@ -1,13 +1,11 @@
 """Whether the texts of a language are complete: `make -C workshop language ARGS=de`."""
 
-import argparse
 import json
 import re
-import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
-from symtop_ros.web.texts import FOLDER, LANGUAGES, TERMS, read_file, read_texts
+from symtop_ros.web.texts import FOLDER, TERMS, read_file, read_texts
 from symtop_ros.wording.templates import FOLDER as WORDING
 from symtop_ros.wording.templates import PLACEHOLDER, read_templates
 
@@ -71,18 +69,8 @@ def _compare_parts(name: str, english: list[str], text: list[str]) -> Iterator[s
     yield from (f"{name} {each} is not in the English text" for each in more)
 
 
-def main(args: list[str] | None = None) -> int:
+def check_languages(languages: Sequence[str]) -> int:
     """Print what is wrong; return 0 if nothing is."""
-    parser = argparse.ArgumentParser(prog="languages", description=__doc__)
-    parser.add_argument("language", nargs="*", default=LANGUAGES)
-    faults = [
-        f"{language}: {fault}"
-        for language in parser.parse_args(args).language
-        for fault in find_faults(language)
-    ]
+    faults = [f"{each}: {fault}" for each in languages for fault in find_faults(each)]
     print("\n".join(faults) or "complete")
     return 1 if faults else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -22,6 +22,7 @@ COMMANDS = {
     "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
     "article": "the article's figures, its motions in 3D, and its claims",
     "lesson": "the pictures of the lesson, or sheets to print",
+    "language": "whether the texts of the page are complete in a language",
     "maps": "where hurrying the precession raises the top",
     "pictures": "all pictures of the documents, and the steps of docs/lesson.md",
 }
@@ -43,6 +44,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     of = {name: commands.add_parser(name, help=text) for name, text in COMMANDS.items()}
     for name, command in of.items():
+        if name == "language":
+            command.add_argument("languages", nargs="*", default=LANGUAGES, metavar="TAG")
+            continue
         default = "docs" if name == "pictures" else "report"
         command.add_argument(
             "folder", type=Path, nargs="?", default=Path(default), help=f"./{default}"
@@ -112,6 +116,12 @@ def _draw_lesson(options: argparse.Namespace) -> int:
     return write_lesson(options.folder)
 
 
+def _check_language(options: argparse.Namespace) -> int:
+    from workshop.languages import check_languages
+
+    return check_languages(options.languages)
+
+
 def _draw_pictures(options: argparse.Namespace) -> int:
     from workshop.pictures.documents import write_pictures
 
@@ -155,6 +165,7 @@ PARTS: dict[str, Callable[[argparse.Namespace], int]] = {
     "derivatives": _derive,
     "filters": _filter,
     "article": _retell,
+    "language": _check_language,
     "lesson": _draw_lesson,
     "maps": _map,
     "pictures": _draw_pictures,
