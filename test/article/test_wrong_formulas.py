@@ -1,9 +1,10 @@
 """Claims that hold for every top fail if one of their two formulas is a little different."""
 
+import numpy as np
 import pytest
 
-from symtop_ros.physics import Top
-from workshop.article import kinds, rates, torque
+from symtop_ros.physics import State, Top
+from workshop.article import frames, kinds, rates, torque
 from workshop.article.answers import ledger
 from workshop.article.motions import HANGING_DISC, RATES, THETA, TOP, Rate, cusps, regular
 
@@ -36,3 +37,11 @@ def test_an_upright_parabola_is_not_taken_for_one_that_opens_downward():
 def test_of_another_top_the_energies_of_a_kick_are_others(hold):
     for other in (Top(1.01 * TOP.Ix, TOP.Iz, TOP.Mgl), Top(TOP.Ix, TOP.Iz, 1.01 * TOP.Mgl)):
         assert not ledger.precession_lifts(other, hold).holds
+
+
+def test_a_changed_sign_in_the_matrix_is_noticed(monkeypatch):
+    right = State.matrix.fget
+    wrong = property(lambda state: right(state) * np.array([[1, -1, 1], [1, 1, 1], [1, 1, 1]]))
+    monkeypatch.setattr(State, "matrix", wrong)
+    assert not frames.matrix_turns_body_to_world().holds
+    assert not frames.inertia_is_an_integral(TOP).holds

@@ -8,7 +8,31 @@ from workshop.article.retell import check_claims
 
 # Of these the numbers come from formulas that are compared with each other; for the formulas of
 # some of them test_wrong_formulas.py has another rate, root or start.
-OF_EVERY_TOP = {1, 2, 3, 8, 9, 10, 14, 20, 21, 27, 28, 29, 42, 44, 49, 50, 57, 60, 66}
+OF_EVERY_TOP = {
+    1,
+    2,
+    3,
+    8,
+    9,
+    10,
+    14,
+    20,
+    21,
+    27,
+    28,
+    29,
+    42,
+    44,
+    49,
+    50,
+    57,
+    60,
+    66,
+    72,
+    73,
+    75,
+    78,
+}
 TOPS = {
     "heavier": Top(TOP.Ix, TOP.Iz, 1.01 * TOP.Mgl),
     "no weight": Top(TOP.Ix, TOP.Iz, 0.0),

@@ -13,6 +13,7 @@ from workshop.article.answers.starts import claims_on_starts
 from workshop.article.answers.statements import claims_on_statements
 from workshop.article.claims import Claim, markdown, table
 from workshop.article.figures import FIGURES
+from workshop.article.frames import claims_on_frames
 from workshop.article.kinds import claims_on_kinds
 from workshop.article.momentum import claims_on_momentum
 from workshop.article.motions import TOP
@@ -50,4 +51,5 @@ def check_claims(top: Top = TOP) -> list[Claim]:
         *claims_on_starts(top),
         *claims_on_resolution(top),
         *claims_on_statements(top),
+        *claims_on_frames(top),
     ]
