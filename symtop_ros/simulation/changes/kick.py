@@ -49,7 +49,9 @@ def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
     def read(name: str, text: str) -> Any:
         if name == "hold":
             return text
-        return [*map(float, text.split())] if name == "angular_impulse" else float(text)
+        if name == "angular_impulse":
+            return [*map(float, text.split())]
+        return int(text) if text.lstrip("-").isdigit() else float(text)
 
     return {name: read(name, text) for name, text in texts.items()}
 
@@ -87,19 +89,24 @@ def name_kick(request: Mapping[str, Any]) -> str:
 def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> PushedMotion:
     """Return the motion that follows if a state of a motion is pushed again and again."""
     validate_names(request, FIELDS)
-    given = [name for name in FIELDS if name in request]
-    if {*given} != {*PUSHES}:
-        raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {', '.join(given)}")
-    if motion.is_driven:
-        acting = [*astuple(motion.friction), *motion.applied_torque]
-        raise reject("friction and torque", "0 for a series of pushes", acting)
-    pushes = Pushes.read(*(request[name] for name in PUSHES))
+    pushes = read_pushes(request, motion)
     try:
         pushed = PushedMotion(motion.top, push_axle(motion.top, state, pushes.impulse), pushes)
     except ValueError as error:  # a vertical axis, or a top that is too fast, then or later
         raise RefusedError(str(error)) from None
     _limit_rates("axle_impulse", request, pushed.pieces[-1].start)
     return pushed
+
+
+def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
+    """Return the pushes that a request asks for, if a motion may get them."""
+    given = [name for name in FIELDS if name in request]
+    if {*given} != {*PUSHES}:
+        raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {', '.join(given)}")
+    if motion.is_driven:
+        acting = [*astuple(motion.friction), *motion.applied_torque]
+        raise reject("friction and torque", "0 for a series of pushes", acting)
+    return Pushes.read(*(request[name] for name in PUSHES))
 
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
