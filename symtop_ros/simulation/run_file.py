@@ -68,7 +68,8 @@ class RunEvent:
             "angular_velocity": start.angular_velocity.tolist(),
             "friction": astuple(motion.friction),
             "torque": motion.applied_torque,
-            **({"act": self.act, "hold": hold} if self.act else {}),
+            **({"act": self.act} if self.act else {}),
+            **({"hold": hold} if self.kind == "kick" else {}),
         }
 
 
