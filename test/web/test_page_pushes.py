@@ -53,6 +53,7 @@ def test_what_is_done_during_the_pushes_of_a_run_ends_them(open_page, tmp_path):
     opened.drop(write_run(run, 3 * SECOND))
     opened.until(lambda: len(opened.read_events()) == 2)
     assert opened.read_run() == json.loads(json.dumps(write_run(run, 3 * SECOND)))
+    opened.wait_for_time(2.9)
     opened.seek(1.33)
     opened.tab.click("text=Delay")
     path = tmp_path / "run.json"

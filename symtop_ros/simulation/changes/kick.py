@@ -26,6 +26,7 @@ from symtop_ros.simulation.validation import (
     exactly_one,
     number,
     reject,
+    show,
     validate_names,
     vector,
 )
@@ -102,7 +103,7 @@ def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
     """Return the pushes that a request asks for, if a motion may get them."""
     given = [name for name in FIELDS if name in request]
     if {*given} != {*PUSHES}:
-        raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {', '.join(given)}")
+        raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {show(given)}")
     if motion.is_driven:
         acting = [*astuple(motion.friction), *motion.applied_torque]
         raise reject("friction and torque", "0 for a series of pushes", acting)

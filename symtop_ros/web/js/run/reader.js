@@ -16,7 +16,7 @@ import { writeNumber } from "../words/numbers.js";
  *   act: {[name: string]: Field}}} Table
  */
 
-const PUSHES = ["axle_impulse", "number", "rate"]; // fields of a push
+const PUSHES = ["axle_impulse", "rate", "number"]; // fields of a push
 const SHOWN = 60; // characters of a value
 const NUMBER = /^[-+]?\d+[eE][-+]?\d+$/; // as Python reads it
 
@@ -89,11 +89,12 @@ const readAct = (fields, given) => {
 /** @param {{[name: string]: Field}} fields @param {any} values @param {EventRecord} event */
 const readPushes = (fields, { act: given }, { friction, torque }) => {
   const act = readAct(fields, given);
-  if (String(Object.keys(act).sort()) !== String(PUSHES))
-    throw reject("pushes", `have ${PUSHES.join(", ")}`, Object.keys(act));
+  const names = Object.keys(act);
+  if (names.length !== PUSHES.length || !PUSHES.every((name) => name in act))
+    throw reject("pushes", `have ${PUSHES.join(", ")}`, names);
   demandNoForces([...friction, ...torque]);
   if (Number.isInteger(act.number)) return act;
-  throw reject("number", "be a whole number", act.number);
+  throw reject("number", `be a whole number up to ${fields.number.high}`, act.number);
 };
 
 /**
