@@ -223,8 +223,9 @@ def decode_events(data: bytes) -> list[Event]:
 
 
 def _read_motion(values: Mapping[str, str]) -> Motion:
-    top, start = Top(*_numbers(values["top"])), State(
-        _numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])
+    top, start = (
+        Top(*_numbers(values["top"])),
+        State(_numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])),
     )
     if pushes := _numbers(values.get("motion.pushes", "")):
         return PushedMotion(top, start, Pushes.read(*pushes))

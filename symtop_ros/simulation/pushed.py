@@ -51,7 +51,7 @@ class PushedMotion(Motion):
     Its kind, its turning angles and its rates are those of the piece before the second push.
     """
 
-    def __new__(cls, top: Top, start: State, pushes: Pushes) -> "PushedMotion":  # noqa: ARG004
+    def __new__(cls, top: Top, start: State, pushes: Pushes) -> "PushedMotion":
         """Return the motion, of which there are no arrays."""
         return object.__new__(cls)
 

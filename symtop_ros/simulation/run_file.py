@@ -84,9 +84,7 @@ class RunRecorder:
     def add(self, event: Event) -> RunEvent | None:
         """Follow an event; None if it changes no motion, such as a pause."""
         segment, previous, values = event.segment(), self._segment, event.values
-        is_new = event.name in RESTARTS or any(
-            values.get(k) != self._values.get(k) for k in MOTION
-        )
+        is_new = event.name in RESTARTS or any(values.get(k) != self._values.get(k) for k in MOTION)
         if previous and is_new:
             # Within one motion its own time counts, in pauses, steps and jumps of the clock too.
             self._begin += previous.elapsed_at(event.previous_end) - segment.elapsed

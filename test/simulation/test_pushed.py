@@ -1,4 +1,4 @@
-"""A hand that pushes along finds no speed, only height; each push is exact, and so is what follows."""
+"""A hand that pushes along finds no speed, only height; its pushes are exact."""
 
 import copy
 from fractions import Fraction

@@ -1,7 +1,7 @@
 """The pictures of the lesson: what each step shows, computed from the acts of the step.
 
-A start begins a run; a hurry or pushes kick the last run. Regular precession is the only motion that is
-hurried, so that the time of the kick is free.
+A start begins a run; a hurry or pushes kick the last run. Regular precession is the only motion
+that is kicked, so that the time of the kick is free.
 """
 
 from collections.abc import Callable

@@ -160,7 +160,17 @@ class Failure:
 
 
 Outcome = (
-    Start | KickVerdict | Pushed | Pause | Step | ClockJump | Pace | Torque | Parameters | Record | Failure
+    Start
+    | KickVerdict
+    | Pushed
+    | Pause
+    | Step
+    | ClockJump
+    | Pace
+    | Torque
+    | Parameters
+    | Record
+    | Failure
 )
 # By the name of the event.
 OUTCOMES: dict[str, type[Outcome]] = {
