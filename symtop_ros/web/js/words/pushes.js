@@ -3,7 +3,6 @@
 
 import { findConstants } from "../charts/formulas.js";
 import { NANO } from "../physics/course.js";
-import { findForces } from "./headline.js";
 import { MILLI, nameGain } from "./ledger.js";
 
 /** @import { Run, Moment } from "../run/run.js" */
@@ -38,7 +37,5 @@ export const describePushes = (run, first, time, free) => {
     work: MILLI * (now - energy),
     weight: nameGain(weight, { weight: MILLI * top.Mgl, precession: 0 }),
   };
-  const subject = top.Mgl < 0 ? "axis" : "top";
-  const headline = { ...outcome, kind: "pushed", subject, forces: findForces(free) };
-  return { headline, name: "push", outcome };
+  return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome };
 };
