@@ -12,7 +12,7 @@ from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.follow import RULES, Act, follow
 from symtop_ros.simulation.changes.kick import read_kick
 from symtop_ros.simulation.changes.outcomes import Start
-from symtop_ros.simulation.events import RESTARTS, Event
+from symtop_ros.simulation.events import KICKS, RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
 from symtop_ros.simulation.validation import one_line
@@ -121,7 +121,7 @@ def read_act(event: Event) -> Act:
     """
     given = event.segment()
     request: Mapping[str, Any] = event.request
-    if event.name in ("kick", "push"):
+    if event.name in KICKS:
         request = read_kick(request)
     elif event.name == "torque":
         request = {"torque": tuple(map(float, request.get("torque", "").split()))}

@@ -14,7 +14,8 @@ import numpy as np
 
 from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
-from symtop_ros.simulation.run_file import KICKS, RunEvent
+from symtop_ros.simulation.events import KICKS
+from symtop_ros.simulation.run_file import RunEvent
 from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
 from symtop_ros.simulation.validation import RefusedError

@@ -29,6 +29,7 @@ from symtop_ros.wire.diagnostics import (
 from symtop_ros.wording import write
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
+KICKS = ("kick", "push")  # names of events by ~/kick
 PREFIX = "top: "  # of the name of an event as a diagnostic status
 FORMAT = "3"  # version of the values of an event
 # Events of this format have their request in one text, no number and no outcome. Their motions are

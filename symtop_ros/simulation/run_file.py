@@ -14,7 +14,7 @@ from typing import Any
 
 from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
 from symtop_ros.simulation.changes.kick import FIELDS, read_kick, read_pushes
-from symtop_ros.simulation.events import MOTION, RESTARTS, Event
+from symtop_ros.simulation.events import KICKS, MOTION, RESTARTS, Event
 from symtop_ros.simulation.pushed import PushedMotion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.validation import (
@@ -33,8 +33,7 @@ from symtop_ros.wire.layout import NANOSECONDS
 TABLE = json.loads(Path(__file__).with_name("run_fields.json").read_text(encoding="utf-8"))
 FORMATS: list[int] = TABLE["formats"]  # that are read; the last one is written
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
-ACTS = ("start", "kick", "push")
-KICKS = ("kick", "push")
+ACTS = ("start", *KICKS)
 MAX_BYTES = 100_000_000
 
 

@@ -82,6 +82,12 @@ class Segment:
         motion = self.motion
         return motion.count(self.elapsed_at(stamp)) if isinstance(motion, PushedMotion) else None
 
+    @property
+    def final_motion(self) -> Motion:
+        """The motion that its pushes lead to; without pushes the motion itself."""
+        motion = self.motion
+        return motion.pieces[-1] if isinstance(motion, PushedMotion) else motion
+
     def without_pushes(self, stamp: int) -> "Segment":
         """Return the segment of what moves at a stamp (ns), from the last push on."""
         if not isinstance(self.motion, PushedMotion):

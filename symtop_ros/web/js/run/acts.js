@@ -71,9 +71,8 @@ const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes })
 
 /** Push along while a button is held. @type {Act} */
 const press = (top) => {
-  const isHeld = top.pushUntil > 0 && top.run.find(top.time).kind === "push";
+  if (!top.pushUntil) pushAlong(top, {});
   top.pushUntil = performance.now() + TORQUE_LASTS;
-  if (!isHeld) pushAlong(top, {});
 };
 
 /**

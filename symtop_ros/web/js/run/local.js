@@ -149,9 +149,14 @@ export class LocalTop {
     this.run.at(reached); // refused where the kernel computes no state; then the time stays
     this.time = reached;
     this.end = Math.max(this.end, this.time);
+    this.cross(course);
+  }
+
+  /** Tell what has changed if the time has come to another motion. @param {Course} course before */
+  cross(course) {
     if (this.course === course) return;
     this.changed();
-    if (this.run.find(reached).kind === "push") this.tellFacts();
+    if (this.run.find(this.time).kind === "push") this.tellFacts();
   }
 
   /**

@@ -39,7 +39,9 @@ export class NodeTop extends LocalTop {
     if (lost !== undefined) this.tell({ lost });
     if (!this.run.moments.length) return;
     if (time !== undefined) {
+      const { course } = this;
       this.time = this.end = Math.max(time, this.latest);
+      if (this.isGreeted) this.cross(course);
       this.orientation = orientation;
     }
     if (isNew) this.greet();
