@@ -149,7 +149,7 @@ def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
     >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
     >>> pushed = push_axle(top, state, 0.00005)
     >>> round(float(pushed.euler_rates.phi), 6)
-    6.957418
+    6.957419
     >>> pushed.angular_velocity[2] == state.angular_velocity[2]
     np.True_
     """

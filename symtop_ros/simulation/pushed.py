@@ -40,6 +40,11 @@ class Pushes(NamedTuple):
             int(whole),
         )
 
+    @property
+    def request(self) -> dict[str, float]:
+        """The fields of ~/kick that ask for them."""
+        return {"axle_impulse": self.impulse, "rate": self.rate, "number": self.number}
+
     def time(self, place: int) -> int:
         """Return the time of a push in ns since the first one; `push.js` rounds in the same way."""
         return math.floor(place * 1e9 / self.rate + 0.5)

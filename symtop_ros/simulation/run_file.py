@@ -51,7 +51,7 @@ class RunEvent:
         if not isinstance(self.motion, PushedMotion):
             return self
         motion = self.motion.cut(time - self.time)
-        return replace(self, motion=motion, act={**self.act, "number": motion.pushes.number})
+        return replace(self, motion=motion, act=motion.pushes.request)
 
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
@@ -91,7 +91,7 @@ class RunRecorder:
         if not is_new:
             return None
         kind = "start" if previous is None or event.name in RESTARTS else event.name
-        act = _read_act(event) if kind in KICKS else {}
+        act = _read_act(event, segment.motion) if kind in KICKS else {}
         if kind not in KINDS or (kind in KICKS and not act):
             kind = "change"
         return RunEvent(kind, max(0, round(self._begin)), segment.motion, act)
@@ -102,8 +102,10 @@ class RunRecorder:
         return round(self._begin + elapsed)
 
 
-def _read_act(event: Event) -> dict[str, Any]:
+def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
     """Return the fields of a kick; none if a log has some that cannot be read."""
+    if isinstance(motion, PushedMotion):
+        return motion.pushes.request
     given = {name: text for name, text in event.request.items() if name in FIELDS and text}
     try:
         return read_kick(given)
@@ -183,6 +185,7 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     motion = Motion(top, start, friction, torque)
     if kind == "push":
         motion = PushedMotion(top, start, read_pushes(act, motion))
+        act = motion.pushes.request
     return RunEvent(kind, time, motion, act)
 
 
