@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import astuple, dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, TypeVar
 
 from symtop_ros import __version__
@@ -40,6 +41,7 @@ WITHOUT_FIELDS, LAST_WITHOUT_FIELDS = "2", "0.2.0"
 MAX_STAMP = 2**62  # ns; ROS has 32 bits of seconds
 MAX_ELAPSED = 1e18  # s of the motion
 EXACT = re.compile(r"-?\d{1,400}(/\d{1,400})?")  # a time in ns; doubles need 324 digits
+MAX_PUSHED = 16  # motions with pushes that are kept: each takes up to 0.1 s to compute
 MIN_FACTOR, MAX_FACTOR = 1e-300, 1e6
 WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 
@@ -224,14 +226,18 @@ def decode_events(data: bytes) -> list[Event]:
 
 
 def _read_motion(values: Mapping[str, str]) -> Motion:
-    top, start = (
-        Top(*_numbers(values["top"])),
-        State(_numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])),
-    )
-    if pushes := _numbers(values.get("motion.pushes", "")):
-        return PushedMotion(top, start, Pushes.read(*pushes))
-    friction = Friction(*_numbers(values["friction"]))
-    return Motion(top, start, friction, _numbers(values["applied_torque"]))
+    body = values["top"], values["motion.orientation"], values["motion.angular_velocity"]
+    if pushes := values.get("motion.pushes"):
+        return _read_pushed(*body, pushes)
+    top, orientation, omega = map(_numbers, body)
+    friction, torque = Friction(*_numbers(values["friction"])), _numbers(values["applied_torque"])
+    return Motion(Top(*top), State(orientation, omega), friction, torque)
+
+
+@lru_cache(MAX_PUSHED)
+def _read_pushed(*texts: str) -> PushedMotion:
+    top, orientation, omega, pushes = map(_numbers, texts)
+    return PushedMotion(Top(*top), State(orientation, omega), Pushes.read(*pushes))
 
 
 def _read_elapsed(text: str) -> Fraction:

@@ -82,7 +82,10 @@ def test_pushes_come_back_from_the_log_with_the_number_that_was_given(tmp_path):
     pushes, before = Pushes(2.0**-16, 30.0, 9), START.at(ExactTimes(1_000_000_000))
     pushed = PushedMotion(START.top, push_axle(START.top, before, pushes.impulse), pushes)
     kicked = Motion(START.top, hurry(pushed.at(ExactTimes(250_000_000)), 1.4))
-    begin, push = RunEvent("start", 0, START, {}), RunEvent("push", 1_000_000_000, pushed, pushes.request)
+    begin, push = (
+        RunEvent("start", 0, START, {}),
+        RunEvent("push", 1_000_000_000, pushed, pushes.request),
+    )
     run = [begin, push, RunEvent("kick", 1_250_000_000, kicked, KICK)]
     path = tmp_path / "run.mcap"
     write_run_log(run, END, path)
