@@ -121,7 +121,7 @@ def describe_motion(
     segment: Segment, state: State, scales: dict[str, str], equations: Mapping[str, str]
 ) -> str:
     """Return the table for the segment that begins with an event."""
-    motion = segment.motion
+    motion = segment.final_motion
     top = motion.top
     low, high = motion.turning_angles
     rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(top, state).regular_rates) or "no"
