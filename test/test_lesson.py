@@ -12,6 +12,7 @@ import pytest
 from node.listener import Listener
 from programs import running_node
 from shown_pictures import assert_same_picture
+from waiting import until
 
 from symtop_ros.client import main as client
 from symtop_ros.client.connection import Connection
@@ -78,13 +79,19 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
     for line in step.commands:
         do(tops, line)
     node = "--node /disc " if "/disc" in step.commands[-1] else ""
-    state = json.loads(do(tops, f"top_ctl {node}state --json"))
     drawn = [run.pieces[-1][1] for run in run_step(step).values()]
     # the last of a step with kicks is the motion that was not kicked
-    motion = drawn[-2] if step.acts[-1].hurry else drawn[-1]
-    assert state["kind"] == motion.kind
+    motion = drawn[-1] if step.acts[-1].start else drawn[-2]
     # a kick at a different time is rounded differently
-    assert state["turning_angles"] == pytest.approx(motion.turning_angles, abs=1e-12)
+    angles = pytest.approx(motion.turning_angles, abs=1e-12)
+
+    def read():
+        state = json.loads(do(tops, f"top_ctl {node}state --json"))
+        return state if state["turning_angles"] == angles else None
+
+    state = until(read) if step.acts[-1].push else read()  # pushes take a second of the motion
+    assert state
+    assert state["kind"] == motion.kind
 
 
 @pytest.mark.parametrize(

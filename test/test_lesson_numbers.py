@@ -5,8 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques
+from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques, push_axle
 from symtop_ros.physics import regular_precession_rates as find_roots
+from symtop_ros.simulation.changes.outcomes import Pushed
+from symtop_ros.simulation.pushed import PushedMotion, Pushes
 from symtop_ros.web.lesson import read_lesson
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
@@ -144,6 +146,25 @@ def one_fall():
     ]
 
 
+def precession_energy(state):
+    """Energy of the precession in mJ."""
+    return 500 * TOP.Ix * (state.euler_rates.phi * np.sin(state.euler_angles.theta)) ** 2
+
+
+def pushed_along():
+    numbers, pushes = [f"{precession_energy(SLOW_STATE):.2f}"], Pushes(5e-5, 20.0, 20)
+    for state, form in ((SLOW_STATE, ".2f"), (FAST_STATE, ".1f")):
+        motion = PushedMotion(TOP, push_axle(TOP, state, pushes.impulse), pushes)
+        found, last = Pushed.of(motion, state), motion.pieces[-1]
+        numbers += [f"{angle:.3f}" for angle in (*found.turning_angles, THETA)]
+        numbers += [f"{found.work:.3g}", f"{found.weight.amount:.2f}"]
+        numbers += [f"{rate:{form}}" for rate in (found.means.before, found.means.after)]
+        if state is SLOW_STATE:
+            nutation = last.at(np.arange(256) / 256 * last.nutation_period)
+            numbers.append(f"{precession_energy(nutation).mean():.2f}")
+    return numbers
+
+
 NUMBERS = {
     1: let_go,
     3: depths,
@@ -155,6 +176,7 @@ NUMBERS = {
     10: observer,
     11: disc,
     12: one_fall,
+    13: pushed_along,
 }
 
 

@@ -12,13 +12,13 @@ from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.follow import RULES, Act, follow
 from symtop_ros.simulation.changes.kick import read_kick
 from symtop_ros.simulation.changes.outcomes import Start
-from symtop_ros.simulation.events import RESTARTS, Event
+from symtop_ros.simulation.events import KICKS, RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS
 from symtop_ros.simulation.validation import one_line
 
 NOTHING = "nothing"
-BEFORE = ("before.orientation", "before.angular_velocity")
+BEFORE = ("before.orientation", "before.angular_velocity", "before.pushes")
 
 
 def is_of_this_version(event: Event) -> bool:
@@ -87,9 +87,9 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator
 
 def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
     """Return the event as a node reports it."""
-    act, is_known = read_act(event), event.number == 1
+    act, is_known, pushes = read_act(event), event.number == 1, None
     if previous and _is_near(previous, act, budget):
-        before, following, outcome = follow(previous, act)
+        before, following, outcome, pushes = follow(previous, act)
         is_known = True
     else:
         before, following, outcome = event.state_before(), event.segment(), act.told
@@ -99,7 +99,15 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
             before = following.state_at(event.stamp)
     frame = event.values.get("top_frame", "")
     found = Event.of(
-        event.stamp, event.name, outcome, act.request, before, following, frame, event.number
+        event.stamp,
+        event.name,
+        outcome,
+        act.request,
+        before,
+        following,
+        frame,
+        event.number,
+        pushes,
     )
     given = {} if is_known else {n: event.values[n] for n in BEFORE if n in event.values}
     return replace(found, values={**found.values, **given})
@@ -113,7 +121,7 @@ def read_act(event: Event) -> Act:
     """
     given = event.segment()
     request: Mapping[str, Any] = event.request
-    if event.name == "kick":
+    if event.name in KICKS:
         request = read_kick(request)
     elif event.name == "torque":
         request = {"torque": tuple(map(float, request.get("torque", "").split()))}

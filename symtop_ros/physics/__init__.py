@@ -28,6 +28,7 @@ from symtop_ros.physics.kicks import (
     apply_impulse,
     hurry,
     precession_rate,
+    push_axle,
     set_precession_rate,
     validate_hold,
 )
@@ -87,6 +88,7 @@ __all__ = [
     "point_acceleration",
     "precessing_frame_torques",
     "precession_rate",
+    "push_axle",
     "regular_precession_rates",
     "set_precession_rate",
     "specific_force",

@@ -23,7 +23,7 @@ from symtop_ros.physics.values import (
 
 Hold = Literal["spin_rate", "spin_momentum"]
 HOLDS: tuple[Hold, ...] = get_args(Hold)  # in the order of `symtop_hold`
-NEW_RATE, FACTOR_OF_RATE, IMPULSE = 0, 2, 3  # of `symtop_kick_kind`
+NEW_RATE, FACTOR_OF_RATE, IMPULSE, AXLE_IMPULSE = 0, 2, 3, 4  # of `symtop_kick_kind`
 ANY_TOP = np.ones(3)  # a change of phi' asks for no top
 
 
@@ -117,8 +117,48 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     [1.0, 0.0, 200.0]
     """
     J = np.asarray(validate_vectors("impulse", impulse, "N m s, world frame"))
-    tops = np.stack([np.asarray(each) for each in top.moments], axis=-1)
-    return _kick(tops, state, IMPULSE, "spin_rate", J, "impulse")
+    return _kick(_stack_moments(top), state, IMPULSE, "spin_rate", J, "impulse")
+
+
+def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
+    """Return the state after a horizontal push on the axle, to the side to which phi grows.
+
+    It holds theta' and L_z, and so p_psi: its angular impulse is across the axle, in the vertical
+    plane of both.
+
+    Parameters
+    ----------
+    top : Top
+        The top: its moment Ix turns an impulse into an angular velocity; one or many of shape
+        (...).
+    state : State
+        One state, or many of shape (...).
+    impulse : float or array_like (...)
+        Angular impulse in N m s: the impulse of the push times its distance from the pivot;
+        negative for a push to the other side.
+
+    Raises
+    ------
+    ValueError
+        If the axis is vertical, where no side is that of phi, or if an argument is refused.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State, Top, push_axle
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
+    >>> pushed = push_axle(top, state, 0.00005)
+    >>> round(float(pushed.euler_rates.phi), 6)
+    6.957419
+    >>> pushed.angular_velocity[2] == state.angular_velocity[2]
+    np.True_
+    """
+    amount = validate_numbers("impulse", impulse, "N m s")
+    return _kick(_stack_moments(top), state, AXLE_IMPULSE, "spin_momentum", amount, "impulse")
+
+
+def _stack_moments(top: Top) -> Real:
+    return np.stack([np.asarray(each) for each in top.moments], axis=-1)
 
 
 def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: str) -> State:

@@ -26,6 +26,7 @@ def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]
 
 def motion_status(segment: Segment, stamp: int) -> Status:
     """Return the state of the motion in numbers and words."""
+    segment = segment.without_pushes(stamp)
     motion, state = segment.motion, segment.state_at(stamp)
     now = constants_of_motion(motion.top, state)
     start = constants_of_motion(motion.top, motion.start)
@@ -42,6 +43,7 @@ def motion_status(segment: Segment, stamp: int) -> Status:
 
 def balance_status(segment: Segment, stamp: int) -> Status:
     """Return how exactly energy and angular momentum change by what acts on the top."""
+    segment = segment.without_pushes(stamp)
     motion, state = segment.motion, segment.state_at(stamp)
     t = segment.time_at(stamp)
     found = balance(motion, t, longest=max(abs(t), MIN_BALANCE))
@@ -98,7 +100,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
 
     `since` names the event from which the time of the motion counts.
     """
-    state, motion = segment.state_at(stamp), segment.motion
+    state, motion = segment.state_at(stamp), segment.without_pushes(stamp).motion
     top = motion.top
     verdict = perrys_rule(top, state)
     w, x, y, z = state.orientation.tolist()

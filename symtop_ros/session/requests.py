@@ -8,6 +8,7 @@ from symtop_ros.session.diagnostics import summarize_state
 from symtop_ros.session.recording import Answer
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.changes.follow import Act
+from symtop_ros.simulation.changes.kick import name_kick
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.simulation.validation import RefusedError, number, reject, validate_names
 
@@ -38,9 +39,10 @@ class Requests:
         return simulation.apply_at_once(simulation.timeline.restart(simulation.stamp))
 
     def kick(self, values: Values) -> str:
-        """Kick by named values; see `kick.plan_kick`."""
+        """Kick by named values; see `kick.plan_kick` and `kick.plan_pushes`."""
         simulation = self._simulation
-        change = simulation.timeline.follow(Act("kick", simulation.stamp, values))
+        act = Act(name_kick(values), simulation.stamp, values)
+        change = simulation.timeline.follow(act)
         return simulation.apply_at_once(change)
 
     def hurry_precession(self) -> str:

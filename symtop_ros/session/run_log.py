@@ -14,6 +14,7 @@ import numpy as np
 
 from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
+from symtop_ros.simulation.events import KICKS
 from symtop_ros.simulation.run_file import RunEvent
 from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
@@ -127,7 +128,7 @@ class _Again:
         self._compare(event, name)
 
     def _ask(self, event: RunEvent, name: str) -> None:
-        if event.kind == "kick":
+        if event.kind in KICKS:
             granted, answer = self._session.answer("kick", lambda: event.act)
         elif event.kind == "start":
             values = _start_values(event)

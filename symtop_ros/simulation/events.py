@@ -8,11 +8,13 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import astuple, dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, TypeVar
 
 from symtop_ros import __version__
 from symtop_ros.physics import Friction, Motion, State, Top, kernel_version
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start
+from symtop_ros.simulation.pushed import PushedMotion, Pushes
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.validation import one_line
@@ -28,6 +30,7 @@ from symtop_ros.wire.diagnostics import (
 from symtop_ros.wording import write
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
+KICKS = ("kick", "push")  # names of events by ~/kick
 PREFIX = "top: "  # of the name of an event as a diagnostic status
 FORMAT = "3"  # version of the values of an event
 # Events of this format have their request in one text, no number and no outcome. Their motions are
@@ -38,6 +41,7 @@ WITHOUT_FIELDS, LAST_WITHOUT_FIELDS = "2", "0.2.0"
 MAX_STAMP = 2**62  # ns; ROS has 32 bits of seconds
 MAX_ELAPSED = 1e18  # s of the motion
 EXACT = re.compile(r"-?\d{1,400}(/\d{1,400})?")  # a time in ns; doubles need 324 digits
+MAX_PUSHED = 16  # motions with pushes that are kept: each takes up to 0.1 s to compute
 MIN_FACTOR, MAX_FACTOR = 1e-300, 1e6
 WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 
@@ -51,6 +55,8 @@ MOTION: dict[str, Callable[[Motion], Any]] = {
     "applied_torque": lambda motion: motion.applied_torque,
     "motion.orientation": lambda motion: motion.start.given_orientation.tolist(),
     "motion.angular_velocity": lambda motion: motion.start.angular_velocity.tolist(),
+    # impulse, rate and number of the pushes that it gets from its start on
+    "motion.pushes": lambda motion: motion.pushes if isinstance(motion, PushedMotion) else (),
 }
 SEGMENT: dict[str, Callable[[Segment], Any]] = {
     "motion.stamp": lambda segment: segment.stamp,
@@ -66,7 +72,7 @@ class Event:
     """A change of a run."""
 
     stamp: int  # stamp from which the new segment holds, in ns
-    # start, kick, reset, pause, resume, step, parameters, torque, pace, clock, record,
+    # start, kick, push, reset, pause, resume, step, parameters, torque, pace, clock, record,
     # failure
     name: str
     verdict: str  # the outcome in a sentence
@@ -84,11 +90,13 @@ class Event:
         following: Segment,
         top_frame: str = "top",
         number: int = 1,
+        pushes: int | None = None,
     ) -> "Event":
         """Return the event after which the segment `following` holds.
 
         `top_frame` is the child frame of the top on /tf, which is shared by many publishers.
-        `number` counts the events of a run from 1 on.
+        `number` counts the events of a run from 1 on. `pushes` are those that the motion before the
+        event has got, if it was pushed.
         """
         after, motion = following.state_at(stamp), following.motion
         values = {
@@ -101,6 +109,7 @@ class Event:
             **{name: write_text(read(following)) for name, read in SEGMENT.items()},
             "before.orientation": write_text(before.orientation.tolist()),
             "before.angular_velocity": write_text(before.angular_velocity.tolist()),
+            **({} if pushes is None else {"before.pushes": str(pushes)}),
             "after.orientation": write_text(after.orientation.tolist()),
             "after.angular_velocity": write_text(after.angular_velocity.tolist()),
             **following.rig.to_values(),
@@ -180,20 +189,12 @@ class Event:
 
     def _segment(self) -> Segment:
         values = self.values
-        start = State(
-            _numbers(values["motion.orientation"]), _numbers(values["motion.angular_velocity"])
-        )
         factor = "motion.real_time_factor"
         if values["format"] not in (FORMAT, WITHOUT_FIELDS):
             got = one_line(values["format"], 20)
             raise ValueError(f"format of an event must be {WITHOUT_FIELDS} or {FORMAT}, got {got}")
         return Segment(
-            motion=Motion(
-                Top(*_numbers(values["top"])),
-                start,
-                Friction(*_numbers(values["friction"])),
-                _numbers(values["applied_torque"]),
-            ),
+            motion=_read_motion(values),
             stamp=_limit(-MAX_STAMP, "motion.stamp", int(values["motion.stamp"]), MAX_STAMP),
             elapsed=_read_elapsed(values["motion.elapsed_ns"]),
             factor=_limit(MIN_FACTOR, factor, float(values[factor]), MAX_FACTOR),
@@ -222,6 +223,21 @@ def decode_events(data: bytes) -> list[Event]:
         event.state()
         event.state_before()
     return events
+
+
+def _read_motion(values: Mapping[str, str]) -> Motion:
+    body = values["top"], values["motion.orientation"], values["motion.angular_velocity"]
+    if pushes := values.get("motion.pushes"):
+        return _read_pushed(*body, pushes)
+    top, orientation, omega = map(_numbers, body)
+    friction, torque = Friction(*_numbers(values["friction"])), _numbers(values["applied_torque"])
+    return Motion(Top(*top), State(orientation, omega), friction, torque)
+
+
+@lru_cache(MAX_PUSHED)
+def _read_pushed(*texts: str) -> PushedMotion:
+    top, orientation, omega, pushes = map(_numbers, texts)
+    return PushedMotion(Top(*top), State(orientation, omega), Pushes.read(*pushes))
 
 
 def _read_elapsed(text: str) -> Fraction:

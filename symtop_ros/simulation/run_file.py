@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
-from symtop_ros.simulation.changes.kick import FIELDS, read_kick
-from symtop_ros.simulation.events import MOTION, RESTARTS, Event
+from symtop_ros.simulation.changes.kick import FIELDS, read_kick, read_pushes
+from symtop_ros.simulation.events import KICKS, MOTION, RESTARTS, Event
+from symtop_ros.simulation.pushed import PushedMotion
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.validation import (
     RefusedError,
@@ -30,9 +31,9 @@ from symtop_ros.wire.layout import NANOSECONDS
 # The fields of a run, which the reader of the page follows as well. A time is at most 4e6 s: up to
 # there a double in s has its own ns.
 TABLE = json.loads(Path(__file__).with_name("run_fields.json").read_text(encoding="utf-8"))
-FORMAT: int = TABLE["format"]
+FORMATS: list[int] = TABLE["formats"]  # that are read; the last one is written
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
-ACTS = ("start", "kick")
+ACTS = ("start", *KICKS)
 MAX_BYTES = 100_000_000
 
 
@@ -43,13 +44,21 @@ class RunEvent:
     kind: str  # one of `KINDS`
     time: int  # ns of the run
     motion: Motion
-    act: Mapping[str, Any]  # of a kick, the fields of ~/kick; else empty
+    act: Mapping[str, Any]  # of a kick or a push, the fields of ~/kick; else empty
+
+    def end_pushes(self, time: int) -> "RunEvent":
+        """Return the event with the pushes that were given up to a time in ns of the run."""
+        if not isinstance(self.motion, PushedMotion):
+            return self
+        motion = self.motion.cut(time - self.time)
+        return replace(self, motion=motion, act=motion.pushes.request)
 
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
         motion, start = self.motion, self.motion.start
         # the quantity that a kick leaves unchanged; None for an angular impulse
-        hold = None if "angular_impulse" in self.act else self.act.get("hold", HOLDS[0])
+        held = HOLDS["axle_impulse" in self.act]
+        hold = None if "angular_impulse" in self.act else self.act.get("hold", held)
         return {
             "kind": self.kind,
             "time": self.time / NANOSECONDS,
@@ -58,7 +67,8 @@ class RunEvent:
             "angular_velocity": start.angular_velocity.tolist(),
             "friction": astuple(motion.friction),
             "torque": motion.applied_torque,
-            **({"act": self.act, "hold": hold} if self.act else {}),
+            **({"act": self.act} if self.act else {}),
+            **({"hold": hold} if self.kind == "kick" else {}),
         }
 
 
@@ -73,7 +83,7 @@ class RunRecorder:
     def add(self, event: Event) -> RunEvent | None:
         """Follow an event; None if it changes no motion, such as a pause."""
         segment, previous, values = event.segment(), self._segment, event.values
-        is_new = event.name in RESTARTS or any(values[k] != self._values.get(k) for k in MOTION)
+        is_new = event.name in RESTARTS or any(values.get(k) != self._values.get(k) for k in MOTION)
         if previous and is_new:
             # Within one motion its own time counts, in pauses, steps and jumps of the clock too.
             self._begin += previous.elapsed_at(event.previous_end) - segment.elapsed
@@ -81,8 +91,8 @@ class RunRecorder:
         if not is_new:
             return None
         kind = "start" if previous is None or event.name in RESTARTS else event.name
-        act = _read_act(event) if kind == "kick" else {}
-        if kind not in KINDS or (kind == "kick" and not act):
+        act = _read_act(event, segment.motion) if kind in KICKS else {}
+        if kind not in KINDS or (kind in KICKS and not act):
             kind = "change"
         return RunEvent(kind, max(0, round(self._begin)), segment.motion, act)
 
@@ -92,8 +102,10 @@ class RunRecorder:
         return round(self._begin + elapsed)
 
 
-def _read_act(event: Event) -> dict[str, Any]:
+def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
     """Return the fields of a kick; none if a log has some that cannot be read."""
+    if isinstance(motion, PushedMotion):
+        return motion.pushes.request
     given = {name: text for name, text in event.request.items() if name in FIELDS and text}
     try:
         return read_kick(given)
@@ -106,6 +118,7 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
     recorder, found = RunRecorder(), list[RunEvent]()
     for event in filter(None, map(recorder.add, events)):
         kind = event.kind
+        found[-1:] = [each.end_pushes(event.time) for each in found[-1:]]
         # A change of several parameters at once is a sequence of events; the last one holds.
         if len(found) > 1 and found[-1].time == event.time and found[-1].kind not in ACTS:
             kind = kind if found.pop().kind == kind or kind in ACTS else "change"
@@ -116,7 +129,7 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
 def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
     """Return the content of run.json, of a run that has reached a time in ns."""
     written = [event.to_json() for event in events]
-    return {"format": FORMAT, "events": written, "end": end / NANOSECONDS}
+    return {"format": FORMATS[-1], "events": written, "end": end / NANOSECONDS}
 
 
 def read_run(path: Path) -> tuple[list[RunEvent], int]:
@@ -135,8 +148,9 @@ def read_run(path: Path) -> tuple[list[RunEvent], int]:
         content = json.loads(data)
     except (ValueError, RecursionError):
         content = None
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise RefusedError(f"{path} must be a run of the page (run.json, format {FORMAT})")
+    if not isinstance(content, dict) or content.get("format") not in FORMATS:
+        formats = " or ".join(map(str, FORMATS))
+        raise RefusedError(f"{path} must be a run of the page (run.json, format {formats})")
     given = content.get("events")
     if not isinstance(given, list) or not given:
         raise reject("events", "a list with a start at its beginning", given)
@@ -164,14 +178,14 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
         raise reject("kind", '"start" for the first event', kind)
     if before and time < before[-1].time:
         raise reject("time", "that of the event before it or later", values["time"])
-    act = _read_kick(given.get("act")) if kind == "kick" else {}
+    act = _read_kick(given.get("act")) if kind in KICKS else {}
     Ix, Iz, Mgl = values["top"]
-    motion = Motion(
-        Top(Ix=Ix, Iz=Iz, Mgl=Mgl),
-        State(values["orientation"], values["angular_velocity"]),
-        friction=Friction(*values["friction"]),
-        torque=values["torque"],
-    )
+    top, start = Top(Ix, Iz, Mgl), State(values["orientation"], values["angular_velocity"])
+    friction, torque = Friction(*values["friction"]), values["torque"]
+    motion = Motion(top, start, friction, torque)
+    if kind == "push":
+        motion = PushedMotion(top, start, read_pushes(act, motion))
+        act = motion.pushes.request
     return RunEvent(kind, time, motion, act)
 
 

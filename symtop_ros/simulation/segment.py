@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.simulation.pushed import PushedMotion
 from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -75,6 +76,24 @@ class Segment:
     def state_at(self, stamp: Any) -> State:
         """Return the state at a stamp (ns) or an array of them; one state if paused."""
         return self.motion.at(self.times_at(stamp))
+
+    def count_pushes(self, stamp: int) -> int | None:
+        """Return how many pushes the motion got up to a stamp (ns); None if nothing pushes it."""
+        motion = self.motion
+        return motion.count(self.elapsed_at(stamp)) if isinstance(motion, PushedMotion) else None
+
+    @property
+    def final_motion(self) -> Motion:
+        """The motion that its pushes lead to; without pushes the motion itself."""
+        motion = self.motion
+        return motion.pieces[-1] if isinstance(motion, PushedMotion) else motion
+
+    def without_pushes(self, stamp: int) -> "Segment":
+        """Return the segment of what moves at a stamp (ns), from the last push on."""
+        if not isinstance(self.motion, PushedMotion):
+            return self
+        piece, begin = self.motion.piece_at(self.elapsed_at(stamp))
+        return replace(self, motion=piece, elapsed=self.elapsed - begin)
 
     def change(
         self,

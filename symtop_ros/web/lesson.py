@@ -19,12 +19,13 @@ NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
 @dataclass(frozen=True, slots=True)
 class LessonAct:
-    """A button of a step: a start, or a hurry of the motion that was started last."""
+    """A button of a step: a start, or a hurry or pushes of the motion that was started last."""
 
     button: str
     start: Mapping[str, float | str] | None = None  # fields of ~/set_initial_conditions
     hurry: float | None = None  # factor of the precession rate
     hold: Hold = "spin_rate"  # the quantity that the hurry leaves unchanged
+    push: Mapping[str, float] | None = None  # fields of ~/kick for a series of pushes
 
     @property
     def command(self) -> str:
@@ -32,6 +33,8 @@ class LessonAct:
         fields = [f"{name}={value}" for name, value in (self.start or {}).items()]
         if fields:
             return " ".join(["start", *fields])
+        if self.push:
+            return " ".join(["kick", *(f"{name}={value:g}" for name, value in self.push.items())])
         if self.hold == "spin_rate":
             return "hurry"
         return f"kick precession_rate_factor={self.hurry} hold={self.hold}"
@@ -67,7 +70,8 @@ class LessonStep:
     @property
     def structure(self) -> dict[str, Any]:
         """What is the same in all languages: the page has the texts by their keys."""
-        acts = [{"start": act.start, "hurry": act.hurry, "hold": act.hold} for act in self.acts]
+        kept = ("start", "hurry", "hold", "push")
+        acts = [{name: getattr(act, name) for name in kept} for act in self.acts]
         names = ("name", "scene", "charts", "layers")
         return {"acts": acts, **{name: getattr(self, name) for name in names}}
 

@@ -29,6 +29,7 @@ def write_log(folder: Path, **changes: object) -> Path:
     ask("hurry_precession")
     ask("kick", {"angular_impulse": [1e-5, 0.0, -2e-5]})
     ask("kick", {"precession_rate": 9.0, "hold": "spin_momentum"})
+    ask("kick", {"axle_impulse": 2**-17, "rate": 100.0, "number": 20})  # ended by the next start
     session.keep_up()
     ask("pause", True)
     ask("step", {"duration": 0.0125})

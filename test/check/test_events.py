@@ -57,7 +57,7 @@ def found(before, event):
 
 def test_events_of_every_kind_are_those_that_follow(events):
     assert {event.name for event in events} == {
-        *("start", "reset", "kick", "pause", "resume", "step", "torque", "parameters"),
+        *("start", "reset", "kick", "push", "pause", "resume", "step", "torque", "parameters"),
         *("clock", "record"),
     }
     assert list(find_mismatches(events)) == []

@@ -13,7 +13,7 @@ from waiting import until
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
 from symtop_ros.panel.server import LOCAL_HOST, PageServer
-from symtop_ros.physics import State
+from symtop_ros.physics import Motion, State
 from symtop_ros.web.join import write_file
 from workshop.load.domains import claim_domain
 
@@ -298,3 +298,24 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
             assert "again" not in tab.text_content("#refusal")
             until(lambda: "71.62°" in tab.text_content("#entries"), look)
         assert problems == []
+
+
+def test_a_held_button_pushes_the_node_until_it_is_released(node):
+    running, bridge = node
+    with running_browser() as browser, serving(bridge) as server:
+        tab = browser.new_page()
+        look = partial(tab.wait_for_timeout, 20)
+        tab.goto(server.url)
+        tab.click("#tab-push")
+        button = tab.locator("[data-hold=press]")
+        button.dispatch_event("pointerdown")
+        until(lambda: "Pushed sideways 3 times" in tab.text_content("#headline"), look)
+        button.dispatch_event("pointerup")
+        until(lambda: bridge._last.request.get("axle_impulse") == "0.0", look)
+        motion = running.top.simulation.segment.motion
+        assert type(motion) is Motion
+        until(lambda: len(tab.evaluate("window.symtop.run().events")) == 3, look)
+        _, pushes, end = tab.evaluate("window.symtop.run().events")
+        assert (pushes["kind"], pushes["act"]["rate"]) == ("push", 20)
+        assert pushes["act"]["number"] == int(bridge._last.values["before.pushes"]) >= 3
+        assert end["orientation"] == motion.start.given_orientation.tolist()

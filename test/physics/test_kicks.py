@@ -11,6 +11,7 @@ from symtop_ros.physics import (
     Top,
     apply_impulse,
     hurry,
+    push_axle,
     regular_precession_rates,
     set_precession_rate,
 )
@@ -37,9 +38,27 @@ def test_an_impulse_adds_to_the_angular_momentum_in_the_world():
     assert np.abs(gained - J).max() <= 16 * EPS * np.abs(ARTICLE.angular_momentum(START)).max()
 
 
+def test_a_push_on_the_axle_adds_what_is_across_it_in_its_vertical_plane():
+    after = push_axle(ARTICLE, START, 1e-4)
+    gained = ARTICLE.angular_momentum(after) - ARTICLE.angular_momentum(START)
+    phi, theta, _ = START.euler_angles
+    up = [-math.cos(theta) * math.sin(phi), math.cos(theta) * math.cos(phi), math.sin(theta)]
+    rounding = 16 * EPS * np.abs(ARTICLE.angular_momentum(START)).max()
+    assert np.abs(gained - 1e-4 * np.array(up)).max() <= rounding
+    assert ARTICLE.axial_momentum(after) == ARTICLE.axial_momentum(START)
+    assert after.euler_rates.theta == pytest.approx(2.0, abs=ROUNDING)
+
+
+def test_a_push_at_the_smallest_tilt_has_its_whole_size():
+    start = State.from_euler(theta=1e-90, psi_dot=200.0)
+    after = push_axle(ARTICLE, start, ARTICLE.Ix)
+    assert np.hypot(*after.angular_velocity[:2]) == pytest.approx(1.0, rel=8 * EPS)
+
+
 @pytest.mark.parametrize(
     "kick",
     [
+        lambda state: push_axle(ARTICLE, state, 1.0),
         hurry,
         lambda state: hurry(state, hold="spin_momentum"),
         lambda state: set_precession_rate(state, -3.0),

@@ -34,6 +34,9 @@ def draw_values(rng):
 def draw_kick(rng):
     if rng.random() < 0.3:
         return {"angular_impulse": [rng.uniform(-1e-3, 1e-3) for _ in range(3)]}
+    if rng.random() < 0.4:
+        pushes = {"rate": rng.uniform(10.0, 500.0), "number": rng.randint(1, 40)}
+        return {"axle_impulse": rng.uniform(-1e-4, 1e-4), **rng.choice((pushes, pushes, {}))}
     kinds = {
         "precession_rate": rng.uniform(-20.0, 20.0),
         "precession_rate_change": rng.uniform(-10.0, 10.0),
@@ -133,7 +136,7 @@ def drop_idle(events):
     """Events without those that changed back, while the motion stood still, what others changed."""
     bodies = [list_exact(event)[-1] for event in events]
     is_same = [False, *(before == after for before, after in pairwise(bodies))]
-    acts = ("start", "kick")
+    acts = ("start", "kick", "push")
     return [
         event for event, same in zip(events, is_same, strict=True) if event.kind in acts or not same
     ]

@@ -9,8 +9,9 @@ from simulation.page_runs import KICK, START, make_run, to_json
 from symtop_ros.check.run import check_run
 from symtop_ros.log.bag import open_run
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.physics import ExactTimes, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Motion, State, Top, hurry, push_axle
 from symtop_ros.session.run_log import write_run_log
+from symtop_ros.simulation.pushed import PushedMotion, Pushes
 from symtop_ros.simulation.run_file import RunEvent, record_run
 from symtop_ros.simulation.topics import DIAGNOSTICS
 from symtop_ros.simulation.validation import RefusedError
@@ -75,6 +76,25 @@ def test_a_run_may_start_again_with_another_top(tmp_path):
     assert check_run(read(path)).mismatches == []
     events, _ = record_run(read(path).events(), END)
     assert to_json(events) == to_json(run)
+
+
+def test_pushes_come_back_from_the_log_with_the_number_that_was_given(tmp_path):
+    pushes, before = Pushes(2.0**-16, 30.0, 9), START.at(ExactTimes(1_000_000_000))
+    pushed = PushedMotion(START.top, push_axle(START.top, before, pushes.impulse), pushes)
+    kicked = Motion(START.top, hurry(pushed.at(ExactTimes(250_000_000)), 1.4))
+    begin, push = (
+        RunEvent("start", 0, START, {}),
+        RunEvent("push", 1_000_000_000, pushed, pushes.request),
+    )
+    run = [begin, push, RunEvent("kick", 1_250_000_000, kicked, KICK)]
+    path = tmp_path / "run.mcap"
+    write_run_log(run, END, path)
+    found = check_run(read(path))
+    assert found.mismatches == []
+    assert {each.largest for each in found.deviations.values()} == {0.0}
+    events, _ = record_run(read(path).events(), END)
+    assert events[1].act["number"] == 8
+    assert to_json(events[2:]) == to_json(run[2:])
 
 
 def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no_change(tmp_path):

@@ -35,7 +35,7 @@ def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
     [
         (b"\xff" * 100, "must be a run of the page"),
         ([], "must be a run of the page"),
-        ({"format": 2, "events": []}, "must be a run of the page"),
+        ({"format": 3, "events": []}, "must be a run of the page"),
         ({"format": 1, "events": []}, "events must be "),
         ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
         (change(0, kind="kick"), r"events\[0\]: "),
@@ -123,6 +123,17 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
     events, _ = record_run(told.events, 3 * SECOND)
     assert [event.act for event in events] == [{}, *acts]
     assert [event.to_json()["hold"] for event in events[1:]] == [None, "spin_rate"]
+
+
+def test_pushes_have_the_number_that_was_given_until_something_else_was_done():
+    told, pushes = Told(), {"axle_impulse": 1e-6, "rate": 20.0, "number": 20}
+    for seconds in (2, 5):
+        told.act("push", seconds * SECOND, pushes)
+    told.act("kick", 5 * SECOND + SECOND // 3, KICK)
+    events, _ = record_run(told.events, 7 * SECOND)
+    assert [event.kind for event in events] == ["start", "push", "push", "kick"]
+    assert [event.act.get("number") for event in events[1:3]] == [20, 7]
+    assert events[1].act == pushes
 
 
 def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():

@@ -93,7 +93,7 @@ class Trial:
 
     def do_torque(self):
         self.page.open_tab("push")
-        button = self.page.tab.locator(f"[data-hold='{self.rng.choice((1, -1))}']")
+        button = self.page.tab.locator(f"[data-sign='{self.rng.choice((1, -1))}']")
         button.dispatch_event("pointerdown")
         self.page.tab.wait_for_timeout(self.rng.uniform(0, 400))
         button.dispatch_event("pointerup")

@@ -22,6 +22,7 @@ ANGLES = (
     ((0.5, 0.5), (0.439, 0.5), (0.5, 0.5), (0.5, 0.528)),
     ((0.5, 0.5), (0.5, 0.544), (0.5, 0.5), (0.362, 0.5), (0.5, 0.5), (0.5, 0.8)),
     ((0.5, 0.664),),
+    ((0.5, 0.5), (0.489, 0.5), (0.5, 0.5), (0.5, 0.506)),  # after the first push
 )
 
 
@@ -36,12 +37,12 @@ def press(page, act, turning):
     event = page.read_events()[-1]
     assert page.say("refusal") == ""
     assert page.say("why")
-    assert event["kind"] == ("start" if act.start else "kick")
+    assert event["kind"] == ("start" if act.start else "push" if act.push else "kick")
     assert event["friction"] == [0, 0]
     # half of the last of three digits
     assert read_motion(event).turning_angles == pytest.approx(turning, abs=5e-4)
     assert page.say("pause") == "Pause"
-    if act.hurry:
+    if not act.start:
         assert button.is_disabled()
 
 

@@ -79,7 +79,7 @@ def make_hour():
         events.append(event)
         time = find_time({"time": n * HOUR / ACTS}, {"time": (n + 1) * HOUR / ACTS})
         state = hurry(read_motion(event).at(time), 1.1 if n % 2 else 1 / 1.1)
-    return {"format": 1, "events": events, "end": HOUR}
+    return {"format": 2, "events": events, "end": HOUR}
 
 
 def test_the_run_of_an_hour_is_a_small_file_and_every_moment_of_it_is_there(opened, tmp_path):

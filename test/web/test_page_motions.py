@@ -88,7 +88,7 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
 
 def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.open_tab("push")
-    button = opened.tab.locator("[data-hold='1']")
+    button = opened.tab.locator("[data-sign='1']")
     button.dispatch_event("pointerdown")
     opened.until(lambda: opened.say("headline").startswith("A torque acts. Without it, the top "))
     button.dispatch_event("pointerup")

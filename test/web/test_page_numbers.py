@@ -93,7 +93,7 @@ def act(page, rng):
         page.press(rng.choice(("h", "d", "ArrowUp", "ArrowRight")))
     elif kind == "torque":
         page.open_tab("push")
-        button = page.tab.locator(f"[data-hold='{rng.choice((1, -1))}']")
+        button = page.tab.locator(f"[data-sign='{rng.choice((1, -1))}']")
         button.dispatch_event("pointerdown")
         page.tab.wait_for_timeout(rng.uniform(100, 500))
         button.dispatch_event("pointerup")

@@ -8,18 +8,23 @@ from web.opened import FEW_FRAMES, UNDRAWN
 
 from symtop_ros.web.join import write_file
 
+PUSHES = {"axle_impulse": 1e-5, "rate": 20, "number": 20}
 HOSTILE = [content for _, content in list_hostile_runs()]
 BROKEN = [
     change(0, kind="kick"),
     change(1, time=-1.0),
     change(2, time=1.0),
+    change(1, kind="push", act={"axle_impulse": 1e-5, "rate": 20, "hold": "spin_rate"}),
+    change(1, kind="push", act=PUSHES, friction=[0.25, 0]),
+    change(1, kind="push", act={**PUSHES, "number": 2.5}),
+    change(1, kind="push", act={**PUSHES, "rate": 1001}),
     {"format": 1, "events": [3]},
     {"format": 1, "events": []},
     {"format": 1, "events": "__proto__"},
     {**change(1), "end": "soon"},
     {**change(1), "events": change(1)["events"][:1] * 10_001},
 ]
-NO_RUN = [[], None, 3, "", {}, {"format": 2, "events": []}, {"__proto__": 1}]
+NO_RUN = [[], None, 3, "", {}, {"format": 3, "events": []}, {"__proto__": 1}]
 # The kernel and Python have other words for these.
 NO_MOTION = [
     change(1, orientation=[0, 0, 0, 0]),
@@ -65,7 +70,7 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened,
     known = [*HOSTILE[::step], *BROKEN]
     refusals = map(get_condition, refuse(opened, known))
     assert [*refusals] == [get_condition(find_refusal(run)) for run in known]
-    expected = "a run must be one of the page (run.json, format 1)"
+    expected = "a run must be one of the page (run.json, format 1 or 2)"
     assert {*map(get_condition, refuse(opened, NO_RUN))} == {expected}
     for refusal, run in zip(refuse(opened, NO_MOTION), NO_MOTION, strict=True):
         assert refusal.startswith("events[1]: ")

@@ -1,7 +1,7 @@
 """The pictures of the lesson: what each step shows, computed from the acts of the step.
 
-A start begins a run; a hurry kicks the last run. Regular precession is the only motion that is
-hurried, so that the time of the kick is free.
+A start begins a run; a hurry or pushes kick the last run. Regular precession is the only motion
+that is kicked, so that the time of the kick is free.
 """
 
 from collections.abc import Callable
@@ -13,18 +13,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from symtop_ros.arrays import Real
 from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
     hurry,
+    push_axle,
     regular_precession_rates,
     theta_acceleration,
 )
 from symtop_ros.playback.view.fictitious import torques_of
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.web.lesson import LessonStep, read_lesson
+from symtop_ros.web.lesson import LessonAct, LessonStep, read_lesson
 from workshop.article.answers.fictitious import plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
@@ -48,12 +50,12 @@ def run_step(step: LessonStep) -> Runs:
     """Return the runs of a step by their labels."""
     settings, runs = Settings.from_scene(step.scene), Runs()
     for act in step.acts:
-        if act.hurry is not None:
-            label, run = runs.popitem()
+        if act.start is None:
+            _, run = runs.popitem()
             runs.pop(NOT_KICKED, None)
-            change = partial(hurry, factor=act.hurry, hold=act.hold)
+            held = HELD["spin_momentum" if act.push else act.hold]
             rate = run.pieces[0][1].start.euler_rates.phi
-            runs[f"from {rate:.3g} rad/s, {HELD[act.hold]} held"] = run.kick(KICK, change)
+            runs[f"from {rate:.3g} rad/s, {held} held"] = _kick(run, act)
             runs[NOT_KICKED] = run
         else:
             start = initial_state(settings.top, settings.initial, act.start or {})
@@ -61,6 +63,17 @@ def run_step(step: LessonStep) -> Runs:
             label = f"$\\dot\\phi$ = {rates.phi:.3g}, $\\dot\\psi$ = {rates.psi:.4g} rad/s"
             runs[label] = KickedMotion.of(Motion(settings.top, start))
     return runs
+
+
+def _kick(run: KickedMotion, act: LessonAct) -> KickedMotion:
+    """Return a run with the hurry or the pushes of a button."""
+    if not act.push:
+        return run.kick(KICK, partial(hurry, factor=act.hurry or 1.0, hold=act.hold))
+    top, impulse = run.pieces[0][1].top, act.push["axle_impulse"]
+    for place in range(int(act.push["number"])):
+        time = KICK + place / act.push["rate"]
+        run = run.kick(time, lambda state: push_axle(top, state, impulse))
+    return run
 
 
 def draw_step(step: LessonStep) -> Figure:
@@ -148,7 +161,7 @@ def _draw_from_above(axes: Axes, runs: Runs) -> None:
 
 def draw_tilt(axes: Axes, runs: Runs) -> None:
     """Draw theta against time."""
-    times = np.linspace(0.0, SPAN, 1601)
+    times = _list_times(runs)
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
         axes.plot(times, run.at(times).euler_angles.theta, color=color, ls=dash, label=label)
     if NOT_KICKED in runs:
@@ -161,6 +174,22 @@ def draw_tilt(axes: Axes, runs: Runs) -> None:
     words = "higher axis, lower body" if hangs else "higher"
     axes.set_title(rf"smaller $\theta$: {words}", loc="right")
     axes.legend(loc="upper left", fontsize=8)
+
+
+def _list_times(runs: Runs) -> Real:
+    """Return times in s until some time after the last kick."""
+    last = max(run.pieces[-1][0] for run in runs.values())
+    return np.linspace(0.0, max(SPAN, last + KICK), 1601)
+
+
+def draw_pushes(axes: Axes, runs: Runs) -> None:
+    """Draw how much phi' has changed against time."""
+    times = _list_times(runs)
+    for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
+        rates = run.at(times).euler_rates.phi
+        axes.plot(times, rates - rates[0], color=color, ls=dash, label=label)
+    axes.set(xlabel="$t$ (s)", ylabel=r"change of $\dot\phi$ (rad/s)")
+    axes.set_title("faster: up", loc="right")
 
 
 def draw_momentum(axes: Axes, runs: Runs) -> None:
@@ -269,12 +298,14 @@ DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a s
     "fictitious": draw_fictitious,
     "ledger": draw_ledger,
     "impulses": draw_impulses,
+    "pushes": draw_pushes,
 }
 # What is drawn left of these; all others: the end of the axis from above.
 LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {
     draw_turning: _draw_turned,
     draw_fictitious: _draw_chains,
     draw_ledger: draw_tilt,
+    draw_pushes: draw_tilt,
 }
 
 

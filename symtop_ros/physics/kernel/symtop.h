@@ -250,7 +250,9 @@ typedef enum {
   SYMTOP_NEW_RATE,       /* amount: the new phi' in rad/s */
   SYMTOP_CHANGE_OF_RATE, /* amount: what is added to phi' */
   SYMTOP_FACTOR_OF_RATE, /* amount: what phi' is multiplied by */
-  SYMTOP_IMPULSE         /* amount: an angular impulse (count, 3) in the world frame, N m s */
+  SYMTOP_IMPULSE,        /* amount: an angular impulse (count, 3) in the world frame, N m s */
+  SYMTOP_AXLE_IMPULSE    /* amount: the angular impulse, N m s, of a horizontal push on the axle in the
+                            direction in which phi grows; theta' and Iz omega_z are held */
 } symtop_kick_kind;
 
 /* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). */

@@ -45,7 +45,7 @@ class Framing:
     @classmethod
     def of(cls, segment: Segment) -> "Framing":
         """Return the framing of a motion."""
-        motion = segment.motion
+        motion = segment.final_motion
         rate, nutation = motion.mean_precession_rate, motion.nutation_period
         turn = 2 * math.pi / abs(rate) if rate else math.inf
         return cls(

@@ -17,7 +17,7 @@ from symtop_ros.playback.view.quantities import axis_of, find_step
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.budget import StepBudget
-from symtop_ros.simulation.events import RESTARTS
+from symtop_ros.simulation.events import KICKS, RESTARTS
 from symtop_ros.simulation.segment import Segment
 
 RATE = 125.0  # states per s of the clock; more would not be seen
@@ -39,7 +39,7 @@ class GhostView:
         old = self.segment
         if name in RESTARTS or before is None:
             self.segment = None
-        elif name == "kick":
+        elif name in KICKS:
             self.segment, self._trace = before, Trace()
         elif old is not None:
             self.segment = _continue(old, after, before)

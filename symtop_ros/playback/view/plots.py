@@ -52,8 +52,9 @@ class Plots:
         self._energy.follow(event, before, after)
         old, new = before.motion if before else None, after.motion
         if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
-            potential = EffectivePotential.of(after.motion.top, after.motion.start)
-            self._potential.log_motion(after.motion, potential)
+            final = after.final_motion
+            potential = EffectivePotential.of(final.top, final.start)
+            self._potential.log_motion(final, potential)
 
     def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
         """Send the samples of a segment; without it (None) the top is unknown."""
@@ -73,7 +74,8 @@ class Plots:
             square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
             self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
         if segment:
-            self._send_drift(columns, segment.motion.top)
+            if segment.final_motion is segment.motion:  # pushes change the constants of motion
+                self._send_drift(columns, segment.motion.top)
             self._send_constants(columns, segment.motion)
 
     def _send_drift(self, columns: Mapping[str, Columns], top: Top) -> None:
@@ -119,7 +121,7 @@ def describe_motion(
     segment: Segment, state: State, scales: dict[str, str], equations: Mapping[str, str]
 ) -> str:
     """Return the table for the segment that begins with an event."""
-    motion = segment.motion
+    motion = segment.final_motion
     top = motion.top
     low, high = motion.turning_angles
     rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(top, state).regular_rates) or "no"

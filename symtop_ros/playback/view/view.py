@@ -26,11 +26,11 @@ from symtop_ros.playback.view.mesh import create_body
 from symtop_ros.playback.view.plots import Plots, describe_motion
 from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import KICKS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
 
-SPOKEN = ("start", "reset", "kick")  # events whose verdict is shown
+SPOKEN = ("start", "reset", *KICKS)  # events whose verdict is shown
 
 
 class Arrow(NamedTuple):
@@ -109,7 +109,7 @@ class View:
 
     def _send_event(self, event: Event) -> None:
         previous, self._segment = self._segment, event.segment()
-        motion, framing = self._segment.motion, Framing.of(self._segment).after(self._framing)
+        motion, framing = self._segment.final_motion, Framing.of(self._segment).after(self._framing)
         before, self._framing = self._framing, framing
         if before is None or before.ranges != framing.ranges:
             self._send_layout(framing)

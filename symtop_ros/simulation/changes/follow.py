@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from symtop_ros.physics import State, kick_verdict
-from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.kick import plan_kick, plan_pushes
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
     Parameters,
     Pause,
+    Pushed,
     Setting,
     Start,
     Step,
@@ -48,6 +49,7 @@ class Following(NamedTuple):
     before: State  # right before it
     segment: Segment
     outcome: Outcome | None
+    pushes: int | None = None  # that the motion before it has got, if it was pushed
 
 
 def follow(segment: Segment, act: Act) -> Following:
@@ -59,14 +61,20 @@ def follow(segment: Segment, act: Act) -> Following:
         If no program grants the request; RefusedError with the reason for a user.
     """
     before = state_before(segment, act)
-    return Following(before, *RULES[act.name](segment, act, before))
+    pushes = segment.count_pushes(_find_stamp(act))
+    return Following(before, *RULES[act.name](segment, act, before), pushes)
 
 
 def state_before(segment: Segment, act: Act) -> State:
     """Return the state right before an act: it takes work if the motion is driven."""
     if "reached" in act.request:  # a motion that was slowed down, or that could not continue
         return segment.motion.at(float(act.request["reached"]))
-    return segment.state_at(act.request["from"] if act.name == "clock" else act.stamp)
+    return segment.state_at(_find_stamp(act))
+
+
+def _find_stamp(act: Act) -> int:
+    """Return the stamp of the segment before an act at which the act happens."""
+    return int(act.request["from"]) if act.name == "clock" else act.stamp
 
 
 def demand_a_day(segment: Segment) -> Segment:
@@ -90,6 +98,11 @@ def _kick(segment: Segment, act: Act, before: State) -> Ruled:
     motion, hold = plan_kick(segment.motion, before, act.request)
     segment = demand_a_day(segment.replace_motion(motion, act.stamp))
     return segment, kick_verdict(motion, before, hold)
+
+
+def _push(segment: Segment, act: Act, before: State) -> Ruled:
+    motion = plan_pushes(segment.motion, before, act.request)
+    return demand_a_day(segment.replace_motion(motion, act.stamp)), Pushed.of(motion, before)
 
 
 def _pause(segment: Segment, act: Act, _: State) -> Ruled:
@@ -166,6 +179,7 @@ RULES: dict[str, Callable[[Segment, Act, State], Ruled]] = {
     "start": _restart,
     "reset": _restart,
     "kick": _kick,
+    "push": _push,
     "pause": _pause,
     "resume": _resume,
     "step": _step,

@@ -3,12 +3,18 @@
 `wording.write` makes a sentence of it, by the template of the event's name (`wording/en.json`).
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
 from symtop_ros.arrays import Vector
-from symtop_ros.physics import KickVerdict, Kind, Motion, Verdict, perrys_rule
+from symtop_ros.physics import KickVerdict, Kind, Motion, State, Verdict, perrys_rule
+from symtop_ros.simulation.pushed import PushedMotion
+from symtop_ros.wire.layout import NANOSECONDS
 from symtop_ros.wording import write
+
+MILLI = 1000
+ROUNDING = 1e-9  # of |Mgl|; a smaller change is told as none
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +28,58 @@ class Start:
     def of(cls, motion: Motion) -> "Start":
         """Return the outcome of the start of a motion."""
         return cls(motion.kind, perrys_rule(motion.top, motion.start))
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """Mean phi' in rad/s without pushes and after them."""
+
+    before: float
+    after: float
+
+
+@dataclass(frozen=True, slots=True)
+class Gain:
+    """What the weight gained or lost (mJ): its potential energy halfway between turning points."""
+
+    kind: Literal["gained", "lost", "kept"]
+    amount: float
+
+
+@dataclass(frozen=True, slots=True)
+class Pushed:
+    """What pushes on the axle lead to if nothing else happens until the last one."""
+
+    number: int
+    duration: float  # s of the motion from the first to the last one
+    turning_angles: tuple[float, float]  # rad, after the last one
+    former_angles: tuple[float, float]  # without them
+    means: Means | None  # None if phi' is undefined at a time
+    work: float  # mJ
+    weight: Gain
+
+    @classmethod
+    def of(cls, motion: PushedMotion, before: State) -> "Pushed":
+        """Return the outcome of the pushes of a motion, with the state before the first one."""
+        top, last, former = motion.top, motion.pieces[-1], Motion(motion.top, before)
+        rates = former.mean_precession_rate, last.mean_precession_rate
+        return cls(
+            motion.pushes.number,
+            motion.pushes.time(motion.pushes.number - 1) / NANOSECONDS,
+            last.turning_angles,
+            former.turning_angles,
+            None if any(map(math.isnan, rates)) else Means(*rates),
+            MILLI * float(top.energy(last.start) - top.energy(before)),
+            _find_gain(top.Mgl, former.turning_angles, last.turning_angles),
+        )
+
+
+def _find_gain(Mgl: float, before: tuple[float, float], after: tuple[float, float]) -> Gain:
+    heights = [(math.cos(low) + math.cos(high)) / 2 for low, high in (before, after)]
+    change = MILLI * Mgl * (heights[1] - heights[0])
+    if abs(change) <= ROUNDING * MILLI * abs(Mgl):
+        return Gain("kept", abs(change))
+    return Gain("gained" if change > 0 else "lost", abs(change))
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,13 +160,24 @@ class Failure:
 
 
 Outcome = (
-    Start | KickVerdict | Pause | Step | ClockJump | Pace | Torque | Parameters | Record | Failure
+    Start
+    | KickVerdict
+    | Pushed
+    | Pause
+    | Step
+    | ClockJump
+    | Pace
+    | Torque
+    | Parameters
+    | Record
+    | Failure
 )
 # By the name of the event.
 OUTCOMES: dict[str, type[Outcome]] = {
     "start": Start,
     "reset": Start,
     "kick": KickVerdict,
+    "push": Pushed,
     "pause": Pause,
     "resume": Pause,
     "step": Step,

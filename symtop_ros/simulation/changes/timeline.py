@@ -146,6 +146,7 @@ class Change:
             self.following.segment,
             self.following.settings.top_frame,
             number,
+            self.found.pushes,
         )
 
 

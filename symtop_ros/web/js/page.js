@@ -74,7 +74,8 @@ export class Page {
     for (const button of findAll("[data-push]"))
       button.addEventListener("click", () => push(button.dataset.push ?? ""));
     for (const button of findAll("[data-hold]")) {
-      actWhileHeld(button, () => this.send({ act: "torque", sign: Number(button.dataset.hold) }));
+      const { hold, sign } = button.dataset;
+      actWhileHeld(button, () => this.send({ act: hold, sign: Number(sign) }));
     }
     listenToKeys(act, push);
   }

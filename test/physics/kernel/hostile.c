@@ -122,7 +122,7 @@ static void ask_of_start(const symtop_start* start, int oddness) {
         0);
   if (left > SYMTOP_RULE_FAILS) exit(1);
   CHECK(symtop_kick(&top, start->orientation, start->angular_velocity,
-                    (symtop_kick_kind)(draw() % 4), hold, amounts, 1, kicked, &done), done);
+                    (symtop_kick_kind)(draw() % 5), hold, amounts, 1, kicked, &done), done);
   CHECK(symtop_judge(start, amounts, 1, hold, &verdict, &done), done);
   memcpy(after.angular_velocity, kicked, sizeof kicked);
   CHECK(symtop_judge_kick(start, &after, hold, &verdict), 0);

@@ -9,6 +9,7 @@ from physics.tops import EPS
 
 from symtop_ros.physics import Friction, Motion, Top, hurry
 from symtop_ros.playback.view.ghost import GhostView
+from symtop_ros.simulation.events import KICKS
 from symtop_ros.simulation.segment import Segment
 
 SECOND = 1_000_000_000
@@ -42,9 +43,10 @@ def test_it_continues_the_motion_before_the_kick_to_the_last_bit(ghost):
     assert np.array_equal(quaternions, expected)
 
 
-def test_a_second_kick_replaces_it_by_the_motion_just_before(ghost):
+@pytest.mark.parametrize("name", KICKS)
+def test_a_second_kick_replaces_it_by_the_motion_just_before(ghost, name):
     ghost, after = ghost
-    ghost.follow("kick", after, kicked(after, 2 * SECOND))
+    ghost.follow(name, after, kicked(after, 2 * SECOND))
     assert ghost.segment.state_at(3 * SECOND) == after.state_at(3 * SECOND)
 
 

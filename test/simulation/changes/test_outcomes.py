@@ -17,6 +17,7 @@ def _run():
     run.advance(0.1)
     run.ask("kick", {"precession_rate_factor": 1.4, "hold": "spin_momentum"})
     run.ask("kick", {"angular_impulse": (0.0, 0.0, 1e-5)})
+    run.ask("kick", {"axle_impulse": 1e-6, "rate": 50.0, "number": 20})
     run.ask("pause", True)
     run.ask("step", {"duration": 0.01})
     run.ask("pause", False)

@@ -34,6 +34,13 @@ inline void add_impulse(const symtop_top& top, const double q[4], const double i
   omega[0] += J[0] / top.Ix, omega[1] += J[1] / top.Ix, omega[2] += J[2] / top.Iz;
 }
 
+// Adds what a push on the axle changes, to the side to which phi grows: its angular impulse, N m s,
+// is across the axle, in the vertical plane of both.
+inline void push_axle(const symtop_top& top, const Vertical& g, double impulse, double omega[3]) {
+  const double change = impulse / top.Ix, sine = g.find_sine();
+  omega[0] += change * (g.x / sine), omega[1] += change * (g.y / sine);
+}
+
 // The new precession rate that a kick asks for, given the present one.
 inline double find_new_rate(symtop_kick_kind kind, double amount, double now) {
   if (kind == SYMTOP_CHANGE_OF_RATE) return now + amount;
@@ -48,9 +55,13 @@ inline bool kick(const symtop_top& top, const double q[4], symtop_kick_kind kind
   } else {
     const Vertical g(q);
     if (g.is_of_vertical_axis()) return false;
-    double rates[3];
-    find_angle_rates(q, omega, rates);
-    change_precession(g, find_new_rate(kind, *amount, rates[0]) - rates[0], hold, omega);
+    if (kind == SYMTOP_AXLE_IMPULSE) {
+      push_axle(top, g, *amount, omega);
+    } else {
+      double rates[3];
+      find_angle_rates(q, omega, rates);
+      change_precession(g, find_new_rate(kind, *amount, rates[0]) - rates[0], hold, omega);
+    }
   }
   flush_tiny(omega, 3);
   return true;

@@ -7,7 +7,8 @@ import { isKnown, phrase } from "../words/wording.js";
 
 /**
  * A button of a step, as in lesson.yaml.
- * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: string}} Act
+ * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: string,
+ *   push: {[name: string]: number} | null}} Act
  */
 /** @typedef {{name: string, acts: Act[], scene: string, charts: string[], layers: string[]}} Step */
 /** @typedef {(message: {[name: string]: any}) => void} Send */
@@ -157,9 +158,9 @@ export class Lesson {
   }
 
   /** @param {Act} act @param {string} scene */
-  do({ start, hurry: factor, hold }, scene) {
+  do({ start, push, hurry: factor, hold }, scene) {
     if (!start) {
-      this.send({ act: "kick", factor, hold });
+      this.send(push ? { act: "pushes", ...push } : { act: "kick", factor, hold });
       return;
     }
     this.isAwaited = true;

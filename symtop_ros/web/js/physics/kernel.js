@@ -21,7 +21,7 @@ export const NAMES = {
     ...["sleeping", "driven"],
   ],
   holds: ["spin_rate", "spin_momentum", null],
-  kicks: ["rate", "change", "factor", "impulse"],
+  kicks: ["rate", "change", "factor", "impulse", "axle"],
   subjects: ["top", "axis"],
   directions: ["rises", "falls", "stays"],
   rules: [null, "holds", "fails"],

@@ -69,8 +69,8 @@ export class State {
   /**
    * The state after a kick.
    * @param {import("./kernel.js").Top} top
-   * @param {"rate" | "change" | "factor" | "impulse"} kind
-   * @param {number[]} amount of phi' in rad/s, or N m s in the world frame
+   * @param {"rate" | "change" | "factor" | "impulse" | "axle"} kind
+   * @param {number[]} amount of phi' in rad/s; or N m s, in the world frame or of a push on the axle
    * @param {Hold} hold
    */
   kick(top, kind, amount, hold = "spin_rate") {

@@ -2,6 +2,7 @@
 
 import { Course, NANO } from "../physics/course.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
+import { demandNoForces } from "./reader.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 import { phrase } from "../words/wording.js";
 
@@ -16,6 +17,8 @@ const DISC = ["mass", "radius", "distance"];
 const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
 const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
+const PUSH_TORQUE = 2; // of that torque: the mean one of pushes along
+const PUSH_RATE = 20; // pushes per s of the motion
 const TORQUE_LASTS = 150; // ms after the last message of a button that is held
 const STEPS = 24; // of a nutation
 const LONGEST_STEP = 0.05; // s of the motion
@@ -54,6 +57,22 @@ const push = (top, { way }) => {
   const size = top.course.top.Ix * change;
   const { phi } = top.state.angles;
   addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], way);
+};
+
+/** Push along the precession: at once, and then again and again. @type {Act} */
+const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes }) => {
+  const { course } = top;
+  demandNoForces([...course.friction, ...course.torque]);
+  const way = Math.sign(course.free.motion.rates.mean_precession_rate) || 1;
+  const impulse = axle_impulse ?? (way * PUSH_TORQUE * findTorque(course)) / rate;
+  const after = top.state.kick(course.top, "axle", [impulse]);
+  top.add("push", course.continue(after), { act: { axle_impulse: impulse, rate, number } });
+};
+
+/** Push along while a button is held. @type {Act} */
+const press = (top) => {
+  if (!top.pushUntil) pushAlong(top, {});
+  top.pushUntil = performance.now() + TORQUE_LASTS;
 };
 
 /**
@@ -176,7 +195,9 @@ const step = (top) => {
 /** What makes an event: what came later is no longer part of the run. @type {{[act: string]: Act}} */
 const EVENTS = {
   kick,
+  press,
   push,
+  pushes: pushAlong,
   restart,
   link: followLink,
   pull: (top, { end }) => addImpulse(top, findPull(top.course, top.state, end), "pull"),

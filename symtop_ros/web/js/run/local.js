@@ -61,6 +61,8 @@ export class LocalTop {
     this.speed = SPEED;
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
+    this.pushUntil = 0; // ms, while a button is held
+    this.pushes = 1; // that a button asks for: here more follow while it is held
     this.chartsDue = 0; // ms
     this.textsDue = 0; // ms
     this.toldAt = NaN; // ns; the time of the texts
@@ -118,6 +120,7 @@ export class LocalTop {
   /** @param {number} passed ms @param {number} now ms */
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
+    if (now > this.pushUntil) this.pushUntil = 0;
     if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
     this.show(now);
   }
@@ -141,11 +144,19 @@ export class LocalTop {
       first && this.time < first.end ? (first.end - first.begin) / NANO / WATCHED : Infinity;
     this.isSlow = most < this.speed;
     const wanted = this.time + Math.round(passed * Math.min(this.speed, most) * NANO);
+    if (this.pushUntil) this.run.pushOn(wanted);
     const reached = time + course.reach(wanted - time, FRAME_STEPS);
     this.run.at(reached); // refused where the kernel computes no state; then the time stays
     this.time = reached;
     this.end = Math.max(this.end, this.time);
-    if (this.course !== course) this.changed();
+    this.cross(course);
+  }
+
+  /** Tell what has changed if the time has come to another motion. @param {Course} course before */
+  cross(course) {
+    if (this.course === course) return;
+    this.changed();
+    if (this.run.find(this.time).kind === "push") this.tellFacts();
   }
 
   /**
@@ -157,6 +168,7 @@ export class LocalTop {
   add(kind, course, asked = {}) {
     const request = nameRequest(kind, asked, course);
     this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
+    this.run.pushOn(Infinity, asked.act?.number);
     this.changed();
   }
 
@@ -345,7 +357,7 @@ export class LocalTop {
 
   /** What run.json holds. */
   get json() {
-    const { format } = this.content.run_fields;
+    const [format] = this.content.run_fields.formats.slice(-1);
     return { format, events: this.run.records, end: this.end / NANO };
   }
 
@@ -357,10 +369,10 @@ export class LocalTop {
   load(json) {
     const { events, end } = readRun(this.content.run_fields, json);
     this.run.load(events);
-    const { time, course } = this.run.moments[events.length - 1];
+    const wanted = Math.round(Math.max(end, events[events.length - 1].time) * NANO);
+    const { time, course } = this.run.find(wanted);
     // What takes too long to integrate is reached later.
-    const passed = Math.max(0, Math.round(end * NANO) - time);
-    this.time = this.end = time + course.reach(passed, MOST_STEPS);
+    this.time = this.end = time + course.reach(wanted - time, MOST_STEPS);
     this.initial = this.run.moments[0].course.start;
     this.isRunning = false;
     this.changed();

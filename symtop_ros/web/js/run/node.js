@@ -12,12 +12,15 @@ import { phrase } from "../words/wording.js";
 /** @import { Course } from "../physics/course.js" */
 /** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
 
+const MOST_PUSHES = 200; // of one press
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
   /** @type {import("../physics/kernel.js").Quaternion | null} */
   orientation = null; // that the node has published last
   isGreeted = false;
+  latest = 0; // ns of the run, of the last event
+  pushes = MOST_PUSHES; // that a button asks for: it ends them when it is released
   stamp = ""; // ns of the node's clock, of the last event
   /** Requests of the act that is performed. @type {Request[]} */
   requests = [];
@@ -36,7 +39,9 @@ export class NodeTop extends LocalTop {
     if (lost !== undefined) this.tell({ lost });
     if (!this.run.moments.length) return;
     if (time !== undefined) {
-      this.time = this.end = Math.max(time, this.run.moments[this.run.moments.length - 1].time);
+      const { course } = this;
+      this.time = this.end = Math.max(time, this.latest);
+      if (this.isGreeted) this.cross(course);
       this.orientation = orientation;
     }
     if (isNew) this.greet();
@@ -64,7 +69,8 @@ export class NodeTop extends LocalTop {
     this.stamp = stamp;
     if (record) {
       this.run.append(record);
-      this.time = this.end = Math.max(this.time, Math.round(record.time * NANO));
+      this.latest = Math.round(record.time * NANO);
+      this.time = this.end = Math.max(this.time, this.latest);
       this.orientation = null;
       this.changed();
     }
@@ -88,6 +94,7 @@ export class NodeTop extends LocalTop {
 
   /** Show what has come: the node has the time. @param {number} _ ms @param {number} now ms */
   advance(_, now) {
+    if (this.pushUntil && now > this.pushUntil) this.release();
     this.show(now);
   }
 
@@ -112,6 +119,13 @@ export class NodeTop extends LocalTop {
     this.requests.push({ torque: [0, 0, sign * findTorque(this.course)] });
   }
 
+  /** End the pushes: those that the node has not given yet. */
+  release() {
+    this.pushUntil = 0;
+    const { time } = this.run.moments[this.run.moments.length - 1];
+    if (time > this.time) this.send([{ service: "kick", argument: { axle_impulse: 0 } }]);
+  }
+
   /** @param {string} service @param {any} [argument] */
   ask(service, argument = null) {
     this.requests.push({ service, argument });
@@ -124,7 +138,7 @@ export class NodeTop extends LocalTop {
    * @param {import("./run.js").Asked} [asked]
    */
   add(kind, course, asked) {
-    if (kind === "kick") {
+    if (kind === "kick" || kind === "push") {
       this.ask("kick", asked?.act);
       return;
     }

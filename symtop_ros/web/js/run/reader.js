@@ -12,10 +12,11 @@ import { writeNumber } from "../words/numbers.js";
  */
 /**
  * What run_fields.json holds: the fields of an event, of the act of a kick, and of the run.
- * @typedef {{format: number, most: number, end: Field, event: {[name: string]: Field},
+ * @typedef {{formats: number[], most: number, end: Field, event: {[name: string]: Field},
  *   act: {[name: string]: Field}}} Table
  */
 
+const PUSHES = ["axle_impulse", "rate", "number"]; // fields of a push
 const SHOWN = 60; // characters of a value
 const NUMBER = /^[-+]?\d+[eE][-+]?\d+$/; // as Python reads it
 
@@ -24,6 +25,12 @@ const reject = (name, condition, value) => {
   const text = JSON.stringify(value) ?? "nothing";
   const shown = text.length > SHOWN ? `${text.slice(0, SHOWN - 3)}...` : text;
   return new RangeError(`${name} must ${condition}, got ${shown}`);
+};
+
+/** A series of pushes is one under gravity alone. @param {number[]} acting friction and torque */
+export const demandNoForces = (acting) => {
+  if (acting.some((each) => each !== 0))
+    throw reject("friction and torque", "be 0 for a series of pushes", acting);
 };
 
 /** @param {any} value */
@@ -79,6 +86,17 @@ const readAct = (fields, given) => {
   return Object.fromEntries(read);
 };
 
+/** @param {{[name: string]: Field}} fields @param {any} values @param {EventRecord} event */
+const readPushes = (fields, { act: given }, { friction, torque }) => {
+  const act = readAct(fields, given);
+  const names = Object.keys(act);
+  if (names.length !== PUSHES.length || !PUSHES.every((name) => name in act))
+    throw reject("pushes", `have ${PUSHES.join(", ")}`, names);
+  demandNoForces([...friction, ...torque]);
+  if (Number.isInteger(act.number)) return act;
+  throw reject("number", `be a whole number up to ${fields.number.high}`, act.number);
+};
+
 /**
  * @param {Table} table
  * @param {any} given
@@ -101,10 +119,12 @@ const readEvent = (table, given, before) => {
     throw reject("time", "be that of the event before it or later", read.time);
   const { request, ...event } = read;
   if (request) event.request = request;
+  if (event.kind === "push") return { ...event, act: readPushes(table.act, values, event) };
   if (event.kind !== "kick") return event;
   const act = readAct(table.act, values.act);
   // The quantity that a kick leaves unchanged; null for an angular impulse.
-  return { ...event, act, hold: "angular_impulse" in act ? null : (act.hold ?? "spin_rate") };
+  const hold = act.hold ?? ("axle_impulse" in act ? "spin_momentum" : "spin_rate");
+  return { ...event, act, hold: "angular_impulse" in act ? null : hold };
 };
 
 /**
@@ -128,8 +148,9 @@ export const nameEvent = (place, work) => {
  * @param {any} json
  */
 export const readRun = (table, json) => {
-  if (!isObject(json) || json.format !== table.format)
-    throw reject("a run", `be one of the page (run.json, format ${table.format})`, json);
+  const formats = table.formats.join(" or ");
+  if (!isObject(json) || !table.formats.includes(json.format))
+    throw reject("a run", `be one of the page (run.json, format ${formats})`, json);
   const given = json.events;
   if (!Array.isArray(given) || !given.length)
     throw reject("events", "be a list with a start at its beginning", given);

@@ -8,9 +8,9 @@ import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
 /** @import { Kernel, Vector, Quaternion, Hold } from "../physics/kernel.js" */
-/** @typedef {"start" | "kick" | "change" | "torque"} Kind */
+/** @typedef {"start" | "kick" | "push" | "change" | "torque"} Kind */
 /**
- * What was asked for: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
+ * What was asked for, the same of all pushes of a series: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
  * impulse, and the request in words.
  * @typedef {{act?: {[name: string]: any}, hold?: Hold | null, request?: string}} Asked
  */
@@ -37,6 +37,7 @@ import { State } from "../physics/state.js";
 
 const LONGEST = 10_000; // ms in which the events of a run must be computed
 const GHOST_STEPS = 3000; // of an integration, for one state of the ghost
+const MOST_PUSHES = 1000; // of a series, as in Python
 
 export class Run {
   /** @param {Kernel} kernel */
@@ -105,9 +106,34 @@ export class Run {
     const time = Math.max(wanted, this.moments[0]?.time ?? 0);
     const last = this.moments.length && kind !== "start" ? this.find(time) : null;
     const before = last ? this.at(time) : null;
-    const ghost = last ? this.findNextGhost(kind, time, course, last) : null;
+    const isMore = kind === "push" && last?.asked === asked;
+    const next = last && !isMore ? this.findNextGhost(kind, time, course, last) : null;
+    const ghost = isMore ? last.ghost : next;
     this.moments.length = this.findPlace(time) + 1;
     this.moments.push({ kind, time, asked, course, before, last: last?.course ?? null, ghost });
+  }
+
+  /** The pushes of one event. @param {Moment} moment */
+  findSeries({ kind, asked }) {
+    return kind === "push" ? this.moments.filter((each) => each.asked === asked) : [];
+  }
+
+  /** Go on with the pushes at the end of the run. @param {number} until ns @param {number} most */
+  pushOn(until, most = MOST_PUSHES) {
+    const series = this.findSeries(this.moments[this.moments.length - 1]);
+    for (let { length } = series; length > 0 && length < most; length += 1) {
+      const [{ time: begin, asked, course }] = series;
+      const { rate, axle_impulse } = asked.act ?? {};
+      const time = begin + Math.floor((length * NANO) / rate + 0.5);
+      if (time > until) return;
+      const after = this.at(time).kick(course.top, "axle", [axle_impulse]);
+      this.add("push", time, course.continue(after), asked);
+    }
+  }
+
+  /** The moments that were asked for: of a series of pushes, the first. */
+  get events() {
+    return this.moments.filter(({ asked }, k) => asked !== this.moments[k - 1]?.asked);
   }
 
   /**
@@ -118,7 +144,7 @@ export class Run {
    * @returns {Placed | null}
    */
   findNextGhost(kind, time, course, last) {
-    if (kind === "kick") return { course: last.course, since: last.time };
+    if (kind === "kick" || kind === "push") return { course: last.course, since: last.time };
     const state = this.findGhost(time);
     if (!last.ghost || !state) return null;
     const { top, friction, torque } = course;
@@ -139,16 +165,22 @@ export class Run {
 
   /** The events as in run.json. @returns {EventRecord[]} */
   get records() {
-    return this.moments.map(({ kind, time, asked, course: { top, start, friction, torque } }) => ({
-      kind,
-      time: time / NANO,
-      top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
-      orientation: start.given,
-      angular_velocity: start.omega,
-      friction,
-      torque,
-      ...asked,
-    }));
+    return this.events.map((moment) => {
+      const { kind, time, asked, course } = moment;
+      const { top, start, friction, torque } = course;
+      const { length: number } = this.findSeries(moment);
+      return {
+        kind,
+        time: time / NANO,
+        top: /** @type {Vector} */ ([top.Ix, top.Iz, top.Mgl]),
+        orientation: start.given,
+        angular_velocity: start.omega,
+        friction,
+        torque,
+        ...asked,
+        ...(number ? { act: { ...asked.act, number } } : {}),
+      };
+    });
   }
 
   /** Take over other events, if all are computed. @param {EventRecord[]} events */
@@ -171,5 +203,6 @@ export class Run {
     const start = new State(this.kernel, orientation, angular_velocity);
     const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
     this.add(kind, Math.round(time * NANO), course, asked);
+    this.pushOn(Infinity, asked.act?.number);
   }
 }

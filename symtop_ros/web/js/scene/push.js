@@ -31,7 +31,7 @@ export const findPoint = (theta, phi, radius) => [
 /** @param {Moment} moment @returns {Push | null} */
 export const findPush = (moment) => {
   const { kind, time, course, before } = moment;
-  if (kind !== "kick" || !before) return null;
+  if ((kind !== "kick" && kind !== "push") || !before) return null;
   const { start, free } = course;
   const tip = start.toWorld([0, 0, 1]);
   const change = cross(start.toWorld(subtract(start.omega, before.omega)), tip);

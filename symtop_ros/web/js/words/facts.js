@@ -4,6 +4,7 @@ import { NANO } from "../physics/course.js";
 import { findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
 import { findLedger, nameLedger } from "./ledger.js";
+import { describePushes } from "./pushes.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findConstants, findPotential } from "../charts/formulas.js";
@@ -26,6 +27,7 @@ const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
 const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
+const KICKS = ["kick", "push"];
 const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
@@ -111,8 +113,8 @@ export const compareConstants = ({ top, start }, state) => {
 
 /** The last event that was not a torque of a button. @param {Run} run @param {number} time ns */
 const findAnnounced = (run, time) => {
-  const past = run.moments.slice(0, run.findPlace(time) + 1);
-  return past.findLast(({ kind }) => kind !== "torque") ?? run.find(time);
+  const isPast = (/** @type {Moment} */ each) => each.kind !== "torque" && each.time <= time;
+  return run.events.findLast(isPast) ?? run.find(time);
 };
 
 /**
@@ -124,7 +126,8 @@ const findAnnounced = (run, time) => {
  */
 export const describeMotion = (run, time, free) => {
   const announced = findAnnounced(run, time);
-  const { headline, name, outcome } = findOutcome(run.find(time), free);
+  const found = announced.kind === "push" ? describePushes(run, announced, time, free) : null;
+  const { headline, name, outcome } = found ?? findOutcome(run.find(time), free);
   const isKick = name === "kick";
   const say = (/** @type {Variant} */ variant) => ({
     headline: phrase("headline", headline, variant),
@@ -174,8 +177,8 @@ export const describe = (run, time) => {
     roots,
     window: chooseWindow(course.free),
     since: run.findStart(time) / NANO,
-    marks: run.moments.filter((each) => each.kind === "kick").map((each) => each.time / NANO),
-    acts: run.moments.filter((each) => each.kind !== "torque").map((each) => each.time / NANO),
+    marks: run.events.filter((each) => KICKS.includes(each.kind)).map((each) => each.time / NANO),
+    acts: run.events.filter((each) => each.kind !== "torque").map((each) => each.time / NANO),
     began: began / NANO,
     half: first && (first.begin + first.end) / (2 * NANO),
     link: writeLink(course),

@@ -16,10 +16,12 @@ const LISTED = 10; // entries
  */
 const findRequest = (kind, { act = {} }, { start }) => {
   const { phi: phi_dot, psi: psi_dot } = start.rates;
-  const { precession_rate_factor: factor, precession_rate_change: change } = act;
+  const { precession_rate_factor: factor, precession_rate_change: change, axle_impulse } = act;
   if (kind === "change") return { kind: "change" };
+  if (kind === "push") return { kind: "sideways", rate: act.rate };
   if (kind !== "kick") return { kind: "started", theta: start.angles.theta, phi_dot, psi_dot };
   if (factor !== undefined) return { kind: factor > 1 ? "hurried" : "delayed", factor };
+  if (axle_impulse !== undefined) return { kind: axle_impulse < 0 ? "back" : "along" };
   if (change !== undefined) return { kind: change > 0 ? "along" : "back" };
   return act.angular_impulse ? { kind: "impulse" } : { kind: "rate", phi_dot };
 };
@@ -45,13 +47,12 @@ export const nameRequest = (kind, asked, course, variant = "radians") => {
  * @param {Variant} variant
  * @returns {[number, string][]}
  */
-export const listHistory = ({ moments }, variant) => {
-  const places = [...moments.keys()].filter((place) => moments[place].kind !== "torque");
-  return places
+export const listHistory = ({ moments, events }, variant) =>
+  events
+    .filter(({ kind }) => kind !== "torque")
     .slice(-LISTED)
     .reverse()
-    .map((place) => {
-      const { kind, asked, course } = moments[place];
-      return [place, nameRequest(kind, asked, course, variant)];
+    .map((event) => {
+      const { kind, asked, course } = event;
+      return [moments.indexOf(event), nameRequest(kind, asked, course, variant)];
     });
-};

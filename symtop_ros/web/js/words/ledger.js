@@ -10,7 +10,7 @@ import { findForces } from "./headline.js";
  * @typedef {{kick: Energies, far: Energies, point: "highest" | "lowest"}} Ledger
  */
 
-const MILLI = 1000;
+export const MILLI = 1000;
 export const ROUNDING = 1e-9; // of the largest change; less is drawn and told as none
 
 /** @param {Energies} now @param {Energies} before @returns {Energies} in mJ */
@@ -42,8 +42,8 @@ export const findLedger = ({ kind, course, before }) => {
   };
 };
 
-/** @param {number} change mJ @param {Energies} scale */
-const nameGain = (change, { weight, precession }) => {
+/** @param {number} change mJ @param {{weight: number, precession: number}} scale mJ */
+export const nameGain = (change, { weight, precession }) => {
   const amount = Math.abs(change);
   if (amount <= ROUNDING * Math.max(Math.abs(weight), Math.abs(precession)))
     return { kind: "kept", amount };

@@ -1,0 +1,41 @@
+// What a series of pushes on the axle has done up to a time, as records: for the headline, and the one
+// that Python's `Pushed` has.
+
+import { findConstants } from "../charts/formulas.js";
+import { NANO } from "../physics/course.js";
+import { MILLI, nameGain } from "./ledger.js";
+
+/** @import { Run, Moment } from "../run/run.js" */
+/** @import { Course } from "../physics/course.js" */
+
+/** Halfway between the turning points. @param {Course} course */
+const findHeight = ({ motion: { turning_angles } }) =>
+  turning_angles.reduce((sum, angle) => sum + Math.cos(angle), 0) / 2;
+
+/**
+ * Null after something else, as a torque, or under friction.
+ * @param {Run} run
+ * @param {Moment} first of the pushes
+ * @param {number} time ns
+ * @param {Course} free the motion of now
+ */
+export const describePushes = (run, first, time, free) => {
+  const given = run.findSeries(first).filter((each) => each.time <= time);
+  const { before } = first;
+  if (!before || run.find(time) !== given.at(-1)) return null;
+  const { top } = free;
+  const former = free.continueFree(before);
+  const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
+  const [energy, now] = [before, free.start].map((each) => findConstants(top, each).energy);
+  const weight = MILLI * top.Mgl * (findHeight(free) - findHeight(former));
+  const outcome = {
+    number: given.length,
+    duration: (run.find(time).time - first.time) / NANO,
+    turning_angles: free.motion.turning_angles,
+    former_angles: former.motion.turning_angles,
+    means: Number.isNaN(was + is) ? null : { before: was, after: is },
+    work: MILLI * (now - energy),
+    weight: nameGain(weight, { weight: MILLI * top.Mgl, precession: 0 }),
+  };
+  return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome };
+};

@@ -1,0 +1,130 @@
+"""A hand that pushes along finds no speed, only height; its pushes are exact."""
+
+import copy
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from physics.tops import ARTICLE, CUSPS
+from simulation.runs import SECOND, Run
+
+from symtop_ros.physics import ExactTimes, Motion, State, push_axle, regular_precession_rates
+from symtop_ros.simulation.changes.outcomes import Pushed
+from symtop_ros.simulation.pushed import PushedMotion, Pushes
+
+START = push_axle(ARTICLE, CUSPS, 2.0**-15)
+PUSHES = Pushes(2.0**-15, 30.0, 7)  # a third of a second is no whole number of ns
+MOTION = PushedMotion(ARTICLE, START, PUSHES)
+ASKED = {"axle_impulse": 2.0**-15, "rate": 20, "number": 20}
+
+
+@pytest.mark.parametrize(
+    ("root", "numbers"),
+    [
+        # phi' in the first and in the last 0.1 s, in rad/s; tilt then, in rad; work, and what the
+        # weight has gained then, in mJ
+        (0, ("6.58", "6.58", "0.396", "2.81", "3.06")),
+        (1, ("69.9", "72.1", "0.553", "35.8", "-1.80")),
+    ],
+)
+def test_the_numbers_of_the_article_s_top_pushed_for_a_second(root, numbers):
+    rate = float(regular_precession_rates(ARTICLE, 0.5, 200.0)[root])
+    before = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
+    pushes = Pushes(2.5e-6, 400.0, 400)  # 1e-3 N m for 1 s
+    motion = PushedMotion(ARTICLE, push_axle(ARTICLE, before, pushes.impulse), pushes)
+    states = motion.at(ExactTimes(np.arange(1, 401) * 2_500_000 - 1))  # each before a push
+    rates, tilt = states.euler_rates.phi, states.euler_angles.theta[-40:]
+    found = [f"{each.mean():#.3g}" for each in (rates[:40], rates[-40:], tilt)]
+    weight = 1e3 * ARTICLE.Mgl * (np.cos(tilt) - np.cos(0.5)).mean()
+    work = Pushed.of(motion, before).work
+    assert (*found, f"{work:.3g}", f"{weight:.2f}") == numbers
+
+
+def test_states_at_any_stamps_are_those_of_one_push_after_the_other():
+    """At a stamp of a push, it has been given."""
+    stamps = np.array([0, 7, 33_333_332, 33_333_333, 66_666_667, 100_000_000, 199_999_999, 10**9])
+    found = MOTION.at(ExactTimes(stamps))
+    for place, stamp in enumerate(stamps.tolist()):
+        motion, begin = Motion(ARTICLE, START), 0
+        for k in range(1, PUSHES.number):
+            if PUSHES.time(k) > stamp:
+                break
+            state = motion.at(ExactTimes(PUSHES.time(k) - begin))
+            motion, begin = Motion(ARTICLE, push_axle(ARTICLE, state, 2.0**-15)), PUSHES.time(k)
+        expected = motion.at(ExactTimes(stamp - begin))
+        assert found[place] == expected == MOTION.at(ExactTimes(stamp))
+        slow = (np.array([4 * stamp - 4]), 0.25)
+        own = motion.at(ExactTimes(*slow, Fraction(1 - begin)))
+        assert MOTION.at(ExactTimes(*slow, Fraction(1))) == own
+    assert copy.copy(MOTION).at(0.19) == MOTION.at(0.19) == MOTION.at([0.19])[0]
+
+
+def test_pushes_hold_the_spin_momentum_and_do_the_work_that_the_energy_gains():
+    momenta = {float(ARTICLE.axial_momentum(piece.start)) for piece in MOTION.pieces}
+    assert max(momenta) - min(momenta) <= 8 * 2**-52 * max(momenta)
+    last = MOTION.pieces[-1].start
+    gained = 1e3 * float(ARTICLE.energy(last) - ARTICLE.energy(CUSPS))
+    assert Pushed.of(MOTION, CUSPS).work == gained > 0
+
+
+@pytest.mark.parametrize("own_time", [False, True])
+def test_a_run_goes_on_with_its_pushes_through_a_pause_a_step_and_another_pace(own_time):
+    run = Run("cusps", publish_clock=own_time)
+    run.advance(0.1)
+    granted, answer = run.ask("kick", ASKED)
+    assert granted
+    assert answer == run.sink.events[-1].verdict
+    motion = run.simulation.segment.motion
+    run.advance(0.22)
+    run.ask("pause", True)
+    run.ask("step", {"duration": 0.25})
+    run.ask("pause", False)
+    run.change({"real_time_factor": 0.5})
+    run.advance(0.02)
+    assert run.simulation.segment.motion is motion
+    elapsed = run.simulation.segment.elapsed_at(run.simulation.stamp)
+    given = motion.count(elapsed)
+    assert 0.45 * SECOND < elapsed < 0.6 * SECOND
+    assert given == elapsed * 20 // SECOND + 1
+    stamp, numbers = run.sink.samples[-1]
+    expected = run.simulation.segment.state_at(stamp).orientation
+    assert numbers == expected[[1, 2, 3, 0]].tolist()
+    run.ask("kick", {"axle_impulse": 0.0})  # ends them
+    event = run.sink.events[-1]
+    assert event.name == "kick"
+    assert int(event.values["before.pushes"]) == given
+    assert not isinstance(event.segment().motion, PushedMotion)
+
+
+@pytest.mark.parametrize(
+    ("asked", "reason"),
+    [
+        ({"rate": 20.0}, "pushes must have axle_impulse, rate, number, got ['rate']"),
+        ({**ASKED, "hold": "spin_rate"}, "pushes must have axle_impulse, rate, number, got "),
+        ({**ASKED, "number": 1001}, "number must be 1 to 1000, got 1001"),
+        ({**ASKED, "number": 2.5}, "number must be a whole number up to 1000, got 2.5"),
+        ({**ASKED, "rate": 0.0}, "rate must be 0.01 to 1000 pushes per s of the motion, got 0.0"),
+        ({**ASKED, "axle_impulse": 1e9}, "axle_impulse must be such that the top stays below "),
+        ({"axle_impulse": 1e-5, "hold": "spin_rate"}, "hold must be given without axle_impulse"),
+    ],
+)
+def test_pushes_that_cannot_be_are_refused_and_the_motion_stays(asked, reason):
+    run = Run("cusps")
+    motion = run.simulation.segment.motion
+    granted, answer = run.ask("kick", asked)
+    assert not granted
+    assert answer.startswith(reason)
+    assert run.simulation.segment.motion is motion
+
+
+@pytest.mark.parametrize(
+    ("scene", "reason"),
+    [
+        ("friction", "friction and torque must be 0 for a series of pushes, got ["),
+        ("sleeping", "axis must be tilted (phi' is undefined on the vertical"),
+    ],
+)
+def test_a_top_that_is_driven_or_upright_gets_no_pushes(scene, reason):
+    granted, answer = Run(scene).ask("kick", ASKED)
+    assert not granted
+    assert answer.startswith(reason)
