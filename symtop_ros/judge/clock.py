@@ -26,7 +26,7 @@ RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whol
 
 @dataclass(frozen=True, slots=True)
 class Clock:
-    """The delay of the stamps at the first one (us), and its growth each second (ppm)."""
+    """The delay of the stamps in the middle of their time (us), and its growth (ppm)."""
 
     source: str
     estimates: int
@@ -40,8 +40,12 @@ class Clock:
 
 def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = "none") -> Clock:
     """Return the clock of estimates; the rotations of the model (of `--aligned`) are fitted too."""
-    fitted = align(estimates, truth, f"{model.split('+', maxsplit=1)[0]}+delay+clock")
-    left, omega, stamps = _find_left(fitted.offset, truth, truth.select(estimates))
+    run = truth.select(estimates)
+    # In the middle delay and rate are independent: at an end the delay is half as sure.
+    middle = int(run.stamps[0]) // 2 + int(run.stamps[-1]) // 2
+    rotations = model.split("+", maxsplit=1)[0]
+    fitted = align(estimates, truth, f"{rotations}+delay+clock", middle)
+    left, omega, stamps = _find_left(fitted.offset, truth, run)
     if len(left) < FEWEST:
         raise RefusedError(f"{source} must have {FEWEST} estimates within the run, got {len(left)}")
     kind, jitter = _find_jitter(left, omega)

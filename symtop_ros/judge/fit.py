@@ -109,7 +109,7 @@ class Fit:
         exact, known = self.exact(offset)
         world = offset.turn_world(self.some.stamps)[known]
         turned = compose(world, exact[known])
-        seconds = (self.some.stamps[known] - self.some.stamps[0]) / NANOSECONDS
+        seconds = (self.some.stamps[known] - offset.begin) / NANOSECONDS
         columns = np.zeros((len(seconds), 3, COLUMNS))
         model = compose(turned, offset.turn_body(self.some.stamps)[known])
         columns[:, :, :3] = to_rotation(compose(world, invert(offset.world))).as_matrix()

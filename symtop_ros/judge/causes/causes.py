@@ -253,8 +253,10 @@ def explain(
     return min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
 
 
-def align(estimates: Estimates, truth: Truth, model: str) -> Cause:
+def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = None) -> Cause:
     """Return the least squares of a stated model, one of MODELS, without any search.
+
+    A delay that grows is that at the stamp `begin`, by default at the first one.
 
     Refused is a model with a delay or a clock that changes nothing but its other parameters: in a
     sleeping top a delay is a heading.
@@ -264,7 +266,8 @@ def align(estimates: Estimates, truth: Truth, model: str) -> Cause:
     exact, known = fit.exact(fit.start)
     models = fit.some.orientations[None], exact[None], known[None].astype(float)
     _, world, body = fit_rotations(models, level)
-    start = replace(fit.start, world=world[0], body=body[0])
+    at = fit.start.begin if begin is None else begin
+    start = replace(fit.start, world=world[0], body=body[0], begin=at)
     found = refine(fit, ("", level, tuple(names)), start, is_sure=True)
     for name in names:
         others = [*LEVELS[level][0], *(PARAMETERS[each] for each in names if each != name)]
