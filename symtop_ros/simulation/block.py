@@ -132,13 +132,12 @@ class Ticker:
 
     def grid(self, stamp: int, count: int) -> list[int]:
         """Return `count` consecutive stamps of the grid from `stamp` (one of them) on."""
-        first = _divide((stamp - self._start) * self._ticks, self._nanoseconds)
+        # A stamp that was rounded down is just before its tick.
+        first = (stamp - self._start) * self._ticks // self._nanoseconds
+        first += self._stamp(first) != stamp
         return [self._stamp(k) for k in range(first, first + count)]
 
     def _stamp(self, k: int) -> int:
-        return self._start + _divide(k * self._nanoseconds, self._ticks)
-
-
-def _divide(numerator: int, denominator: int) -> int:
-    """Return the nearest integer to a quotient; halves are rounded up."""
-    return (2 * numerator + denominator) // (2 * denominator)
+        """Return the nearest integer to the time of a tick; halves are rounded up."""
+        nanoseconds = (2 * k * self._nanoseconds + self._ticks) // (2 * self._ticks)
+        return self._start + nanoseconds
