@@ -19,7 +19,7 @@ import { Question, readAnswer } from "./controls/question.js";
 import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
 import { SpeedList } from "./controls/speed.js";
-import { addTabs } from "./controls/tabs.js";
+import { offerTabs } from "./controls/tabs.js";
 import { followSize, followTheme } from "./controls/theme.js";
 import { Timeline } from "./controls/timeline.js";
 import { phrase } from "./words/wording.js";
@@ -46,7 +46,7 @@ export class Page {
     const send = this.send.bind(this);
     writeTexts();
     dismissRefusals();
-    addTabs();
+    offerTabs();
     this.fields = new Fields(send);
     this.roots = new Roots(send);
     this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
