@@ -98,11 +98,11 @@ export class FreeChart {
     draw(
       "free",
       HEIGHT,
-      phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
       `${frame.axes}${paths.join("")}
       ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
       ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}
       ${frame.writeBelow(listTicks(...range, 4))}`,
+      phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
     );
   }
 

@@ -71,7 +71,6 @@ export const drawImpulses = (course, passed) => {
   draw(
     "impulses",
     HEIGHTS[0] + HEIGHTS[1] - LOWER,
-    phrase("chart.impulses"),
     `${upper.axes}${zero(upper)}${curves.join("")}${now(upper)}${upper.nameVertical("N m")}
     <g transform="translate(0,${HEIGHTS[0] - LOWER})">${lower.axes}${zero(lower)}${now(lower)}
     ${lower.curve(

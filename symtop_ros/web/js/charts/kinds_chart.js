@@ -103,7 +103,6 @@ export const drawKinds = (top, turning) => {
   draw(
     "kinds",
     HEIGHT,
-    phrase("chart.kinds"),
     `${drawn.text}${frame.level(0, LOOKS.cusps)}
     ${frame.dot([turning.psi_dot, turning.phi_dot], 'fill="var(--theta)" id="present"')}
     ${frame.nameVertical(phrase("axis.phi_dot"))}

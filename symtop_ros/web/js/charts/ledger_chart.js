@@ -66,9 +66,8 @@ export const drawLedger = (ledger, sentence) => {
   draw(
     "ledger",
     HEIGHT,
-    sentence,
     `${frame.level(0, 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
+    sentence,
   );
-  find("ledger").querySelector("svg")?.setAttribute("aria-label", sentence);
   say("ledger-text", sentence);
 };

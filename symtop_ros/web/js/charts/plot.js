@@ -3,7 +3,6 @@
 import { find } from "../controls/document.js";
 import { shorten } from "../words/quantities.js";
 
-const SVG = "http://www.w3.org/2000/svg";
 export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
 const [RIGHT, UPPER, LOWER] = [18, 21, 28]; // margins, in which all words are
@@ -18,19 +17,14 @@ const LETTER = 5.6; // units of its width
  * Put a drawing into the place of a chart.
  * @param {string} id
  * @param {number} height
- * @param {string} label
  * @param {string} drawing
+ * @param {string} [label] if it is not always the same
  */
-export const draw = (id, height, label, drawing) => {
-  const place = find(id);
-  if (!place.firstElementChild) {
-    const svg = document.createElementNS(SVG, "svg");
-    svg.setAttribute("viewBox", `0 0 ${WIDE} ${height}`);
-    svg.setAttribute("role", "img");
-    svg.setAttribute("aria-label", label);
-    place.append(svg);
-  }
-  if (place.firstElementChild) place.firstElementChild.innerHTML = drawing;
+export const draw = (id, height, drawing, label) => {
+  const svg = /** @type {Element} */ (find(id).firstElementChild);
+  svg.setAttribute("viewBox", `0 0 ${WIDE} ${height}`);
+  svg.innerHTML = drawing;
+  if (label) svg.ariaLabel = label;
 };
 
 /**

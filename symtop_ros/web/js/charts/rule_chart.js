@@ -35,7 +35,6 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
   draw(
     "rule",
     HEIGHT,
-    phrase("chart.rule"),
     `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}
     ${frame.clip(frame.curve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"'))}
     ${roots.map(mark).join("")}

@@ -67,7 +67,6 @@ export const drawOneSeries = (id, rows, facts) => {
   draw(
     id,
     HEIGHT,
-    phrase(`chart.${id}`),
     `${frame.axes}${kicks.map(mark).join("")}
     ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
     ${line(column, `stroke="${color}" stroke-width="1.8"`)}

@@ -27,7 +27,6 @@ export const drawWell = (potential, theta) => {
   draw(
     "well",
     HEIGHT,
-    phrase("chart.well"),
     `${frame.band(angles, 'fill="var(--band)"')}
     ${frame.axes}
     ${before ? drawPotential(frame, before, 'stroke="var(--grey)" stroke-dasharray="4 3" id="before"') : ""}

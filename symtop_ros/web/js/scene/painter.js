@@ -70,12 +70,11 @@ void main() {
 const SHADOW_FRAGMENT = `#version 300 es
 precision highp float;
 in vec3 at, facing, paint;
-uniform vec3 middle;
-uniform float opacity, radius;
+uniform mat4 pose;
 out vec4 result;
 void main() {
-  float far = length(at.xy - middle.xy) / radius;
-  result = vec4(0.0, 0.0, 0.0, opacity * pow(max(1.0 - far, 0.0), 1.5));
+  float far = length(at.xy - pose[3].xy) / 0.6;
+  result = vec4(0.0, 0.0, 0.0, 0.3 * pow(max(1.0 - far, 0.0), 1.5));
 }`;
 const CORNERS = [0, 0, 1, 1, 0, 1].map((end, k) => [end, [-1, 1, -1, -1, 1, 1][k]]);
 const SMOOTH = { antialias: true, failIfMajorPerformanceCaveat: true };
@@ -255,19 +254,9 @@ export class Painter {
     this.drawTriangles(model, opacity === 1);
   }
 
-  /**
-   * @param {Model} disc
-   * @param {number[]} pose
-   * @param {number[]} middle
-   * @param {number} radius
-   * @param {number} opacity
-   */
-  drawShadow(disc, pose, middle, radius, opacity) {
-    const { gl } = this;
-    const find = this.use(this.programs.shadows, pose);
-    gl.uniform3fv(find("middle"), middle);
-    gl.uniform1f(find("radius"), radius);
-    gl.uniform1f(find("opacity"), opacity);
+  /** @param {Model} disc @param {number[]} pose */
+  drawShadow(disc, pose) {
+    this.use(this.programs.shadows, pose);
     this.drawTriangles(disc, false);
   }
 

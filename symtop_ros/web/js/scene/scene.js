@@ -201,13 +201,8 @@ export class Scene {
     const { painter } = this;
     const axis = state.toWorld([0, 0, 1]);
     if (this.view % 3 === 0) {
-      painter.drawShadow(
-        this.models.disc,
-        createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]),
-        [0.56 * axis[0], 0.56 * axis[1], 0],
-        0.6,
-        0.3,
-      );
+      const below = /** @type {Vector} */ ([0.56 * axis[0], 0.56 * axis[1], GROUND]);
+      painter.drawShadow(this.models.disc, createPose([1, 0, 0, 0], [0.9, 0.9, 1], below));
       painter.drawMesh(this.models.stand, STILL);
     }
     painter.drawMesh(this.models.body, createPose(state.orientation));
