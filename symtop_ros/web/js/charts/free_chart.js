@@ -4,7 +4,7 @@
 import { nameQuantity, QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
 import { find, make, write } from "../controls/document.js";
-import { draw, findSpan, Frame, listTicks, WIDE } from "./plot.js";
+import { draw, findSpan, Frame, WIDE } from "./plot.js";
 import { angleUnit, shorten, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
@@ -100,8 +100,7 @@ export class FreeChart {
       HEIGHT,
       `${frame.axes}${paths.join("")}
       ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
-      ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}
-      ${frame.writeBelow(listTicks(...range, 4))}`,
+      ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}`,
       phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
     );
   }

@@ -2,8 +2,7 @@
 
 import { find } from "../controls/document.js";
 import { findBoundaries, makesLoops } from "./kinds.js";
-import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
-import { shorten } from "../words/quantities.js";
+import { draw, findSpan, Frame, spread } from "./plot.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Top } from "../physics/kernel.js" */
@@ -106,7 +105,6 @@ export const drawKinds = (top, turning) => {
     `${drawn.text}${frame.level(0, LOOKS.cusps)}
     ${frame.dot([turning.psi_dot, turning.phi_dot], 'fill="var(--theta)" id="present"')}
     ${frame.nameVertical(phrase("axis.phi_dot"))}
-    ${frame.nameHorizontal(phrase("axis.psi_dot"))}
-    ${frame.writeBelow(listTicks(...horizontal, 4), (value) => shorten(value))}`,
+    ${frame.nameHorizontal(phrase("axis.psi_dot"))}`,
   );
 };

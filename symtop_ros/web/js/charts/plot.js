@@ -33,7 +33,7 @@ export const draw = (id, height, drawing, label) => {
  * @param {number} high
  * @param {number} count
  */
-export const listTicks = (low, high, count) => {
+const listTicks = (low, high, count) => {
   const rough = (high - low) / count;
   const size = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((k) => k * size).find((each) => each >= rough * 0.999) ?? rough;
@@ -78,6 +78,7 @@ export class Frame {
    */
   constructor(height, horizontal, vertical, marks = 4, shown = (value) => value) {
     const [[left, right], [low, high]] = [horizontal, vertical];
+    this.horizontal = horizontal;
     this.bottom = height - LOWER;
     /** @type {Scale} */
     this.x = (value) =>
@@ -141,9 +142,10 @@ export class Frame {
     return `<text x="4" y="11">${text.replace("<", "&lt;")}</text>`;
   }
 
-  /** What the horizontal axis shows, below its values. @param {string} text */
-  nameHorizontal(text) {
-    return `<text x="${WIDE - RIGHT}" y="${this.bottom + 24}" text-anchor="end">${text}</text>`;
+  /** What the horizontal axis shows, below its values. @param {string} text @param {string} values */
+  nameHorizontal(text, values = this.writeBelow(listTicks(...this.horizontal, 4))) {
+    const name = `<text x="${WIDE - RIGHT}" y="${this.bottom + 24}" text-anchor="end">${text}</text>`;
+    return name + values;
   }
 
   /** The name of a level, at its right end. @param {number} value @param {string} text */

@@ -1,6 +1,6 @@
 // Charts of tilt, precession and spin over the time of the motion.
 
-import { draw, findSpan, Frame, listTicks } from "./plot.js";
+import { draw, findSpan, Frame } from "./plot.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
@@ -71,7 +71,6 @@ export const drawOneSeries = (id, rows, facts) => {
     ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
     ${line(column, `stroke="${color}" stroke-width="1.8"`)}
     ${frame.nameVertical(isTilt ? phrase("axis.tilt", { unit: angleUnit() }) : "rad/s")}
-    ${frame.nameHorizontal(phrase("axis.time"))}
-    ${frame.writeBelow(listTicks(...range, 4))}`,
+    ${frame.nameHorizontal(phrase("axis.time"))}`,
   );
 };

@@ -34,8 +34,7 @@ export const drawWell = (potential, theta) => {
     ${frame.nameLevel(energy, "E'")}
     ${drawPotential(frame, potential, 'stroke="var(--phi)" stroke-width="2" id="potential"')}
     ${frame.nameVertical(phrase("axis.U"))}
-    ${frame.nameHorizontal("\u03b8")}
-    ${frame.dot([theta, energy], 'fill="var(--theta)"')}
-    ${frame.writeBelow(named, writeAngle)}`,
+    ${frame.nameHorizontal("\u03b8", frame.writeBelow(named, writeAngle))}
+    ${frame.dot([theta, energy], 'fill="var(--theta)"')}`,
   );
 };

@@ -3,7 +3,6 @@
 
 import { add, cross, createPerspective, createView, multiplyMatrices } from "./matrices.js";
 import { normalize, scale, subtract } from "./matrices.js";
-import { Size } from "./size.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 
@@ -15,7 +14,13 @@ const TURN = 0.008; // rad for a px
 export class Camera {
   /** @param {HTMLElement} element */
   constructor(element) {
-    this.size = new Size(element);
+    this.size = { width: 0, height: 0 }; // px
+    // To ask the element in every frame would have the browser lay out the whole page again.
+    const measure = () => {
+      this.size = { width: element.clientWidth, height: element.clientHeight };
+    };
+    measure();
+    new ResizeObserver(measure).observe(element);
     /** @type {Vector} */
     this.target = [0, 0, 0];
     this.distance = 3;

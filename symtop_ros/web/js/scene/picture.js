@@ -29,7 +29,7 @@ const drawText = (context, element, scene) => {
 
 /** @returns {HTMLCanvasElement} */
 export const drawPicture = () => {
-  const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("canvas"));
+  const canvas = find("picture", HTMLCanvasElement);
   const scene = canvas.getBoundingClientRect();
   const ratio = canvas.width / scene.width;
   const height = Math.round((scene.height + LINE) * ratio);

@@ -1,5 +1,6 @@
 // The scene: the top, its arrows and lines, the ghost, and the ball that is pulled.
 
+import { find } from "../controls/document.js";
 import { Camera } from "./camera.js";
 import { listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
@@ -48,18 +49,14 @@ const STILL = createPose([1, 0, 0, 0]);
 const paint = (name) => readColor(COLORS[name]);
 
 export class Scene {
-  /** @param {HTMLElement} place in which the scene is shown @param {LocalTop} top */
-  constructor(place, top) {
-    const canvas = document.createElement("canvas");
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", phrase("page.picture"));
-    const labels = document.createElement("div");
-    place.prepend(canvas, labels);
+  /** @param {LocalTop} top */
+  constructor(top) {
+    const canvas = find("picture", HTMLCanvasElement);
     this.painter = new Painter(canvas);
     /** Says that the picture is lost, or null when it is back. @type {(text: string | null) => void} */
     this.tellLoss = () => {};
     this.camera = new Camera(canvas);
-    this.labels = new Labels(labels, this.camera);
+    this.labels = new Labels(find("labels"), this.camera);
     this.top = top;
     /** @type {{[name: string]: number}} */
     this.scales = {};
