@@ -14,6 +14,7 @@ import { recall } from "./run/memory.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
+import { NANO } from "./physics/course.js";
 import { inDegrees } from "./words/quantities.js";
 import { Question, readAnswer } from "./controls/question.js";
 import { Roots } from "./controls/roots.js";
@@ -206,12 +207,13 @@ export class Page {
     );
   }
 
-  /** @param {Message} message of a frame: samples, their rows, constants and times */
-  showFrame({ samples, series, constants, isSlow, time: [time, end] }) {
+  /** @param {Message} message of a frame: samples up to now, and the end of the run in s */
+  showFrame({ samples, isSlow, end }) {
     if (!this.facts) return;
-    const row = series[series.length - 1];
-    Object.assign(document.body.dataset, { time: row[0], theta: row[1] });
-    this.charts.draw(this.facts, { samples, series, constants }, this.fields.values.factor);
+    const { time: now, state } = samples[samples.length - 1];
+    const time = now / NANO;
+    Object.assign(document.body.dataset, { time, theta: state.angles.theta });
+    this.charts.draw(this.facts, samples, this.fields.values.factor);
     this.timeline.show(time, end);
     this.question.show(time);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;

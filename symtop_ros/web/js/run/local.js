@@ -2,13 +2,7 @@
 
 import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
-import {
-  chooseWindow,
-  compareConstants,
-  describe,
-  describeMotion,
-  describeNow,
-} from "../words/facts.js";
+import { chooseWindow, describe, describeMotion, describeNow } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
@@ -25,10 +19,6 @@ import { State } from "../physics/state.js";
  * comparison, at the same time since its start.
  * @typedef {{time: number, state: State, course: Course, ghost: State | null, kept: State | null,
  *   keptCourse: Course | null}} Sample
- */
-/**
- * What charts show of a time in s: theta, phi', psi', and theta of the ghost.
- * @typedef {[time: number, theta: number, phi_dot: number, psi_dot: number, ghost: number | null]} Row
  */
 
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
@@ -267,7 +257,7 @@ export class LocalTop {
     this.draw(states[states.length - 1], states);
     if (now < this.chartsDue) return;
     this.chartsDue = now + CHARTS;
-    this.tellSeries(times, states);
+    this.tellSamples(times, states);
   }
 
   /** Tell the numbers of now, and what follows the motion, when they are due. @param {number} now ms */
@@ -303,7 +293,7 @@ export class LocalTop {
   }
 
   /** @param {number[]} times ns @param {State[]} states */
-  tellSeries(times, states) {
+  tellSamples(times, states) {
     const step = Math.ceil(times.length / POINTS);
     const last = times.length - 1;
     const chosen = [...times.keys()].filter((n) => (last - n) % step === 0);
@@ -311,12 +301,7 @@ export class LocalTop {
       ...this.sampleKicks(times[0]),
       ...chosen.map((n) => this.sample(times[n], states[n])),
     ].sort((a, b) => a.time - b.time);
-    const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
-      return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
-    });
-    const constants = compareConstants(this.course, states[states.length - 1]);
-    const time = [this.time / NANO, this.end / NANO];
-    this.tell({ samples, series, constants, time, isSlow: this.isSlow });
+    this.tell({ samples, end: this.end / NANO, isSlow: this.isSlow });
   }
 
   tellFacts() {

@@ -7,7 +7,7 @@ import { findLedger, nameLedger } from "./ledger.js";
 import { describePushes } from "./pushes.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
-import { findConstants, findPotential } from "../charts/formulas.js";
+import { findPotential } from "../charts/formulas.js";
 import { spread } from "../charts/plot.js";
 import { phrase } from "./wording.js";
 import { shorten } from "./quantities.js";
@@ -26,7 +26,6 @@ import { shorten } from "./quantities.js";
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
-const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
 const KICKS = ["kick", "push"];
 const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
@@ -95,20 +94,6 @@ const listRates = ({ motion }) => {
   if (Number.isFinite(mean_precession_rate))
     rows.push([phrase("table.mean_phi_dot"), `${shorten(mean_precession_rate)} rad/s`]);
   return rows;
-};
-
-/**
- * Constants of the motion, and how much they have changed since its start.
- * @param {Course} course
- * @param {State} state
- * @returns {import("../charts/constants_table.js").Constants}
- */
-export const compareConstants = ({ top, start }, state) => {
-  const [now, before] = [findConstants(top, state), findConstants(top, start)];
-  const names = /** @type {(keyof typeof UNITS)[]} */ (Object.keys(UNITS));
-  return Object.fromEntries(
-    names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
-  );
 };
 
 /** The last event that was not a torque of a button. @param {Run} run @param {number} time ns */
