@@ -27,11 +27,7 @@ import { phrase } from "./words/wording.js";
 
 /** @import { Facts } from "./words/facts.js" */
 /** @import { Now } from "./controls/roots.js" */
-/** @typedef {{[name: string]: any}} Message */
-/**
- * A top of the page: it takes messages, and its answers are told.
- * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
- */
+/** @import { LocalTop, Message } from "./run/local.js" */
 
 const showLedger = guard("ledger", drawLedger);
 const showKinds = guard("kinds", drawKinds);
@@ -40,7 +36,7 @@ export class Page {
   /** @param {import("./start.js").Content} content of the file */
   constructor(content) {
     this.content = content;
-    /** @type {Top | null} */
+    /** @type {LocalTop | null} */
     this.top = null; // while the kernel is loaded
     /** What holds after the last act, and for the motion. @type {Facts | null} */
     this.facts = null;
@@ -81,7 +77,7 @@ export class Page {
     listenToKeys(act, push);
   }
 
-  /** Show a top from now on. @param {Top} top @param {Element} source the page as it was opened */
+  /** Show a top from now on. @param {LocalTop} top @param {Element} source the page as it was opened */
   connect(top, source) {
     this.top = top;
     // A node has the time of its machine, and records there.

@@ -43,8 +43,8 @@ export class Course {
       const most = `within ${MOST_STEPS} steps of integration`;
       throw new RangeError(`a time must be ${most}, got ${passed / NANO} s after its event`);
     }
-    const { orientation, angular_velocity } = this.motion.atNanosecond(passed);
-    return new State(this.kernel, orientation, angular_velocity);
+    const [orientation, omega] = this.motion.atNanosecond(passed);
+    return new State(this.kernel, orientation, omega);
   }
 
   /**

@@ -6,11 +6,10 @@ import { demandNoForces } from "./reader.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { LocalTop } from "./local.js" */
+/** @import { LocalTop, Message } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Vector, Hold, Top } from "../physics/kernel.js" */
 /** @import { Beginning } from "./links.js" */
-/** @typedef {{[name: string]: any}} Message */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
 
 const DISC = ["mass", "radius", "distance"];

@@ -8,7 +8,6 @@ import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
 import { Run } from "./run.js";
-import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
 /** @import { Kernel } from "../physics/kernel.js" */
@@ -344,10 +343,6 @@ export class LocalTop {
   get json() {
     const [format] = this.content.run_fields.formats.slice(-1);
     return { format, events: this.run.records, end: this.end / NANO };
-  }
-
-  get csv() {
-    return writeSeries(this.run, this.time);
   }
 
   /** @param {any} json of run.json; one that cannot be read leaves all as it is */
