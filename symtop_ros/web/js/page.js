@@ -2,12 +2,11 @@
 
 import { followAddress } from "./run/address.js";
 import { Charts } from "./charts/charts.js";
-import { choose, keepChoice, read } from "./controls/choices.js";
+import { choose, followLooks, keepChoice, read } from "./controls/choices.js";
 import { find, findAll, make, say, write, writeTexts } from "./controls/document.js";
 import { Fields } from "./controls/fields.js";
 import { offerFiles, openDropped, save } from "./run/files.js";
-import { actWhileHeld } from "./controls/hold.js";
-import { listenToKeys } from "./controls/keys.js";
+import { actWhileHeld, listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson, writePredictions } from "./controls/lesson.js";
 import { recall } from "./run/memory.js";
@@ -21,7 +20,6 @@ import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
 import { SpeedList } from "./controls/speed.js";
 import { offerTabs } from "./controls/tabs.js";
-import { followSize, followTheme } from "./controls/theme.js";
 import { Timeline } from "./controls/timeline.js";
 import { phrase } from "./words/wording.js";
 
@@ -56,10 +54,8 @@ export class Page {
       this.act("hurry");
       this.send({ act: "run" });
     });
-    followTheme();
+    followLooks();
     keepChoice("unit", () => this.showUnit());
-    followSize();
-    this.fields.showUnit();
     this.listen();
   }
 

@@ -61,7 +61,7 @@ export class FreeChart {
       list.append(make("option", { value, textContent: `${nameQuantity(value)} (${unit})` }));
     }
     list.value = chosen;
-    keepChoice(id, () => {});
+    keepChoice(id);
     return list;
   }
 

@@ -104,11 +104,12 @@ class Entry {
     });
     const value = shown?.[0] ?? parseQuantity(typed, Boolean(this.field.isAngle));
     const refusal = this.check(value);
-    if (refusal)
-      this.refuse(
-        phrase("refused", { name: this.title, ...refusal, got: typed || phrase("nothing") }),
-      );
-    else this.fields.change(this.name, value);
+    if (!refusal) this.fields.change(this.name, value);
+    else {
+      const got = typed || phrase("nothing");
+      refuse(phrase("refused", { name: this.title, ...refusal, got }));
+      this.text.setAttribute("aria-invalid", "true");
+    }
   }
 
   /** What a value must be, if it is not; otherwise null. @param {number} value */
@@ -119,12 +120,6 @@ class Entry {
       return { kind: "angle", most: inDegrees() ? "180\u00b0" : "pi rad" };
     if (isPositive && !(value > 0)) return { kind: "positive" };
     return isNotNegative && value < 0 ? { kind: "not_negative" } : null;
-  }
-
-  /** @param {string} text */
-  refuse(text) {
-    refuse(text);
-    this.text.setAttribute("aria-invalid", "true");
   }
 
   /** @param {HTMLElement} place */
@@ -215,8 +210,6 @@ export class Fields {
     this.entries = Object.fromEntries(entries.map((entry) => [entry.name, entry]));
     /** The field whose value was sent last. @type {Entry | null} */
     this.asked = null;
-    this.showUnit();
-    this.entries.factor.write();
   }
 
   /** @param {string} name @param {number} value */
