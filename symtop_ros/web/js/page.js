@@ -23,8 +23,7 @@ import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
 import { phrase } from "./words/wording.js";
 
-/** @import { Facts } from "./words/facts.js" */
-/** @import { Now } from "./controls/roots.js" */
+/** @import { Facts, Now } from "./words/facts.js" */
 /** @import { LocalTop, Message } from "./run/local.js" */
 
 const showLedger = guard("ledger", drawLedger);

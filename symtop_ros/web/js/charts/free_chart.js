@@ -25,16 +25,15 @@ const CURVES = [
 ];
 
 /** @param {Quantity} quantity @param {Sample} sample @param {Whose} whose */
-const measure = ({ pick, isAngle }, sample, whose) => {
-  const state = sample[whose];
-  if (!state) return NaN;
-  const course = (whose === "kept" && sample.keptCourse) || sample.course;
-  const value = pick(sample.time, state, course);
-  return isAngle ? toUnit(value) : value;
+const measure = ({ pick, unit }, { time, course, kept, ...states }, whose) => {
+  const from = whose === "kept" ? kept : { state: states[whose], course };
+  if (!from?.state) return NaN;
+  const value = pick(time, from.state, from.course);
+  return unit === "rad" ? toUnit(value) : value;
 };
 
 /** @param {Quantity} quantity */
-const nameUnit = ({ unit, isAngle }) => (isAngle ? angleUnit() : unit);
+const nameUnit = ({ unit }) => (unit === "rad" ? angleUnit() : unit);
 
 export class FreeChart {
   /** @param {(isKept: boolean) => void} keep the present run, or let the kept one go */

@@ -271,7 +271,7 @@ export class Fields {
     for (const entry of Object.values(this.entries)) entry.write();
   }
 
-  /** Follow the motion. @param {import("./roots.js").Now} now */
+  /** Follow the motion. @param {import("../words/facts.js").Now} now */
   follow({ theta, phi_dot, psi_dot }) {
     this.now = { theta, phi_dot, psi_dot };
     for (const name of Object.keys(this.now)) this.entries[name].write();

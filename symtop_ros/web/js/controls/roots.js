@@ -4,7 +4,7 @@ import { findAll, say } from "./document.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
-/** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Now */
+/** @import { Now } from "../words/facts.js" */
 
 export class Roots {
   /** @param {(message: {[name: string]: any}) => void} send */

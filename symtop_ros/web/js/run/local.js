@@ -16,8 +16,8 @@ import { State } from "../physics/state.js";
 /**
  * States at a time of the run, in ns: of the top, of the ghost, and of a run that is kept for
  * comparison, at the same time since its start.
- * @typedef {{time: number, state: State, course: Course, ghost: State | null, kept: State | null,
- *   keptCourse: Course | null}} Sample
+ * @typedef {{time: number, state: State, course: Course, ghost: State | null,
+ *   kept: ReturnType<import("./run.js").Kept>}} Sample
  */
 
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
@@ -273,12 +273,9 @@ export class LocalTop {
 
   /** @param {number} time ns @param {State} state @returns {Sample} */
   sample(time, state) {
-    const kept = this.kept?.find(time - this.run.findStart(this.time));
+    const kept = this.kept?.(time - this.run.findStart(this.time)) ?? null;
     const [{ course }, ghost] = [this.run.find(time), this.run.findGhost(time)];
-    return {
-      ...{ time, state, course, ghost },
-      ...{ kept: kept?.state ?? null, keptCourse: kept?.course ?? null },
-    };
+    return { time, state, course, ghost, kept };
   }
 
   /** Before and after each kick since a time, at one instant: a curve jumps there. @param {number} begin ns */

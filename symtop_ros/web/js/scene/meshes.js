@@ -1,6 +1,8 @@
 // The shapes of the scene as triangles: surfaces of revolution, in sectors of two colours that make
 // the spin visible. Lengths are in scene units: the pivot is the origin, and the axis ends at 1.
 
+import { spread } from "../charts/plot.js";
+
 /** @typedef {[number, number, number]} Color red, green and blue, 0 to 1 */
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
 /** Place, normal and colour, three numbers each, of every corner of a triangle. */
@@ -66,8 +68,7 @@ const createRotor = (radius, height) => {
     heights.map((each) => height + each),
   );
   /** @type {Profile} */
-  const rim = Array.from({ length: 9 }, (_, k) => {
-    const angle = (Math.PI * k) / 8 - Math.PI / 2;
+  const rim = spread(-Math.PI / 2, Math.PI / 2, 9).map((angle) => {
     return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
   });
   return [
@@ -140,10 +141,7 @@ export const createArrow = (color) => ({
 /** A ball of radius 1. @param {Color} color */
 export const createBall = (color) => {
   /** @type {Profile} */
-  const profile = Array.from({ length: 17 }, (_, k) => {
-    const angle = (Math.PI * k) / 16;
-    return [Math.sin(angle), -Math.cos(angle)];
-  });
+  const profile = spread(0, Math.PI, 17).map((angle) => [Math.sin(angle), -Math.cos(angle)]);
   return createLathe(profile, color);
 };
 

@@ -2,7 +2,7 @@
 
 import { find } from "../controls/document.js";
 import { Camera } from "./camera.js";
-import { listParallel, listPieces, listSphere } from "./curves.js";
+import { findPoint, listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
 import {
   createArrow,
@@ -16,7 +16,7 @@ import { COLORS, FICTITIOUS } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
-import { BRACKET, findPoint, findPush, findReached, listBracket } from "./push.js";
+import { BRACKET, findPush, findReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
 import { inDegrees } from "../words/quantities.js";

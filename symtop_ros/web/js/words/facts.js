@@ -134,7 +134,8 @@ const findCause = ({ direction, reason: { kind, rule, subject } }) => {
   return subject === "top" && rule === "holds" && CAUSES.includes(cause) ? cause : "start";
 };
 
-/** Tilt, rates and regular rates of now. @param {Course} course @param {State} state */
+/** Tilt, rates and regular rates of now. @typedef {ReturnType<typeof describeNow>} Now */
+/** @param {Course} course @param {State} state */
 export const describeNow = ({ kernel, top }, state) => {
   const { theta, phi_dot, psi_dot } = describeStart(state);
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
