@@ -1,6 +1,5 @@
 // The page around the scene: what it asks of the top, and what it shows of the answers.
 
-import { followAddress } from "./run/address.js";
 import { Charts } from "./charts/charts.js";
 import { choose, followLooks, keepChoice, read } from "./controls/choices.js";
 import { find, findAll, make, say, write, writeTexts } from "./controls/document.js";
@@ -115,17 +114,31 @@ export class Page {
   greet({ scenes, layers, lesson: steps }) {
     offerScenes(scenes, (name) => this.send({ act: "scene", name }));
     this.layers.offer(layers);
-    const lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
-    this.lesson = lesson;
+    this.lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
     find("save-predictions").addEventListener("click", () => {
       save("predictions.txt", "text/plain", writePredictions(steps, readAnswer()));
     });
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    const { node, run, opening = "" } = this.content;
+    const { node, run, opening } = this.content;
     const isReloaded = !node && Boolean(recall().run);
     if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
     if (!node && !run && !isReloaded && !location.hash && !opening) this.question.ask();
-    followAddress(opening, isReloaded, lesson.open.bind(lesson), (link) => this.followLink(link));
+    addEventListener("hashchange", () => this.followAddress(true));
+    this.followAddress(!isReloaded);
+  }
+
+  /**
+   * Follow the end of the address: #scene=looping, #theta=0.5&psi_dot=200 or #lesson=3.
+   * @param {boolean} isNew the run that it starts is not there already
+   */
+  followAddress(isNew) {
+    const text = location.hash.slice(1) || (this.content.opening ?? "");
+    // A plus is that of 1e+20, and no space, as it would be in a form.
+    const pairs = new URLSearchParams(text.replaceAll("+", "%2B"));
+    pairs.delete("lang");
+    const { lesson: step, ...link } = Object.fromEntries(pairs);
+    if (step !== undefined) this.lesson?.open(Number(step));
+    if (isNew && Object.keys(link).length) this.followLink(link);
   }
 
   /** A step of the lesson has its own question and arrows, and angles in rad unless others were chosen. */

@@ -303,10 +303,7 @@ export class LocalTop {
   tellFacts() {
     this.freeOfTexts = null;
     const { run, time } = this;
-    const facts = {
-      ...describe(run, time),
-      ...describeMotion(run, time, this.free),
-    };
+    const facts = { ...describe(run, time), ...describeMotion(run, time, this.free) };
     this.toldAt = time;
     const { isRunning: running, speed: factor, isRecording: recording } = this;
     this.tell({ facts: { ...facts, running, factor, recording } });

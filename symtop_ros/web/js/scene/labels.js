@@ -48,8 +48,7 @@ export class Labels {
   /** @param {string} name @param {string} color */
   find(name, color) {
     if (!this.names[name]) {
-      this.names[name] = make("span", { className: "label" });
-      this.names[name].style.borderColor = color;
+      this.names[name] = make("span", { className: "label", style: `border-color: ${color}` });
       this.place.append(this.names[name]);
     }
     return this.names[name];

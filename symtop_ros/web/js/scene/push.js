@@ -31,13 +31,8 @@ export const findPush = (moment) => {
   const change = cross(start.toWorld(subtract(start.omega, before.omega)), tip);
   const isPushed = findSize(change) > ROUNDING * findSize(start.omega);
   const end = time + free.motion.nutation_period * NANO;
-  return {
-    tip,
-    way: isPushed ? normalize(change) : null,
-    begin: time,
-    end,
-    lift: findLift(moment),
-  };
+  const way = isPushed ? normalize(change) : null;
+  return { tip, way, begin: time, end, lift: findLift(moment) };
 };
 
 /**

@@ -30,9 +30,6 @@ const KICKS = ["kick", "push"];
 const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
-/** @param {number[]} numbers */
-const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
-
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
 /** @param {Course} course */
 export const chooseWindow = ({ motion }) => {
@@ -54,7 +51,7 @@ const describePotential = ({ top: body, start, motion }, change) => {
   const angles = motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
-  const bottom = Math.min(findLeast(heights), potential.energy);
+  const bottom = Math.min(...heights, potential.energy);
   const depth = potential.energy - bottom;
   const least = LEAST * Math.max(Math.abs(body.Mgl), Math.abs(depth), 1e-12);
   const top = potential.energy + Math.max(ABOVE * depth, least);
@@ -154,10 +151,7 @@ export const describe = (run, time) => {
   const [mass, radius, distance] = run.kernel.findDisc(course.top);
   const disc = { "disc.mass": mass, "disc.radius": radius, "disc.distance": distance };
   return {
-    histories: {
-      radians: listHistory(run, "radians"),
-      degrees: listHistory(run, "degrees"),
-    },
+    histories: { radians: listHistory(run, "radians"), degrees: listHistory(run, "degrees") },
     top: { ...course.parameters, ...disc },
     start,
     roots,
