@@ -162,7 +162,8 @@ export class Kernel {
       else this.write(each, begin);
       return begin;
     });
-    this.demand(this.exports[`symtop_${name}`](...taken));
+    const status = this.exports[`symtop_${name}`](...taken); // nothing if it cannot refuse
+    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
     return rooms.map((read) => read());
   }
 
@@ -178,11 +179,6 @@ export class Kernel {
     const range = /** @type {const} */ ([this.exports.memory.buffer, place, numbers.length]);
     if (numbers instanceof BigInt64Array) new BigInt64Array(...range).set(numbers);
     else new Float64Array(...range).set(numbers);
-  }
-
-  /** @param {number | undefined} status nothing of a function that cannot refuse */
-  demand(status) {
-    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
   }
 
   /** @param {number} status */

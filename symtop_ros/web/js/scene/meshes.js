@@ -2,8 +2,9 @@
 // the spin visible. Lengths are in scene units: the pivot is the origin, and the axis ends at 1.
 
 import { spread } from "../charts/plot.js";
+import { readColor } from "./colors.js";
 
-/** @typedef {[number, number, number]} Color red, green and blue, 0 to 1 */
+/** @import { Color } from "./colors.js" */
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
 /** Place, normal and colour, three numbers each, of every corner of a triangle. */
 /** @typedef {number[]} Mesh */
@@ -18,9 +19,6 @@ const createProfile = (radii, heights) => radii.map((radius, k) => [radius, heig
 /** Of the two triangles of a facet: whether a corner is at its end, and whether it is above. */
 const CORNERS = createProfile([0, 1, 0, 1, 1, 0], [0, 0, 1, 0, 1, 1]);
 
-/** @param {string} hex @returns {Color} */
-export const readColor = (hex) =>
-  /** @type {Color} */ ([1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255));
 const STEEL = readColor("#c4cad2");
 const BRASS = readColor("#deb25c");
 const ENAMEL = readColor("#96202c");

@@ -2,7 +2,8 @@
 
 import { phrase } from "../words/wording.js";
 
-/** @import { Mesh, Color } from "./meshes.js" */
+/** @import { Color } from "./colors.js" */
+/** @import { Mesh } from "./meshes.js" */
 /**
  * Corners of triangles on the graphics card, and how many numbers one has.
  * @typedef {{array: WebGLVertexArrayObject, buffer: WebGLBuffer, width: number, count: number}} Model

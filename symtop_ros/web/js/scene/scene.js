@@ -4,15 +4,8 @@ import { find } from "../controls/document.js";
 import { Camera } from "./camera.js";
 import { findPoint, listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
-import {
-  createArrow,
-  createBall,
-  createBody,
-  createDisc,
-  createStand,
-  readColor,
-} from "./meshes.js";
-import { COLORS, FICTITIOUS } from "./colors.js";
+import { createArrow, createBall, createBody, createDisc, createStand } from "./meshes.js";
+import { COLORS, FICTITIOUS, readColor } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
@@ -25,7 +18,6 @@ import { phrase } from "../words/wording.js";
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Vector } from "../physics/kernel.js" */
-/** @import { Color } from "./meshes.js" */
 
 const LENGTHS = { L: 1.24, omega: 1.13, torque: 0.55 }; // of the largest at the start of a motion
 const DEPTHS = { gravity: 0.1, Coriolis: 0.2, centrifugal: 0.3, sum: -0.1 }; // below the pivot
