@@ -36,10 +36,7 @@ const findRanges = ({ phi_dot, psi_dot, roots: all }) => {
 
 /**
  * Where motions make loops: rows of cells, as one path.
- * @param {Frame} frame
- * @param {Top} top
- * @param {number} theta
- * @param {[Pair, Pair]} ranges
+ * @param {Frame} frame @param {Top} top @param {number} theta @param {[Pair, Pair]} ranges
  */
 const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
   const [width, height] = [(right - left) / COLUMNS, (high - low) / ROWS];

@@ -27,12 +27,7 @@ export const draw = (id, height, drawing, label) => {
   if (label) svg.ariaLabel = label;
 };
 
-/**
- * Round values between two, about so many.
- * @param {number} low
- * @param {number} high
- * @param {number} count
- */
+/** Round values between two, about so many. @param {number} low @param {number} high @param {number} count */
 const listTicks = (low, high, count) => {
   const rough = (high - low) / count;
   const size = 10 ** Math.floor(Math.log10(rough));
@@ -48,8 +43,7 @@ const listTicks = (low, high, count) => {
 /**
  * The place of a value, outside of the drawing if the value is beyond what an axis can show; NaN, a
  * gap, for a value that is no number.
- * @param {number} value
- * @param {number} place
+ * @param {number} value @param {number} place
  */
 const keepNear = (value, place) => {
   if (Number.isNaN(place)) return Number.isNaN(value) ? NaN : FAR;
@@ -172,9 +166,7 @@ export const spread = (low, high, count) =>
 
 /**
  * An interval around numbers, with some room; of `least` at least, so that no rounding is shown.
- * @param {number[]} numbers
- * @param {number} least
- * @returns {Pair}
+ * @param {number[]} numbers @param {number} least @returns {Pair}
  */
 export const findSpan = (numbers, least) => {
   let [low, high] = [Infinity, -Infinity];

@@ -25,10 +25,7 @@ const SERIES = {
 
 /**
  * Values at the lower and the upper edge.
- * @param {Pair[]} own
- * @param {Pair[]} ghost
- * @param {Series} series
- * @returns {Pair}
+ * @param {Pair[]} own @param {Pair[]} ghost @param {Series} series @returns {Pair}
  */
 const findEdges = (own, ghost, { least, isTilt }) => {
   const values = [...own, ...ghost].map(([, value]) => value);

@@ -290,8 +290,7 @@ export class Fields {
 
   /**
    * The doubles of which digits are shown while a field is edited.
-   * @param {string} name
-   * @returns {[value: number, digits: number][]}
+   * @param {string} name @returns {[value: number, digits: number][]}
    */
   listShown(name) {
     const roots = name === "phi_dot" ? this.roots : [];

@@ -46,8 +46,7 @@ export const readData = (id) => {
 
 /**
  * A page with a run in it. Data are no script, and no end of an element is among them.
- * @param {Element} source
- * @param {string} run
+ * @param {Element} source @param {string} run
  */
 const writePage = (source, run) => {
   const place = /** @type {Element} */ (source.querySelector(`#${RUN}`));

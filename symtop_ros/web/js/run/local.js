@@ -245,10 +245,7 @@ export class LocalTop {
     return [...past, this.state];
   }
 
-  /**
-   * Draw the state of now with its trace, and tell the charts when they are due.
-   * @param {number} now ms
-   */
+  /** Draw the state of now with its trace, and tell the charts when they are due. @param {number} now ms */
   show(now) {
     const times = this.listTimes();
     const states = this.findStates(times);

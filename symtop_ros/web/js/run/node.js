@@ -176,11 +176,7 @@ export class NodeTop extends LocalTop {
   }
 }
 
-/**
- * The parameters of a node that differ between two courses.
- * @param {Course} before
- * @param {Course} after
- */
+/** The parameters of a node that differ between two courses. @param {Course} before @param {Course} after */
 const listChanges = (before, after) => {
   const [old, wanted] = [listParameters(before), listParameters(after)];
   const changed = Object.entries(wanted).filter(

@@ -96,10 +96,7 @@ export class Run {
 
   /**
    * Add an event, not before the first one; what came after its time is no longer part of the run.
-   * @param {Kind} kind
-   * @param {number} wanted ns
-   * @param {Course} course
-   * @param {Asked} asked
+   * @param {Kind} kind @param {number} wanted ns @param {Course} course @param {Asked} asked
    */
   add(kind, wanted, course, asked = {}) {
     const time = Math.max(wanted, this.moments[0]?.time ?? 0);

@@ -104,10 +104,7 @@ export class Camera {
     return multiplyMatrices(createPerspective(angle, aspect), createView(this.eye, this.target));
   }
 
-  /**
-   * Where a point is on the element, in px, and how far away; null behind the eye.
-   * @param {Vector} point
-   */
+  /** Where a point is on the element, in px, and how far away; null behind the eye. @param {Vector} point */
   project([x, y, z]) {
     const m = this.matrix;
     const [a, b, w] = [0, 1, 3].map(
@@ -120,10 +117,7 @@ export class Camera {
 
   /**
    * The point that a px of the element shows, in the plane through a point that faces the eye.
-   * @param {number} px
-   * @param {number} py
-   * @param {Vector} through
-   * @returns {Vector}
+   * @param {number} px @param {number} py @param {Vector} through @returns {Vector}
    */
   unproject(px, py, through) {
     const here = this.project(through);

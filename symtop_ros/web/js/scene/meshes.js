@@ -27,10 +27,7 @@ const STONE = readColor("#8b93a1");
 
 /**
  * The surface of a profile turned about z. Normals are those of a cone for each edge.
- * @param {Profile} profile
- * @param {Color} first
- * @param {Color} second
- * @returns {Mesh}
+ * @param {Profile} profile @param {Color} first @param {Color} second @returns {Mesh}
  */
 export const createLathe = (profile, first, second = first) => {
   /** @type {Mesh} */
@@ -53,11 +50,7 @@ export const createLathe = (profile, first, second = first) => {
   return mesh;
 };
 
-/**
- * The rotor: a flat pear, widest at the centre of mass.
- * @param {number} radius
- * @param {number} height
- */
+/** The rotor: a flat pear, widest at the centre of mass. @param {number} radius @param {number} height */
 const createRotor = (radius, height) => {
   const radii = [0.022, 0.1, 0.35, 0.72, 0.94, 0.94, 0.8, 0.45, 0.16, 0.022];
   const heights = [-0.2, -0.17, -0.11, -0.06, -0.035, 0.035, 0.05, 0.075, 0.105, 0.14];

@@ -132,11 +132,7 @@ export class Painter {
     return program;
   }
 
-  /**
-   * A model that has no corners yet.
-   * @param {number[]} sizes of the numbers of a corner
-   * @returns {Model}
-   */
+  /** A model that has no corners yet. @param {number[]} sizes of the numbers of a corner @returns {Model} */
   create(sizes) {
     const { gl } = this;
     const array = /** @type {WebGLVertexArrayObject} */ (gl.createVertexArray());
@@ -212,8 +208,7 @@ export class Painter {
 
   /**
    * The place of a uniform; to ask the graphics card takes long.
-   * @param {WebGLProgram} program
-   * @param {string} name
+   * @param {WebGLProgram} program @param {string} name
    */
   locate(program, name) {
     const known = this.places.get(program) ?? {};

@@ -37,9 +37,7 @@ export const findPush = (moment) => {
 
 /**
  * The level that has been reached since a kick, and by how much it has moved.
- * @param {Push} push
- * @param {number} time ns
- * @param {State[]} states since the kick
+ * @param {Push} push @param {number} time ns @param {State[]} states since the kick
  */
 export const findReached = ({ lift, end }, time, states) => {
   if (!lift) return null;
@@ -53,8 +51,7 @@ export const findReached = ({ lift, end }, time, states) => {
 
 /**
  * The two levels next to the axle, and the bracket between them, as pieces of lines.
- * @param {{from: number, to: number}} levels
- * @param {number} phi
+ * @param {{from: number, to: number}} levels @param {number} phi
  */
 export const listBracket = ({ from, to }, phi) => {
   const level = (/** @type {number} */ theta) =>

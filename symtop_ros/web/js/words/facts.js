@@ -41,8 +41,7 @@ export const chooseWindow = ({ motion }) => {
 
 /**
  * The box of the potential, its curve in it, and the curve before the last change.
- * @param {Course} free
- * @param {Moment | null} change
+ * @param {Course} free @param {Moment | null} change
  */
 const describePotential = ({ top: body, start, motion }, change) => {
   const potential = findPotential(body, start);
@@ -138,11 +137,7 @@ export const describeNow = ({ kernel, top }, state) => {
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
 };
 
-/**
- * What holds after the last event until the next one.
- * @param {Run} run
- * @param {number} time ns
- */
+/** What holds after the last event until the next one. @param {Run} run @param {number} time ns */
 export const describe = (run, time) => {
   const { course, kind, time: began } = run.find(time);
   const announced = findAnnounced(run, time);
