@@ -13,7 +13,6 @@ import { phrase } from "../words/wording.js";
  * @typedef {{isAngle?: boolean, isRate?: boolean, isPositive?: boolean,
  *   isNotNegative?: boolean, low?: number, high?: number, step?: number}} Field
  */
-/** @typedef {(name: string, value: number) => void} Change */
 
 /** @type {{[name: string]: Field}} */
 const FIELDS = {

@@ -8,7 +8,7 @@ import { phrase } from "../words/wording.js";
 
 /** @import { LocalTop, Message } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
-/** @import { Vector, Hold, Top } from "../physics/kernel.js" */
+/** @import { Vector, Top } from "../physics/kernel.js" */
 /** @import { Beginning } from "./links.js" */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
 
