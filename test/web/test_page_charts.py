@@ -146,6 +146,8 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     shown = re.fullmatch(form, opened.say("free-values"))
     assert float(shown[1]) == pytest.approx(time, rel=1e-4)
     assert float(shown[2]) == pytest.approx(acceleration, rel=1e-3)
+    name = "tilt acceleration theta'' over time"  # of the picture, for a screen reader
+    opened.until(lambda: opened.tab.get_attribute("#free svg", "aria-label") == name)
     box = opened.tab.locator("#free svg").bounding_box()
     opened.tab.locator("#free svg").hover(position={"x": 50, "y": box["height"] / 2})
     opened.until(lambda: float(opened.tab.input_value("#free-place")) < 0.2)

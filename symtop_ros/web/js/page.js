@@ -1,36 +1,29 @@
 // The page around the scene: what it asks of the top, and what it shows of the answers.
 
-import { followAddress } from "./run/address.js";
 import { Charts } from "./charts/charts.js";
-import { choose, keepChoice, read } from "./controls/choices.js";
+import { choose, followLooks, keepChoice, read } from "./controls/choices.js";
 import { find, findAll, make, say, write, writeTexts } from "./controls/document.js";
 import { Fields } from "./controls/fields.js";
 import { offerFiles, openDropped, save } from "./run/files.js";
-import { actWhileHeld } from "./controls/hold.js";
-import { listenToKeys } from "./controls/keys.js";
+import { actWhileHeld, listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson, writePredictions } from "./controls/lesson.js";
 import { recall } from "./run/memory.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
+import { NANO } from "./physics/course.js";
 import { inDegrees } from "./words/quantities.js";
 import { Question, readAnswer } from "./controls/question.js";
 import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
 import { SpeedList } from "./controls/speed.js";
-import { addTabs } from "./controls/tabs.js";
-import { followSize, followTheme } from "./controls/theme.js";
+import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
 import { phrase } from "./words/wording.js";
 
-/** @import { Facts } from "./words/facts.js" */
-/** @import { Now } from "./controls/roots.js" */
-/** @typedef {{[name: string]: any}} Message */
-/**
- * A top of the page: it takes messages, and its answers are told.
- * @typedef {{take: (message: Message) => void, json: object, csv: string}} Top
- */
+/** @import { Facts, Now } from "./words/facts.js" */
+/** @import { LocalTop, Message } from "./run/local.js" */
 
 const showLedger = guard("ledger", drawLedger);
 const showKinds = guard("kinds", drawKinds);
@@ -39,14 +32,14 @@ export class Page {
   /** @param {import("./start.js").Content} content of the file */
   constructor(content) {
     this.content = content;
-    /** @type {Top | null} */
+    /** @type {LocalTop | null} */
     this.top = null; // while the kernel is loaded
     /** What holds after the last act, and for the motion. @type {Facts | null} */
     this.facts = null;
     const send = this.send.bind(this);
     writeTexts();
     dismissRefusals();
-    addTabs();
+    offerTabs();
     this.fields = new Fields(send);
     this.roots = new Roots(send);
     this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
@@ -59,10 +52,8 @@ export class Page {
       this.act("hurry");
       this.send({ act: "run" });
     });
-    followTheme();
+    followLooks();
     keepChoice("unit", () => this.showUnit());
-    followSize();
-    this.fields.showUnit();
     this.listen();
   }
 
@@ -80,7 +71,7 @@ export class Page {
     listenToKeys(act, push);
   }
 
-  /** Show a top from now on. @param {Top} top @param {Element} source the page as it was opened */
+  /** Show a top from now on. @param {LocalTop} top @param {Element} source the page as it was opened */
   connect(top, source) {
     this.top = top;
     // A node has the time of its machine, and records there.
@@ -123,17 +114,31 @@ export class Page {
   greet({ scenes, layers, lesson: steps }) {
     offerScenes(scenes, (name) => this.send({ act: "scene", name }));
     this.layers.offer(layers);
-    const lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
-    this.lesson = lesson;
+    this.lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
     find("save-predictions").addEventListener("click", () => {
       save("predictions.txt", "text/plain", writePredictions(steps, readAnswer()));
     });
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    const { node, run, opening = "" } = this.content;
+    const { node, run, opening } = this.content;
     const isReloaded = !node && Boolean(recall().run);
     if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
     if (!node && !run && !isReloaded && !location.hash && !opening) this.question.ask();
-    followAddress(opening, isReloaded, lesson.open.bind(lesson), (link) => this.followLink(link));
+    addEventListener("hashchange", () => this.followAddress(true));
+    this.followAddress(!isReloaded);
+  }
+
+  /**
+   * Follow the end of the address: #scene=looping, #theta=0.5&psi_dot=200 or #lesson=3.
+   * @param {boolean} isNew the run that it starts is not there already
+   */
+  followAddress(isNew) {
+    const text = location.hash.slice(1) || (this.content.opening ?? "");
+    // A plus is that of 1e+20, and no space, as it would be in a form.
+    const pairs = new URLSearchParams(text.replaceAll("+", "%2B"));
+    pairs.delete("lang");
+    const { lesson: step, ...link } = Object.fromEntries(pairs);
+    if (step !== undefined) this.lesson?.open(Number(step));
+    if (isNew && Object.keys(link).length) this.followLink(link);
   }
 
   /** A step of the lesson has its own question and arrows, and angles in rad unless others were chosen. */
@@ -206,12 +211,13 @@ export class Page {
     );
   }
 
-  /** @param {Message} message of a frame: samples, their rows, constants and times */
-  showFrame({ samples, series, constants, isSlow, time: [time, end] }) {
+  /** @param {Message} message of a frame: samples up to now, and the end of the run in s */
+  showFrame({ samples, isSlow, end }) {
     if (!this.facts) return;
-    const row = series[series.length - 1];
-    Object.assign(document.body.dataset, { time: row[0], theta: row[1] });
-    this.charts.draw(this.facts, { samples, series, constants }, this.fields.values.factor);
+    const { time: now, state } = samples[samples.length - 1];
+    const time = now / NANO;
+    Object.assign(document.body.dataset, { time, theta: state.angles.theta });
+    this.charts.draw(this.facts, samples, this.fields.values.factor);
     this.timeline.show(time, end);
     this.question.show(time);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;

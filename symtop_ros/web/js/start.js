@@ -9,7 +9,6 @@ import { guard, refuse, showLoss } from "./controls/notices.js";
 import { Page } from "./page.js";
 import { chooseLanguage } from "./controls/language.js";
 import { Scene } from "./scene/scene.js";
-import { find } from "./controls/document.js";
 import { copyPage, readData } from "./run/files.js";
 import { setTemplates } from "./words/wording.js";
 
@@ -45,7 +44,7 @@ export const start = async () => {
     // For scripts of the page: motions of their own, and the run as in run.json.
     const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
     Object.assign(window, { symtop });
-    const scene = new Scene(find("scene"), top);
+    const scene = new Scene(top);
     turnByKeys(scene.camera);
     scene.tellLoss = (text) => showLoss(text, "picture-lost");
     top.tell = guard("texts", page.receive.bind(page));

@@ -10,18 +10,15 @@ import { phrase } from "../words/wording.js";
 /** @import { Vector } from "../physics/kernel.js" */
 /** @import { Energies } from "./formulas.js" */
 /** @typedef {(time: number, state: State, course: Course) => number} Pick */
-/** @typedef {{unit: string, isAngle?: boolean, pick: Pick}} Quantity */
+/** @typedef {{unit: string, pick: Pick}} Quantity an angle if its unit is rad */
 
 const MILLI = 1000;
 
 /** @param {string} unit @param {Pick} pick @returns {Quantity} */
 const list = (unit, pick) => ({ unit, pick });
 
-/** @param {"phi" | "theta" | "psi"} id @returns {Quantity} */
-const listAngle = (id) => ({
-  ...list("rad", (_, { angles }) => angles[id]),
-  isAngle: true,
-});
+/** @param {"phi" | "theta" | "psi"} id */
+const listAngle = (id) => list("rad", (_, { angles }) => angles[id]);
 
 /** @param {"phi" | "theta" | "psi"} id */
 const listRate = (id) => list("rad/s", (_, { rates }) => rates[id]);

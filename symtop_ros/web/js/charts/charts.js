@@ -13,13 +13,8 @@ import { drawOneSeries } from "./series_charts.js";
 import { drawWell } from "./well_chart.js";
 
 /** @import { Facts } from "../words/facts.js" */
-/** @import { Row } from "../run/local.js" */
-/**
- * What a frame shows: samples and their rows, and the constants of the motion.
- * @typedef {{samples: import("../run/local.js").Sample[], series: Row[],
- *   constants: import("./constants_table.js").Constants}} Frame
- */
-/** @typedef {(facts: Facts, frame: Frame, factor: number) => void} Draw */
+/** @import { Sample } from "../run/local.js" */
+/** @typedef {(facts: Facts, samples: Sample[], factor: number) => void} Draw */
 
 export class Charts {
   /** @param {(isKept: boolean) => void} keep a run for comparison, or let it go */
@@ -27,20 +22,20 @@ export class Charts {
     const free = new FreeChart(keep);
     /** @type {{[name: string]: Draw}} */
     this.all = {
-      rule: (facts, { samples }, factor) => drawRule(facts, last(samples).state, factor),
-      well: ({ potential }, { series }) => drawWell(potential, last(series)[1]),
-      theta: (facts, { series }) => drawOneSeries("theta", series, facts),
-      phi_dot: (facts, { series }) => drawOneSeries("phi_dot", series, facts),
-      psi_dot: (facts, { series }) => drawOneSeries("psi_dot", series, facts),
-      impulses: ({ began }, { samples }) => {
+      rule: (facts, samples, factor) => drawRule(facts, last(samples).state, factor),
+      well: ({ potential }, samples) => drawWell(potential, last(samples).state.angles.theta),
+      theta: (facts, samples) => drawOneSeries("theta", samples, facts),
+      phi_dot: (facts, samples) => drawOneSeries("phi_dot", samples, facts),
+      psi_dot: (facts, samples) => drawOneSeries("psi_dot", samples, facts),
+      impulses: ({ began }, samples) => {
         const { course, time } = last(samples);
         drawImpulses(course, time / NANO - began);
       },
-      free: (_, { samples }) => free.draw(samples),
+      free: (_, samples) => free.draw(samples),
     };
     /** @type {Draw} */
-    this.write = guard("tables", ({ table }, { samples, constants }) => {
-      showConstants(table, constants);
+    this.write = guard("tables", ({ table }, samples) => {
+      showConstants(table, last(samples));
       free.write(samples);
     });
     for (const [name, draw] of Object.entries(this.all)) this.all[name] = guard(name, draw);
@@ -64,12 +59,12 @@ export class Charts {
   /**
    * Draw what a frame shows, in the next frames.
    * @param {Facts} facts
-   * @param {Frame} frame
+   * @param {Sample[]} samples
    * @param {number} factor by which Hurry multiplies phi'
    */
-  draw(facts, frame, factor) {
-    this.drawOne = (/** @type {string} */ name) => this.all[name]?.(facts, frame, factor);
-    this.write(facts, frame, factor);
+  draw(facts, samples, factor) {
+    this.drawOne = (/** @type {string} */ name) => this.all[name]?.(facts, samples, factor);
+    this.write(facts, samples, factor);
     if (!this.isComplete) this.drawAll();
     this.isComplete = true;
     if (this.waiting.length) return; // these will be drawn from what is shown now
@@ -90,5 +85,5 @@ export class Charts {
   }
 }
 
-/** @template T @param {T[]} rows */
-const last = (rows) => rows[rows.length - 1];
+/** @param {Sample[]} samples */
+const last = (samples) => samples[samples.length - 1];

@@ -10,10 +10,7 @@
 
 /**
  * The torques about the line of nodes in the precessing frame, in N m; their total is Ix theta''.
- * @param {Top} top
- * @param {number} theta
- * @param {number} rate phi'
- * @param {number} spin psi'
+ * @param {Top} top @param {number} theta @param {number} rate phi' @param {number} spin psi'
  */
 export const findFrameTorques = ({ Ix, Iz, Mgl }, theta, rate, spin) => {
   const [cosine, sine] = [Math.cos(theta), Math.sin(theta)];
@@ -25,10 +22,7 @@ export const findFrameTorques = ({ Ix, Iz, Mgl }, theta, rate, spin) => {
 
 /**
  * theta'' in rad/s^2.
- * @param {Top} top
- * @param {number} theta
- * @param {number} rate phi'
- * @param {number} spin psi'
+ * @param {Top} top @param {number} theta @param {number} rate phi' @param {number} spin psi'
  */
 export const findTiltAcceleration = (top, theta, rate, spin) =>
   findFrameTorques(top, theta, rate, spin).total / top.Ix;

@@ -4,7 +4,7 @@
 import { nameQuantity, QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
 import { find, make, write } from "../controls/document.js";
-import { draw, findSpan, Frame, listTicks, WIDE } from "./plot.js";
+import { draw, findSpan, Frame, WIDE } from "./plot.js";
 import { angleUnit, shorten, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
@@ -25,16 +25,15 @@ const CURVES = [
 ];
 
 /** @param {Quantity} quantity @param {Sample} sample @param {Whose} whose */
-const measure = ({ pick, isAngle }, sample, whose) => {
-  const state = sample[whose];
-  if (!state) return NaN;
-  const course = (whose === "kept" && sample.keptCourse) || sample.course;
-  const value = pick(sample.time, state, course);
-  return isAngle ? toUnit(value) : value;
+const measure = ({ pick, unit }, { time, course, kept, ...states }, whose) => {
+  const from = whose === "kept" ? kept : { state: states[whose], course };
+  if (!from?.state) return NaN;
+  const value = pick(time, from.state, from.course);
+  return unit === "rad" ? toUnit(value) : value;
 };
 
 /** @param {Quantity} quantity */
-const nameUnit = ({ unit, isAngle }) => (isAngle ? angleUnit() : unit);
+const nameUnit = ({ unit }) => (unit === "rad" ? angleUnit() : unit);
 
 export class FreeChart {
   /** @param {(isKept: boolean) => void} keep the present run, or let the kept one go */
@@ -61,7 +60,7 @@ export class FreeChart {
       list.append(make("option", { value, textContent: `${nameQuantity(value)} (${unit})` }));
     }
     list.value = chosen;
-    keepChoice(id, () => {});
+    keepChoice(id);
     return list;
   }
 
@@ -98,11 +97,10 @@ export class FreeChart {
     draw(
       "free",
       HEIGHT,
-      phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
       `${frame.axes}${paths.join("")}
       ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
-      ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}
-      ${frame.writeBelow(listTicks(...range, 4))}`,
+      ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}`,
+      phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
     );
   }
 

@@ -3,7 +3,7 @@
 
 import { find } from "../controls/document.js";
 import { findFrameTorques } from "./formulas.js";
-import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
+import { draw, findSpan, Frame, spread } from "./plot.js";
 import { NANO } from "../physics/course.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
@@ -71,14 +71,12 @@ export const drawImpulses = (course, passed) => {
   draw(
     "impulses",
     HEIGHTS[0] + HEIGHTS[1] - LOWER,
-    phrase("chart.impulses"),
     `${upper.axes}${zero(upper)}${curves.join("")}${now(upper)}${upper.nameVertical("N m")}
     <g transform="translate(0,${HEIGHTS[0] - LOWER})">${lower.axes}${zero(lower)}${now(lower)}
     ${lower.curve(
       fall.map(({ time, rate }) => [time, rate]),
       'stroke="var(--text)" stroke-width="1.8"',
     )}
-    ${lower.nameVertical(phrase("axis.theta_dot"))}${lower.nameHorizontal(phrase("axis.time"))}
-    ${lower.writeBelow(listTicks(0, last, 4))}</g>`,
+    ${lower.nameVertical(phrase("axis.theta_dot"))}${lower.nameHorizontal(phrase("axis.time"))}</g>`,
   );
 };

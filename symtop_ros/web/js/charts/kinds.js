@@ -6,16 +6,14 @@
 import { findConstants } from "./formulas.js";
 
 /** @import { Top } from "../physics/kernel.js" */
+/** @import { Now } from "../words/facts.js" */
 
 const TWICE = 2; // Mgl/p_psi: phi' of the second cusp
 const AT_REST = 1e-9; // of omega: theta' that is smaller is none
 
 /**
  * Whether phi' reverses: the motion makes loops.
- * @param {Top} top
- * @param {number} theta
- * @param {number} phiDot
- * @param {number} psiDot
+ * @param {Top} top @param {number} theta @param {number} phiDot @param {number} psiDot
  */
 export const makesLoops = ({ Ix, Iz, Mgl }, theta, phiDot, psiDot) => {
   const [u, sine] = [Math.cos(theta), Math.sin(theta)];
@@ -51,8 +49,7 @@ export const findBoundaries = ({ Ix, Iz, Mgl }, theta, phiDot) => {
 /**
  * Tilt, rates and regular rates of a motion where theta' = 0: at its start, or at the turning point next to it.
  * Null where this is on the vertical.
- * @param {import("../physics/course.js").Course} course
- * @returns {{theta: number, phi_dot: number, psi_dot: number, roots: number[]} | null}
+ * @param {import("../physics/course.js").Course} course @returns {Now | null}
  */
 export const findTurning = ({ kernel, top, start, free }) => {
   const { theta: tilt } = start.angles;

@@ -2,13 +2,12 @@
 
 import { find } from "../controls/document.js";
 import { findBoundaries, makesLoops } from "./kinds.js";
-import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
-import { shorten } from "../words/quantities.js";
+import { draw, findSpan, Frame, spread } from "./plot.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Top } from "../physics/kernel.js" */
 /** @import { Pair } from "./plot.js" */
-/** @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Turning */
+/** @import { Now } from "../words/facts.js" */
 
 const HEIGHT = 205;
 const [ROWS, COLUMNS] = [86, 84]; // cells of the regions
@@ -23,7 +22,7 @@ const LOOKS = {
   lower: 'stroke="var(--grey)" stroke-width="1.4" stroke-dasharray="2 2"',
 };
 
-/** The ranges of psi' and of phi'. @param {Turning} turning @returns {[Pair, Pair]} */
+/** The ranges of psi' and of phi'. @param {Now} turning @returns {[Pair, Pair]} */
 const findRanges = ({ phi_dot, psi_dot, roots: all }) => {
   const roots = all.filter((rate) => Math.abs(rate) < LARGEST);
   const spin = 1.6 * Math.max(Math.abs(psi_dot), 100);
@@ -37,10 +36,7 @@ const findRanges = ({ phi_dot, psi_dot, roots: all }) => {
 
 /**
  * Where motions make loops: rows of cells, as one path.
- * @param {Frame} frame
- * @param {Top} top
- * @param {number} theta
- * @param {[Pair, Pair]} ranges
+ * @param {Frame} frame @param {Top} top @param {number} theta @param {[Pair, Pair]} ranges
  */
 const drawLoops = (frame, top, theta, [[left, right], [low, high]]) => {
   const [width, height] = [(right - left) / COLUMNS, (high - low) / ROWS];
@@ -86,7 +82,7 @@ const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
 /** What was drawn last: regions and boundaries hold for a top and a tilt. */
 const drawn = { key: "", text: "" };
 
-/** @param {Top} top @param {Turning | null} turning */
+/** @param {Top} top @param {Now | null} turning */
 export const drawKinds = (top, turning) => {
   find("kinds-chart").hidden = !turning;
   if (!turning) return;
@@ -103,11 +99,9 @@ export const drawKinds = (top, turning) => {
   draw(
     "kinds",
     HEIGHT,
-    phrase("chart.kinds"),
     `${drawn.text}${frame.level(0, LOOKS.cusps)}
     ${frame.dot([turning.psi_dot, turning.phi_dot], 'fill="var(--theta)" id="present"')}
     ${frame.nameVertical(phrase("axis.phi_dot"))}
-    ${frame.nameHorizontal(phrase("axis.psi_dot"))}
-    ${frame.writeBelow(listTicks(...horizontal, 4), (value) => shorten(value))}`,
+    ${frame.nameHorizontal(phrase("axis.psi_dot"))}`,
   );
 };

@@ -31,12 +31,7 @@ const listHeights = ({ kick, far }) => {
   return heights.map((group) => group.map((each) => (Math.abs(each) > least ? each : 0)));
 };
 
-/**
- * @param {Frame} frame
- * @param {number} group
- * @param {number} place
- * @param {number} height
- */
+/** @param {Frame} frame @param {number} group @param {number} place @param {number} height */
 const drawBar = (frame, group, place, height) => {
   const left = frame.x(group + WIDTH * (place - BARS.length / 2));
   const right = frame.x(group + WIDTH * (place + 1 - BARS.length / 2)) - 1;
@@ -66,9 +61,8 @@ export const drawLedger = (ledger, sentence) => {
   draw(
     "ledger",
     HEIGHT,
-    sentence,
     `${frame.level(0, 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
+    sentence,
   );
-  find("ledger").querySelector("svg")?.setAttribute("aria-label", sentence);
   say("ledger-text", sentence);
 };

@@ -3,7 +3,6 @@
 import { find } from "../controls/document.js";
 import { shorten } from "../words/quantities.js";
 
-const SVG = "http://www.w3.org/2000/svg";
 export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
 const [RIGHT, UPPER, LOWER] = [18, 21, 28]; // margins, in which all words are
@@ -18,28 +17,18 @@ const LETTER = 5.6; // units of its width
  * Put a drawing into the place of a chart.
  * @param {string} id
  * @param {number} height
- * @param {string} label
  * @param {string} drawing
+ * @param {string} [label] if it is not always the same
  */
-export const draw = (id, height, label, drawing) => {
-  const place = find(id);
-  if (!place.firstElementChild) {
-    const svg = document.createElementNS(SVG, "svg");
-    svg.setAttribute("viewBox", `0 0 ${WIDE} ${height}`);
-    svg.setAttribute("role", "img");
-    svg.setAttribute("aria-label", label);
-    place.append(svg);
-  }
-  if (place.firstElementChild) place.firstElementChild.innerHTML = drawing;
+export const draw = (id, height, drawing, label) => {
+  const svg = /** @type {Element} */ (find(id).firstElementChild);
+  svg.setAttribute("viewBox", `0 0 ${WIDE} ${height}`);
+  svg.innerHTML = drawing;
+  if (label) svg.ariaLabel = label;
 };
 
-/**
- * Round values between two, about so many.
- * @param {number} low
- * @param {number} high
- * @param {number} count
- */
-export const listTicks = (low, high, count) => {
+/** Round values between two, about so many. @param {number} low @param {number} high @param {number} count */
+const listTicks = (low, high, count) => {
   const rough = (high - low) / count;
   const size = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((k) => k * size).find((each) => each >= rough * 0.999) ?? rough;
@@ -54,8 +43,7 @@ export const listTicks = (low, high, count) => {
 /**
  * The place of a value, outside of the drawing if the value is beyond what an axis can show; NaN, a
  * gap, for a value that is no number.
- * @param {number} value
- * @param {number} place
+ * @param {number} value @param {number} place
  */
 const keepNear = (value, place) => {
   if (Number.isNaN(place)) return Number.isNaN(value) ? NaN : FAR;
@@ -84,6 +72,7 @@ export class Frame {
    */
   constructor(height, horizontal, vertical, marks = 4, shown = (value) => value) {
     const [[left, right], [low, high]] = [horizontal, vertical];
+    this.horizontal = horizontal;
     this.bottom = height - LOWER;
     /** @type {Scale} */
     this.x = (value) =>
@@ -147,9 +136,10 @@ export class Frame {
     return `<text x="4" y="11">${text.replace("<", "&lt;")}</text>`;
   }
 
-  /** What the horizontal axis shows, below its values. @param {string} text */
-  nameHorizontal(text) {
-    return `<text x="${WIDE - RIGHT}" y="${this.bottom + 24}" text-anchor="end">${text}</text>`;
+  /** What the horizontal axis shows, below its values. @param {string} text @param {string} values */
+  nameHorizontal(text, values = this.writeBelow(listTicks(...this.horizontal, 4))) {
+    const name = `<text x="${WIDE - RIGHT}" y="${this.bottom + 24}" text-anchor="end">${text}</text>`;
+    return name + values;
   }
 
   /** The name of a level, at its right end. @param {number} value @param {string} text */
@@ -176,9 +166,7 @@ export const spread = (low, high, count) =>
 
 /**
  * An interval around numbers, with some room; of `least` at least, so that no rounding is shown.
- * @param {number[]} numbers
- * @param {number} least
- * @returns {Pair}
+ * @param {number[]} numbers @param {number} least @returns {Pair}
  */
 export const findSpan = (numbers, least) => {
   let [low, high] = [Infinity, -Infinity];

@@ -1,8 +1,7 @@
 // Chart of Perry's rule: theta'' over phi', with psi' held.
 
-import { draw, findSpan, Frame, listTicks, spread } from "./plot.js";
+import { draw, findSpan, Frame, spread } from "./plot.js";
 import { findTiltAcceleration } from "./formulas.js";
-import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Facts } from "../words/facts.js" */
@@ -35,7 +34,6 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
   draw(
     "rule",
     HEIGHT,
-    phrase("chart.rule"),
     `${frame.axes}${frame.level(0, 'stroke="var(--grey)"')}
     ${frame.clip(frame.curve(rates.map(place), 'stroke="var(--phi)" stroke-width="2"'))}
     ${roots.map(mark).join("")}
@@ -43,7 +41,6 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
     ${frame.dot(place(rate), 'fill="var(--theta)" id="now"')}
     ${frame.nameVertical(phrase("axis.rises"))}
     <text x="4" y="${frame.bottom + 24}">${phrase("axis.falls")}</text>
-    ${frame.nameHorizontal(phrase("axis.phi_dot"))}
-    ${frame.writeBelow(listTicks(...range, 4), (value) => shorten(value))}`,
+    ${frame.nameHorizontal(phrase("axis.phi_dot"))}`,
   );
 };

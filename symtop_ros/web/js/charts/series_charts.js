@@ -1,78 +1,76 @@
 // Charts of tilt, precession and spin over the time of the motion.
 
-import { draw, findSpan, Frame, listTicks } from "./plot.js";
+import { draw, findSpan, Frame } from "./plot.js";
+import { NANO } from "../physics/course.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { Row } from "../run/local.js" */
-/** @typedef {{column: number, color: string, least: number, isTilt: boolean}} Series */
+/** @import { State } from "../physics/state.js" */
+/** @import { Sample } from "../run/local.js" */
+/** @import { Pair } from "./plot.js" */
+/** @typedef {{pick: (state: State) => number, color: string, least: number, isTilt: boolean}} Series */
 
 const HEIGHT = 119;
 const SHARE = 0.02; // of a quantity, which its chart spans at least
-const GHOST = 4; // column of theta of the ghost
+
+/** @param {State} state */
+const findTilt = ({ angles }) => angles.theta;
+
 /** @type {{[id: string]: Series}} */
 const SERIES = {
-  theta: { column: 1, color: "var(--theta)", least: 0.01, isTilt: true },
-  phi_dot: { column: 2, color: "var(--phi)", least: 0.1, isTilt: false },
-  psi_dot: { column: 3, color: "var(--psi)", least: 0.1, isTilt: false },
+  theta: { pick: findTilt, color: "var(--theta)", least: 0.01, isTilt: true },
+  phi_dot: { pick: ({ rates }) => rates.phi, color: "var(--phi)", least: 0.1, isTilt: false },
+  psi_dot: { pick: ({ rates }) => rates.psi, color: "var(--psi)", least: 0.1, isTilt: false },
 };
 
-/** @param {number | null} value */
-const orGap = (value) => value ?? NaN;
-
 /**
- * @param {Row[]} rows
- * @param {Series} series
- * @returns {[number, number]} values at the lower and the upper edge
+ * Values at the lower and the upper edge.
+ * @param {Pair[]} own @param {Pair[]} ghost @param {Series} series @returns {Pair}
  */
-const findEdges = (rows, { column, least, isTilt }) => {
-  const values = rows.map((row) => orGap(row[column]));
-  if (isTilt) {
-    const [low, high] = findSpan([...values, ...rows.map((row) => orGap(row[GHOST]))], least);
-    return [high, low]; // a small tilt is high
-  }
-  return findSpan(values, Math.max(least, SHARE * Math.abs(values[0])));
+const findEdges = (own, ghost, { least, isTilt }) => {
+  const values = [...own, ...ghost].map(([, value]) => value);
+  if (!isTilt) return findSpan(values, Math.max(least, SHARE * Math.abs(values[0])));
+  const [low, high] = findSpan(values, least);
+  return [high, low]; // a small tilt is high
 };
 
 /**
  * The range of time, and the kicks in it.
- * @param {Row[]} rows
+ * @param {number} first s
+ * @param {number} now s
  * @param {{window: number, marks: number[]}} facts
- * @returns {{range: [number, number], kicks: number[]}}
+ * @returns {{range: Pair, kicks: number[]}}
  */
-const findRange = (rows, { window, marks }) => {
-  const now = rows[rows.length - 1][0];
-  const begin = Math.max(now - window, rows[0][0]);
+const findRange = (first, now, { window, marks }) => {
+  const begin = Math.max(now - window, first);
   const kicks = marks.filter((time) => time >= begin && time <= now);
   return { range: [begin, Math.max(now, begin + window / 20)], kicks };
 };
 
 /**
  * @param {"theta" | "phi_dot" | "psi_dot"} id
- * @param {Row[]} rows
+ * @param {Sample[]} samples
  * @param {{window: number, marks: number[]}} facts
  */
-export const drawOneSeries = (id, rows, facts) => {
-  const { column, color, isTilt } = SERIES[id];
-  const { range, kicks } = findRange(rows, facts);
-  const edges = findEdges(rows, SERIES[id]);
+export const drawOneSeries = (id, samples, facts) => {
+  const { pick, color, isTilt } = SERIES[id];
+  const list = (/** @type {"state" | "ghost"} */ whose) =>
+    samples.map(({ time, [whose]: state }) => {
+      return /** @type {Pair} */ ([time / NANO, state ? pick(state) : NaN]);
+    });
+  const [own, ghost] = [list("state"), isTilt ? list("ghost") : []];
+  const { range, kicks } = findRange(own[0][0], own[own.length - 1][0], facts);
+  const edges = findEdges(own, ghost, SERIES[id]);
   const frame = new Frame(HEIGHT, range, edges, 3, isTilt ? toUnit : undefined);
-  const line = (/** @type {number} */ k, /** @type {string} */ style) =>
-    frame.curve(
-      rows.map((row) => [row[0], orGap(row[k])]),
-      style,
-    );
   const mark = (/** @type {number} */ time) =>
     frame.upright(time, 'class="kick" stroke="var(--gold)" stroke-width="1.5"');
   draw(
     id,
     HEIGHT,
-    phrase(`chart.${id}`),
     `${frame.axes}${kicks.map(mark).join("")}
-    ${isTilt ? line(GHOST, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"') : ""}
-    ${line(column, `stroke="${color}" stroke-width="1.8"`)}
+    ${frame.curve(ghost, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"')}
+    ${frame.curve(own, `stroke="${color}" stroke-width="1.8"`)}
     ${frame.nameVertical(isTilt ? phrase("axis.tilt", { unit: angleUnit() }) : "rad/s")}
-    ${frame.nameHorizontal(phrase("axis.time"))}
-    ${frame.writeBelow(listTicks(...range, 4))}`,
+    ${frame.nameHorizontal(phrase("axis.time"))}`,
   );
 };

@@ -27,7 +27,6 @@ export const drawWell = (potential, theta) => {
   draw(
     "well",
     HEIGHT,
-    phrase("chart.well"),
     `${frame.band(angles, 'fill="var(--band)"')}
     ${frame.axes}
     ${before ? drawPotential(frame, before, 'stroke="var(--grey)" stroke-dasharray="4 3" id="before"') : ""}
@@ -35,8 +34,7 @@ export const drawWell = (potential, theta) => {
     ${frame.nameLevel(energy, "E'")}
     ${drawPotential(frame, potential, 'stroke="var(--phi)" stroke-width="2" id="potential"')}
     ${frame.nameVertical(phrase("axis.U"))}
-    ${frame.nameHorizontal("\u03b8")}
-    ${frame.dot([theta, energy], 'fill="var(--theta)"')}
-    ${frame.writeBelow(named, writeAngle)}`,
+    ${frame.nameHorizontal("\u03b8", frame.writeBelow(named, writeAngle))}
+    ${frame.dot([theta, energy], 'fill="var(--theta)"')}`,
   );
 };

@@ -27,18 +27,29 @@ export const choose = (id, value) => {
   list.dispatchEvent(new Event("change"));
 };
 
-/**
- * Keep what is chosen in a list, and take over what was.
- * @param {string} id
- * @param {() => void} changed
- */
-export const keepChoice = (id, changed) => {
+/** Keep what is chosen in a list, and take over what was. @param {string} id @param {() => void} follow */
+export const keepChoice = (id, follow = () => {}) => {
   const list = find(id, HTMLSelectElement);
   const kept = read(id);
   // A choice of another version of the page may be none of this list.
   if ([...list.options].some(({ value }) => value === kept)) list.value = kept ?? "";
   list.addEventListener("change", () => {
     keep(id, list.value);
-    changed();
+    follow();
+  });
+  follow();
+};
+
+/** Light or dark, as chosen or as the system prefers; large for a projector. */
+export const followLooks = () => {
+  const { dataset } = document.documentElement;
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const setTheme = () => {
+    dataset.theme = find("theme", HTMLSelectElement).value || (dark.matches ? "dark" : "light");
+  };
+  keepChoice("theme", setTheme);
+  dark.addEventListener("change", setTheme);
+  keepChoice("size", () => {
+    dataset.size = find("size", HTMLSelectElement).value;
   });
 };

@@ -18,9 +18,7 @@ export const find = (id, kind) => {
 
 /**
  * All elements that a selector matches, inside an element or in the page.
- * @param {string} selector
- * @param {ParentNode} inside
- * @returns {HTMLElement[]}
+ * @param {string} selector @param {ParentNode} inside @returns {HTMLElement[]}
  */
 export const findAll = (selector, inside = document) =>
   [...inside.querySelectorAll(selector)].map((each) => /** @type {HTMLElement} */ (each));
@@ -46,8 +44,7 @@ export const make = (name, properties = {}, ...children) => {
 /**
  * Write a text into an element, with its symbols as formulas; one that is there already is not
  * announced again. The text itself stays with the element.
- * @param {HTMLElement} element
- * @param {string} text
+ * @param {HTMLElement} element @param {string} text
  */
 export const write = (element, text) => {
   if (element.dataset.text === text) return;

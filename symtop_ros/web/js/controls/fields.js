@@ -13,7 +13,6 @@ import { phrase } from "../words/wording.js";
  * @typedef {{isAngle?: boolean, isRate?: boolean, isPositive?: boolean,
  *   isNotNegative?: boolean, low?: number, high?: number, step?: number}} Field
  */
-/** @typedef {(name: string, value: number) => void} Change */
 
 /** @type {{[name: string]: Field}} */
 const FIELDS = {
@@ -104,11 +103,12 @@ class Entry {
     });
     const value = shown?.[0] ?? parseQuantity(typed, Boolean(this.field.isAngle));
     const refusal = this.check(value);
-    if (refusal)
-      this.refuse(
-        phrase("refused", { name: this.title, ...refusal, got: typed || phrase("nothing") }),
-      );
-    else this.fields.change(this.name, value);
+    if (!refusal) this.fields.change(this.name, value);
+    else {
+      const got = typed || phrase("nothing");
+      refuse(phrase("refused", { name: this.title, ...refusal, got }));
+      this.text.setAttribute("aria-invalid", "true");
+    }
   }
 
   /** What a value must be, if it is not; otherwise null. @param {number} value */
@@ -119,12 +119,6 @@ class Entry {
       return { kind: "angle", most: inDegrees() ? "180\u00b0" : "pi rad" };
     if (isPositive && !(value > 0)) return { kind: "positive" };
     return isNotNegative && value < 0 ? { kind: "not_negative" } : null;
-  }
-
-  /** @param {string} text */
-  refuse(text) {
-    refuse(text);
-    this.text.setAttribute("aria-invalid", "true");
   }
 
   /** @param {HTMLElement} place */
@@ -215,8 +209,6 @@ export class Fields {
     this.entries = Object.fromEntries(entries.map((entry) => [entry.name, entry]));
     /** The field whose value was sent last. @type {Entry | null} */
     this.asked = null;
-    this.showUnit();
-    this.entries.factor.write();
   }
 
   /** @param {string} name @param {number} value */
@@ -278,7 +270,7 @@ export class Fields {
     for (const entry of Object.values(this.entries)) entry.write();
   }
 
-  /** Follow the motion. @param {import("./roots.js").Now} now */
+  /** Follow the motion. @param {import("../words/facts.js").Now} now */
   follow({ theta, phi_dot, psi_dot }) {
     this.now = { theta, phi_dot, psi_dot };
     for (const name of Object.keys(this.now)) this.entries[name].write();
@@ -297,8 +289,7 @@ export class Fields {
 
   /**
    * The doubles of which digits are shown while a field is edited.
-   * @param {string} name
-   * @returns {[value: number, digits: number][]}
+   * @param {string} name @returns {[value: number, digits: number][]}
    */
   listShown(name) {
     const roots = name === "phi_dot" ? this.roots : [];

@@ -1,5 +1,5 @@
 // Keys of the page: they act where nothing is typed, and where the browser does not use them. With
-// Shift the arrows turn the view instead of the top.
+// Shift the arrows turn the view instead of the top. Buttons that act while they are held.
 
 /** @type {{[key: string]: string}} */
 const ACTS = { h: "hurry", d: "delay", " ": "pause", s: "step", r: "reset", p: "projector" };
@@ -15,6 +15,8 @@ const TURNS = {
 };
 /** @type {{[key: string]: number}} */
 const DISTANCES = { "+": 1 / 1.1, "-": 1.1 };
+const PERIOD = 50; // ms between two messages
+const ENDS = ["pointerup", "pointerleave", "pointercancel", "blur", "keyup"];
 
 /**
  * The element that has the focus, or null if it or the browser uses all keys itself.
@@ -71,5 +73,21 @@ export const turnByKeys = (camera) => {
     else if (factor) camera.approach(factor);
     else return;
     event.preventDefault();
+  });
+};
+
+/** @param {HTMLElement} button @param {() => void} act */
+export const actWhileHeld = (button, act) => {
+  let timer = 0;
+  const end = () => clearInterval(timer);
+  const begin = () => {
+    end();
+    act();
+    timer = window.setInterval(act, PERIOD);
+  };
+  button.addEventListener("pointerdown", begin);
+  for (const name of ENDS) button.addEventListener(name, end);
+  button.addEventListener("keydown", (event) => {
+    if (event.key === "Enter" && !event.repeat) begin();
   });
 };

@@ -8,11 +8,7 @@ import { phrase } from "../words/wording.js";
 /** @typedef {(message: {[name: string]: any}) => void} Send */
 
 /** A mark in the colour of a part of the scene. @param {keyof typeof COLORS} name */
-const createMark = (name) => {
-  const mark = make("i");
-  mark.style.background = COLORS[name];
-  return mark;
-};
+const createMark = (name) => make("i", { style: `background: ${COLORS[name]}` });
 
 /** @param {[keyof typeof COLORS, string]} entry of the legend */
 const createEntry = ([name, layer]) => {

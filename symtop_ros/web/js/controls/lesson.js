@@ -27,8 +27,7 @@ export const readPredictions = () => {
 
 /**
  * What was predicted, in words: the answer to the first question, and that of each step.
- * @param {Step[]} steps
- * @param {string | null} answer
+ * @param {Step[]} steps @param {string | null} answer
  */
 export const writePredictions = (steps, answer) => {
   const predictions = Object.entries(readPredictions()).filter(([, text]) => text);

@@ -4,10 +4,7 @@ import { nameError } from "../run/errors.js";
 import { find, write } from "./document.js";
 import { phrase } from "../words/wording.js";
 
-/**
- * A refusal or a notice stands until the next act; an empty one takes it away.
- * @param {string} text
- */
+/** A refusal or a notice stands until the next act; an empty one takes it away. @param {string} text */
 export const refuse = (text) => show("refusal", text);
 
 /** A refusal can be put away. */

@@ -6,8 +6,7 @@ import { phrase } from "../words/wording.js";
 /**
  * A scene is started when it is picked with the pointer, or by its button or Enter: keys that move
  * through the list start nothing.
- * @param {{name: string}[]} scenes
- * @param {(name: string) => void} start
+ * @param {{name: string}[]} scenes @param {(name: string) => void} start
  */
 export const offerScenes = (scenes, start) => {
   const list = find("scenes", HTMLSelectElement);

@@ -31,11 +31,7 @@ export class Timeline {
   /** @param {number} end s */
   mark(end) {
     const shown = this.acts.filter((time) => time <= end).map((time) => (end ? time / end : 0));
-    const marks = shown.map((place) => {
-      const mark = make("i");
-      mark.style.left = `${(100 * place).toFixed(2)}%`;
-      return mark;
-    });
+    const marks = shown.map((place) => make("i", { style: `left: ${(100 * place).toFixed(2)}%` }));
     find("marks").replaceChildren(...marks);
   }
 }

@@ -43,14 +43,13 @@ export class Course {
       const most = `within ${MOST_STEPS} steps of integration`;
       throw new RangeError(`a time must be ${most}, got ${passed / NANO} s after its event`);
     }
-    const { orientation, angular_velocity } = this.motion.atNanosecond(passed);
-    return new State(this.kernel, orientation, angular_velocity);
+    const [orientation, omega] = this.motion.atNanosecond(passed);
+    return new State(this.kernel, orientation, omega);
   }
 
   /**
    * Integrate towards a time in so many steps; returns the time in ns up to which states are known.
-   * @param {number} passed ns since the start
-   * @param {number} steps
+   * @param {number} passed ns since the start @param {number} steps
    */
   reach(passed, steps) {
     const reached = this.motion.reach(passed / NANO, steps);
@@ -59,8 +58,7 @@ export class Course {
 
   /**
    * The course that goes on from a state, with what is changed.
-   * @param {State} start
-   * @param {{top?: Top, friction?: [number, number], torque?: Vector}} changes
+   * @param {State} start @param {{top?: Top, friction?: [number, number], torque?: Vector}} changes
    */
   continue(start, { top = this.top, friction = this.friction, torque = this.torque } = {}) {
     return new Course(this.kernel, top, start, friction, torque);

@@ -101,7 +101,7 @@ const measure = (type) => {
 };
 
 /** @param {number | Room["writes"]} type @returns {Room} */
-const room = (type) => ({ writes: type });
+export const room = (type) => ({ writes: type });
 
 /** The numbers of symtop_start. @param {Start} start */
 export const pack = ({ Ix, Iz, Mgl, ...given }) => {
@@ -162,7 +162,8 @@ export class Kernel {
       else this.write(each, begin);
       return begin;
     });
-    this.demand(this.exports[`symtop_${name}`](...taken));
+    const status = this.exports[`symtop_${name}`](...taken); // nothing if it cannot refuse
+    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
     return rooms.map((read) => read());
   }
 
@@ -180,11 +181,6 @@ export class Kernel {
     else new Float64Array(...range).set(numbers);
   }
 
-  /** @param {number | undefined} status nothing of a function that cannot refuse */
-  demand(status) {
-    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
-  }
-
   /** @param {number} status */
   describe(status) {
     const bytes = new Uint8Array(this.exports.memory.buffer);
@@ -195,21 +191,6 @@ export class Kernel {
   /** Make a motion. @param {Start} start */
   motion(start) {
     return new Motion(this, this.call("new", pack(start), room("handle"))[0]);
-  }
-
-  /** The parts of a state. @param {Vector} angles @param {Vector} rates @returns {any[]} */
-  fromAngles(angles, rates) {
-    return this.call("from_angles", angles, rates, 1, room(4), room(3), room(1)).slice(0, 2);
-  }
-
-  /** phi, theta and psi. @param {Quaternion} orientation @returns {Vector} */
-  findAngles(orientation) {
-    return this.call("find_angles", orientation, 1, room(3))[0];
-  }
-
-  /** @param {Quaternion} orientation @param {Vector} omega @returns {Vector} */
-  findAngleRates(orientation, omega) {
-    return this.call("find_angle_rates", orientation, omega, 1, room(3))[0];
   }
 
   /**
@@ -278,22 +259,10 @@ export class Motion {
     return this.kernel.call("state", this.handle, t, room(4), room(3)).flatMap((part) => [...part]);
   }
 
-  /** The state at a whole number of ns, not rounded, as of a node. @param {number} passed */
+  /** The parts of a state at a whole number of ns, not rounded, as of a node. @param {number} passed */
   atNanosecond(passed) {
-    return this.atStamps([1, 0, 0, 0, 0], BigInt64Array.of(BigInt(passed)));
-  }
-
-  /** States at stamps of a clock. @param {number[]} clock @param {BigInt64Array} stamps in ns */
-  atStamps(clock, stamps) {
-    return this.fill("states_of_clock", stamps.length, clock, stamps);
-  }
-
-  /** @param {string} name @param {number} count @param {any[]} times */
-  fill(name, count, ...times) {
-    const given = [this.handle, ...times, count, Infinity];
-    const rooms = [room(4 * count), room(3 * count), room(1)];
-    const [orientation, angular_velocity] = this.kernel.call(name, ...given, ...rooms);
-    return { orientation, angular_velocity };
+    const given = [this.handle, [1, 0, 0, 0, 0], BigInt64Array.of(BigInt(passed)), 1, Infinity];
+    return this.kernel.call("states_of_clock", ...given, room(4), room(3), room(1)).slice(0, 2);
   }
 
   /** Integrate towards a time in so many steps; returns the time up to which states are at hand. */

@@ -1,6 +1,6 @@
 // A state: quaternion (w, x, y, z), body to world, and the angular velocity in the body frame.
 
-import { VERTICAL } from "./kernel.js";
+import { room, VERTICAL } from "./kernel.js";
 
 /** @import { Kernel, Vector, Quaternion, Hold } from "./kernel.js" */
 /** @typedef {{phi: number, theta: number, psi: number}} Angles */
@@ -10,9 +10,6 @@ const SMALLEST = 1e-100; // as of the kernel; what is smaller is 0
 
 /** @param {number} x */
 const flush = (x) => (Math.abs(x) < SMALLEST ? 0 : x);
-
-/** @param {Vector} numbers @returns {Angles} */
-const name = ([phi, theta, psi]) => ({ phi, theta, psi });
 
 export class State {
   /**
@@ -39,9 +36,9 @@ export class State {
    * @param {Partial<Angles>} rates in rad/s
    */
   static fromEuler(kernel, { phi = 0, theta, psi = 0 }, rates = {}) {
-    const { phi: phiDot = 0, theta: thetaDot = 0, psi: psiDot = 0 } = rates;
-    const found = kernel.fromAngles([phi, theta, psi], [phiDot, thetaDot, psiDot]);
-    return new State(kernel, found[0], found[1]);
+    const given = [[phi, theta, psi], [rates.phi ?? 0, rates.theta ?? 0, rates.psi ?? 0], 1];
+    const [orientation, omega] = kernel.call("from_angles", ...given, room(4), room(3), room(1));
+    return new State(kernel, orientation, omega);
   }
 
   /** The vertical in the body frame. @returns {Vector} */
@@ -55,14 +52,26 @@ export class State {
     return x === 0 && y === 0;
   }
 
+  /** @param {string} what @param {Vector[]} given @returns {Angles} */
+  find(what, ...given) {
+    const [[phi, theta, psi]] = this.kernel.call(
+      `find_${what}`,
+      this.orientation,
+      ...given,
+      1,
+      room(3),
+    );
+    return { phi, theta, psi };
+  }
+
   get angles() {
-    this.found.angles ??= name(this.kernel.findAngles(this.orientation));
+    this.found.angles ??= this.find("angles");
     return this.found.angles;
   }
 
   /** The rates of Euler's angles; on the vertical phi' counts as 0. */
   get rates() {
-    this.found.rates ??= name(this.kernel.findAngleRates(this.orientation, this.omega));
+    this.found.rates ??= this.find("angle_rates", this.omega);
     return this.found.rates;
   }
 

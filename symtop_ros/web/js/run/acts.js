@@ -6,11 +6,10 @@ import { demandNoForces } from "./reader.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { LocalTop } from "./local.js" */
+/** @import { LocalTop, Message } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
-/** @import { Vector, Hold, Top } from "../physics/kernel.js" */
+/** @import { Vector, Top } from "../physics/kernel.js" */
 /** @import { Beginning } from "./links.js" */
-/** @typedef {{[name: string]: any}} Message */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
 
 const DISC = ["mass", "radius", "distance"];
@@ -77,10 +76,7 @@ const press = (top) => {
 
 /**
  * The angular impulse, in N m s, of a pull at the end of the axle to a point in scene units.
- * @param {Course} course
- * @param {State} state
- * @param {Vector} end
- * @returns {Vector}
+ * @param {Course} course @param {State} state @param {Vector} end @returns {Vector}
  */
 export const findPull = ({ top: { Ix, Mgl } }, state, end) => {
   const axis = state.toWorld([0, 0, 1]);
@@ -93,8 +89,7 @@ export const findTorque = ({ top: { Ix, Mgl } }) => TORQUE_SHARE * (Math.abs(Mgl
 
 /**
  * Apply a torque about the vertical together with that of the scene.
- * @param {LocalTop} top
- * @param {number} sign 0 for no torque
+ * @param {LocalTop} top @param {number} sign 0 for no torque
  */
 export const holdTorque = (top, sign) => {
   const [x, y, z] = top.steady;

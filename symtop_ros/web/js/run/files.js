@@ -2,11 +2,15 @@
 
 import { find, make } from "../controls/document.js";
 import { refuse } from "../controls/notices.js";
+import { NANO } from "../physics/course.js";
 import { drawPicture } from "../scene/picture.js";
+import { chooseWindow } from "../words/facts.js";
 import { phrase } from "../words/wording.js";
 
-/** @typedef {{json: object, csv: string}} Saved what a top has to be saved */
+/** @import { LocalTop } from "./local.js" */
 
+const SHARE = 200; // of a window: rows of a table in it
+const MOST = 20_000; // rows between two events; a longer time has them farther apart
 const RUN = "top-run"; // element of a page that holds its run
 const KEPT = 10_000; // ms until the browser has begun to save
 
@@ -42,8 +46,7 @@ export const readData = (id) => {
 
 /**
  * A page with a run in it. Data are no script, and no end of an element is among them.
- * @param {Element} source
- * @param {string} run
+ * @param {Element} source @param {string} run
  */
 const writePage = (source, run) => {
   const place = /** @type {Element} */ (source.querySelector(`#${RUN}`));
@@ -59,14 +62,35 @@ const findRun = (text) => {
   return new DOMParser().parseFromString(text, "text/html").getElementById(RUN)?.textContent ?? "";
 };
 
-/** @param {Saved} top @param {Element} source the page as it was opened */
+/** The series of a run as a table of comma-separated values. @param {LocalTop} top */
+const writeSeries = ({ run: { moments }, time: now }) => {
+  const names = ["phi", "theta", "psi"];
+  const heads = [
+    ...names.map((each) => `${each} (rad)`),
+    ...names.map((each) => `${each}_dot (rad/s)`),
+  ];
+  const lines = [["time (s)", ...heads].join(",")];
+  moments.forEach(({ time: begin, course }, k) => {
+    const end = moments[k + 1]?.time ?? now;
+    const wanted = Math.round((chooseWindow(course.free) / SHARE) * NANO);
+    const step = Math.max(wanted, Math.ceil((end - begin) / MOST), 1);
+    for (let time = begin; time < end; time += step) {
+      const { angles, rates } = course.at(time - begin);
+      const numbers = [angles.phi, angles.theta, angles.psi, rates.phi, rates.theta, rates.psi];
+      lines.push([time / NANO, ...numbers].join(","));
+    }
+  });
+  return `${lines.join("\n")}\n`;
+};
+
+/** @param {LocalTop} top @param {Element} source the page as it was opened */
 export const offerFiles = (top, source) => {
   const writeRun = () => JSON.stringify(top.json);
   /** @type {{[id: string]: () => void}} */
   const ways = {
     "save-page": () => save("top.html", "text/html", writePage(source, writeRun())),
     "save-run": () => save("run.json", "application/json", writeRun()),
-    "save-series": () => save("top.csv", "text/csv", top.csv),
+    "save-series": () => save("top.csv", "text/csv", writeSeries(top)),
     "save-picture": () => download(drawPicture().toDataURL("image/png"), "top.png"),
   };
   for (const [id, way] of Object.entries(ways)) find(id).addEventListener("click", way);

@@ -2,19 +2,12 @@
 
 import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
-import {
-  chooseWindow,
-  compareConstants,
-  describe,
-  describeMotion,
-  describeNow,
-} from "../words/facts.js";
+import { chooseWindow, describe, describeMotion, describeNow } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
 import { Run } from "./run.js";
-import { writeSeries } from "./series.js";
 import { State } from "../physics/state.js";
 
 /** @import { Kernel } from "../physics/kernel.js" */
@@ -23,12 +16,8 @@ import { State } from "../physics/state.js";
 /**
  * States at a time of the run, in ns: of the top, of the ghost, and of a run that is kept for
  * comparison, at the same time since its start.
- * @typedef {{time: number, state: State, course: Course, ghost: State | null, kept: State | null,
- *   keptCourse: Course | null}} Sample
- */
-/**
- * What charts show of a time in s: theta, phi', psi', and theta of the ghost.
- * @typedef {[time: number, theta: number, phi_dot: number, psi_dot: number, ghost: number | null]} Row
+ * @typedef {{time: number, state: State, course: Course, ghost: State | null,
+ *   kept: ReturnType<import("./run.js").Kept>}} Sample
  */
 
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
@@ -256,10 +245,7 @@ export class LocalTop {
     return [...past, this.state];
   }
 
-  /**
-   * Draw the state of now with its trace, and tell the charts when they are due.
-   * @param {number} now ms
-   */
+  /** Draw the state of now with its trace, and tell the charts when they are due. @param {number} now ms */
   show(now) {
     const times = this.listTimes();
     const states = this.findStates(times);
@@ -267,7 +253,7 @@ export class LocalTop {
     this.draw(states[states.length - 1], states);
     if (now < this.chartsDue) return;
     this.chartsDue = now + CHARTS;
-    this.tellSeries(times, states);
+    this.tellSamples(times, states);
   }
 
   /** Tell the numbers of now, and what follows the motion, when they are due. @param {number} now ms */
@@ -284,12 +270,9 @@ export class LocalTop {
 
   /** @param {number} time ns @param {State} state @returns {Sample} */
   sample(time, state) {
-    const kept = this.kept?.find(time - this.run.findStart(this.time));
+    const kept = this.kept?.(time - this.run.findStart(this.time)) ?? null;
     const [{ course }, ghost] = [this.run.find(time), this.run.findGhost(time)];
-    return {
-      ...{ time, state, course, ghost },
-      ...{ kept: kept?.state ?? null, keptCourse: kept?.course ?? null },
-    };
+    return { time, state, course, ghost, kept };
   }
 
   /** Before and after each kick since a time, at one instant: a curve jumps there. @param {number} begin ns */
@@ -303,7 +286,7 @@ export class LocalTop {
   }
 
   /** @param {number[]} times ns @param {State[]} states */
-  tellSeries(times, states) {
+  tellSamples(times, states) {
     const step = Math.ceil(times.length / POINTS);
     const last = times.length - 1;
     const chosen = [...times.keys()].filter((n) => (last - n) % step === 0);
@@ -311,21 +294,13 @@ export class LocalTop {
       ...this.sampleKicks(times[0]),
       ...chosen.map((n) => this.sample(times[n], states[n])),
     ].sort((a, b) => a.time - b.time);
-    const series = samples.map(({ time, state: { rates, angles }, ghost }) => {
-      return [time / NANO, angles.theta, rates.phi, rates.psi, ghost ? ghost.angles.theta : null];
-    });
-    const constants = compareConstants(this.course, states[states.length - 1]);
-    const time = [this.time / NANO, this.end / NANO];
-    this.tell({ samples, series, constants, time, isSlow: this.isSlow });
+    this.tell({ samples, end: this.end / NANO, isSlow: this.isSlow });
   }
 
   tellFacts() {
     this.freeOfTexts = null;
     const { run, time } = this;
-    const facts = {
-      ...describe(run, time),
-      ...describeMotion(run, time, this.free),
-    };
+    const facts = { ...describe(run, time), ...describeMotion(run, time, this.free) };
     this.toldAt = time;
     const { isRunning: running, speed: factor, isRecording: recording } = this;
     this.tell({ facts: { ...facts, running, factor, recording } });
@@ -359,10 +334,6 @@ export class LocalTop {
   get json() {
     const [format] = this.content.run_fields.formats.slice(-1);
     return { format, events: this.run.records, end: this.end / NANO };
-  }
-
-  get csv() {
-    return writeSeries(this.run, this.time);
   }
 
   /** @param {any} json of run.json; one that cannot be read leaves all as it is */

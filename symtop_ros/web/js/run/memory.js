@@ -30,10 +30,7 @@ export const remember = (changes, fragment, isNew = false) => {
 
 const PERIOD = 2000; // ms; browsers allow some hundred changes of the history in half a minute
 
-/**
- * Remember the run of a top from now on.
- * @param {{json: any, speed: number, isRunning: boolean}} top
- */
+/** Remember the run of a top from now on. @param {{json: any, speed: number, isRunning: boolean}} top */
 export const rememberRun = (top) => {
   let last = "";
   const keep = () => {

@@ -44,7 +44,10 @@ export class NodeTop extends LocalTop {
       if (this.isGreeted) this.cross(course);
       this.orientation = orientation;
     }
-    if (isNew) this.greet();
+    if (isNew && !this.isGreeted) {
+      this.isGreeted = true;
+      this.present();
+    }
     if (events.length) this.tellFacts();
   }
 
@@ -56,12 +59,6 @@ export class NodeTop extends LocalTop {
     const isKnown = events.some(({ stamp }) => stamp === this.stamp);
     if (this.stamp && !isKnown) this.tell({ said: phrase("page.new_run") });
     this.run.moments = [];
-  }
-
-  greet() {
-    if (this.isGreeted) return;
-    this.isGreeted = true;
-    this.present();
   }
 
   /** @param {Message} event */
@@ -104,7 +101,8 @@ export class NodeTop extends LocalTop {
     try {
       if (message.act === "reset") this.ask("reset");
       else if (message.act === "record") this.ask("record", !this.isRecording);
-      else if (message.act === "torque") this.holdTorque(message.sign);
+      else if (message.act === "torque")
+        this.requests.push({ torque: [0, 0, message.sign * findTorque(this.course)] });
       else perform(this, message);
     } catch (error) {
       this.tell({ refused: nameError(error) });
@@ -112,11 +110,6 @@ export class NodeTop extends LocalTop {
     }
     this.send(this.requests);
     return true;
-  }
-
-  /** @param {number} sign */
-  holdTorque(sign) {
-    this.requests.push({ torque: [0, 0, sign * findTorque(this.course)] });
   }
 
   /** End the pushes: those that the node has not given yet. */
@@ -183,11 +176,7 @@ export class NodeTop extends LocalTop {
   }
 }
 
-/**
- * The parameters of a node that differ between two courses.
- * @param {Course} before
- * @param {Course} after
- */
+/** The parameters of a node that differ between two courses. @param {Course} before @param {Course} after */
 const listChanges = (before, after) => {
   const [old, wanted] = [listParameters(before), listParameters(after)];
   const changed = Object.entries(wanted).filter(

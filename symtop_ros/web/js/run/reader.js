@@ -97,12 +97,7 @@ const readPushes = (fields, { act: given }, { friction, torque }) => {
   throw reject("number", `be a whole number up to ${fields.number.high}`, act.number);
 };
 
-/**
- * @param {Table} table
- * @param {any} given
- * @param {EventRecord | null} before
- * @returns {EventRecord}
- */
+/** @param {Table} table @param {any} given @param {EventRecord | null} before @returns {EventRecord} */
 const readEvent = (table, given, before) => {
   const values = isObject(given) ? given : {};
   const read = /** @type {any} */ (
@@ -144,8 +139,7 @@ export const nameEvent = (place, work) => {
 
 /**
  * The events of run.json, and the time in s that the run has reached.
- * @param {Table} table
- * @param {any} json
+ * @param {Table} table @param {any} json
  */
 export const readRun = (table, json) => {
   const formats = table.formats.join(" or ");

@@ -29,10 +29,9 @@ import { State } from "../physics/state.js";
  * @typedef {{kind: Kind, time: number, asked: Asked, course: Course, before: State | null,
  *   last: Course | null, ghost: Placed | null}} Moment
  */
-
 /**
  * A part of a run, kept for comparison: the state at a time since its start, or nothing after its end.
- * @typedef {{find: (passed: number) => {state: State, course: Course} | null}} Kept
+ * @typedef {(passed: number) => {state: State, course: Course} | null} Kept
  */
 
 const LONGEST = 10_000; // ms in which the events of a run must be computed
@@ -97,10 +96,7 @@ export class Run {
 
   /**
    * Add an event, not before the first one; what came after its time is no longer part of the run.
-   * @param {Kind} kind
-   * @param {number} wanted ns
-   * @param {Course} course
-   * @param {Asked} asked
+   * @param {Kind} kind @param {number} wanted ns @param {Course} course @param {Asked} asked
    */
   add(kind, wanted, course, asked = {}) {
     const time = Math.max(wanted, this.moments[0]?.time ?? 0);
@@ -156,11 +152,10 @@ export class Run {
     const start = this.findStart(end);
     const copy = new Run(this.kernel);
     copy.moments = [...this.moments];
-    const find = (/** @type {number} */ passed) => {
+    return (passed) => {
       const time = start + passed;
       return time > end ? null : { state: copy.at(time), course: copy.find(time).course };
     };
-    return { find };
   }
 
   /** The events as in run.json. @returns {EventRecord[]} */

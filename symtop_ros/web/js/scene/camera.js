@@ -3,7 +3,6 @@
 
 import { add, cross, createPerspective, createView, multiplyMatrices } from "./matrices.js";
 import { normalize, scale, subtract } from "./matrices.js";
-import { Size } from "./size.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 
@@ -15,7 +14,13 @@ const TURN = 0.008; // rad for a px
 export class Camera {
   /** @param {HTMLElement} element */
   constructor(element) {
-    this.size = new Size(element);
+    this.size = { width: 0, height: 0 }; // px
+    // To ask the element in every frame would have the browser lay out the whole page again.
+    const measure = () => {
+      this.size = { width: element.clientWidth, height: element.clientHeight };
+    };
+    measure();
+    new ResizeObserver(measure).observe(element);
     /** @type {Vector} */
     this.target = [0, 0, 0];
     this.distance = 3;
@@ -99,10 +104,7 @@ export class Camera {
     return multiplyMatrices(createPerspective(angle, aspect), createView(this.eye, this.target));
   }
 
-  /**
-   * Where a point is on the element, in px, and how far away; null behind the eye.
-   * @param {Vector} point
-   */
+  /** Where a point is on the element, in px, and how far away; null behind the eye. @param {Vector} point */
   project([x, y, z]) {
     const m = this.matrix;
     const [a, b, w] = [0, 1, 3].map(
@@ -115,10 +117,7 @@ export class Camera {
 
   /**
    * The point that a px of the element shows, in the plane through a point that faces the eye.
-   * @param {number} px
-   * @param {number} py
-   * @param {Vector} through
-   * @returns {Vector}
+   * @param {number} px @param {number} py @param {Vector} through @returns {Vector}
    */
   unproject(px, py, through) {
     const here = this.project(through);

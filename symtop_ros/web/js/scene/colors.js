@@ -1,5 +1,11 @@
 // Colours of the scene, which its legend shares.
 
+/** @typedef {[number, number, number]} Color red, green and blue, 0 to 1 */
+
+/** @param {string} hex @returns {Color} */
+export const readColor = (hex) =>
+  /** @type {Color} */ ([1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255));
+
 /** Visible on white and on black, and different for colour-blind people. */
 export const COLORS = {
   L: "#0a46be",

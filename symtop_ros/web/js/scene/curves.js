@@ -1,6 +1,15 @@
 // Lines of the scene as pieces between points: circles of the unit sphere, and traces.
 
+import { spread } from "../charts/plot.js";
+
 /** @import { Vector } from "../physics/kernel.js" */
+
+/** A point of the sphere. @param {number} theta @param {number} phi @param {number} radius @returns {Vector} */
+export const findPoint = (theta, phi, radius = 1) => [
+  radius * Math.sin(theta) * Math.sin(phi),
+  -radius * Math.sin(theta) * Math.cos(phi),
+  radius * Math.cos(theta),
+];
 
 /** @param {Vector[]} points @returns {number[]} pieces between neighbours */
 export const listPieces = (points) =>
@@ -8,29 +17,14 @@ export const listPieces = (points) =>
 
 /** The circle of the unit sphere at a tilt. @param {number} theta */
 export const listParallel = (theta) =>
-  listPieces(
-    Array.from({ length: 97 }, (_, k) => {
-      const angle = (2 * Math.PI * k) / 96;
-      return [
-        Math.sin(theta) * Math.cos(angle),
-        Math.sin(theta) * Math.sin(angle),
-        Math.cos(theta),
-      ];
-    }),
-  );
+  listPieces(spread(0, 2 * Math.PI, 97).map((phi) => findPoint(theta, phi)));
 
 /** Parallels and meridians. @param {boolean} isWhole */
 export const listSphere = (isWhole) => {
   const depth = isWhole ? Math.PI : Math.PI / 2;
   const tilts = [2, 4, 6, ...(isWhole ? [8, 10] : [])].map((n) => (n * Math.PI) / 12);
-  const meridians = Array.from({ length: 6 }, (_, n) =>
-    listPieces(
-      Array.from({ length: 65 }, (__, k) => {
-        const tilt = depth * (k / 32 - 1);
-        const phi = (n * Math.PI) / 6;
-        return [Math.sin(tilt) * Math.cos(phi), Math.sin(tilt) * Math.sin(phi), Math.cos(tilt)];
-      }),
-    ),
+  const meridians = spread(Math.PI / 6, Math.PI, 6).map((phi) =>
+    listPieces(spread(-depth, depth, 65).map((tilt) => findPoint(tilt, phi))),
   );
   return [...tilts.flatMap(listParallel), ...meridians.flat()];
 };

@@ -16,11 +16,7 @@ export const findAngles = (direction) => {
 };
 
 export class Grip {
-  /**
-   * @param {HTMLElement} canvas
-   * @param {import("./camera.js").Camera} camera
-   * @param {LocalTop} top
-   */
+  /** @param {HTMLElement} canvas @param {import("./camera.js").Camera} camera @param {LocalTop} top */
   constructor(canvas, camera, top) {
     this.canvas = canvas;
     this.camera = camera;

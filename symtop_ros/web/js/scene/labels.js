@@ -1,6 +1,6 @@
 // Labels of the scene: elements over the picture, each in the colour of its arrow.
 
-import { typeset } from "../words/typeset.js";
+import { make, write } from "../controls/document.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 
@@ -37,28 +37,19 @@ export class Labels {
   put(name, color, point, from, text) {
     const [at, other] = [point, from].map((each) => this.camera.project(each));
     if (!at || !other) return;
-    this.write(this.find(name, color), name, text);
+    const label = this.find(name, color);
+    if (label.dataset.text !== text) this.sizes.delete(name);
+    write(label, text);
     const [x, y] = [at.x - other.x, at.y - other.y];
     const length = Math.max(Math.abs(x), Math.abs(y)) || 1; // of the larger half the label is clear
     this.shown.set(name, { x: at.x, y: at.y, side: [x / length, y / length] });
   }
 
-  /** @param {HTMLElement} label @param {string} name @param {string} text */
-  write(label, name, text) {
-    if (label.dataset.text === text) return;
-    label.dataset.text = text;
-    label.replaceChildren(...typeset(text));
-    this.sizes.delete(name);
-  }
-
   /** @param {string} name @param {string} color */
   find(name, color) {
     if (!this.names[name]) {
-      const label = document.createElement("span");
-      label.className = "label";
-      label.style.borderColor = color;
-      this.place.append(label);
-      this.names[name] = label;
+      this.names[name] = make("span", { className: "label", style: `border-color: ${color}` });
+      this.place.append(this.names[name]);
     }
     return this.names[name];
   }

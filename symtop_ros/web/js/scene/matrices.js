@@ -2,11 +2,7 @@
 
 /** @import { Vector, Quaternion } from "../physics/kernel.js" */
 
-/**
- * @param {Float32Array | number[]} a
- * @param {Float32Array | number[]} b
- * @returns {number[]} their product
- */
+/** @param {Float32Array | number[]} a @param {Float32Array | number[]} b @returns {number[]} their product */
 export const multiplyMatrices = (a, b) =>
   Array.from({ length: 16 }, (_, place) => {
     const [row, column] = [place % 4, place - (place % 4)];
@@ -58,9 +54,7 @@ export const createView = (eye, target) => {
 
 /**
  * A rotation, a size along each of its axes, and a place.
- * @param {Quaternion} rotation
- * @param {Vector} size
- * @param {Vector} place
+ * @param {Quaternion} rotation @param {Vector} size @param {Vector} place
  */
 export const createPose = ([w, x, y, z], [a, b, c] = [1, 1, 1], place = [0, 0, 0]) => [
   ...[a * (w * w + x * x - y * y - z * z), a * 2 * (x * y + w * z), a * 2 * (x * z - w * y), 0],
@@ -71,8 +65,7 @@ export const createPose = ([w, x, y, z], [a, b, c] = [1, 1, 1], place = [0, 0, 0
 
 /**
  * The shortest rotation from z to a direction.
- * @param {Vector} direction of length 1
- * @returns {Quaternion}
+ * @param {Vector} direction of length 1 @returns {Quaternion}
  */
 export const turnTo = ([x, y, z]) => {
   const half = Math.acos(Math.min(Math.max(z, -1), 1)) / 2;

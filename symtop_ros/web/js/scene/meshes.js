@@ -1,7 +1,10 @@
 // The shapes of the scene as triangles: surfaces of revolution, in sectors of two colours that make
 // the spin visible. Lengths are in scene units: the pivot is the origin, and the axis ends at 1.
 
-/** @typedef {[number, number, number]} Color red, green and blue, 0 to 1 */
+import { spread } from "../charts/plot.js";
+import { readColor } from "./colors.js";
+
+/** @import { Color } from "./colors.js" */
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
 /** Place, normal and colour, three numbers each, of every corner of a triangle. */
 /** @typedef {number[]} Mesh */
@@ -16,9 +19,6 @@ const createProfile = (radii, heights) => radii.map((radius, k) => [radius, heig
 /** Of the two triangles of a facet: whether a corner is at its end, and whether it is above. */
 const CORNERS = createProfile([0, 1, 0, 1, 1, 0], [0, 0, 1, 0, 1, 1]);
 
-/** @param {string} hex @returns {Color} */
-export const readColor = (hex) =>
-  /** @type {Color} */ ([1, 3, 5].map((place) => parseInt(hex.slice(place, place + 2), 16) / 255));
 const STEEL = readColor("#c4cad2");
 const BRASS = readColor("#deb25c");
 const ENAMEL = readColor("#96202c");
@@ -27,10 +27,7 @@ const STONE = readColor("#8b93a1");
 
 /**
  * The surface of a profile turned about z. Normals are those of a cone for each edge.
- * @param {Profile} profile
- * @param {Color} first
- * @param {Color} second
- * @returns {Mesh}
+ * @param {Profile} profile @param {Color} first @param {Color} second @returns {Mesh}
  */
 export const createLathe = (profile, first, second = first) => {
   /** @type {Mesh} */
@@ -53,11 +50,7 @@ export const createLathe = (profile, first, second = first) => {
   return mesh;
 };
 
-/**
- * The rotor: a flat pear, widest at the centre of mass.
- * @param {number} radius
- * @param {number} height
- */
+/** The rotor: a flat pear, widest at the centre of mass. @param {number} radius @param {number} height */
 const createRotor = (radius, height) => {
   const radii = [0.022, 0.1, 0.35, 0.72, 0.94, 0.94, 0.8, 0.45, 0.16, 0.022];
   const heights = [-0.2, -0.17, -0.11, -0.06, -0.035, 0.035, 0.05, 0.075, 0.105, 0.14];
@@ -66,8 +59,7 @@ const createRotor = (radius, height) => {
     heights.map((each) => height + each),
   );
   /** @type {Profile} */
-  const rim = Array.from({ length: 9 }, (_, k) => {
-    const angle = (Math.PI * k) / 8 - Math.PI / 2;
+  const rim = spread(-Math.PI / 2, Math.PI / 2, 9).map((angle) => {
     return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
   });
   return [
@@ -140,10 +132,7 @@ export const createArrow = (color) => ({
 /** A ball of radius 1. @param {Color} color */
 export const createBall = (color) => {
   /** @type {Profile} */
-  const profile = Array.from({ length: 17 }, (_, k) => {
-    const angle = (Math.PI * k) / 16;
-    return [Math.sin(angle), -Math.cos(angle)];
-  });
+  const profile = spread(0, Math.PI, 17).map((angle) => [Math.sin(angle), -Math.cos(angle)]);
   return createLathe(profile, color);
 };
 

@@ -2,7 +2,8 @@
 
 import { phrase } from "../words/wording.js";
 
-/** @import { Mesh, Color } from "./meshes.js" */
+/** @import { Color } from "./colors.js" */
+/** @import { Mesh } from "./meshes.js" */
 /**
  * Corners of triangles on the graphics card, and how many numbers one has.
  * @typedef {{array: WebGLVertexArrayObject, buffer: WebGLBuffer, width: number, count: number}} Model
@@ -70,12 +71,11 @@ void main() {
 const SHADOW_FRAGMENT = `#version 300 es
 precision highp float;
 in vec3 at, facing, paint;
-uniform vec3 middle;
-uniform float opacity, radius;
+uniform mat4 pose;
 out vec4 result;
 void main() {
-  float far = length(at.xy - middle.xy) / radius;
-  result = vec4(0.0, 0.0, 0.0, opacity * pow(max(1.0 - far, 0.0), 1.5));
+  float far = length(at.xy - pose[3].xy) / 0.6;
+  result = vec4(0.0, 0.0, 0.0, 0.3 * pow(max(1.0 - far, 0.0), 1.5));
 }`;
 const CORNERS = [0, 0, 1, 1, 0, 1].map((end, k) => [end, [-1, 1, -1, -1, 1, 1][k]]);
 const SMOOTH = { antialias: true, failIfMajorPerformanceCaveat: true };
@@ -132,11 +132,7 @@ export class Painter {
     return program;
   }
 
-  /**
-   * A model that has no corners yet.
-   * @param {number[]} sizes of the numbers of a corner
-   * @returns {Model}
-   */
+  /** A model that has no corners yet. @param {number[]} sizes of the numbers of a corner @returns {Model} */
   create(sizes) {
     const { gl } = this;
     const array = /** @type {WebGLVertexArrayObject} */ (gl.createVertexArray());
@@ -212,8 +208,7 @@ export class Painter {
 
   /**
    * The place of a uniform; to ask the graphics card takes long.
-   * @param {WebGLProgram} program
-   * @param {string} name
+   * @param {WebGLProgram} program @param {string} name
    */
   locate(program, name) {
     const known = this.places.get(program) ?? {};
@@ -255,19 +250,9 @@ export class Painter {
     this.drawTriangles(model, opacity === 1);
   }
 
-  /**
-   * @param {Model} disc
-   * @param {number[]} pose
-   * @param {number[]} middle
-   * @param {number} radius
-   * @param {number} opacity
-   */
-  drawShadow(disc, pose, middle, radius, opacity) {
-    const { gl } = this;
-    const find = this.use(this.programs.shadows, pose);
-    gl.uniform3fv(find("middle"), middle);
-    gl.uniform1f(find("radius"), radius);
-    gl.uniform1f(find("opacity"), opacity);
+  /** @param {Model} disc @param {number[]} pose */
+  drawShadow(disc, pose) {
+    this.use(this.programs.shadows, pose);
     this.drawTriangles(disc, false);
   }
 

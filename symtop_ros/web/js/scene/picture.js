@@ -8,9 +8,7 @@ const SHOWN = ".label:not([hidden]), #legend [aria-pressed=true], #legend li:not
 
 /**
  * A text where its element stands, with the frame of a label, or a mark of the legend.
- * @param {CanvasRenderingContext2D} context
- * @param {HTMLElement} element
- * @param {DOMRect} scene
+ * @param {CanvasRenderingContext2D} context @param {HTMLElement} element @param {DOMRect} scene
  */
 const drawText = (context, element, scene) => {
   const { left, top, width, height } = element.getBoundingClientRect();
@@ -29,7 +27,7 @@ const drawText = (context, element, scene) => {
 
 /** @returns {HTMLCanvasElement} */
 export const drawPicture = () => {
-  const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("canvas"));
+  const canvas = find("picture", HTMLCanvasElement);
   const scene = canvas.getBoundingClientRect();
   const ratio = canvas.width / scene.width;
   const height = Math.round((scene.height + LINE) * ratio);

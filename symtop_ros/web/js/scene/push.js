@@ -1,9 +1,10 @@
 // What a kick did, for the scene: where the axle was pushed, and the bracket between the height that the
 // top would have and the one that it reaches.
 
+import { spread } from "../charts/plot.js";
 import { NANO } from "../physics/course.js";
 import { findLift } from "../words/headline.js";
-import { listPieces } from "./curves.js";
+import { findPoint, listPieces } from "./curves.js";
 import { cross, findSize, normalize, subtract } from "./matrices.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
@@ -21,13 +22,6 @@ const INNER = 1.02; // where its ends begin
 const LEVEL = 0.3; // rad; half of the two levels of the bracket
 const ROUNDING = 1e-9; // of a velocity: less is no push
 
-/** A point of the sphere. @param {number} theta @param {number} phi @param {number} radius @returns {Vector} */
-export const findPoint = (theta, phi, radius) => [
-  radius * Math.sin(theta) * Math.sin(phi),
-  -radius * Math.sin(theta) * Math.cos(phi),
-  radius * Math.cos(theta),
-];
-
 /** @param {Moment} moment @returns {Push | null} */
 export const findPush = (moment) => {
   const { kind, time, course, before } = moment;
@@ -37,20 +31,13 @@ export const findPush = (moment) => {
   const change = cross(start.toWorld(subtract(start.omega, before.omega)), tip);
   const isPushed = findSize(change) > ROUNDING * findSize(start.omega);
   const end = time + free.motion.nutation_period * NANO;
-  return {
-    tip,
-    way: isPushed ? normalize(change) : null,
-    begin: time,
-    end,
-    lift: findLift(moment),
-  };
+  const way = isPushed ? normalize(change) : null;
+  return { tip, way, begin: time, end, lift: findLift(moment) };
 };
 
 /**
  * The level that has been reached since a kick, and by how much it has moved.
- * @param {Push} push
- * @param {number} time ns
- * @param {State[]} states since the kick
+ * @param {Push} push @param {number} time ns @param {State[]} states since the kick
  */
 export const findReached = ({ lift, end }, time, states) => {
   if (!lift) return null;
@@ -64,14 +51,12 @@ export const findReached = ({ lift, end }, time, states) => {
 
 /**
  * The two levels next to the axle, and the bracket between them, as pieces of lines.
- * @param {{from: number, to: number}} levels
- * @param {number} phi
+ * @param {{from: number, to: number}} levels @param {number} phi
  */
 export const listBracket = ({ from, to }, phi) => {
-  const spread = Array.from({ length: 13 }, (_, k) => k / 12);
   const level = (/** @type {number} */ theta) =>
-    listPieces(spread.map((share) => findPoint(theta, phi + LEVEL * (2 * share - 1), INNER)));
-  const arc = spread.map((share) => findPoint(from + (to - from) * share, phi, BRACKET));
+    listPieces(spread(phi - LEVEL, phi + LEVEL, 13).map((each) => findPoint(theta, each, INNER)));
+  const arc = spread(from, to, 13).map((theta) => findPoint(theta, phi, BRACKET));
   const ends = [from, to].map((theta) => findPoint(theta, phi, INNER));
   return [...level(from), ...level(to), ...listPieces([ends[0], ...arc, ends[1]])];
 };

@@ -1,21 +1,15 @@
 // The scene: the top, its arrows and lines, the ghost, and the ball that is pulled.
 
+import { find } from "../controls/document.js";
 import { Camera } from "./camera.js";
-import { listParallel, listPieces, listSphere } from "./curves.js";
+import { findPoint, listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
-import {
-  createArrow,
-  createBall,
-  createBody,
-  createDisc,
-  createStand,
-  readColor,
-} from "./meshes.js";
-import { COLORS, FICTITIOUS } from "./colors.js";
+import { createArrow, createBall, createBody, createDisc, createStand } from "./meshes.js";
+import { COLORS, FICTITIOUS, readColor } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
-import { BRACKET, findPoint, findPush, findReached, listBracket } from "./push.js";
+import { BRACKET, findPush, findReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
 import { inDegrees } from "../words/quantities.js";
@@ -24,7 +18,6 @@ import { phrase } from "../words/wording.js";
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Vector } from "../physics/kernel.js" */
-/** @import { Color } from "./meshes.js" */
 
 const LENGTHS = { L: 1.24, omega: 1.13, torque: 0.55 }; // of the largest at the start of a motion
 const DEPTHS = { gravity: 0.1, Coriolis: 0.2, centrifugal: 0.3, sum: -0.1 }; // below the pivot
@@ -48,18 +41,14 @@ const STILL = createPose([1, 0, 0, 0]);
 const paint = (name) => readColor(COLORS[name]);
 
 export class Scene {
-  /** @param {HTMLElement} place in which the scene is shown @param {LocalTop} top */
-  constructor(place, top) {
-    const canvas = document.createElement("canvas");
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", phrase("page.picture"));
-    const labels = document.createElement("div");
-    place.prepend(canvas, labels);
+  /** @param {LocalTop} top */
+  constructor(top) {
+    const canvas = find("picture", HTMLCanvasElement);
     this.painter = new Painter(canvas);
     /** Says that the picture is lost, or null when it is back. @type {(text: string | null) => void} */
     this.tellLoss = () => {};
     this.camera = new Camera(canvas);
-    this.labels = new Labels(labels, this.camera);
+    this.labels = new Labels(find("labels"), this.camera);
     this.top = top;
     /** @type {{[name: string]: number}} */
     this.scales = {};
@@ -201,13 +190,8 @@ export class Scene {
     const { painter } = this;
     const axis = state.toWorld([0, 0, 1]);
     if (this.view % 3 === 0) {
-      painter.drawShadow(
-        this.models.disc,
-        createPose([1, 0, 0, 0], [0.9, 0.9, 1], [0.56 * axis[0], 0.56 * axis[1], GROUND]),
-        [0.56 * axis[0], 0.56 * axis[1], 0],
-        0.6,
-        0.3,
-      );
+      const below = /** @type {Vector} */ ([0.56 * axis[0], 0.56 * axis[1], GROUND]);
+      painter.drawShadow(this.models.disc, createPose([1, 0, 0, 0], [0.9, 0.9, 1], below));
       painter.drawMesh(this.models.stand, STILL);
     }
     painter.drawMesh(this.models.body, createPose(state.orientation));

@@ -24,8 +24,7 @@ export const findVectors = ({ top: { Ix, Iz, Mgl }, friction, torque }, state) =
 
 /**
  * The torques along the line of nodes for an observer who precesses with the top.
- * @param {import("../physics/kernel.js").Top} top
- * @param {State} state
+ * @param {import("../physics/kernel.js").Top} top @param {State} state
  */
 export const findTorques = (top, state) => {
   const { phi, psi } = state.rates;

@@ -7,7 +7,7 @@ import { findLedger, nameLedger } from "./ledger.js";
 import { describePushes } from "./pushes.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
-import { findConstants, findPotential } from "../charts/formulas.js";
+import { findPotential } from "../charts/formulas.js";
 import { spread } from "../charts/plot.js";
 import { phrase } from "./wording.js";
 import { shorten } from "./quantities.js";
@@ -26,13 +26,9 @@ import { shorten } from "./quantities.js";
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
-const UNITS = /** @type {const} */ ({ energy: "J", L_z: "N m s", "L_z'": "N m s" });
 const KICKS = ["kick", "push"];
 const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
-
-/** @param {number[]} numbers */
-const findLeast = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
 
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
 /** @param {Course} course */
@@ -45,8 +41,7 @@ export const chooseWindow = ({ motion }) => {
 
 /**
  * The box of the potential, its curve in it, and the curve before the last change.
- * @param {Course} free
- * @param {Moment | null} change
+ * @param {Course} free @param {Moment | null} change
  */
 const describePotential = ({ top: body, start, motion }, change) => {
   const potential = findPotential(body, start);
@@ -55,7 +50,7 @@ const describePotential = ({ top: body, start, motion }, change) => {
   const angles = motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
-  const bottom = Math.min(findLeast(heights), potential.energy);
+  const bottom = Math.min(...heights, potential.energy);
   const depth = potential.energy - bottom;
   const least = LEAST * Math.max(Math.abs(body.Mgl), Math.abs(depth), 1e-12);
   const top = potential.energy + Math.max(ABOVE * depth, least);
@@ -97,20 +92,6 @@ const listRates = ({ motion }) => {
   return rows;
 };
 
-/**
- * Constants of the motion, and how much they have changed since its start.
- * @param {Course} course
- * @param {State} state
- * @returns {import("../charts/constants_table.js").Constants}
- */
-export const compareConstants = ({ top, start }, state) => {
-  const [now, before] = [findConstants(top, state), findConstants(top, start)];
-  const names = /** @type {(keyof typeof UNITS)[]} */ (Object.keys(UNITS));
-  return Object.fromEntries(
-    names.map((name) => [name, [now[name], now[name] - before[name], UNITS[name]]]),
-  );
-};
-
 /** The last event that was not a torque of a button. @param {Run} run @param {number} time ns */
 const findAnnounced = (run, time) => {
   const isPast = (/** @type {Moment} */ each) => each.kind !== "torque" && each.time <= time;
@@ -149,17 +130,14 @@ const findCause = ({ direction, reason: { kind, rule, subject } }) => {
   return subject === "top" && rule === "holds" && CAUSES.includes(cause) ? cause : "start";
 };
 
-/** Tilt, rates and regular rates of now. @param {Course} course @param {State} state */
+/** Tilt, rates and regular rates of now. @typedef {ReturnType<typeof describeNow>} Now */
+/** @param {Course} course @param {State} state */
 export const describeNow = ({ kernel, top }, state) => {
   const { theta, phi_dot, psi_dot } = describeStart(state);
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
 };
 
-/**
- * What holds after the last event until the next one.
- * @param {Run} run
- * @param {number} time ns
- */
+/** What holds after the last event until the next one. @param {Run} run @param {number} time ns */
 export const describe = (run, time) => {
   const { course, kind, time: began } = run.find(time);
   const announced = findAnnounced(run, time);
@@ -168,10 +146,7 @@ export const describe = (run, time) => {
   const [mass, radius, distance] = run.kernel.findDisc(course.top);
   const disc = { "disc.mass": mass, "disc.radius": radius, "disc.distance": distance };
   return {
-    histories: {
-      radians: listHistory(run, "radians"),
-      degrees: listHistory(run, "degrees"),
-    },
+    histories: { radians: listHistory(run, "radians"), degrees: listHistory(run, "degrees") },
     top: { ...course.parameters, ...disc },
     start,
     roots,

@@ -24,8 +24,7 @@ export const findForces = ({ friction, torque }) => {
 
 /**
  * What a kick changed at the highest and the lowest point together, as far as it is seen.
- * @param {import("./verdict.js").Lift} highest
- * @param {import("./verdict.js").Lift} lowest
+ * @param {import("./verdict.js").Lift} highest @param {import("./verdict.js").Lift} lowest
  */
 const findSwing = (highest, lowest) => {
   const lifts = [highest, lowest].filter(({ kind }) => kind !== "unchanged");
@@ -85,8 +84,7 @@ const findMoves = (kind, [low, high], reason) => {
 /**
  * The record of the headline, and that of its reason with the name of its template. Motions are
  * those under gravity alone, from the state of now; the headline says so where more acts.
- * @param {Moment} moment
- * @param {Course} free the motion that would follow
+ * @param {Moment} moment @param {Course} free the motion that would follow
  */
 export const findOutcome = ({ kind, asked, course, before }, free) => {
   const forces = findForces(course);

@@ -23,8 +23,7 @@ const subtractEnergies = (now, before) => ({
 
 /**
  * The ledger of a kick, under gravity alone; null if the last event is none.
- * @param {import("../run/run.js").Moment} moment
- * @returns {Ledger | null}
+ * @param {import("../run/run.js").Moment} moment @returns {Ledger | null}
  */
 export const findLedger = ({ kind, course, before }) => {
   if (kind !== "kick" || !before) return null;

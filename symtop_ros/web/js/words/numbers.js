@@ -8,8 +8,7 @@ const WHOLE = 1e21; // from here on browsers write an exponent
 /**
  * Whether exactly half is left from a place on, after an even digit: of two equally near numbers
  * the even one is wanted, where browsers write the larger.
- * @param {string} digits
- * @param {number} place
+ * @param {string} digits @param {number} place
  */
 const isHalfAboveEven = (digits, place) =>
   /^50*$/.test(digits.slice(place)) && /[02468]$/.test(digits.slice(0, place));
@@ -25,9 +24,7 @@ const writeFixed = (size, decimals) => {
 
 /**
  * With a number of significant digits: these, and the exponent of the first.
- * @param {number} size
- * @param {number} count
- * @returns {[string, number]}
+ * @param {number} size @param {number} count @returns {[string, number]}
  */
 const findDigits = (size, count) => {
   const [all, exact] = size.toExponential(DIGITS).replace(".", "").split("e");

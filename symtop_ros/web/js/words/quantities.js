@@ -12,8 +12,7 @@ export const angleUnit = () => (inDegrees() ? "\u00b0" : "rad");
 
 /**
  * A number with some significant digits, without zeros at its end.
- * @param {number | null | undefined} value
- * @param {number} digits
+ * @param {number | null | undefined} value @param {number} digits
  */
 export const shorten = (value, digits = 4) =>
   value === null || value === undefined || Number.isNaN(value)
@@ -33,8 +32,7 @@ const WITH_UNIT = /^(.*?)\s*(\u00b0|deg|degrees|rad)?$/;
 /**
  * A number as it is typed, with a unit if it is an angle: 0.5, 1e-3, pi/4, 30°, 0.6 rad; NaN if it
  * is none. An angle without a unit is in that of the page; a multiple of pi is in rad.
- * @param {string} text
- * @param {boolean} isAngle
+ * @param {string} text @param {boolean} isAngle
  */
 export const parseQuantity = (text, isAngle) => {
   const plain = text

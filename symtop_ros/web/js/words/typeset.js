@@ -57,8 +57,7 @@ const WORD = /\[([^|\]]+)\|([^|\]]+)\]/;
 
 /**
  * A word that names an arrow of the scene, as a button of its colour.
- * @param {string} text
- * @param {string} layer
+ * @param {string} text @param {string} layer
  */
 const createWord = (text, layer) => {
   const word = document.createElement("button");
@@ -70,8 +69,7 @@ const createWord = (text, layer) => {
 
 /**
  * The parts of a text: its symbols as formulas, and the words that name an arrow, [torque|torque].
- * @param {string} text
- * @returns {(Node | string)[]}
+ * @param {string} text @returns {(Node | string)[]}
  */
 export const typeset = (text) => {
   const parts = text.split(WORD);
@@ -81,11 +79,7 @@ export const typeset = (text) => {
   });
 };
 
-/**
- * The parts of a text, with its symbols as formulas.
- * @param {string} text
- * @returns {(Node | string)[]}
- */
+/** The parts of a text, with its symbols as formulas. @param {string} text @returns {(Node | string)[]} */
 const typesetSymbols = (text) => {
   /** @type {(Node | string)[]} */
   const parts = [];

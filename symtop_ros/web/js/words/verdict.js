@@ -25,9 +25,7 @@ const readAverage = ({ is_fast, ...average }) =>
 
 /**
  * The verdict on a start under gravity alone, and what Perry's rule says if it is hurried.
- * @param {Course} course
- * @param {number} factor
- * @param {Hold} hold
+ * @param {Course} course @param {number} factor @param {Hold} hold
  */
 export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
   const found = kernel.judge(free.packed, factor, hold);
