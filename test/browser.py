@@ -72,7 +72,7 @@ def _counting(browser: Browser) -> Iterator[None]:
         new_page, close = owner.new_page, owner.close
 
         def open_page(**options: Any) -> Page:
-            tab = new_page(**{"locale": "en-US", **options})  # else that of the machine
+            tab = new_page(**options)
             counter.watch(tab)
             return tab
 

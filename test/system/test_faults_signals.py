@@ -71,8 +71,12 @@ def test_top_node_ends_in_silence_and_its_log_is_whole_or_absent(tmp_path):
         folder = tmp_path / str(attempt)
         options = set_parameters(*RECORDING, f"record.directory:={folder}")
         status, told = ended_at_random(chance, "top_node", *options)
-        # A machine that is overloaded adds its own warning, which is not the matter here.
-        assert [line for line in told.splitlines() if "no samples for" not in line] == []
+        # A machine that is overloaded adds its own warning, which is not the matter here, nor what
+        # rcl says of it if ROS ends between the check of the node and the warning.
+        of_load = "no samples for", "Failed to publish log message to rosout"
+        assert [
+            line for line in told.splitlines() if not any(map(line.__contains__, of_load))
+        ] == []
         statuses.add(status)
         for path in folder.glob("*"):
             assert status in {0, *SILENT}
