@@ -23,8 +23,8 @@ DOMAIN = claim_domain()
 TIMEOUT = 60.0
 SILENT = {-signal.SIGINT, -signal.SIGTERM}  # ended before there was anything to put in order
 RECORDING = ("publish_rate:=1000", "record.enabled:=true")
-SECONDS, OF_LOAD = "no samples for", "Failed to publish log message to rosout"
-ATTEMPTS = 1.0, 3
+SECONDS, ATTEMPTS = 1.0, 3
+OF_LOAD = "no samples for", "Failed to publish log message to rosout"
 
 
 @contextlib.contextmanager
