@@ -1,6 +1,7 @@
 """Which releases run, what differs between them, and rows for those that fail."""
 
 import json
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -68,17 +69,35 @@ def test_a_release_that_does_not_install_is_a_row_with_its_reason(tmp_path, monk
     assert [each.name for each in tmp_path.iterdir()] == ["Missing.json"]  # no environment is left
 
 
-def test_a_release_that_ends_or_hangs_is_a_row_with_its_reason(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("program", "limit", "reason"),
+    [
+        ("raise RuntimeError('no such joint')", 120, "RuntimeError: no such joint"),
+        ("import time; time.sleep(600)", 1, "took more than 1 s"),
+    ],
+)
+def test_a_release_that_ends_or_hangs_is_a_row_with_its_reason(
+    program, limit, reason, tmp_path, monkeypatch
+):
     monkeypatch.setattr(measure, "HOME", tmp_path)
     monkeypatch.setattr(measure, "install", lambda *_: "")
-    monkeypatch.setattr(measure, "LIMIT", 2)
+    monkeypatch.setattr(measure, "LIMIT", limit)
     (python, *_) = environments.find_pythons()
-    for program, reason in (
-        ("raise RuntimeError('no such joint')", "RuntimeError: no such joint"),
-        ("import time; time.sleep(600)", "took more than 2 s"),
-    ):
-        found = measure_release(replace(MUJOCO, program=program), "1.0", python)
-        assert found == {"reason": f"does not run: {reason}"}
+    found = measure_release(replace(MUJOCO, program=program), "1.0", python)
+    assert found == {"reason": f"does not run: {reason}"}
+
+
+@pytest.mark.parametrize("answer", ["", '{"error": {"code": "E404"}}'])
+def test_a_registry_that_does_not_answer_leaves_the_results_of_before(
+    answer, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(measure, "HOME", tmp_path)
+    monkeypatch.setattr(
+        environments, "execute", lambda *_: subprocess.CompletedProcess([], 1, answer, "")
+    )
+    (tmp_path / "Jolt.json").write_text(json.dumps({"1.10": row(0.5), "1.9": row(0.5)}))
+    (jolt,) = (engine for engine in ENGINES if engine.name == "Jolt")
+    assert [*measure_engine(jolt)] == ["1.9", "1.10"]
 
 
 def test_a_level_is_scored_when_all_of_its_problems_are(tmp_path):

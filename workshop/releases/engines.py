@@ -46,6 +46,7 @@ class Engine:
 MUJOCO_LOG = {
     "3.7.0": "Added midpoint integration for standalone free bodies in `implicit` and "
     "`implicitfast` integrators.",
+    "3.8.1": "Midpoint integration is now restricted to the `implicitfast` integrator",
     "3.11.0": "Replaced midpoint integration of free bodies with gyroscopic derivatives in the "
     "`implicitfast` integrator",
 }

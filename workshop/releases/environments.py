@@ -13,6 +13,7 @@ from workshop.releases.engines import Engine
 HOME = Path(__file__).parents[2] / ".venv" / "releases"
 INSTALL_LIMIT = 300  # s
 PYTHONS = (11, 12, 13, 10, 9, 8, 7)  # 3.x; the first that has a wheel is used
+LONGEST = 120  # characters of a reason
 NONE = 99  # a version that no package has: pip answers with those that there are
 
 
@@ -20,8 +21,9 @@ def list_releases(engine: Engine) -> dict[str, Path]:
     """Return the releases, the oldest first, each with the program that runs it."""
     if not engine.is_python:
         node = Path(shutil.which("node") or "node")
-        text = execute(["npm", "view", engine.package, "versions", "--json"], HOME.parent)
-        return {each: node for each in json.loads(text.stdout) if "-" not in each}
+        text = execute(["npm", "view", engine.package, "versions", "--json"], HOME.parent).stdout
+        names = json.loads(text or "[]")  # an object if it failed
+        return {each: node for each in names if "-" not in each} if type(names) is list else {}
     found: dict[str, Path] = {}
     for python in find_pythons():
         command = [*_pip("download", python), "--no-deps", f"{engine.package}=={NONE}"]
@@ -29,7 +31,12 @@ def list_releases(engine: Engine) -> dict[str, Path]:
         for each in answer[1].split(", ") if answer else []:
             if re.fullmatch(r"[\d.]+(post\d+)?", each):
                 found.setdefault(each, python)
-    return dict(sorted(found.items(), key=lambda each: [*map(int, re.findall(r"\d+", each[0]))]))
+    return {each: found[each] for each in sorted(found, key=order)}
+
+
+def order(release: str) -> list[int]:
+    """Return the numbers of a release, by which releases are sorted."""
+    return [int(each) for each in re.findall(r"\d+", release)]
 
 
 def find_pythons() -> list[Path]:
@@ -82,4 +89,4 @@ def explain(result: subprocess.CompletedProcess[str]) -> str:
     """Return the last line that names an error, or the last of all."""
     lines = [each.strip() for each in result.stderr.splitlines() if each.strip()]
     named = [each for each in lines if "error:" in each.lower()] or lines
-    return named[-1][:100] if named else f"ended with status {result.returncode}"
+    return named[-1][:LONGEST] if named else f"ended with status {result.returncode}"

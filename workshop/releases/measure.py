@@ -18,7 +18,7 @@ from typing import Any
 from symtop_ros.judge.main import main as judge
 from symtop_ros.testset.score import read_problems, score_file
 from workshop.releases.engines import Engine, list_cases
-from workshop.releases.environments import HOME, execute, explain, install, list_releases
+from workshop.releases.environments import HOME, execute, explain, install, list_releases, order
 
 LEVELS = (0, 1)
 EVERY = 5  # releases
@@ -40,7 +40,7 @@ def measure_engine(engine: Engine) -> dict[str, Row]:
         )
         kept.parent.mkdir(parents=True, exist_ok=True)
         kept.write_text(json.dumps(rows, indent=1))
-    return {each: rows[each] for each in releases if each in rows}
+    return {each: rows[each] for each in sorted(rows, key=order)}
 
 
 def choose_next(releases: Sequence[str], rows: Mapping[str, Row]) -> str | None:

@@ -36,9 +36,13 @@ def format_releases(facts: Mapping[str, Mapping[str, Row]]) -> str:
                 lines.append(f"{engine.name} {after}: {engine.log[after]}")
     head = ["release", "compared with", "integrator", "scores", "first: was (rad)", "is (rad)"]
     parts = [
+        "Changes by a factor of three or more, the largest first:",
         format_table(head, changes),
-        "What the change logs say of these:\n\n" + format_list(lines),
+        "What the change logs say of these:",
+        format_list(lines),
+        "The oldest and the newest release that runs:",
         format_table(["median, worst (rad)", *(f"level {each}" for each in LEVELS)], ends),
+        "Releases that were chosen and have no scores:",
         format_table(["release", "reason"], _list_failures(facts)),
     ]
     return "\n\n".join(parts)

@@ -29,7 +29,7 @@ for case in json.load(open("cases.json")):
 """
 MUJOCO = """
 import mujoco
-VARIANTS = ["RK4", "implicitfast", "Euler"]
+VARIANTS = ["RK4", "implicit", "implicitfast", "Euler"]
 
 def run(case, variant):
     model = mujoco.MjModel.from_xml_path(case["model"])
