@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 from workshop.releases.engines import Engine
@@ -89,4 +90,8 @@ def explain(result: subprocess.CompletedProcess[str]) -> str:
     """Return the last line that names an error, or the last of all."""
     lines = [each.strip() for each in result.stderr.splitlines() if each.strip()]
     named = [each for each in lines if "error:" in each.lower()] or lines
-    return named[-1][:LONGEST] if named else f"ended with status {result.returncode}"
+    return (
+        textwrap.shorten(named[-1], LONGEST, placeholder=" ...")
+        if named
+        else f"ended with status {result.returncode}"
+    )

@@ -57,10 +57,13 @@ def _list_failures(facts: Mapping[str, Mapping[str, Row]]) -> Iterator[list[str]
 
 def _list_levels(name: str, scores: Mapping[str, float]) -> Iterator[list[str]]:
     for variant in dict.fromkeys(each.partition(":")[0] for each in scores):
-        cells = []
-        for level in LEVELS:
-            both = [scores.get(f"{variant}: level {level}, {each}") for each in ("median", "worst")]
-            cells.append(", ".join(f"{each:.1e}" if each is not None else "-" for each in both))
+        keys = [f"{variant}: level {level}, " for level in LEVELS]
+        cells = [
+            f"{scores[key + 'median']:.1e}, {scores[key + 'worst']:.1e}"
+            if key + "median" in scores
+            else "-"
+            for key in keys
+        ]
         yield [f"{name}, {variant}", *cells]
 
 
