@@ -37,7 +37,7 @@ PERIOD = 15.0  # s between two lines of progress
 NUMPY1 = Path(sys.prefix, "numpy1", "bin", "python")
 WITH_NUMPY1 = ("test/client", "test/node/test_services.py", "test/node/test_recording.py")
 NODES = ("test/node", "test/system", "test/load", "test/test_colcon.py")
-PLAIN = ("test/speed", "test/wire", "test/models", "test/testset")
+PLAIN = ("test/speed", "test/releases", "test/wire", "test/models", "test/testset")
 JUDGE = ("test/judge", "test/imu", "test/check")
 # These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise; those
 # that take long compare bits, or have no input of these libraries (`make test-elsewhere` runs all).

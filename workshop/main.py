@@ -61,6 +61,8 @@ def _parser() -> argparse.ArgumentParser:
     for name, default in (("speed", "4 s (--full: 60)"), ("testset", "0.2 s")):
         text = f"largest time of one run, {default}"
         of[name].add_argument("--limit", type=_seconds, metavar="S", help=text)
+    text = "releases of engines, each in its own environment, instead (an hour; needs a network)"
+    of["testset"].add_argument("--releases", action="store_true", help=text)
     text = "the worksheet and the teacher's sheet (HTML, to print) instead of the pictures"
     of["lesson"].add_argument("--sheets", action="store_true", help=text)
     text = "language of the sheets (default: en)"
@@ -129,6 +131,10 @@ def _draw_pictures(options: argparse.Namespace) -> int:
 
 
 def _score(options: argparse.Namespace) -> int:
+    if options.releases:
+        from workshop.releases.page import measure_releases
+
+        return measure_releases(options.folder, options.docs)
     from workshop.speed.testset import LIMIT, score_testset
 
     return score_testset(options.folder, options.docs, options.limit or LIMIT)

@@ -1,0 +1,1 @@
+"""Scores of the releases of engines in the test set: which release changed what."""
