@@ -7,6 +7,10 @@ cost them to derivatives that are integrated along the motion.
 A derivative comes from ten states, h apart. What it lacks is of the order (h/s)^10, where s is the
 change of the parameter over which the states curve, and the rounding of the states, divided by h.
 Both are estimated for each element, and the steps are changed until their sums are as promised.
+
+The nodes are unequally distant. A step that turns a phase by whole turns moves it to where it was:
+at equally distant nodes a fast oscillation may look smooth, or like nothing. No step does so at all
+of these nodes.
 """
 
 import math
@@ -17,21 +21,17 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics.arguments import STARTS, fill_states, read_start
-from symtop_ros.physics.differences import (
-    CENTRAL,
-    FORWARD,
-    ORDER,
-    TINY,
-    Estimates,
-    find_curvature,
-    measure,
-    weigh,
-    weigh_difference,
-)
 from symtop_ros.physics.kernel import states
 from symtop_ros.physics.kernel.door import KernelMotion
 from symtop_ros.physics.values import EPS, refuse
 
+ORDER = 10  # of the derivatives, and as many nodes
+PAIRS = (1.0, 2.13, 2.88, 4.07, 5.0)
+# In steps, from the nearest: on both sides of 0, and on one.
+CENTRAL = np.array([sign * node for node in PAIRS for sign in (1, -1)])
+FORWARD = np.array((*PAIRS, 6.11, 6.93, 8.05, 9.12, 10.0))
+TINY = 1e-300  # added to divisors that may be zero
+LEAST_ERROR = 1e-140  # whose square has an inverse
 RESPONSE = 0.25  # of the outermost states, in rad or in units of the fastest rate
 FARTHEST = 2.0  # response beyond which states say nothing of a derivative
 LARGEST_STEP = 0.03  # in units of the size of a parameter: 1/Ix curves over Ix
@@ -195,7 +195,7 @@ class _Starts:
 
     def settle(self) -> tuple[Real, Places]:
         """Return the derivatives (n, 6, 9), and the places of times at which they are not right."""
-        found = Estimates(len(self._times))
+        found = _Estimates(len(self._times))
         last = np.zeros_like(found.derivatives)
         left, columns = np.arange(len(self._times)), np.arange(9)
         for _ in range(MOST_ROUNDS):
@@ -280,20 +280,23 @@ class _Starts:
         moved, given = self._follow(starts, some), self._measure(starts)[..., columns]
         places = np.arange(len(columns))
         nodes = given[places, :, places] / self._steps[columns, None]
-        orders = np.stack([weigh(nodes, count) for count in (ORDER, ORDER - 2, ORDER - 4)])
+        orders = np.stack([_weigh(nodes, count) for count in (ORDER, ORDER - 2, ORDER - 4)])
         by_order = np.einsum("ock,ckmar->omarc", orders, moved)
         inverses = np.linalg.inv(np.einsum("ock,ckp->opc", orders, given))
         tenth, eighth, sixth = by_order @ inverses[:, None, None]
         widths = np.abs(moved).max(axis=1).transpose(1, 2, 3, 0)
         responses = (widths / self._units[:, None, None]).max(axis=(1, 2), keepdims=True)
-        left = np.abs(np.einsum("ck,ckmar->marc", weigh_difference(nodes), moved))
+        left = np.abs(np.einsum("ck,ckmar->marc", _weigh_difference(nodes), moved))
         left[:, :, :2] = left[:, :, :2].max(axis=2, keepdims=True)
-        across, per_step = np.array((1, 1, 0))[:, None], measure(orders[0]) / self._steps[columns]
+        across, per_step = (
+            np.array((1, 1, 0))[:, None],
+            _measure_rounding(orders[0]) / self._steps[columns],
+        )
         least, most = (
             STATE_ERROR * (each[some] + across * widths) for each in (self._least, self._most)
         )
         rough = np.clip(self._find_noise(left, some, columns), least, most) * per_step
-        curved = np.maximum(find_curvature(tenth, eighth, sixth), 2 * left * per_step - rough)
+        curved = np.maximum(_find_curvature(tenth, eighth, sixth), 2 * left * per_step - rough)
         return tenth, responses, np.where(responses > FARTHEST, np.inf, curved), rough
 
     def _list_starts(self) -> Real:
@@ -327,6 +330,76 @@ class _Starts:
         turned = find_rotation_vectors(compose(invert(base), q))
         changes = np.stack((turned, omega - rates), axis=-2)
         return changes.reshape(*starts.shape[:2], *changes.shape[1:])
+
+
+def _weigh(nodes: Real, count: int) -> Real:
+    """Return weights of the derivatives at 0 by the first nodes of each row, (c, 10).
+
+    They are those of values less the one at 0.
+    """
+    near = nodes[:, :count]
+    ratios = near[:, None] / (near[:, None] - near[:, :, None] + np.diag(near[0]))
+    ratios[:, range(count), range(count)] = 1
+    weights = np.zeros_like(nodes)
+    weights[:, :count] = ratios.prod(axis=2) / near
+    return weights
+
+
+def _weigh_difference(nodes: Real) -> Real:
+    """Return weights of the tenth difference, in which all that is smooth cancels, (c, 10).
+
+    What is left is rounding, as large as that of a value.
+    """
+    distances = nodes[:, :, None] - nodes[:, None]
+    distances[:, range(ORDER), range(ORDER)] = nodes
+    weights = 1 / distances.prod(axis=2)
+    return np.asarray(weights / _measure_rounding(weights)[:, None])
+
+
+def _measure_rounding(weights: Real) -> Real:
+    """Return the rounding of a sum in units of that of a value; the one at 0 is rounded, too."""
+    return np.asarray(np.sqrt(np.square(weights).sum(axis=1) + weights.sum(axis=1) ** 2))
+
+
+def _find_curvature(tenth: Real, eighth: Real, sixth: Real) -> Real:
+    """Return about twice the error of derivatives of the tenth order by what they leave out.
+
+    The differences between the orders fall by the same factor from each to the next.
+    """
+    near, far = np.abs(tenth - eighth), np.abs(eighth - sixth)
+    return np.asarray(2 * near * (near / np.maximum(np.maximum(far, near), TINY)))
+
+
+class _Estimates:
+    """Means of derivatives by several steps, (n, 2, 3, 9), and their errors.
+
+    Each estimate counts by the inverse square of its error: next to the vertical no one step suits
+    the phases and the small tilt. Where two contradict each other the shorter step is right.
+    """
+
+    def __init__(self, count: int) -> None:
+        shape = count, 2, 3, 9
+        self.derivatives, self._curved, self._rough, self._weights = np.zeros((4, *shape))
+        self.errors, self._shortest = np.full((2, *shape), np.inf)
+
+    def add(self, part: Any, steps: Real, new: Real, curved: Real, rough: Real) -> None:
+        """Add estimates with errors by curvature, which they share, and by rounding."""
+        changes, errors = new - self.derivatives[part], curved + rough
+        weights, before = 1 / np.square(np.maximum(errors, LEAST_ERROR)), self._weights[part]
+        is_shorter = steps < self._shortest[part]
+        differ = np.abs(changes) > 2 * (errors + self.errors[part])
+        weights = np.where(differ & ~is_shorter, 0.0, weights)
+        before = np.where(differ & is_shorter, 0.0, before)
+        share = weights / np.maximum(weights + before, TINY)
+        curved = np.where(share > 0, curved, 0.0)
+        self.derivatives[part] += share * changes
+        self._curved[part] += share * (curved - self._curved[part])
+        self._rough[part] = np.hypot((1 - share) * self._rough[part], share * rough)
+        self._weights[part] = weights + before
+        means = self._curved[part] + self._rough[part]
+        self.errors[part] = np.where(weights + before > 0, means, np.inf)
+        shortest = np.where(share > 0, steps, np.inf)
+        self._shortest[part] = np.minimum(self._shortest[part], shortest)
 
 
 def _spread_over_blocks(values: Any) -> Any:
