@@ -50,6 +50,15 @@ function* flatten(names, record) {
   }
 }
 
+const room = (writes) => ({ writes });
+
+/** The rows of states at many times. */
+function* list_states({ kernel, handle }, name, count, ...times) {
+  const rooms = [room(4 * count), room(3 * count), room(1)];
+  const found = kernel.call(name, handle, ...times, count, Infinity, ...rooms);
+  yield* list_rows({ orientation: found[0], angular_velocity: found[1] });
+}
+
 /** The angular velocity after a hurry; null if the axis is vertical. */
 function hurry(kernel, start, hold) {
   const { orientation, angular_velocity: omega } = start;
@@ -64,11 +73,12 @@ function hurry(kernel, start, hold) {
 /** The start from its angles, its regular rates and verdicts by both holds, and on a kick. */
 function* describe_start(kernel, names, pack, start) {
   const { orientation, angular_velocity } = start;
-  const angles = kernel.findAngles(orientation);
-  const rates = kernel.findAngleRates(orientation, angular_velocity);
+  const [angles] = kernel.call("find_angles", orientation, 1, room(3));
+  const [rates] = kernel.call("find_angle_rates", orientation, angular_velocity, 1, room(3));
   yield* angles;
   yield* rates;
-  for (const part of kernel.fromAngles(angles, rates)) yield* part;
+  const parts = kernel.call("from_angles", angles, rates, 1, room(4), room(3), room(1));
+  for (const part of parts.slice(0, 2)) yield* part;
   for (const hold of ["spin_rate", "spin_momentum"]) {
     const found = kernel.findRegularRates(start, angles[1], rates[2], hold);
     yield* [...found, NaN, NaN].slice(0, 2);
@@ -93,13 +103,13 @@ function* describe(kernel, names, pack, reader) {
   yield* describe_start(kernel, names, pack, start);
   const times = reader.numbers(reader.number());
   for (const t of times) yield* motion.at(t);
-  yield* list_rows(motion.fill("states", times.length, times));
+  yield* list_states(motion, "states", times.length, times);
   const clock = reader.numbers(5);
   const stamps = reader.stamps(reader.number());
-  yield* list_rows(motion.atStamps(clock, stamps));
+  yield* list_states(motion, "states_of_clock", stamps.length, clock, stamps);
   if (reader.number()) {
     const [t, ...torque] = reader.numbers(4);
-    const torqued = kernel.call("continue", motion.handle, t, torque, { writes: "handle" })[0];
+    const torqued = kernel.call("continue", motion.handle, t, torque, room("handle"))[0];
     yield* new motion.constructor(kernel, torqued).at(t);
   }
 }
