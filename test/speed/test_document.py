@@ -3,6 +3,7 @@ from pathlib import Path
 import pytest
 
 from workshop.load import node_cost, stress
+from workshop.releases import page
 from workshop.speed import derivatives, filters, publish, testset
 from workshop.speed.ahead import TABLES
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
@@ -41,7 +42,7 @@ TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
     *("chapters", "summary"),
-    *(each.NAME for each in (derivatives, filters, testset, node_cost, stress)),
+    *(each.NAME for each in (derivatives, filters, testset, node_cost, stress, page)),
 )
 
 

@@ -8,6 +8,7 @@ from workshop.releases.engines import ENGINES
 from workshop.releases.measure import LEVELS, Row, find_jumps, measure_engine
 from workshop.speed.publish import format_list, format_table, write_results
 
+NAME = "releases"  # of its section in the docs
 SHOWN = 4  # names of scores in a row
 
 
@@ -15,7 +16,7 @@ def measure_releases(folder: Path, docs: Path | None = None) -> int:
     """Write releases.md and releases.json; return the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     facts = {engine.name: measure_engine(engine) for engine in ENGINES}
-    write_results("releases", facts, format_releases(facts), folder, docs)
+    write_results(NAME, facts, format_releases(facts), folder, docs)
     print(f"{folder / 'releases.md'} and releases.json")
     return 0
 
