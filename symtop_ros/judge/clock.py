@@ -41,13 +41,13 @@ class Clock:
 def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = "none") -> Clock:
     """Return the clock of estimates; the rotations of the model (of `--aligned`) are fitted too."""
     run = truth.select(estimates)
+    _demand_enough(len(run), source)
     # In the middle delay and rate are independent: at an end the delay is half as sure.
     middle = int(run.stamps[0]) // 2 + int(run.stamps[-1]) // 2
     rotations = model.split("+", maxsplit=1)[0]
     fitted = align(estimates, truth, f"{rotations}+delay+clock", middle)
     left, omega, stamps = _find_left(fitted.offset, truth, run)
-    if len(left) < FEWEST:
-        raise RefusedError(f"{source} must have {FEWEST} estimates within the run, got {len(left)}")
+    _demand_enough(len(left), source)
     kind, jitter = _find_jitter(left, omega)
     seconds = float(stamps[-1] - stamps[0]) * 1e-9
     return Clock(
@@ -60,6 +60,11 @@ def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = 
         kind=kind,
         jitter=1e6 * jitter,
     )
+
+
+def _demand_enough(count: int, source: str) -> None:
+    if count < FEWEST:
+        raise RefusedError(f"{source} must have {FEWEST} estimates within the run, got {count}")
 
 
 def _find_left(offset: Offset, truth: Truth, run: Estimates) -> tuple[Real, Real, Stamps]:

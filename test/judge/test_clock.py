@@ -59,6 +59,9 @@ def test_fewer_than_ten_estimates_are_refused():
     made = Made().make(TRUTH, STAMPS[:9])
     with pytest.raises(RefusedError, match="must have 10 estimates within the run, got 9"):
         measure_clock(made, TRUTH, "file")
+    before = replace(made, stamps=made.stamps - 10 * SECOND)
+    with pytest.raises(RefusedError, match="must have 10 estimates within the run, got 0"):
+        measure_clock(before, TRUTH, "file")
 
 
 @pytest.mark.parametrize(
