@@ -1,4 +1,4 @@
-"""Whether the texts of a language are complete: `make -C workshop language ARGS=de`."""
+"""Look for missing and wrong texts of a language: `make -C workshop language ARGS=de`."""
 
 import json
 import re

@@ -74,13 +74,13 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(options: argparse.Namespace, arguments: list[str]) -> int:
     opening = LESSON if options.lesson else ""
+    if options.node and not options.write:
+        return _show_node(options, ["top_panel", *arguments], opening)
     page = write_file(opening=opening, language=options.language)
     if options.write:
         _write(options.write, page)
         print(f"wrote {options.write}; open it in a browser")
         return 0
-    if options.node:
-        return _show_node(options, ["top_panel", *arguments], opening)
     if options.port is None and options.host is None:
         return _open_file(options, page)
     return _serve(options, page, "a top for each page")

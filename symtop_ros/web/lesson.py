@@ -69,7 +69,7 @@ class LessonStep:
 
     @property
     def structure(self) -> dict[str, Any]:
-        """What is the same in all languages: the page has the texts by their keys."""
+        """The fields that are the same in all languages: the page has the texts by their keys."""
         kept = ("start", "hurry", "hold", "push")
         acts = [{name: getattr(act, name) for name in kept} for act in self.acts]
         names = ("name", "scene", "charts", "layers")

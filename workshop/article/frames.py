@@ -1,4 +1,4 @@
-"""Claims on the equations that connect both frames, and on what the article says beside the way."""
+"""Claims on the equations that connect both frames, and on what the article says in passing."""
 
 import numpy as np
 from scipy.integrate import solve_ivp

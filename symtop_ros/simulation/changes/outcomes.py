@@ -14,7 +14,7 @@ from symtop_ros.wire.layout import NANOSECONDS
 from symtop_ros.wording import write
 
 MILLI = 1000
-ROUNDING = 1e-9  # of |Mgl|; a smaller change is told as none
+ROUNDING = 1e-9  # of |Mgl|; a smaller change counts as none
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class Means:
 
 @dataclass(frozen=True, slots=True)
 class Gain:
-    """What the weight gained or lost (mJ): its potential energy halfway between turning points."""
+    """Gain or loss (mJ) of the potential energy halfway between the turning points."""
 
     kind: Literal["gained", "lost", "kept"]
     amount: float
@@ -48,7 +48,7 @@ class Gain:
 
 @dataclass(frozen=True, slots=True)
 class Pushed:
-    """What pushes on the axle lead to if nothing else happens until the last one."""
+    """Consequences of pushes on the axle, if nothing else happens until the last one."""
 
     number: int
     duration: float  # s of the motion from the first to the last one
