@@ -4,7 +4,7 @@ Tick k is at start + k/rate, whenever it is published. The samples of several ti
 together, as arrays.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -21,44 +21,37 @@ CATCH_UP = 0.1  # s; ticks that are later are dropped, so that a stopped process
 class Block:
     """The samples of a segment at some stamps, as numbers and as encoded messages.
 
-    A topic is computed when it is first asked for, if it is not computed before. `work_ahead`
-    computes the next block piece by piece, so that no tick has to compute it as a whole.
+    A topic is computed when it is first asked for. Those that are due, because the block before was
+    asked for them, can be computed earlier, piece by piece, so that no tick computes all of them.
     """
 
-    def __init__(self, segment: Segment, stamps: Sequence[int], encode: Encode) -> None:
+    def __init__(
+        self, segment: Segment, stamps: Sequence[int], encode: Encode, due: Iterable[str] = ()
+    ) -> None:
         self.segment, self._encode = segment, encode
         self._stamps = np.array(stamps, dtype=np.int64)
         self.last, self.length = stamps[-1] if stamps else 0, len(stamps)
         self._row = {stamp: row for row, stamp in enumerate(stamps)}
         self._numbers: dict[str, Real] = {}  # by topic, (n, width)
         self._messages: dict[str, list[bytes]] = {}
-        self._requested: dict[str, None] = {}  # topics in their order
-        self._due: list[str] = []  # topics that will be asked for
+        self.requested: dict[str, None] = {}  # topics that were asked for, in their order
+        self._due = dict.fromkeys(due if stamps else ())
         self._samples: Samples | None = None  # once their states are computed
-        self.next: Block | None = None
 
-    def continue_with(self, segment: Segment, stamps: Sequence[int]) -> "Block":
-        """Return the next block; the topics that were requested from this one are due in it."""
-        block = Block(segment, stamps, self._encode)
-        block._due = list(self._requested)
-        return block
-
-    def compute(self) -> "Block":
-        """Compute all topics that are due; return the block."""
-        while self._due:
-            self._compute(self._due.pop())
-        return self
-
-    def work_ahead(self, stamps: Callable[[], Sequence[int]]) -> None:
-        """Compute a topic of the next block, which has these stamps; first of all its states."""
-        if self.next is None:
-            self.next = self.continue_with(self.segment, stamps())
-        elif not (self.next._due and self.next.length):
-            return
-        elif self.next._samples is None:
-            self.next._compute_states()
+    def work(self) -> bool:
+        """Compute a piece of what is due, the states or a topic; return False if nothing is."""
+        if not self._due:
+            return False
+        if self._samples is None:
+            self._compute_states()
         else:
-            self.next._compute(self.next._due.pop())
+            self._compute(next(iter(self._due)))
+        return True
+
+    def finish(self) -> None:
+        """Compute all that is due."""
+        while self.work():
+            pass
 
     def covers(self, segment: Segment, stamp: int) -> bool:
         """Return True if the block has the sample of a segment at a stamp."""
@@ -66,7 +59,7 @@ class Block:
 
     def message(self, topic: str, stamp: int) -> bytes:
         """Return the message of a topic (named as in `SAMPLE_TOPICS`) at a stamp."""
-        self._requested[topic] = None
+        self.requested[topic] = None
         if topic not in self._messages:
             self._compute(topic)
         return self._messages[topic][self._row[stamp]]
@@ -79,6 +72,7 @@ class Block:
         return found
 
     def _compute(self, topic: str) -> None:
+        self._due.pop(topic, None)
         computed = SAMPLE_TOPICS[topic].compute(self._samples or self._compute_states())
         # A paused motion has one state for all stamps, and so has a block of one stamp.
         numbers = np.broadcast_to(computed, (len(self._stamps), computed.shape[-1]))

@@ -53,6 +53,7 @@ class Simulation:
         self._gap_reported: int | None = None
         self._unreported = 0
         self._block = Block(self.segment, [], sink.encode)
+        self._later: Block | None = None  # the next one, as far as it is computed
         sink.send_description(self.stamp, settings)
 
     @property
@@ -135,11 +136,12 @@ class Simulation:
         with self._lock:
             self._follow_jump()
             self._release_torque()
-            # What is left of the next block is computed now, so that it is ready when it is due.
             if not (self.publish() and self._work_on_block()):
                 return AT_ONCE
-            if not self.segment.motion.is_driven:  # else a block takes some steps of integration
-                self._block.work_ahead(self._list_later_stamps)
+            # What is left of the block is computed now, so that it is ready when it is due. Of the
+            # first sample after a change each topic is computed as it is sent.
+            self._block.finish()
+            self._work_ahead()
             return self._wait_for(self.stamp)
 
     def _wait_for(self, stamp: int) -> float | None:
@@ -167,26 +169,36 @@ class Simulation:
         return JUMP if self._clock.is_simulated else CATCH_UP
 
     def _work_on_block(self) -> bool:
-        """Work towards the samples of the next stamps; return True when they are ready."""
+        """Work towards the states of the next stamps; return True when they are reached."""
         segment, stamp = self.timeline.segment, self.ticker.next_stamp
-        for block in (self._block, self._block.next):
-            if block and block.covers(segment, stamp):
-                self._block = block.compute()
-                return True
+        if self._later and self._later.covers(segment, stamp):
+            self._block, self._later = self._later, None
+        if self._block.covers(segment, stamp):
+            return True
         stamps = self._list_stamps(stamp)
         if not stamps:  # the torque ends with the next turn
             return False
         ready = self._prepare(stamps[-1])
         if ready:
-            self._block = self._block.continue_with(self.segment, stamps).compute()
+            self._block, self._later = self._begin_block(stamps), None
         else:
             self._check_pace(stamps[0])
         return ready
 
-    def _list_later_stamps(self) -> list[int]:
-        """Return the stamps of the block after the present one."""
-        _, first = self.ticker.grid(self._block.last, 2)
-        return self._list_stamps(first)
+    def _work_ahead(self) -> None:
+        """Compute a piece of the next block; the first sample of this one says what is due."""
+        # A block of a driven motion takes some steps of integration.
+        if self.segment.motion.is_driven or not self._block.requested:
+            return
+        if self._later:
+            self._later.work()
+        else:
+            _, first = self.ticker.grid(self._block.last, 2)
+            self._later = self._begin_block(self._list_stamps(first))
+
+    def _begin_block(self, stamps: Sequence[int]) -> Block:
+        """Return a block in which the topics are due that were requested from the present one."""
+        return Block(self.segment, stamps, self._sink.encode, self._block.requested)
 
     def _list_stamps(self, first: int) -> list[int]:
         """Return the stamps of a block; none if the held torque ends before the first."""
@@ -350,6 +362,5 @@ class Simulation:
     def restart_grid(self, stamp: int) -> None:
         """Continue with a grid of stamps that begins at a stamp."""
         self.ticker.restart(self.settings.publish_rate, stamp)
-        self._block = Block(
-            self.segment, [], self._sink.encode
-        )  # its stamps belong to the old grid
+        # The stamps of the blocks belong to the old grid.
+        self._block, self._later = Block(self.segment, [], self._sink.encode), None

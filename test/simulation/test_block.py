@@ -30,8 +30,8 @@ SEGMENTS = {
 LAYOUTS = {name: topic.layout("world", "top") for name, topic in SAMPLE_TOPICS.items()}
 
 
-def make(segment, stamps):
-    return Block(segment, stamps, lambda name, *given: LAYOUTS[name].encode_many(*given))
+def make(segment, stamps, due=()):
+    return Block(segment, stamps, lambda name, *given: LAYOUTS[name].encode_many(*given), due)
 
 
 @pytest.mark.parametrize("segment", SEGMENTS.values(), ids=SEGMENTS)
@@ -72,26 +72,25 @@ def test_a_topic_that_is_not_requested_is_not_computed(computed):
     for stamp in STAMPS:
         assert block.message("torque", stamp)
     assert computed == ["torque"]
-    after = block.continue_with(SEGMENTS["taylor"], STAMPS).compute()
+    after = make(SEGMENTS["taylor"], STAMPS, block.requested)
+    after.finish()
     assert computed == ["torque", "torque"]
     after.message("torque", STAMPS[0])
     assert computed == ["torque", "torque"]
-    after.continue_with(SEGMENTS["taylor"], STAMPS).compute()
-    assert len(computed) == 3
 
 
-def test_the_next_block_is_computed_a_topic_at_a_time(computed):
-    segment, later = SEGMENTS["closed form"], [stamp + 10**8 for stamp in STAMPS]
-    block = make(segment, STAMPS)
-    for name in STATE_TOPICS:
-        block.message(name, STAMPS[0])
-    del computed[:]
-    for count in range(-2, len(STATE_TOPICS) + 1):
-        assert len(computed) == max(0, count)
-        block.work_ahead(lambda: later)
+def test_what_is_due_is_computed_in_pieces(computed):
+    segment = SEGMENTS["closed form"]
+    block = make(segment, STAMPS, STATE_TOPICS)
+    assert block.work()  # the states
+    block.message("torque", STAMPS[0])  # of a late tick
+    for count in range(2, len(STATE_TOPICS) + 1):
+        assert block.work()
+        assert len(computed) == count
+    assert not block.work()
     assert sorted(computed) == sorted(STATE_TOPICS)
     for name in STATE_TOPICS:
-        assert block.next.message(name, later[3]) == make(segment, later).message(name, later[3])
+        assert block.message(name, STAMPS[3]) == make(segment, STAMPS).message(name, STAMPS[3])
 
 
 MS = 1_000_000

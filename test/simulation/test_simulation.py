@@ -8,6 +8,8 @@ import pytest
 from simulation.runs import SECOND, Run
 
 from symtop_ros.simulation.changes.outcomes import Failure
+from symtop_ros.simulation.simulation import MAX_BLOCK
+from symtop_ros.simulation.topics import STATE_TOPICS
 from symtop_ros.simulation.validation import RefusedError
 
 MS = SECOND // 1000
@@ -26,6 +28,22 @@ def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
     assert run.simulation.tick() is None
     run.clock.is_simulated = False
     assert run.simulation.tick() == pytest.approx(0.005)  # the period, exact in ns
+
+
+def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
+    run, computed = Run(publish_rate=1000.0), []
+    run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
+    run.sink.send_sample = lambda stamp, block: [
+        block.message(name, stamp) for name in STATE_TOPICS
+    ]
+    run.advance(0.1, step=0.001)
+    counts = []
+    for _ in range(10 * MAX_BLOCK):
+        computed.clear()
+        run.advance(0.001, step=0.001)
+        counts.append(len(computed))
+    assert max(counts) == 1
+    assert sum(counts) == 10 * len(STATE_TOPICS)
 
 
 def test_a_kick_separates_the_samples_at_its_stamp_and_precedes_them_in_the_log():
