@@ -48,7 +48,7 @@ test-realtime: $(VENV)/test $(VENV)/chromium
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-kilted  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/peers $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-kilted  ## trials that take longer (two hours), coverage, and the matrix
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
 

@@ -75,7 +75,6 @@ TEST = [
     "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page
     *REFERENCE,
     "mujoco>=3.3",  # reads the MJCF of the top
-    "pin>=3.4",  # reads its URDF
     "ahrs>=0.4",  # filters that are fed with its sensor
     "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]

@@ -38,7 +38,7 @@ def find_blocks(folder):
 
 
 @pytest.mark.parametrize("name", PROBLEMS)
-@pytest.mark.parametrize("engine", MEASURE)
+@pytest.mark.parametrize("engine", ["mujoco", pytest.param("pinocchio", marks=pytest.mark.long)])
 def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_path, monkeypatch):
     pytest.importorskip(engine)
     assert main(["--testset", name, "-o", str(tmp_path)]) == 0

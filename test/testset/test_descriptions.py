@@ -87,6 +87,7 @@ def test_the_set_and_its_models_turn_a_frame_alike():
     assert tuple(map(float, TURN)) == tuple(map(float, OF_MODELS))
 
 
+@pytest.mark.long  # 0.4 GB to fetch; MuJoCo reads the same bodies
 @pytest.mark.parametrize("name", ["cusps", "free_rod_fast", "flat_disc"])
 def test_pinocchio_has_the_same_body_from_each_urdf(name, folder):
     pinocchio = pytest.importorskip("pinocchio")
