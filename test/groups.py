@@ -2,8 +2,8 @@
 
 python test/groups.py [--coverage] [--keys] [GROUP...]
 
-A failure does not keep other groups from running. Three groups run at a time, in an order in which
-one that waits for nodes or pages runs with two that compute. Those of real time measure time, and
+A failure does not keep other groups from running. Three groups run at a time: first those that take
+longest, and that wait for nodes or pages while others compute. Those of real time measure time, and
 run alone afterwards.
 """
 
@@ -157,11 +157,11 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
             run(*WITH_NUMPY1, python=NUMPY1),
             run(*NODES, *ignore(WITH_NUMPY1)),
         ],
+        "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
         "judge": [run(*JUDGE)],
         "physics": [run("test/physics")],
         "old-processor": [run(*NUMBERS, *ignore(NOT_TWICE), before=old)],
-        "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
         "lint": [
