@@ -32,10 +32,15 @@ def moving(client):
 
 
 def picture_now(client):
-    """Return a picture of the scene; none if a new node's blueprint replaced its view meanwhile."""
+    """Return a picture of the scene; none if a new node's blueprint replaced its view meanwhile.
+
+    None either if the viewer has no processor to draw it in its 15 s.
+    """
     space = views(client, 13)["the top"]
     try:
         return {client.take_screenshot(space.view_id)}
+    except TimeoutError:
+        return set()
     except ConnectionError as error:
         if "NotFound" not in str(error):
             raise

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from log_files import BEGIN, REGULAR, Run
 from PIL import Image
+from waiting import until
 
 from symtop_ros.physics import State, Top
 from symtop_ros.playback.replay import replay
@@ -44,15 +45,19 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500  # shaded bodies, not an empty view
 
 
+def find_scene(client):
+    """Return the 3D view among four; none as long as Rerun has not read what it draws there."""
+    return next((each for each in views(client, 4).values() if each.view_class == "3D"), None)
+
+
 def test_rerun_shows_the_turning_top_of_a_log_by_itself(tmp_path):
     path = Run(described=True).write(tmp_path)
     shots = []
     with running_viewer(path) as (client, _):
         for seconds in (0.2, 0.8):
             stamp = BEGIN * 1e-9 + seconds
-            found = views(client, 4)
+            space = until(lambda: find_scene(client))
             pause_at(client, "message_log_time", timestamp=stamp)
-            space = next(each for each in found.values() if each.view_class == "3D")
             shots.append(picture(client, space))
             assert not any(each.reports for each in views(client, 4).values())
     changed = np.abs(shots[0].astype(int) - shots[1]).max(axis=2) > 60

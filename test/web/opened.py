@@ -130,6 +130,7 @@ class Opened:
         """Type a value into a field of a tab, and take it over."""
         field = self.tab.locator(f"[id='field-{name}']")
         self.open_tab("push" if name == "factor" else "start")
+        field.focus()  # a field of a moving top shows the start then, and what was selected is not
         field.fill(text)
         field.press("Enter")
 
