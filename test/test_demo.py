@@ -17,6 +17,7 @@ from workshop.load.endings import bound
 # All that a user must have set; the home cannot be written to. `make demo` runs in the checkout,
 # where Python finds the workshop by itself.
 BARE = {"HOME": "/dev/null", "PATH": os.defpath, "PYTHONPATH": str(Path(__file__).parents[1])}
+BARE |= {name: value for name, value in os.environ.items() if name.startswith("COVERAGE_")}
 
 
 @contextlib.contextmanager
