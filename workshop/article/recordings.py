@@ -19,8 +19,7 @@ from symtop_ros.playback.replay import create_recording
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
 from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
-from symtop_ros.playback.view.mesh import create_body, draw_parallel
-from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.stream import Stream, create_body, draw_parallel
 from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.simulation.changes.outcomes import Outcome, Start

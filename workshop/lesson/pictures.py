@@ -23,7 +23,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.playback.view.fictitious import torques_of
+from symtop_ros.playback.view.torques import torques_of
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.lesson import LessonAct, LessonStep, read_lesson
