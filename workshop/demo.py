@@ -22,7 +22,7 @@ from symtop_ros.distribution import use_profile
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import viewer
-from symtop_ros.playback.replay import replay
+from symtop_ros.playback.viewer import replay
 from symtop_ros.programs import INTERRUPTED
 from symtop_ros.shutdown import describe_failure, ros_context
 
