@@ -21,7 +21,7 @@ from symtop_ros.session.diagnostics import balance_status, motion_status
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.events import Event, decode_events
-from symtop_ros.simulation.sensor.rig import Rig, find_body
+from symtop_ros.simulation.sensor.imu import Rig, find_body
 from symtop_ros.simulation.topics import DIAGNOSTICS, EVENTS, TF_STATIC, choose_description
 from symtop_ros.wire.diagnostics import Status, decode_statuses
 from symtop_ros.wire.layout import DecodeError, Reader

@@ -16,8 +16,7 @@ from symtop_ros.session.markers import Markers
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.host import Host
-from symtop_ros.simulation.sensor.imu import ALONG, Imu
-from symtop_ros.simulation.sensor.rig import find_body
+from symtop_ros.simulation.sensor.imu import ALONG, Imu, find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import (
     APPLIED_TORQUE,

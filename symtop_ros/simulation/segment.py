@@ -14,7 +14,7 @@ from typing import Any
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.simulation.pushed import PushedMotion
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.sensor.imu import Rig
 from symtop_ros.wire.layout import NANOSECONDS
 
 START = Fraction(0)

@@ -10,9 +10,8 @@ from typing import Any
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
 from symtop_ros.simulation.presets import load_scene
-from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, EARTH, MAX_FIELD, Imu, Magnetometer
+from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, EARTH, MAX_FIELD, Imu, Magnetometer, Rig
 from symtop_ros.simulation.sensor.noise import MAX_NOISE
-from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,

@@ -14,8 +14,7 @@ import numpy as np
 from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics import Motion, State
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import EXACT
-from symtop_ros.simulation.sensor.rig import Rig, find_body
+from symtop_ros.simulation.sensor.imu import EXACT, Rig, find_body
 from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.wire.layout import Layout

@@ -17,8 +17,7 @@ from typing import Any
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.web.lesson import read_lesson
-from symtop_ros.web.texts import LANGUAGES, read_texts
+from symtop_ros.web.texts import LANGUAGES, read_lesson, read_texts
 
 FOLDER = Path(__file__).parent
 MODULES = FOLDER.resolve() / "js"

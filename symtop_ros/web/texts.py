@@ -1,15 +1,28 @@
-"""All texts of the page and of the lesson, in each language."""
+"""All texts of the page and of the lesson, in each language, and the steps of the lesson.
+
+The page, docs/lesson.md, the sheets and the pictures share the steps.
+"""
 
 import functools
 import json
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+import yaml
+
+from symtop_ros.physics import Hold
 from symtop_ros.simulation.presets import describe_scenes
 from symtop_ros.wording.templates import read_templates
 
 FOLDER = Path(__file__).with_name("texts")
 LANGUAGES = tuple(sorted(path.stem for path in FOLDER.glob("*.json")))
 TERMS = "terms"  # those of the textbooks of a language, for its translators
+LESSON = Path(__file__).with_name("lesson.yaml")
+TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
+# Scenes of the steps, and the options by which top_ctl finds the node of each.
+NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
 
 def read_file(language: str) -> dict[str, str]:
@@ -25,3 +38,77 @@ def read_texts(language: str) -> dict[str, str]:
     for name, title, story in describe_scenes():
         texts |= {f"scene.{name}.title": title, f"scene.{name}.story": story}
     return texts | read_templates(language) | read_file(language)
+
+
+@dataclass(frozen=True, slots=True)
+class LessonAct:
+    """A button of a step: a start, or a hurry or pushes of the motion that was started last."""
+
+    button: str
+    start: Mapping[str, float | str] | None = None  # fields of ~/set_initial_conditions
+    hurry: float | None = None  # factor of the precession rate
+    hold: Hold = "spin_rate"  # the quantity that the hurry leaves unchanged
+    push: Mapping[str, float] | None = None  # fields of ~/kick for a series of pushes
+
+    @property
+    def command(self) -> str:
+        """The words for top_ctl."""
+        fields = [f"{name}={value}" for name, value in (self.start or {}).items()]
+        if fields:
+            return " ".join(["start", *fields])
+        if self.push:
+            return " ".join(["kick", *(f"{name}={value:g}" for name, value in self.push.items())])
+        if self.hold == "spin_rate":
+            return "hurry"
+        return f"kick precession_rate_factor={self.hurry} hold={self.hold}"
+
+
+@dataclass(frozen=True, slots=True)
+class LessonStep:
+    """A step of the lesson, in a language; `lesson.yaml` says what the fields are."""
+
+    name: str
+    title: str
+    predict: str
+    acts: tuple[LessonAct, ...]
+    look: str
+    charts: tuple[str, ...]
+    seen: str
+    question: str
+    answer: str
+    picture: str
+    source: str
+    compute: str = ""
+    also: tuple[str, ...] = ()
+    layers: tuple[str, ...] = ()
+    scene: str = "cusps"
+    plot: str = "tilt"
+
+    @property
+    def commands(self) -> list[str]:
+        """Shell commands that do with ROS what the buttons do."""
+        acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts]
+        return [*acts, *self.also]
+
+    @property
+    def structure(self) -> dict[str, Any]:
+        """The fields that are the same in all languages: the page has the texts by their keys."""
+        kept = ("start", "hurry", "hold", "push")
+        acts = [{name: getattr(act, name) for name in kept} for act in self.acts]
+        names = ("name", "scene", "charts", "layers")
+        return {"acts": acts, **{name: getattr(self, name) for name in names}}
+
+
+@functools.cache
+def read_lesson(language: str = "en") -> tuple[LessonStep, ...]:
+    """Return all steps in a language."""
+    steps = yaml.safe_load(LESSON.read_text(encoding="utf-8"))
+    return tuple(_read_step(step, read_texts(language)) for step in steps)
+
+
+def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:
+    key = f"lesson.{step['name']}"
+    acts = [LessonAct(texts[f"{key}.act_{k}"], **act) for k, act in enumerate(step["acts"], 1)]
+    said = {name: texts[f"{key}.{name}"] for name in TEXTS}
+    compute = texts.get(f"{key}.compute", "")  # not in every step
+    return LessonStep(**{**step, **said, "acts": tuple(acts), "compute": compute})

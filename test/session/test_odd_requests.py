@@ -17,7 +17,7 @@ from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.changes.kick import plan_kick
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment, to_nanoseconds
-from symtop_ros.simulation.sensor.rig import find_body
+from symtop_ros.simulation.sensor.imu import find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import STATE_TOPICS, Samples
 from symtop_ros.simulation.validation import RefusedError

@@ -26,7 +26,7 @@ from symtop_ros.physics import (
 from symtop_ros.playback.view.torques import torques_of
 from symtop_ros.simulation.changes.initial import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.web.lesson import LessonAct, LessonStep, read_lesson
+from symtop_ros.web.texts import LessonAct, LessonStep, read_lesson
 from workshop.article.answers.fictitious import plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
