@@ -10,8 +10,8 @@ import numpy as np
 from symtop_ros import __version__
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.follow import RULES, Act, follow
-from symtop_ros.simulation.changes.kick import read_kick
 from symtop_ros.simulation.changes.outcomes import Start
+from symtop_ros.simulation.changes.requests import read_kick
 from symtop_ros.simulation.events import KICKS, RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import EVENTS

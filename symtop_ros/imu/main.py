@@ -10,7 +10,7 @@ import yaml
 from symtop_ros.command import tell_failures
 from symtop_ros.imu.files import write_folder, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.sensor.imu import BMM150, CONSUMER, MAGNETOMETER_NOISE, NOISE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, one_line

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real, Stamps, compose
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings

@@ -17,9 +17,7 @@ from rclpy.qos import QoSProfile, QoSReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
 
-from symtop_ros.distribution import distribution_name
-from symtop_ros.node.host import NodeHost
-from symtop_ros.node.pacer import Pacer, use_real_time
+from symtop_ros.node.host import NodeHost, Pacer, distribution_name, use_real_time
 from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
 from symtop_ros.node.services import TYPES, fill_response
 from symtop_ros.physics import kernel_version

@@ -24,7 +24,7 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 from symtop_ros.playback.view.torques import torques_of
-from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.texts import LessonAct, LessonStep, read_lesson
 from workshop.article.answers.fictitious import plot_torques

@@ -21,7 +21,7 @@ from symtop_ros.imu import CONSUMER, record_imu
 from symtop_ros.judge.compare import NONE, Errors, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 from workshop.pictures.pack import pack
 from workshop.speed.publish import format_table, track, write_results
