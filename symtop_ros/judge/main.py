@@ -8,11 +8,11 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from symtop_ros.command import positive, tell_failures
-from symtop_ros.judge.causes.causes import MODELS
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.judgement import Judgement, format_several, judge
 from symtop_ros.judge.problems import run_testset
+from symtop_ros.judge.search import MODELS
 from symtop_ros.judge.tables import TABLES, read_table
 from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
 from symtop_ros.simulation.validation import RefusedError, one_line
@@ -192,7 +192,7 @@ def _write(judgements: list[Judgement], folder: Path) -> None:
     if len(judgements) > 1:
         return
     try:
-        from symtop_ros.judge.plots import write_plot
+        from symtop_ros.judge.figures import write_plot
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:

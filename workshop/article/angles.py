@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, PALE, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, PALE, RED, new_figure
 from symtop_ros.physics import State
 from symtop_ros.playback.view.stream import draw_parallel
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion
 from symtop_ros.playback.view.stream import draw_meridian, draw_parallel
 from workshop.article.motions import precession_period

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
