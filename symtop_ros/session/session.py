@@ -115,6 +115,7 @@ class Session:
         self._recorder.stop()
 
 
+@dataclass(frozen=True)
 class Requests:
     """Requests to a simulation, from plain values: a method for each record of `services`.
 
@@ -122,11 +123,11 @@ class Requests:
     refused; the motion is then unchanged.
     """
 
-    def __init__(self, simulation: Simulation, record: Callable[[bool], str]) -> None:
-        self._simulation, self.record = simulation, record
+    _simulation: Simulation
+    record: Callable[[bool], str]
 
     def set_initial_conditions(self, values: Values) -> str:
-        """Restart from named values; see `initial.initial_state`."""
+        """Restart from named values; see `initial_state`."""
         simulation = self._simulation
         return simulation.apply_at_once(simulation.timeline.restart(simulation.stamp, values))
 
