@@ -20,7 +20,7 @@ TABLE = {
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",
     # the page as one file
-    "web": "physics simulation wording | yaml",
+    "web": "simulation wording | yaml",
     # of session what it says of a motion
     "check": "__init__ log models physics session simulation wire | mcap numpy",
     # of session the log that a node would have written of a run of the page

@@ -11,8 +11,7 @@ from pathlib import Path
 from symtop_ros.command import has_screen, port
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
-from symtop_ros.web.join import write_file
-from symtop_ros.web.texts import LANGUAGES
+from symtop_ros.web.join import LANGUAGES, write_file
 
 PORT = 8015
 PERIOD = 0.2  # s between two looks for the end

@@ -1,43 +1,16 @@
-"""All texts of the page and of the lesson, in each language, and the steps of the lesson.
-
-The page, docs/lesson.md, the sheets and the pictures share the steps.
-"""
+"""The steps of the lesson, in each language, for docs/lesson.md, the sheets and the pictures."""
 
 import functools
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
-import yaml
-
 from symtop_ros.physics import Hold
-from symtop_ros.simulation.presets import describe_scenes
-from symtop_ros.wording.templates import read_templates
+from symtop_ros.web.join import read_steps, read_texts
 
-FOLDER = Path(__file__).with_name("texts")
-LANGUAGES = tuple(sorted(path.stem for path in FOLDER.glob("*.json")))
-TERMS = "terms"  # those of the textbooks of a language, for its translators
-LESSON = Path(__file__).with_name("lesson.yaml")
 TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
 NODES = {"cusps": "", "perry_fails": "--node /disc "}
-
-
-def read_file(language: str) -> dict[str, str]:
-    """Return the texts of a language that no record makes, by their keys."""
-    text = (FOLDER / f"{language}.json").read_text(encoding="utf-8")
-    return {key: value for key, value in json.loads(text).items() if key != TERMS}
-
-
-@functools.cache
-def read_texts(language: str) -> dict[str, str]:
-    """Return all texts of a language; a scene that it does not know has its English story."""
-    texts: dict[str, str] = {}
-    for name, title, story in describe_scenes():
-        texts |= {f"scene.{name}.title": title, f"scene.{name}.story": story}
-    return texts | read_templates(language) | read_file(language)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,20 +63,11 @@ class LessonStep:
         acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts]
         return [*acts, *self.also]
 
-    @property
-    def structure(self) -> dict[str, Any]:
-        """The fields that are the same in all languages: the page has the texts by their keys."""
-        kept = ("start", "hurry", "hold", "push")
-        acts = [{name: getattr(act, name) for name in kept} for act in self.acts]
-        names = ("name", "scene", "charts", "layers")
-        return {"acts": acts, **{name: getattr(self, name) for name in names}}
-
 
 @functools.cache
 def read_lesson(language: str = "en") -> tuple[LessonStep, ...]:
     """Return all steps in a language."""
-    steps = yaml.safe_load(LESSON.read_text(encoding="utf-8"))
-    return tuple(_read_step(step, read_texts(language)) for step in steps)
+    return tuple(_read_step(step, read_texts(language)) for step in read_steps())
 
 
 def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:
