@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from symtop_ros.arrays import Stamps
 from symtop_ros.simulation.events import MAX_STAMP, Event
-from symtop_ros.simulation.segment import Segment
 
 MAX_CANDIDATES = 1000  # events that are tried for one sample; a log may be hostile
 MAX_SEGMENTS = 100  # that are in memory
@@ -28,7 +27,7 @@ class Course:
     def __init__(self, events: Sequence[Event], all_readable: bool = True) -> None:
         self._events = events
         # Kept, because a driven motion is integrated from its start.
-        self.segment = lru_cache(MAX_SEGMENTS)(self._find_segment)
+        self.segment = lru_cache(MAX_SEGMENTS)(lambda number: events[number].segment())
         self._begins = np.array([event.stamp for event in events], dtype=np.int64)
         ends = [*(event.previous_end for event in events[1:]), MAX_STAMP]
         self._ends = np.array(ends[: len(events)], dtype=np.int64)
@@ -84,10 +83,6 @@ class Course:
             return [before + 1, after - 1]
         # A log that was sorted by time may have events in another order.
         return [number for number in range(before + 1, after) if number not in self._present]
-
-    def _find_segment(self, number: int) -> Segment:
-        """Return the segment that holds from an event on."""
-        return self._events[number].segment()
 
     def holds(self, number: int, stamps: Stamps, in_order: bool = True) -> NDArray[np.bool_]:
         """Return the mask of the stamps at which an event can hold.

@@ -59,10 +59,12 @@ def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:
     for previous, event in pairwise([None, *events]):
         if event is None or not is_of_this_version(event):
             continue
-        follows = previous is not None and previous.number == event.number - 1
-        is_known = follows and previous is not None and is_of_this_version(previous)
-        known = previous if is_known else None
-        yield from _judge(known, event, budget)
+        is_known = (
+            previous is not None
+            and previous.number == event.number - 1
+            and is_of_this_version(previous)
+        )
+        yield from _judge(previous if is_known else None, event, budget)
 
 
 def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator[Mismatch]:

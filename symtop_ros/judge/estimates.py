@@ -130,8 +130,7 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
     covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
     if covariance is not None:
         q[covariance[:, 0] == NO_ORIENTATION] = 0.0
-    found = Estimates.of(stamps, q, rates, len(refused))
-    return replace(found, of_sensor=kind == IMU.type)
+    return replace(Estimates.of(stamps, q, rates, len(refused)), of_sensor=kind == IMU.type)
 
 
 def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimates:

@@ -28,9 +28,8 @@ SENSOR, BODY = "sensor", "body"
 def main(args: list[str] | None = None) -> int:
     """Judge; return 0 (good), 1 (failed, or above --max-error) or 2 (usage)."""
     parser = _parser()
-    arguments = sys.argv[1:] if args is None else args
     # The rest belongs to ROS (--ros-args ...), which only --live needs.
-    options, rest = parser.parse_known_args(arguments)
+    options, rest = parser.parse_known_args(args)
     if rest and not (options.live and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest))}")
     if options.clock and options.live:
@@ -210,8 +209,7 @@ def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimate
     from symtop_ros.log.bag import open_run  # logs need mcap
 
     for topic in options.topic:
-        source = open_run([other] if other else options.files)
-        found = read_topic(source, topic, options.frame)
+        found = read_topic(open_run([other] if other else options.files), topic, options.frame)
         yield topic, _choose_frame(found, options.attitude_of)
 
 

@@ -90,8 +90,7 @@ class Truth:
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)
         inside = stamps <= (np.iinfo(np.int64).max if self.end is None else self.end)
-        begins = [event.stamp for event in self._events]
-        owners = np.searchsorted(begins, stamps, side="right") - 1
+        owners = np.searchsorted([each.stamp for each in self._events], stamps, side="right") - 1
         for number in np.unique(owners[inside & (owners >= 0)]).tolist():
             chosen = inside & (owners == number)
             segment = self._segment(number)

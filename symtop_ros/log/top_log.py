@@ -52,8 +52,7 @@ class TopLog:
             self.node = self._find_node()
         for messages in self.file.chunks():
             chosen = [each for each in self._select(messages) if each[0] == EVENTS.name]
-            batch = self._reader.read(chosen)
-            yield from (event for _, event in batch.events)
+            yield from (event for _, event in self._reader.read(chosen).events)
 
     @property
     def has_readable_events(self) -> bool:

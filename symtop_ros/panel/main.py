@@ -126,8 +126,7 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
         ) from None
     if node and host not in LOCAL_NAMES:
         print(f"top_panel: {WARNING.format(host=host)}", file=sys.stderr)
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
-    thread.start()
+    threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         print(f"{name}: open {server.url} in a browser; Ctrl-C ends it", flush=True)
         if not options.no_browser and has_screen():

@@ -26,9 +26,7 @@ _pack_start = Struct(f"{door.START}d").pack
 
 def validate_torque(torque: Any) -> Any:
     """Return three floats, or an array (..., 3)."""
-    if torque is NO_TORQUE:
-        return NO_TORQUE
-    return validate_vectors("torque", torque, TORQUE_UNIT)
+    return NO_TORQUE if torque is NO_TORQUE else validate_vectors("torque", torque, TORQUE_UNIT)
 
 
 def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:

@@ -130,8 +130,7 @@ class Motions:
 
     @cached_property
     def _starts(self) -> Real:
-        arguments = self.top, self.start, self.friction, self.applied_torque
-        return list_starts(*arguments, self.shape)
+        return list_starts(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the states at one time, or at many; the times are the same for all motions.

@@ -96,8 +96,7 @@ class State:
         q = _flush_tiny(validate_array("orientation", orientation, 4))
         omega = _flush_tiny(validate_array("angular_velocity", angular_velocity, 3, "rad/s"))
         if q.shape[:-1] != omega.shape[:-1]:
-            shape = (*q.shape[:-1], 3)
-            condition = f"of shape {shape} to match the orientation"
+            condition = f"of shape {(*q.shape[:-1], 3)} to match the orientation"
             raise refuse("angular_velocity", condition, f"shape {omega.shape}")
         largest = float(np.abs(omega).max(initial=0.0))
         if largest > LARGEST_ANGULAR_VELOCITY:

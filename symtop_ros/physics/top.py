@@ -165,8 +165,7 @@ class Top(_Numbers):
     @ignore_underflow
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
-        omega = state.angular_velocity
-        kinetic = (self.body_angular_momentum(state) * omega).sum(axis=-1) / 2
+        kinetic = (self.body_angular_momentum(state) * state.angular_velocity).sum(axis=-1) / 2
         return kinetic + match(self.Mgl, state) * state.vertical[..., 2]
 
     @ignore_underflow

@@ -227,11 +227,8 @@ def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
 
 def _save_page(log: TopLog, path: Path) -> None:
     """Write the page with the run of a log in it."""
-    end = 0
-    for batch in log.batches():
-        stamps = [int(columns.stamps[-1]) for columns in batch.columns.values()]
-        end = max([end, *stamps])
-    run, reached = record_run(log.events(), end)
+    stamps = (int(each.stamps[-1]) for batch in log.batches() for each in batch.columns.values())
+    run, reached = record_run(log.events(), max([0, *stamps]))
     if not run:
         raise LogError(f"{log.file.path}: a run must have an event to be saved")
     with log_errors("write", path):

@@ -117,8 +117,7 @@ class Outputs:
         topics = {n: each for n, each in SAMPLE_TOPICS.items() if settings.enables(each.switch)}
         self._samples = {name: add(topic) for name, topic in topics.items()}
         self._layouts = {name: topic.layout(*frames) for name, topic in topics.items()}
-        has_frames = bool(settings.imu or settings.odometry)
-        self._fixed_frames = add(TF_STATIC) if has_frames else None
+        self._fixed_frames = add(TF_STATIC) if settings.imu or settings.odometry else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
         self._markers = Markers(settings.world_frame)
@@ -191,8 +190,7 @@ def list_fixed_frames(frame: str, imu: Imu | None, body: Body | None) -> list[Tr
     if imu:
         transforms.append(Transform(frame, imu_frame(frame), imu.position, imu.orientation))
     if body:
-        place = (0.0, 0.0, body.arm)
-        transforms.append(Transform(frame, centre_frame(frame), place, ALONG))
+        transforms.append(Transform(frame, centre_frame(frame), (0.0, 0.0, body.arm), ALONG))
     return transforms
 
 

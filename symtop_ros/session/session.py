@@ -52,8 +52,7 @@ class Session:
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
         first = self.simulation.timeline.announce(self.simulation.stamp, scene)
         verdict = self.simulation.apply(first)
-        metadata = {"scene": scene, **environment}
-        self.recording = Recording(self._recorder, self.simulation, metadata)
+        self.recording = Recording(self._recorder, self.simulation, {"scene": scene, **environment})
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
@@ -140,8 +139,7 @@ class Requests:
         """Kick by named values; see `kick.plan_kick` and `kick.plan_pushes`."""
         simulation = self._simulation
         act = Act(name_kick(values), simulation.stamp, values)
-        change = simulation.timeline.follow(act)
-        return simulation.apply_at_once(change)
+        return simulation.apply_at_once(simulation.timeline.follow(act))
 
     def hurry_precession(self) -> str:
         """Multiply the precession rate by the parameter `hurry_factor`."""

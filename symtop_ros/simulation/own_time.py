@@ -62,8 +62,7 @@ class OwnTimeSimulation(Simulation):
     _clock: RunClock
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
-        own = RunClock(clock, settings.real_time_factor)
-        super().__init__(settings, own, sink, host)
+        super().__init__(settings, RunClock(clock, settings.real_time_factor), sink, host)
 
     @property
     def factor(self) -> float:

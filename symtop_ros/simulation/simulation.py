@@ -114,8 +114,7 @@ class Simulation:
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
             self.host.report_error(str(failure))
-            act = Act("failure", stamp, {}, told=failure)
-            self.apply(self.timeline.fail(act, before.segment))
+            self.apply(self.timeline.fail(Act("failure", stamp, {}, told=failure), before.segment))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
         """Carry out a request in a turn; return success and the answer.

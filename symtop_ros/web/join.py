@@ -125,8 +125,7 @@ def join_modules() -> str:
     ordered: list[Path] = []
     _order(MAIN, ordered)
     functions = [_write_function(path) for path in ordered]
-    start = f"module_{MAIN.stem}.start();"
-    return "\n".join([*functions, start])
+    return "\n".join([*functions, f"module_{MAIN.stem}.start();"])
 
 
 def _order(path: Path, ordered: list[Path]) -> None:

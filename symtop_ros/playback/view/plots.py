@@ -65,8 +65,7 @@ class Plots:
                 (entities.PHI_DOT, 3),
                 (entities.PSI_DOT, 5),
             ):
-                values = euler.numbers[:, column : column + 1]
-                self._stream.send_scalars(entity, euler.stamps, values)
+                self._stream.send_scalars(entity, euler.stamps, euler.numbers[:, [column]])
         if "angular_momentum" in columns:
             momentum = columns["angular_momentum"]
             self._stream.send_scalars(entities.L, momentum.stamps, momentum.numbers)

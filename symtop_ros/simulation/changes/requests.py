@@ -123,8 +123,7 @@ def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
     if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
-        condition = f"such that the top stays below {MAX_RATE:g} rad/s"
-        raise reject(kind, condition, request[kind])
+        raise reject(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
 
 
 def _change_precession(top: Top, state: State, kind: str, value: Any, hold: Hold) -> State:
