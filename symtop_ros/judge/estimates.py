@@ -23,7 +23,7 @@ from symtop_ros.wire.messages import (
 )
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.log.bag import MessageSource
+    from symtop_ros.log.source import MessageSource
 
 MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000

@@ -166,8 +166,10 @@ def _read_run(options: argparse.Namespace) -> Truth:
         return scene_truth(options.scene)
     if [path.suffix for path in options.files] == [EVENTS]:
         return read_events(options.files[0])
-    from symtop_ros.log.bag import open_run  # logs need mcap
-    from symtop_ros.log.top_log import TopLog
+    from symtop_ros.log.top_log import (
+        TopLog,
+        open_run,  # logs need mcap
+    )
 
     return read_truth(TopLog(open_run(options.files), options.node))
 
@@ -206,7 +208,7 @@ def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimate
         return
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
-    from symtop_ros.log.bag import open_run  # logs need mcap
+    from symtop_ros.log.top_log import open_run  # logs need mcap
 
     for topic in options.topic:
         found = read_topic(open_run([other] if other else options.files), topic, options.frame)

@@ -11,10 +11,9 @@ from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
 from symtop_ros.command import has_screen, tell_failures
-from symtop_ros.log.bag import open_run
 from symtop_ros.log.reader import LogError, McapFile, list_problems, log_errors
 from symtop_ros.log.repair import repair
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.session.run_log import RATE, write_run_log
 from symtop_ros.simulation.run_file import RunEvent, read_run, record_run, write_run
 from symtop_ros.simulation.settings import MAX_PUBLISH_RATE

@@ -16,11 +16,11 @@ from symtop_ros.log.recorder import Recorder, describe_error
 from symtop_ros.session.diagnostics import collect_statuses, summarize_state
 from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.services import SERVICES, Response
+from symtop_ros.simulation.block import Clock
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.changes.follow import Act
 from symtop_ros.simulation.changes.outcomes import Failure, Record
 from symtop_ros.simulation.changes.requests import initial_state, name_kick
-from symtop_ros.simulation.host import Clock
 from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation

@@ -5,26 +5,69 @@ are expanded in time. No root, no elliptic function, no angle and no other frame
 
 A number is an integer in units of 2^-bits, of mpmath's type: with gmpy2 it is GMP's, which
 multiplies integers of some hundred bits three times as fast as Python.
+
+What a motion starts from are exact fractions, and what it comes to are numbers of mpmath; so they
+are for the closed form.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from symtop_ros.physics.state import State
+    from symtop_ros.physics.top import Top
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cached_property
 from operator import mul
-from typing import Any
 
 from mpmath import mp, mpc, mpf
 from mpmath.libmp import MPZ
 
-from symtop_ros.physics.reference.inputs import ExactState, Inputs, Number
-
+Number = Any  # of mpmath: mpf or mpc
 Integers = list[Any]  # of the type of GMP, or of Python
 TERMS_PER_DIGIT = 1.2  # of a series; found to take the least time
 W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z = range(7)
+
+
+class ExactState(NamedTuple):
+    """A state in numbers of mpmath.
+
+    Attributes
+    ----------
+    orientation : tuple of mpf
+        Unit quaternion (w, x, y, z), body to world.
+    angular_velocity : tuple of mpf
+        Angular velocity in the body frame, in rad/s.
+    """
+
+    orientation: tuple[Number, ...]
+    angular_velocity: tuple[Number, ...]
+
+
+class Inputs(NamedTuple):
+    """A top and its start. A double is a fraction, so nothing is rounded here."""
+
+    Ix: Fraction
+    Iz: Fraction
+    Mgl: Fraction
+    orientation: tuple[Fraction, ...]  # of any norm but zero
+    angular_velocity: tuple[Fraction, ...]
+
+    @classmethod
+    def of(cls, top: Top, start: State) -> Inputs:
+        """Return the numbers that a top and a state were given."""
+        q, omega = start.given_orientation, start.angular_velocity
+        return cls.exact(*top.moments, q.tolist(), omega.tolist())
+
+    @classmethod
+    def exact(cls, Ix: Any, Iz: Any, Mgl: Any, orientation: Any, angular_velocity: Any) -> Inputs:
+        """Return doubles, integers or fractions as fractions."""
+        q, omega = (tuple(map(Fraction, each)) for each in (orientation, angular_velocity))
+        return cls(Fraction(Ix), Fraction(Iz), Fraction(Mgl), q, omega)
 
 
 class Way:
