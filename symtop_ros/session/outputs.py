@@ -113,7 +113,11 @@ class Outputs:
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
         self._events, self._description = add(EVENTS), add(choose_description(name))
-        topics = {n: each for n, each in SAMPLE_TOPICS.items() if settings.enables(each.switch)}
+        topics = {
+            n: each
+            for n, each in SAMPLE_TOPICS.items()
+            if not each.switch or settings.values[each.switch]
+        }
         self._samples = {name: add(topic) for name, topic in topics.items()}
         self._layouts = {name: topic.layout(*frames) for name, topic in topics.items()}
         self._fixed_frames = add(TF_STATIC) if settings.imu or settings.odometry else None

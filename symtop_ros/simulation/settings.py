@@ -307,10 +307,6 @@ class Settings:
         imu = self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
         return Rig(self.gravity, imu)
 
-    def enables(self, switch: str) -> bool:
-        """Return True if a parameter that switches a topic on is set; True for no parameter."""
-        return not switch or bool(self.values[switch])
-
     @classmethod
     def from_scene(cls, name: object, **changes: Any) -> "Settings":
         """Return the settings of a scene, with changes (`__` for the dots in their names)."""

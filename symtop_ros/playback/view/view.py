@@ -11,7 +11,6 @@ from symtop_ros.arrays import Real, rotate
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import (
-    angles,
     entities,
     quantities,
     surroundings,
@@ -168,7 +167,7 @@ class View:
             nodes = surroundings.line_of_nodes(euler.numbers[:, 0])
             self._stream.send_lines(entities.NODES, euler.stamps, nodes)
             if self._options.angles:
-                angles.send_angles(self._stream, euler)
+                surroundings.send_angles(self._stream, euler)
             if self._fictitious:
                 self._fictitious.send(euler)
         if self._options.torques and (parts := torques.Torques.of(columns)):
@@ -193,7 +192,7 @@ class View:
 
     def _log_styles(self) -> None:
         if self._options.angles:
-            angles.log_frames(self._stream)
+            surroundings.log_frames(self._stream)
         if self._options.torques:
             torques.log_styles(self._stream)
         self._stream.style_lines(entities.TRACE, GOLD, 0.007)
