@@ -224,9 +224,9 @@ class State:
         small tilt keeps all its digits.
         """
         w, x, y, z = self._components
-        return _make_read_only(
-            stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
-        )
+        up = stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+        up.setflags(write=False)
+        return up
 
     @property
     def is_vertical(self) -> Any:
@@ -453,8 +453,3 @@ def _normalize(q: Real) -> Real:
         condition = f"a quaternion of norm 1 within {NORM_TOLERANCE:g}"
         raise refuse("orientation", condition, f"a norm of {worst:g}")
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
-
-
-def _make_read_only(array: Real) -> Real:
-    array.setflags(write=False)
-    return array

@@ -15,7 +15,6 @@ from symtop_ros.physics.values import (
     SMALLEST_MOMENT,
     ignore_underflow,
     refuse,
-    to_float,
     validate_together,
 )
 
@@ -117,7 +116,8 @@ class Top(_Numbers):
         Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7).
         """
         weight = np.sqrt(np.maximum(self.Mgl, 0.0))
-        return to_float(2 * np.sqrt(self.Ix) * weight / self.Iz)
+        spin = 2 * np.sqrt(self.Ix) * weight / self.Iz
+        return spin if self.shape else float(spin)
 
     def sleeping_is_stable(self, state: State) -> bool:
         """Return True if an axis at rest on the vertical stays near it after a small kick.
