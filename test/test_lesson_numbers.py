@@ -8,7 +8,7 @@ import pytest
 from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques, push_axle
 from symtop_ros.physics import regular_precession_rates as find_roots
 from symtop_ros.simulation.changes.outcomes import Pushed
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
+from symtop_ros.simulation.segment import PushedMotion, Pushes
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, SLOW, SLOW_ROOT_HURRIED, TOP

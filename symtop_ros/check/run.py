@@ -15,9 +15,14 @@ from pathlib import Path
 from mcap.opcode import Opcode
 from mcap.records import Chunk, DataEnd, Footer, MessageIndex
 
-from symtop_ros.check import events, texts
 from symtop_ros.check.course import Course, Grid, count_missed, describe_gaps
-from symtop_ros.check.events import Mismatch
+from symtop_ros.check.events import (
+    Mismatch,
+    find_mismatches,
+    find_wrong_texts,
+    is_of_this_version,
+    list_other_versions,
+)
 from symtop_ros.check.samples import Deviation, check_log
 from symtop_ros.log.reader import (
     DAMAGE,
@@ -64,9 +69,9 @@ def check_run(log: TopLog) -> Findings:
     deviations = check_log(log, grid)
     return Findings(
         deviations,
-        [*events.find_mismatches(given), *texts.find_mismatches(log, given)],
-        sum(not events.is_of_this_version(each) for each in given),
-        events.list_other_versions(given),
+        [*find_mismatches(given), *find_wrong_texts(log, given)],
+        sum(not is_of_this_version(each) for each in given),
+        list_other_versions(given),
         _find_damage(log.file),
         given[0].number if given else 0,
         [*_list_missing(log, given, deviations), *_describe_gaps(log, given, grid)],

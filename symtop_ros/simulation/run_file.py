@@ -15,8 +15,7 @@ from typing import Any
 from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
 from symtop_ros.simulation.changes.requests import KICK_FIELDS, read_kick, read_pushes
 from symtop_ros.simulation.events import KICKS, MOTION, RESTARTS, Event
-from symtop_ros.simulation.pushed import PushedMotion
-from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.segment import PushedMotion, Segment
 from symtop_ros.simulation.validation import (
     RefusedError,
     choice,

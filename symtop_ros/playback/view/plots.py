@@ -10,9 +10,8 @@ from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Motion, State, Top, perrys_rule
 from symtop_ros.playback.view import entities, quantities
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE, Stream
 from symtop_ros.playback.view.potential import PotentialView
-from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.torques import Torques
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment

@@ -12,8 +12,7 @@ import rerun as rr
 from symtop_ros.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import ASH, BLUE, GOLD, GREY, WHITE
-from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.entities import ASH, BLUE, GOLD, GREY, WHITE, Stream
 
 WIDTH, HEIGHT = 2.0, 1.0  # of the box in scene units; y points down
 TILTS = np.linspace(1e-4, np.pi - 1e-4, 4001)

@@ -31,9 +31,13 @@ from symtop_ros.playback.view.entities import (
     STONE,
     VIOLET,
     WHITE,
+    Mesh,
+    Stream,
+    create_lathe,
+    draw_meridian,
+    draw_parallel,
 )
 from symtop_ros.playback.view.quantities import find_step, nodes_of
-from symtop_ros.playback.view.stream import Mesh, Stream, create_lathe, draw_meridian, draw_parallel
 
 MAX_LINES = 3000  # visible at one time
 MAX_GAP = 5  # sample periods; longer gaps are not bridged by a line

@@ -20,9 +20,8 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import FrameTorques, State, Top, precessing_frame_torques
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, RED, SKY, WHITE
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, RED, SKY, WHITE, Stream
 from symtop_ros.playback.view.quantities import ColumnsByTopic, find_step, join, nodes_of
-from symtop_ros.playback.view.stream import Stream
 from symtop_ros.simulation.validation import MAX_RATE
 
 RATE = 60.0  # arrows per s of the clock

@@ -17,10 +17,18 @@ from symtop_ros.playback.view import (
     torques,
 )
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VIOLET
+from symtop_ros.playback.view.entities import (
+    BLUE,
+    GOLD,
+    GREEN,
+    ORANGE,
+    RED,
+    VIOLET,
+    Stream,
+    create_body,
+)
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.plots import Plots, describe_motion
-from symtop_ros.playback.view.stream import Stream, create_body
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.playback.view.torques import FictitiousView
 from symtop_ros.simulation.events import KICKS, Event

@@ -23,7 +23,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
+from symtop_ros.simulation.segment import PushedMotion, Pushes
 from symtop_ros.simulation.settings import MAX_ANGLE, PRECESSIONS, InitialConditions, Settings
 from symtop_ros.simulation.validation import (
     MAX_RATE,
