@@ -116,8 +116,8 @@ class Course:
         by_stamp = np.searchsorted(self._begins, stamps, side="right") - 1
         if self.is_ordered:
             return by_stamp
-        first = self._begins.min(initial=MAX_STAMP)
-        return np.where(stamps < first, -1, np.maximum(places - 1, 0))
+        is_early = stamps < self._begins.min(initial=MAX_STAMP)
+        return np.where(is_early, -1, np.maximum(places - 1, 0))
 
     def candidates(
         self, stamps: Stamps, owners: NDArray[np.intp], in_order: bool = True
@@ -171,8 +171,7 @@ class Grid:
         gaps.last = int(stamps[-1])
         steps = after - before
         # In time that went back, a stamp may be there once for each event that holds at it.
-        again = steps <= 0
-        gaps.repeated += int((self._course.count_holding(after[again]) < 2).sum())
+        gaps.repeated += int((self._course.count_holding(after[steps <= 0]) < 2).sum())
         if not gaps.period:
             gaps.period = float(np.median(steps[steps > 0])) if (steps > 0).any() else 0.0
         self._find_gaps(gaps, name, before, after)

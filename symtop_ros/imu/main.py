@@ -66,8 +66,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
     if name is None:
         return {}
     if name == "consumer":
-        inertial = {each: getattr(CONSUMER, each) for each in NOISE}
-        return {**inertial, MAGNETOMETER_NOISE[0]: BMM150}
+        return {each: getattr(CONSUMER, each) for each in NOISE} | {MAGNETOMETER_NOISE[0]: BMM150}
     path = Path(name)
     with path.open("rb") as file:
         text = file.read(MAX_BYTES + 1)

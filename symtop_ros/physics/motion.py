@@ -1,6 +1,7 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
+import warnings
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar
@@ -14,8 +15,10 @@ from symtop_ros.physics.arguments import (
     NO_TORQUE,
     TORQUE_UNIT,
     ExactTimes,
+    find_shape,
     pack_start,
     validate_times,
+    validate_torque,
     validate_types,
     wrap_states,
 )
@@ -90,8 +93,13 @@ class Motion:
         torque: ArrayLike = NO_TORQUE,
     ) -> "Motion":
         """Return the motion; for arrays warn, and return `Motions`."""
-        many: Motion | None = cls.make_many(top, start, friction, torque)
-        return object.__new__(cls) if many is None else many
+        validate_types(top, start, friction)
+        if not find_shape(top, start, friction, validate_torque(torque)):
+            return object.__new__(cls)
+        text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
+        many: Motion = cls.make_many(top, start, friction, torque)
+        return many
 
     def __init__(
         self,

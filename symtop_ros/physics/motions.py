@@ -1,7 +1,6 @@
 """Many motions at once: of many tops, or from many states."""
 
 import math
-import warnings
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
@@ -223,8 +222,7 @@ class Motions:
         count, states = math.prod(self.shape), self.at(t)
         orientation, omega = (np.array(part) for part in states.parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
-        numbers = np.repeat(np.arange(count), len(t))
-        return {"motion": numbers, **flat.table(np.tile(t, count))}
+        return {"motion": np.repeat(np.arange(count), len(t)), **flat.table(np.tile(t, count))}
 
     def jacobian(self, t: ArrayLike) -> Real:
         """Return the derivatives of each motion's state, as `Motion.jacobian` does.
@@ -369,19 +367,4 @@ class Motions:
             return np.asarray(np.abs(Iz * omega_z / Ix).reshape(self.shape))
 
 
-def _make_many(
-    top: Any,
-    start: Any,
-    friction: Any = NO_FRICTION,
-    torque: Any = NO_TORQUE,
-) -> Motions | None:
-    """Return `Motions` with a warning if an argument is an array; None for one motion."""
-    validate_types(top, start, friction)
-    if not find_shape(top, start, friction, validate_torque(torque)):
-        return None
-    text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
-    warnings.warn(text, DeprecationWarning, stacklevel=3)
-    return Motions(top, start, friction, torque)
-
-
-Motion.make_many = staticmethod(_make_many)  # this line and `Motion.__new__` go with 0.5
+Motion.make_many = Motions  # this line and `Motion.__new__` go with 0.5

@@ -216,8 +216,7 @@ class Stream:
     def send(self, entity: str, stamps: Stamps, columns: Any) -> None:
         """Send one value for each stamp."""
         durations = (stamps - (self.origin or 0)).astype("timedelta64[ns]")
-        times = rr.TimeColumn(TIMELINE, duration=durations)
-        self.recording.send_columns(entity, [times], columns)
+        self.recording.send_columns(entity, [rr.TimeColumn(TIMELINE, duration=durations)], columns)
 
     def send_scalars(self, entity: str, stamps: Stamps, values: Real) -> None:
         """Send values (n, width) to the lines of a plot."""

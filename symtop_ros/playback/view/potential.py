@@ -44,8 +44,7 @@ class Chart:
     def cut(self, x: Real, y: Real) -> list[Real]:
         """Return the parts of a curve that lie inside, as strips of the scene."""
         inside = (x >= self.left) & (x <= self.right) & (y >= self.bottom) & (y <= self.top)
-        borders = np.flatnonzero(np.diff(inside)) + 1
-        parts = np.split(np.arange(len(x)), borders)
+        parts = np.split(np.arange(len(x)), np.flatnonzero(np.diff(inside)) + 1)
         return [self.place(x[part], y[part]) for part in parts if inside[part[0]] and len(part) > 1]
 
     def frame(self) -> Real:

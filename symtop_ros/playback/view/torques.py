@@ -85,8 +85,7 @@ class Torques(NamedTuple):
 
     def find_scale(self) -> float:
         """Return the torque in N m of one scene unit, so that the longest arrow has `LENGTH`."""
-        parts = self[:-1]
-        longest = max(float(np.linalg.norm(part, axis=1).max(initial=0.0)) for part in parts)
+        longest = max(float(np.linalg.norm(part, axis=1).max(initial=0.0)) for part in self[:-1])
         return float(f"{longest / LENGTH:.2g}") or 1.0
 
 
