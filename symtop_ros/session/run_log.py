@@ -113,7 +113,7 @@ class _Again:
     def _publish(self) -> None:
         while self._simulation.stamp <= self._clock.now:
             self._simulation.tick()
-            self._session.recorder.await_room()
+            self._session.await_recorder()
         if self._host.failures:
             raise RefusedError(f"the run cannot be followed: {self._host.failures[0]}")
 

@@ -46,13 +46,13 @@ class Session:
         name: str = "/top",
     ) -> None:
         self._host = host
-        self.recorder = Recorder(settings.record)
-        self._outputs = Outputs(settings, host, self.recorder, name)
+        self._recorder = Recorder(settings.record)
+        self._outputs = Outputs(settings, host, self._recorder, name)
         self.simulation = simulate(settings, clock, self._outputs, host)
-        self.recorder.count_missed = lambda: self.simulation.ticker.missed
+        self._recorder.count_missed = lambda: self.simulation.ticker.missed
         first = self.simulation.timeline.announce(self.simulation.stamp, scene)
         verdict = self.simulation.apply(first)
-        self.recording = Recording(self.recorder, self.simulation, {"scene": scene, **environment})
+        self.recording = Recording(self._recorder, self.simulation, {"scene": scene, **environment})
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
@@ -86,7 +86,7 @@ class Session:
         """Continue with changed values, in a turn of the caller."""
         settings = self.plan_settings(changes)
         self._outputs.enable_tf(settings.publish_tf)
-        self.recorder.settings = settings.record
+        self._recorder.settings = settings.record
         self.simulation.apply_settings(settings)
 
     def keep_up(self) -> None:
@@ -102,12 +102,16 @@ class Session:
             self._outputs.send_clock(self.simulation.now)
         self._outputs.send_diagnostics(
             self.simulation.stamp,
-            lambda: [*collect_statuses(self.simulation, self.recorder), *own],
+            lambda: [*collect_statuses(self.simulation, self._recorder), *own],
         )
+
+    def await_recorder(self) -> None:
+        """Wait while the recorder lags behind: for a run that is faster than its clock."""
+        self._recorder.await_room()
 
     def close(self) -> None:
         """End the recording."""
-        self.recorder.stop()
+        self._recorder.stop()
 
 
 @dataclass(frozen=True)
