@@ -23,7 +23,7 @@ from symtop_ros.physics import Top
 from symtop_ros.session.diagnostics import balance_status, motion_status
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
-from symtop_ros.simulation.changes.follow import RULES, Act, follow
+from symtop_ros.simulation.changes.follow import RULES, Act, Following, follow
 from symtop_ros.simulation.changes.outcomes import Start
 from symtop_ros.simulation.changes.requests import read_kick
 from symtop_ros.simulation.events import KICKS, RESTARTS, Event, decode_events
@@ -114,30 +114,27 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator
 
 def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
     """Return the event as a node reports it."""
-    act, is_known, pushes = read_act(event), event.number == 1, None
+    act, is_known = read_act(event), event.number == 1
     if previous and _is_near(previous, act, budget):
-        before, following, outcome, pushes = follow(previous, act)
-        is_known = True
+        found, is_known = follow(previous, act), True
     else:
-        before, following, outcome = event.state_before(), event.segment(), act.told
-        if event.name in RESTARTS:
-            outcome = Start.of(following.motion)
-        if is_known:
-            before = following.state_at(event.stamp)
-    frame = event.values.get("top_frame", "")
-    found = Event.of(
+        following = event.segment()
+        before = following.state_at(event.stamp) if is_known else event.state_before()
+        outcome = Start.of(following.motion) if event.name in RESTARTS else act.told
+        found = Following(before, following, outcome)
+    right = Event.of(
         event.stamp,
         event.name,
-        outcome,
+        found.outcome,
         act.request,
-        before,
-        following,
-        frame,
+        found.before,
+        found.segment,
+        event.values.get("top_frame", ""),
         event.number,
-        pushes,
+        found.pushes,
     )
     given = {} if is_known else {n: event.values[n] for n in BEFORE if n in event.values}
-    return replace(found, values={**found.values, **given})
+    return replace(right, values={**right.values, **given})
 
 
 def read_act(event: Event) -> Act:
