@@ -11,7 +11,7 @@ from vqf import VQF
 
 from symtop_ros.arrays import Real, compose, invert
 from symtop_ros.imu import CONSUMER, Magnetometer, record_imu
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 
 SECONDS = 20

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 Real = NDArray[np.float64]
 Stamps = NDArray[np.int64]  # ns
 Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]  # (w, x, y, z)
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 

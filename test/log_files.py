@@ -16,8 +16,8 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.log.writer import LogFile
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
-from symtop_ros.simulation.changes.kick import plan_kick
 from symtop_ros.simulation.changes.outcomes import Outcome, Start
+from symtop_ros.simulation.changes.requests import plan_kick
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples

@@ -8,7 +8,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[1] / "symtop_ros"
 # Files of the package itself.
-TOP = {"__init__", "arrays", "command", "distribution", "figures", "programs", "shutdown"}
+TOP = {"__init__", "arrays", "command", "programs", "shutdown"}
 # Folder -> folders and files of the package | other packages. Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 TABLE = {
@@ -20,13 +20,13 @@ TABLE = {
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",
     # the page as one file
-    "web": "physics simulation wording | yaml",
+    "web": "simulation wording | yaml",
     # of session what it says of a motion
     "check": "__init__ log models physics session simulation wire | mcap numpy",
     # of session the log that a node would have written of a run of the page
     "playback": "check command log physics session simulation web | numpy rerun rerun_cli",
     "session": "__init__ log models physics simulation wire wording | numpy",
-    "node": "__init__ distribution physics session shutdown simulation wire | "
+    "node": "__init__ physics session shutdown simulation wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
     # of session only the table of services, which imports nothing
     "client": "command session shutdown simulation | rcl_interfaces rclpy sensor_msgs std_srvs",
@@ -36,7 +36,7 @@ TABLE = {
     "models": "command physics simulation | ",
     "imu": "command log physics simulation wire | numpy yaml",
     "testset": " | numpy",
-    "judge": "command figures log models physics shutdown simulation testset wire wording | "
+    "judge": "command log models physics shutdown simulation testset wire wording | "
     "matplotlib numpy rclpy scipy",
 }
 ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}

@@ -18,10 +18,10 @@ from symtop_ros.client import main as client
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.main import parse_values
 from symtop_ros.panel import main as panel
-from symtop_ros.web.lesson import read_lesson
 from workshop import main as report
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import picture_of, run_step, write_sheets
+from workshop.lesson.steps import read_lesson
 from workshop.load.domains import claim_domain
 
 ROOT = Path(__file__).parents[1]

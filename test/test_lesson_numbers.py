@@ -8,13 +8,13 @@ import pytest
 from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques, push_axle
 from symtop_ros.physics import regular_precession_rates as find_roots
 from symtop_ros.simulation.changes.outcomes import Pushed
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
-from symtop_ros.web.lesson import read_lesson
+from symtop_ros.simulation.segment import PushedMotion, Pushes
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, SLOW, SLOW_ROOT_HURRIED, TOP
 from workshop.article.nutation import times_of_extreme_rate
 from workshop.article.pivot import SHORT_ARM
+from workshop.lesson.steps import read_lesson
 
 THETA, SPIN, FACTOR = 0.5, 200.0, 1.4
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.\d+(?!\w)")

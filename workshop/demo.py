@@ -18,11 +18,11 @@ from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.command import has_screen
-from symtop_ros.distribution import use_profile
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.node.host import use_profile
 from symtop_ros.playback import viewer
-from symtop_ros.playback.replay import replay
+from symtop_ros.playback.viewer import replay
 from symtop_ros.programs import INTERRUPTED
 from symtop_ros.shutdown import describe_failure, ros_context
 

@@ -5,7 +5,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from symtop_ros.web.texts import FOLDER, TERMS, read_file, read_texts
+from symtop_ros.web.join import TERMS, TEXTS, read_file, read_texts
 from symtop_ros.wording.templates import FOLDER as WORDING
 from symtop_ros.wording.templates import PLACEHOLDER, read_templates
 
@@ -21,7 +21,7 @@ GLUED = re.compile(r"\}['\u2019]?[^\W\d_]")  # a suffix of a language at a numbe
 
 def find_faults(language: str) -> Iterator[str]:
     """Yield what is wrong in the files of a language, compared with the English texts."""
-    files = [folder / f"{language}.json" for folder in (WORDING, FOLDER)]
+    files = [folder / f"{language}.json" for folder in (WORDING, TEXTS)]
     if missing := [path for path in files if not path.exists()]:
         yield from (f"{path.parent.name}/{path.name}: is missing" for path in missing)
         return
@@ -44,7 +44,7 @@ def _compare_keys(english: Mapping[str, str], texts: Mapping[str, str]) -> Itera
 
 
 def _read_terms(language: str) -> dict[str, str]:
-    text = (FOLDER / f"{language}.json").read_text(encoding="utf-8")
+    text = (TEXTS / f"{language}.json").read_text(encoding="utf-8")
     terms: dict[str, str] = json.loads(text)[TERMS]
     return terms
 

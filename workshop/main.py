@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from symtop_ros.simulation.validation import one_line
-from symtop_ros.web.texts import LANGUAGES
+from symtop_ros.web.join import LANGUAGES
 
 LARGEST_MAP = 4000  # points along a side
 LARGEST_LIMIT = 3600  # s

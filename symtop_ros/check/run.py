@@ -1,17 +1,47 @@
-"""The whole check of a log: its samples, its events, its texts and the bytes of its files."""
+"""The whole check of a log: its samples, its events, its texts and the bytes of its files.
 
+Readers of messages never look at some bytes of an MCAP file. A chunk has its own checksum, which
+`McapFile` verifies. Here are the others: that of the data section, that of the summary, and the
+indexes behind each chunk, which follow from its messages.
+"""
+
+import struct
+import zlib
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
-from symtop_ros.check import checksums, events, texts
-from symtop_ros.check.course import Course
-from symtop_ros.check.events import Mismatch
-from symtop_ros.check.gaps import Grid, count_missed, describe_gaps
+from mcap.opcode import Opcode
+from mcap.records import Chunk, DataEnd, Footer, MessageIndex
+
+from symtop_ros.check.course import Course, Grid, count_missed, describe_gaps
+from symtop_ros.check.events import (
+    Mismatch,
+    find_mismatches,
+    find_wrong_texts,
+    is_of_this_version,
+    list_other_versions,
+)
 from symtop_ros.check.samples import Deviation, check_log
-from symtop_ros.log.bag import MessageSource, SeveralFiles
-from symtop_ros.log.reader import McapFile, log_errors
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.reader import (
+    DAMAGE,
+    MAGIC,
+    MAX_RECORD,
+    MESSAGE_START,
+    RECORD_START,
+    McapFile,
+    Places,
+    log_errors,
+    open_stream,
+    unpack_chunk,
+)
+from symtop_ros.log.source import MessageSource
+from symtop_ros.log.top_log import SeveralFiles, TopLog
 from symtop_ros.simulation.events import Event
+
+Index = dict[int, list[tuple[int, int]]]  # log time and offset of each message, by channel
+FOOTER_HEAD = struct.Struct("<BQQQ")  # of which the checksum of the summary is taken, too
 
 
 @dataclass(frozen=True)
@@ -39,9 +69,9 @@ def check_run(log: TopLog) -> Findings:
     deviations = check_log(log, grid)
     return Findings(
         deviations,
-        [*events.find_mismatches(given), *texts.find_mismatches(log, given)],
-        sum(not events.is_of_this_version(each) for each in given),
-        events.list_other_versions(given),
+        [*find_mismatches(given), *find_wrong_texts(log, given)],
+        sum(not is_of_this_version(each) for each in given),
+        list_other_versions(given),
         _find_damage(log.file),
         given[0].number if given else 0,
         [*_list_missing(log, given, deviations), *_describe_gaps(log, given, grid)],
@@ -74,4 +104,96 @@ def _find_damage(file: MessageSource) -> list[str]:
     if isinstance(file, SeveralFiles):
         return [f"{each.path.name}: {text}" for each in file.sources for text in _find_damage(each)]
     with log_errors("read", file.path):
-        return checksums.find_damage(file.path) if isinstance(file, McapFile) else []
+        return find_damage(file.path) if isinstance(file, McapFile) else []
+
+
+def find_damage(path: Path) -> list[str]:
+    """Return what is damaged in the records of a file, apart from messages."""
+    found = Walk()
+    with path.open("rb") as file:
+        found.checksum = zlib.crc32(file.read(len(MAGIC)))
+        size = path.stat().st_size
+        while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
+            opcode, length = RECORD_START.unpack(head)
+            if length > min(MAX_RECORD, size - file.tell()):
+                break  # `McapFile` reports the gap
+            found.take(opcode, head, file.read(length), file.tell())
+            if opcode == Opcode.FOOTER:
+                found.end(file.read())
+    if found.in_summary:  # a damaged length leads past the footer
+        found.problems.append("the summary is damaged: it has no end")
+    return found.problems
+
+
+class Walk:
+    """A walk through the records of a file, in their order."""
+
+    def __init__(self) -> None:
+        self.problems: list[str] = []
+        self.checksum = 0  # of all bytes so far; from the end of the data on, of the summary
+        self._after_magic = 0  # the same without the first bytes of the file
+        self._expected: Index | None = None  # indexes that follow from the last chunk
+        self._found: Index = {}
+        self.in_summary = False  # True from the end of the data to the footer
+
+    def take(self, opcode: int, head: bytes, data: bytes, end: int) -> None:
+        """Take a record with its head, and the offset of its end."""
+        try:
+            self._judge(opcode, data, end)
+        except DAMAGE:
+            self.problems.append(f"the record before byte {end} is damaged")
+        if opcode == Opcode.DATA_END:
+            self.checksum, self.in_summary = 0, True
+        else:
+            for part in (head, data):
+                self.checksum = zlib.crc32(part, self.checksum)
+                self._after_magic = zlib.crc32(part, self._after_magic)
+
+    def _judge(self, opcode: int, data: bytes, end: int) -> None:
+        if opcode != Opcode.MESSAGE_INDEX:
+            self._compare_indexes(end - len(data) - RECORD_START.size)
+        if opcode == Opcode.CHUNK:
+            self._found, self._expected = {}, _index(data)
+        elif opcode == Opcode.MESSAGE_INDEX:
+            index = MessageIndex.read(open_stream(data))
+            self._found[index.channel_id] = [(time, place) for time, place in index.records]
+        elif opcode == Opcode.DATA_END:
+            checksum = DataEnd.read(open_stream(data)).data_section_crc
+            # Writers differ in whether the first bytes of the file belong to the data.
+            if checksum and checksum not in (self.checksum, self._after_magic):
+                self.problems.append("the checksum of the data is not that of its bytes")
+        elif opcode == Opcode.FOOTER:
+            self._judge_footer(Footer.read(open_stream(data)), len(data))
+
+    def _compare_indexes(self, end: int) -> None:
+        """Compare the indexes behind a chunk, if it has any, with its messages."""
+        expected, self._expected = self._expected, None
+        if expected is not None and self._found and self._found != expected:
+            self.problems.append(f"the index of messages before byte {end} is damaged")
+
+    def _judge_footer(self, footer: Footer, length: int) -> None:
+        head = FOOTER_HEAD.pack(
+            Opcode.FOOTER, length, footer.summary_start, footer.summary_offset_start
+        )
+        if footer.summary_crc and footer.summary_crc != zlib.crc32(head, self.checksum):
+            self.problems.append("the checksum of the summary is not that of its bytes")
+
+    def end(self, rest: bytes) -> None:
+        """Take what follows the footer."""
+        self.in_summary = False
+        if rest != MAGIC:
+            self.problems.append("the last bytes are not those of an MCAP file")
+
+
+def _index(data: bytes) -> Index | None:
+    """Return the indexes that follow from a chunk; None if it cannot be read."""
+    index: Index = defaultdict(list)
+    try:
+        content = unpack_chunk(Chunk.read(open_stream(data)))
+        for opcode, begin, _ in Places(content):
+            if opcode == Opcode.MESSAGE:
+                channel, _, log_time, _ = MESSAGE_START.unpack_from(content, begin)
+                index[channel].append((log_time, begin - RECORD_START.size))
+    except DAMAGE:  # `McapFile` reports it
+        return None
+    return dict(index)

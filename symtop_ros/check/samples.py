@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
-from symtop_ros.check.course import Course
-from symtop_ros.check.gaps import Grid
+from symtop_ros.check.course import Course, Grid
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog

@@ -8,9 +8,9 @@ from typing import Any
 import yaml
 
 from symtop_ros.command import tell_failures
-from symtop_ros.imu.files import write_folder, write_table
+from symtop_ros.imu.files import write_folder, write_log, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.sensor.imu import BMM150, CONSUMER, MAGNETOMETER_NOISE, NOISE
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError, one_line
@@ -66,8 +66,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
     if name is None:
         return {}
     if name == "consumer":
-        inertial = {each: getattr(CONSUMER, each) for each in NOISE}
-        return {**inertial, MAGNETOMETER_NOISE[0]: BMM150}
+        return {each: getattr(CONSUMER, each) for each in NOISE} | {MAGNETOMETER_NOISE[0]: BMM150}
     path = Path(name)
     with path.open("rb") as file:
         text = file.read(MAX_BYTES + 1)
@@ -86,8 +85,6 @@ def read_noise(name: str | None) -> dict[str, Any]:
 def write(record: ImuRecord, path: Path) -> None:
     """Write a record in the form that the name of its path asks for."""
     if path.suffix == ".mcap":
-        from symtop_ros.imu.log import write_log  # logs need mcap
-
         write_log(record, path)
     elif path.suffix == ".csv":
         write_table(record, path)

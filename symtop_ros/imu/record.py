@@ -9,8 +9,7 @@ import numpy as np
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.physics import STANDARD_GRAVITY, ExactTimes, Motion, State
 from symtop_ros.simulation.events import Event, start_event
-from symtop_ros.simulation.sensor.imu import Imu
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.sensor.imu import Imu, Rig
 from symtop_ros.simulation.validation import RefusedError, number
 from symtop_ros.wire.layout import NANOSECONDS
 

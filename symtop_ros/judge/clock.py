@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.arrays import Real, Stamps, compose, find_rotation_vectors, invert
-from symtop_ros.judge.causes.causes import align
 from symtop_ros.judge.compare import Offset, to_rotation
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.search import align
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wording import write

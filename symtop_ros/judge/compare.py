@@ -112,8 +112,7 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     heading = _wrap(2 * np.arctan2(z, w))
     rate = None
     if chosen.angular_velocities is not None:
-        turned = to_rotation(body).apply(chosen.angular_velocities)
-        rate = np.linalg.norm(turned - rates, axis=1)
+        rate = np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
     late = truth.count_late(stamps)
     early = truth.count_early(stamps)
     unknown = int((~known).sum()) - late - early

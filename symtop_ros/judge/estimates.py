@@ -23,7 +23,7 @@ from symtop_ros.wire.messages import (
 )
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.log.bag import MessageSource
+    from symtop_ros.log.source import MessageSource
 
 MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000
@@ -130,8 +130,7 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
     covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
     if covariance is not None:
         q[covariance[:, 0] == NO_ORIENTATION] = 0.0
-    found = Estimates.of(stamps, q, rates, len(refused))
-    return replace(found, of_sensor=kind == IMU.type)
+    return replace(Estimates.of(stamps, q, rates, len(refused)), of_sensor=kind == IMU.type)
 
 
 def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimates:

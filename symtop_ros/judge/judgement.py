@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.judge.causes.cause import Cause, Finding
-from symtop_ros.judge.causes.causes import align, explain, find_causes
+from symtop_ros.judge.causes import Cause, Finding, find_mistakes
 from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.mistakes import find_mistakes
+from symtop_ros.judge.search import align, explain, find_causes
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.layout import NANOSECONDS

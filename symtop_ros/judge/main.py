@@ -8,11 +8,11 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from symtop_ros.command import positive, tell_failures
-from symtop_ros.judge.causes.causes import MODELS
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.judgement import Judgement, format_several, judge
 from symtop_ros.judge.problems import run_testset
+from symtop_ros.judge.search import MODELS
 from symtop_ros.judge.tables import TABLES, read_table
 from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
 from symtop_ros.simulation.validation import RefusedError, one_line
@@ -28,9 +28,8 @@ SENSOR, BODY = "sensor", "body"
 def main(args: list[str] | None = None) -> int:
     """Judge; return 0 (good), 1 (failed, or above --max-error) or 2 (usage)."""
     parser = _parser()
-    arguments = sys.argv[1:] if args is None else args
     # The rest belongs to ROS (--ros-args ...), which only --live needs.
-    options, rest = parser.parse_known_args(arguments)
+    options, rest = parser.parse_known_args(args)
     if rest and not (options.live and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest))}")
     if options.clock and options.live:
@@ -167,8 +166,10 @@ def _read_run(options: argparse.Namespace) -> Truth:
         return scene_truth(options.scene)
     if [path.suffix for path in options.files] == [EVENTS]:
         return read_events(options.files[0])
-    from symtop_ros.log.bag import open_run  # logs need mcap
-    from symtop_ros.log.top_log import TopLog
+    from symtop_ros.log.top_log import (
+        TopLog,
+        open_run,  # logs need mcap
+    )
 
     return read_truth(TopLog(open_run(options.files), options.node))
 
@@ -192,7 +193,7 @@ def _write(judgements: list[Judgement], folder: Path) -> None:
     if len(judgements) > 1:
         return
     try:
-        from symtop_ros.judge.plots import write_plot
+        from symtop_ros.judge.figures import write_plot
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:
@@ -207,11 +208,10 @@ def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimate
         return
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
-    from symtop_ros.log.bag import open_run  # logs need mcap
+    from symtop_ros.log.top_log import open_run  # logs need mcap
 
     for topic in options.topic:
-        source = open_run([other] if other else options.files)
-        found = read_topic(source, topic, options.frame)
+        found = read_topic(open_run([other] if other else options.files), topic, options.frame)
         yield topic, _choose_frame(found, options.attitude_of)
 
 

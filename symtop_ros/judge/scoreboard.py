@@ -173,8 +173,10 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
         f"{each.error:>11.1e}{each.limits:>10.2g}"
         for each in entries
     ]
-    for (problem, method), order in find_orders(entries).items():
-        lines.append(f"order of {method} in {problem}: {order:.2f}")
+    lines += [
+        f"order of {method} in {problem}: {order:.2f}"
+        for (problem, method), order in find_orders(entries).items()
+    ]
     for (problem, name), errors in find_differences(entries).items():
         each = ", ".join(f"{description} {error:.2g}" for description, error in errors.items())
         lines.append(f"descriptions of {problem} differ in {name}: {each} rad")

@@ -45,9 +45,9 @@ def read_table(path: Path) -> Estimates:
             return _read_lines(path, file)
     except OSError as error:
         raise RefusedError(f"cannot open {path}: {error.strerror}") from None
-    except (csv.Error, UnicodeDecodeError, ValueError) as error:
-        if isinstance(error, RefusedError):
-            raise
+    except RefusedError:
+        raise
+    except (csv.Error, ValueError) as error:
         raise RefusedError(f"cannot read {path}: not a table ({one_line(error)})") from None
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real, Stamps, compose
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
@@ -90,8 +90,7 @@ class Truth:
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)
         inside = stamps <= (np.iinfo(np.int64).max if self.end is None else self.end)
-        begins = [event.stamp for event in self._events]
-        owners = np.searchsorted(begins, stamps, side="right") - 1
+        owners = np.searchsorted([each.stamp for each in self._events], stamps, side="right") - 1
         for number in np.unique(owners[inside & (owners >= 0)]).tolist():
             chosen = inside & (owners == number)
             segment = self._segment(number)

@@ -19,9 +19,7 @@ from symtop_ros.live.feed import Feed
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
 from symtop_ros.playback.main import add_view_options, view_options
-from symtop_ros.playback.replay import APPLICATION
 from symtop_ros.playback.view.view import View, ViewOptions
-from symtop_ros.playback.viewer import HOST
 from symtop_ros.shutdown import run_with_ros, spin_until
 from symtop_ros.simulation.validation import full_name
 
@@ -130,8 +128,8 @@ def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View
     if view is None:
         print(f"showing the top in the viewer on port {port}", flush=True)
         feed.repeat_event()
-        recording = rr.RecordingStream(APPLICATION)
-        recording.connect_grpc(f"rerun+http://{HOST}:{port}/proxy")
+        recording = rr.RecordingStream(viewer.APPLICATION)
+        recording.connect_grpc(f"rerun+http://{viewer.HOST}:{port}/proxy")
         view = View(recording, live=True, options=ViewOptions(**view_options(options)))
     return view
 
@@ -150,4 +148,4 @@ def _end(view: View | None) -> None:
 def _listens(port: int) -> bool:
     with socket.socket() as probe:
         probe.settimeout(0.5)
-        return probe.connect_ex((HOST, port)) == 0
+        return probe.connect_ex((viewer.HOST, port)) == 0

@@ -12,8 +12,7 @@ holds, too.
 from typing import Protocol
 
 from symtop_ros.models.descriptions import PLAIN, Description
-from symtop_ros.models.mjcf import format_free_mjcf, format_mjcf
-from symtop_ros.models.sdf import format_free_sdf, format_sdf
+from symtop_ros.models.engines import format_free_mjcf, format_free_sdf, format_mjcf, format_sdf
 from symtop_ros.models.urdf import format_free_urdf, format_urdf
 from symtop_ros.physics import Body, State, Top
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from symtop_ros.command import tell_failures
 from symtop_ros.models import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
-from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import number
 

@@ -1,6 +1,15 @@
-"""The node as the host of a session: publishers, messages to the user, duplicate nodes."""
+"""The node as the host of a session: publishers, messages to the user, duplicate nodes, pace.
 
+A thread calls for each tick at its time. A timer of rclpy would do, but an executor rebuilds its
+wait set for each of its calls: at 1 kHz that takes 50 % CPU (one core). `use_real_time` asks for
+real-time scheduling, so that ticks and requests come on time on a busy machine.
+"""
+
+import os
+import threading
 import warnings
+from collections.abc import Callable
+from importlib import metadata
 from typing import Any, cast
 
 from rcl_interfaces.msg import SetParametersResult
@@ -11,10 +20,19 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from symtop_ros.session.diagnostics import make_status
+from symtop_ros.simulation.presets import config_folder
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import CLOCK, MARKERS, SAMPLE_TOPICS, Topic
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.diagnostics import OK, WARN, Status
+
+# s between two calls, however late they are. Python's locks are not fair: without a pause the
+# thread could take the lock again before a waiting request gets it.
+MIN_PAUSE = 5e-5
+# By the major version of rclpy. ROS 2 from PyPI does not set ROS_DISTRO.
+NAMES = {"3": "humble", "7": "jazzy", "9": "kilted"}
+# The variables that name a file of profiles for Fast DDS: the second up to Jazzy.
+VARIABLES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
 
 
 class NodePublisher:
@@ -141,3 +159,74 @@ def _look_for_clocks(node: Node, publishes_clock: bool) -> Status:
             "them: end all but one, or start this node with publish_clock:=false"
         )
     return make_status("clock", level, sentence, {"publishers": count})
+
+
+class Pacer:
+    """Calls `tick` repeatedly in a thread."""
+
+    def __init__(self, tick: Callable[[], float | None], fail: Callable[[Exception], None]) -> None:
+        self._tick, self._fail = tick, fail
+        self._awake = threading.Event()
+        self._ending = False
+        self._thread = threading.Thread(target=self._run, name="pacer", daemon=True)
+        self._thread.start()
+
+    def wake(self) -> None:
+        """Call `tick` now, because the clock was set or the grid of ticks changed."""
+        self._awake.set()
+
+    def stop(self) -> None:
+        """End the thread after the current tick."""
+        self._ending = True
+        self._awake.set()
+        if self._thread is not threading.current_thread():
+            self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            while not self._ending:
+                wait = self._tick()
+                self._awake.wait(None if wait is None else max(wait, MIN_PAUSE))
+                self._awake.clear()
+        except Exception as error:
+            self._fail(error)
+
+
+def use_real_time(priority: int) -> str | None:
+    """Have this thread, and those that it starts, scheduled with SCHED_FIFO.
+
+    The reason is returned if the machine does not allow it: the node then runs as other programs.
+    """
+    if not hasattr(os, "sched_setscheduler"):
+        return f"scheduling_priority {priority} has no effect: this system has no SCHED_FIFO"
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+    except PermissionError:
+        return (
+            f"scheduling_priority {priority} has no effect: real-time scheduling needs a right "
+            "(`ulimit -r`, or CAP_SYS_NICE; see docs/ros.md)"
+        )
+    return None
+
+
+def distribution_name() -> str:
+    """Return the name of the installed distribution; empty if it is not known."""
+    return os.environ.get("ROS_DISTRO") or NAMES.get(_rclpy_major(), "")
+
+
+def use_profile(name: str) -> None:
+    """Let Fast DDS use a profile of config/ in this process and its children.
+
+    Does nothing if the user has chosen a profile. Other middleware ignores it. Call it before ROS
+    is initialised.
+    """
+    path = config_folder() / name
+    if path.is_file() and not any(os.environ.get(variable) for variable in VARIABLES):
+        os.environ[VARIABLES[_rclpy_major() in ("3", "7")]] = str(path)
+
+
+def _rclpy_major() -> str:
+    try:
+        return metadata.version("rclpy").partition(".")[0]
+    except metadata.PackageNotFoundError:
+        return ""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 
-from symtop_ros.distribution import use_profile
+from symtop_ros.node.host import use_profile
 from symtop_ros.node.top_node import TopNode
 from symtop_ros.shutdown import run_with_ros
 from symtop_ros.simulation.presets import scene_names

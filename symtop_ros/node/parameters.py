@@ -1,4 +1,4 @@
-"""Declaration of the ROS parameters, and requests to set them.
+"""Declaration of the ROS parameters, requests to set them, and values of other requests.
 
 Each has a type, because readers in C++ insist on it. Values are validated before rclpy sees them:
 `publish_rate:=500` is accepted like `500.0`, and a bad value is refused with the message of the
@@ -6,7 +6,7 @@ package, at start-up as well as later.
 """
 
 import difflib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from typing import Any
 
@@ -14,17 +14,20 @@ from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
     ParameterDescriptor,
+    ParameterType,
+    ParameterValue,
     SetParametersResult,
 )
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
+from std_srvs.srv import SetBool, Trigger
 
-from symtop_ros.node.services import refuse_too_many, refuse_unknown_types
+from symtop_ros.session.services import ServiceKind
 from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import RefusedError, reject
+from symtop_ros.simulation.validation import RefusedError, reject, show
 
 DEFAULT_SCENE = "cusps"
 QOS = "qos_overrides."  # of topics, which declare these parameters themselves
@@ -38,6 +41,17 @@ TYPES = {
     list: Parameter.Type.DOUBLE_ARRAY,
 }
 GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
+MAX_COUNT = 1000  # parameters of a request; a file with all of them has a tenth
+VALUE_FIELDS = (
+    *("bool_value", "integer_value", "double_value", "string_value"),
+    *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
+)
+# By the kind of a service: its ROS type, and how the argument of the request is read.
+SERVICE_TYPES: dict[ServiceKind, tuple[type, Callable[[Any], Any]]] = {
+    "named": (SetParametersAtomically, lambda request: read_values(request.parameters)),
+    "switch": (SetBool, lambda request: bool(request.data)),
+    "plain": (Trigger, lambda _: None),
+}
 
 
 def declare_parameters(node: Node) -> Settings:
@@ -206,3 +220,54 @@ def _is_kept(node: Node, message: ParameterMessage) -> bool:
     if isinstance(old, bool | str | int | float):
         return bool(new == old)
     return new is not None and not isinstance(new, bool | str | int | float) and [*new] == [*old]
+
+
+def fill_response(response: Any, granted: bool, answer: str) -> Any:
+    """Write success and answer into the response of any of the service types."""
+    if isinstance(response, SetParametersAtomically.Response):
+        response.result = SetParametersResult(successful=granted, reason=answer)
+    else:
+        response.success, response.message = granted, answer
+    return response
+
+
+def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
+    """Return the values of a request by name."""
+    refuse_too_many(parameters)
+    refuse_unknown_types(parameters)
+    values: dict[str, Any] = {}
+    for parameter in parameters:
+        name, value = parameter.name, _read_value(parameter.value)
+        if name in values:
+            raise RefusedError(f"{show(name)} must be given once, got it more than once")
+        if value is None:
+            raise reject(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
+        values[name] = value
+    return values
+
+
+def _read_value(message: ParameterValue) -> Any:
+    """Return the value of a message; without a type, the one field that is set.
+
+    `ros2 service call ... {name: theta, value: {double_value: 0.5}}` sends no type.
+    """
+    if message.type != ParameterType.PARAMETER_NOT_SET:
+        return parameter_value_to_python(message)
+    given = [value for name in VALUE_FIELDS if (value := getattr(message, name))]
+    return given[0] if len(given) == 1 else None
+
+
+def refuse_too_many(parameters: Sequence[ParameterMessage]) -> None:
+    """Refuse a request so long that reading it would delay samples."""
+    if len(parameters) > MAX_COUNT:
+        raise RefusedError(
+            f"a request must have at most {MAX_COUNT} parameters, got {len(parameters)}"
+        )
+
+
+def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:
+    """Refuse values of a parameter type that ROS does not have."""
+    last = ParameterType.PARAMETER_STRING_ARRAY
+    for parameter in parameters:
+        if parameter.value.type > last:
+            raise reject(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)

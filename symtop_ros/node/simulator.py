@@ -233,8 +233,7 @@ class Simulator:
         filters = request.filters
         if filters.categories or filters.tags.tags or filters.bounds.type != Bounds.TYPE_EMPTY:
             raise ResultError(UNSUPPORTED, reject("filters", "a filter of names only", "others"))
-        is_found = _matches(filters.filter, self._name)
-        response.entities = [self._name] if is_found else []
+        response.entities = [self._name] if _matches(filters.filter, self._name) else []
 
     def _check_name(self, entity: str) -> None:
         if entity != self._name:

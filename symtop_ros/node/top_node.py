@@ -17,11 +17,14 @@ from rclpy.qos import QoSProfile, QoSReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
 
-from symtop_ros.distribution import distribution_name
-from symtop_ros.node.host import NodeHost
-from symtop_ros.node.pacer import Pacer, use_real_time
-from symtop_ros.node.parameters import declare_parameters, guard_parameters, warn_of_unused_qos
-from symtop_ros.node.services import TYPES, fill_response
+from symtop_ros.node.host import NodeHost, Pacer, distribution_name, use_real_time
+from symtop_ros.node.parameters import (
+    SERVICE_TYPES,
+    declare_parameters,
+    fill_response,
+    guard_parameters,
+    warn_of_unused_qos,
+)
 from symtop_ros.physics import kernel_version
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
@@ -91,7 +94,7 @@ class TopNode(Node):
         )
         warn_of_unused_qos(self)
         for name, service in SERVICES.items():
-            kind, read = TYPES[service.kind]
+            kind, read = SERVICE_TYPES[service.kind]
             self.create_service(kind, f"~/{name}", self._handler(name, read))
         # Best effort, so that publishers of either reliability are received.
         best_effort = QoSProfile(depth=10, reliability=QoSReliabilityPolicy.BEST_EFFORT)

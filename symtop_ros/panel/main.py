@@ -11,8 +11,7 @@ from pathlib import Path
 from symtop_ros.command import has_screen, port
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
-from symtop_ros.web.join import write_file
-from symtop_ros.web.texts import LANGUAGES
+from symtop_ros.web.join import LANGUAGES, write_file
 
 PORT = 8015
 PERIOD = 0.2  # s between two looks for the end
@@ -127,8 +126,7 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
         ) from None
     if node and host not in LOCAL_NAMES:
         print(f"top_panel: {WARNING.format(host=host)}", file=sys.stderr)
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
-    thread.start()
+    threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         print(f"{name}: open {server.url} in a browser; Ctrl-C ends it", flush=True)
         if not options.no_browser and has_screen():

@@ -13,14 +13,16 @@ Examples
 'cusps'
 """
 
-from symtop_ros.physics.accelerations import (
+from symtop_ros.physics.arguments import ExactTimes
+from symtop_ros.physics.body import Body
+from symtop_ros.physics.dynamics import (
     STANDARD_GRAVITY,
+    Balance,
     angular_acceleration,
+    balance,
     point_acceleration,
     specific_force,
 )
-from symtop_ros.physics.balance import Balance, balance
-from symtop_ros.physics.body import Body
 from symtop_ros.physics.kernel.door import Kind, kernel_version
 from symtop_ros.physics.kicks import (
     HOLDS,
@@ -52,7 +54,6 @@ from symtop_ros.physics.rule.kick_effect import (
 from symtop_ros.physics.rule.perry import Direction
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
 from symtop_ros.physics.state import Angles, State
-from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 
 __all__ = [

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics.accelerations import STANDARD_GRAVITY, specific_force
+from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State

@@ -1,6 +1,7 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
+import warnings
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar
@@ -13,8 +14,11 @@ from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     TORQUE_UNIT,
+    ExactTimes,
+    find_shape,
     pack_start,
     validate_times,
+    validate_torque,
     validate_types,
     wrap_states,
 )
@@ -22,7 +26,6 @@ from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import states
 from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, RatesRecord
 from symtop_ros.physics.state import State
-from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import (
     ignore_underflow,
@@ -90,8 +93,13 @@ class Motion:
         torque: ArrayLike = NO_TORQUE,
     ) -> "Motion":
         """Return the motion; for arrays warn, and return `Motions`."""
-        many: Motion | None = cls.make_many(top, start, friction, torque)
-        return object.__new__(cls) if many is None else many
+        validate_types(top, start, friction)
+        if not find_shape(top, start, friction, validate_torque(torque)):
+            return object.__new__(cls)
+        text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
+        many: Motion = cls.make_many(top, start, friction, torque)
+        return many
 
     def __init__(
         self,

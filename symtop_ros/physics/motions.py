@@ -1,7 +1,6 @@
 """Many motions at once: of many tops, or from many states."""
 
 import math
-import warnings
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
@@ -14,6 +13,7 @@ from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     STARTS,
+    ExactTimes,
     describe_starts,
     fill_states,
     find_shape,
@@ -27,7 +27,6 @@ from symtop_ros.physics.arguments import (
 from symtop_ros.physics.kernel.door import ENGINES, KINDS
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
-from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse, validate_array
 
@@ -130,8 +129,7 @@ class Motions:
 
     @cached_property
     def _starts(self) -> Real:
-        arguments = self.top, self.start, self.friction, self.applied_torque
-        return list_starts(*arguments, self.shape)
+        return list_starts(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the states at one time, or at many; the times are the same for all motions.
@@ -224,8 +222,7 @@ class Motions:
         count, states = math.prod(self.shape), self.at(t)
         orientation, omega = (np.array(part) for part in states.parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
-        numbers = np.repeat(np.arange(count), len(t))
-        return {"motion": numbers, **flat.table(np.tile(t, count))}
+        return {"motion": np.repeat(np.arange(count), len(t)), **flat.table(np.tile(t, count))}
 
     def jacobian(self, t: ArrayLike) -> Real:
         """Return the derivatives of each motion's state, as `Motion.jacobian` does.
@@ -370,19 +367,4 @@ class Motions:
             return np.asarray(np.abs(Iz * omega_z / Ix).reshape(self.shape))
 
 
-def _make_many(
-    top: Any,
-    start: Any,
-    friction: Any = NO_FRICTION,
-    torque: Any = NO_TORQUE,
-) -> Motions | None:
-    """Return `Motions` with a warning if an argument is an array; None for one motion."""
-    validate_types(top, start, friction)
-    if not find_shape(top, start, friction, validate_torque(torque)):
-        return None
-    text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
-    warnings.warn(text, DeprecationWarning, stacklevel=3)
-    return Motions(top, start, friction, torque)
-
-
-Motion.make_many = staticmethod(_make_many)  # this line and `Motion.__new__` go with 0.5
+Motion.make_many = Motions  # this line and `Motion.__new__` go with 0.5

@@ -51,8 +51,7 @@ class EffectivePotential:
         axial = float(top.axial_momentum(state))
         wx, wy, _ = state.angular_velocity.tolist()
         # Without the energy of the spin from the start: as a difference it would lose digits.
-        kinetic = top.Ix * (wx * wx + wy * wy) / 2
-        energy = kinetic + top.Mgl * float(state.vertical[2])
+        energy = top.Ix * (wx * wx + wy * wy) / 2 + top.Mgl * float(state.vertical[2])
         return cls(top, float(top.vertical_momentum(state)), axial, energy)
 
     @ignore_underflow

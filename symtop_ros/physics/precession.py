@@ -76,8 +76,7 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     >>> slow.round(2).tolist(), fast.round(2).tolist()
     ([nan, 6.5], [nan, 69.82])
     """
-    given = {"theta": theta, "psi_dot": psi_dot}
-    theta, psi_dot = validate_together(given, ("rad", "rad/s"))
+    theta, psi_dot = validate_together({"theta": theta, "psi_dot": psi_dot}, ("rad", "rad/s"))
     shape, (tops, thetas, spins) = spread_tops(top, theta, psi_dot)
     rates = door.find_regular_rates(tops, thetas, spins, hold=0)
     if not shape:

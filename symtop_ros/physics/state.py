@@ -96,8 +96,7 @@ class State:
         q = _flush_tiny(validate_array("orientation", orientation, 4))
         omega = _flush_tiny(validate_array("angular_velocity", angular_velocity, 3, "rad/s"))
         if q.shape[:-1] != omega.shape[:-1]:
-            shape = (*q.shape[:-1], 3)
-            condition = f"of shape {shape} to match the orientation"
+            condition = f"of shape {(*q.shape[:-1], 3)} to match the orientation"
             raise refuse("angular_velocity", condition, f"shape {omega.shape}")
         largest = float(np.abs(omega).max(initial=0.0))
         if largest > LARGEST_ANGULAR_VELOCITY:
@@ -225,9 +224,9 @@ class State:
         small tilt keeps all its digits.
         """
         w, x, y, z = self._components
-        return _make_read_only(
-            stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
-        )
+        up = stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
+        up.setflags(write=False)
+        return up
 
     @property
     def is_vertical(self) -> Any:
@@ -454,8 +453,3 @@ def _normalize(q: Real) -> Real:
         condition = f"a quaternion of norm 1 within {NORM_TOLERANCE:g}"
         raise refuse("orientation", condition, f"a norm of {worst:g}")
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
-
-
-def _make_read_only(array: Real) -> Real:
-    array.setflags(write=False)
-    return array

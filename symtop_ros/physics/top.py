@@ -15,7 +15,6 @@ from symtop_ros.physics.values import (
     SMALLEST_MOMENT,
     ignore_underflow,
     refuse,
-    to_float,
     validate_together,
 )
 
@@ -117,7 +116,8 @@ class Top(_Numbers):
         Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7).
         """
         weight = np.sqrt(np.maximum(self.Mgl, 0.0))
-        return to_float(2 * np.sqrt(self.Ix) * weight / self.Iz)
+        spin = 2 * np.sqrt(self.Ix) * weight / self.Iz
+        return spin if self.shape else float(spin)
 
     def sleeping_is_stable(self, state: State) -> bool:
         """Return True if an axis at rest on the vertical stays near it after a small kick.
@@ -165,8 +165,7 @@ class Top(_Numbers):
     @ignore_underflow
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
-        omega = state.angular_velocity
-        kinetic = (self.body_angular_momentum(state) * omega).sum(axis=-1) / 2
+        kinetic = (self.body_angular_momentum(state) * state.angular_velocity).sum(axis=-1) / 2
         return kinetic + match(self.Mgl, state) * state.vertical[..., 2]
 
     @ignore_underflow

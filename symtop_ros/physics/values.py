@@ -248,11 +248,6 @@ def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[
         raise refuse(names, "of shapes that fit together", text) from None
 
 
-def to_float(value: Any) -> Any:
-    """Return a float for a number or an array without dimensions, and other arrays unchanged."""
-    return value if np.ndim(value) else float(value)
-
-
 def validate_vector(name: str, value: Any, unit: str) -> Vector:
     """Return three finite numbers as floats.
 

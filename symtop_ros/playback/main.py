@@ -3,19 +3,25 @@
 import argparse
 import sys
 import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
 from symtop_ros.command import has_screen, tell_failures
-from symtop_ros.log.reader import LogError, McapFile, list_problems
+from symtop_ros.log.reader import LogError, McapFile, list_problems, log_errors
 from symtop_ros.log.repair import repair
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.playback.runs import open_file, save_page, write_mcap
-from symtop_ros.session.run_log import RATE
+from symtop_ros.log.top_log import TopLog, open_run
+from symtop_ros.session.run_log import RATE, write_run_log
+from symtop_ros.simulation.run_file import RunEvent, read_run, record_run, write_run
+from symtop_ros.simulation.settings import MAX_PUBLISH_RATE
 from symtop_ros.simulation.topics import EVENTS
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.simulation.validation import number, one_line
+from symtop_ros.web.join import write_file
+
+SUFFIX = ".json"  # of a run of the page
 
 
 def main(args: list[str] | None = None) -> int:
@@ -101,7 +107,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _run(options: argparse.Namespace) -> int:
     if options.mcap:
-        write_mcap(options.files, options.mcap, RATE if options.rate is None else options.rate)
+        _write_mcap(options.files, options.mcap, RATE if options.rate is None else options.rate)
         print(f"wrote {options.mcap}")
         return 0
     if options.repair:
@@ -112,7 +118,7 @@ def _run(options: argparse.Namespace) -> int:
         _print_problems(file.problems)
         print(f"wrote {count} messages to {options.repair}")
         return 0
-    with open_file(options.files, options.node) as log:
+    with _open_file(options.files, options.node) as log:
         return _check(log) if options.check else _show(log, options)
 
 
@@ -165,11 +171,10 @@ def _row(topic: str, deviation: Deviation) -> str:
 def _show(log: TopLog, options: argparse.Namespace) -> int:
     # Rerun, which a check and a repair do without
     from symtop_ros.playback import viewer
-    from symtop_ros.playback.replay import replay
     from symtop_ros.playback.view.view import ViewOptions
 
     if options.save and options.save.suffix == ".html":
-        save_page(log, options.save)
+        _save_page(log, options.save)
         _print_problems(log.problems)
         print(f"wrote {options.save}; open it in a browser")
         return 0
@@ -178,7 +183,7 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
     if save:
         if save.suffix != ".rrd":
             raise LogError(f"--save must be a name that ends in .rrd or .html, got {save}")
-        replay(log, save, drawn)
+        viewer.replay(log, save, drawn)
         _print_problems(log.problems)
         print(f"wrote {save}; open it with: rerun {save}")
         return 0
@@ -189,7 +194,7 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         )
     with tempfile.TemporaryDirectory() as folder:
         recording = Path(folder, f"{log.file.path.stem}.rrd")
-        replay(log, recording, drawn)
+        viewer.replay(log, recording, drawn)
         _print_problems(log.problems)
         return viewer.show(recording, options.web)
 
@@ -197,3 +202,42 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
 def _print_problems(problems: list[str]) -> None:
     for problem in list_problems(problems):
         print(f"top_replay: {problem}", file=sys.stderr)
+
+
+def _read_run(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
+    """Return the events of a run of the page, and its end in ns."""
+    if len(paths) != 1:
+        raise LogError(f"a run of the page must be one file, got {len(paths)}")
+    with log_errors("open", paths[0]):
+        return read_run(paths[0])
+
+
+@contextmanager
+def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
+    """Open a log, or the log that a node would have written of a run of the page."""
+    if all(path.suffix != SUFFIX for path in paths):
+        yield TopLog(open_run(paths), node)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, f"{paths[0].stem}.mcap")
+        write_run_log(*_read_run(paths), path)
+        yield TopLog(open_run([path]), node)
+
+
+def _save_page(log: TopLog, path: Path) -> None:
+    """Write the page with the run of a log in it."""
+    stamps = (int(each.stamps[-1]) for batch in log.batches() for each in batch.columns.values())
+    run, reached = record_run(log.events(), max([0, *stamps]))
+    if not run:
+        raise LogError(f"{log.file.path}: a run must have an event to be saved")
+    with log_errors("write", path):
+        path.write_text(write_file(run=write_run(run, reached)), encoding="utf-8")
+
+
+def _write_mcap(paths: Sequence[Path], path: Path, rate: float) -> None:
+    """Write the log that a node would have written of a run of the page."""
+    if path.suffix != ".mcap" or not path.parent.is_dir():
+        raise LogError(f"--mcap must be a name that ends in .mcap in a folder, got {path}")
+    number("--rate", rate, "Hz", 1.0, MAX_PUBLISH_RATE)
+    with log_errors("write", path):
+        write_run_log(*_read_run(paths), path, rate)

@@ -1,23 +1,24 @@
 """The topics of a run: each message is encoded once, and goes to its publisher and to the log.
 
-A topic without a subscriber is not computed unless it is logged.
+A topic without a subscriber is not computed unless it is logged. Markers are for viewers that draw
+no vectors themselves: three arrows, and the trace of the axis.
 """
 
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
 from functools import partial
+from math import hypot
 from typing import Protocol
 
-from symtop_ros.arrays import Real, Stamps
+from symtop_ros.arrays import Real, Stamps, Vector
 from symtop_ros.log.recorder import Recorder
-from symtop_ros.models.urdf import robot_description
+from symtop_ros.models.urdf import LENGTH, robot_description
 from symtop_ros.physics import Body
-from symtop_ros.session.markers import Markers
-from symtop_ros.simulation.block import Block
+from symtop_ros.simulation.block import Block, Host
 from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.host import Host
-from symtop_ros.simulation.sensor.imu import ALONG, Imu
-from symtop_ros.simulation.sensor.rig import find_body
+from symtop_ros.simulation.sensor.imu import ALONG, Imu, find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import (
     APPLIED_TORQUE,
@@ -34,8 +35,22 @@ from symtop_ros.simulation.topics import (
 )
 from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import Status, encode_statuses
-from symtop_ros.wire.layout import encode_string
+from symtop_ros.wire.layout import NANOSECONDS, Writer, encode_string
 from symtop_ros.wire.messages import Transform
+
+PERIOD = NANOSECONDS // 30  # ns between two sets of markers
+TRACE_LENGTH = 150  # points of the trace: 5 s
+# By topic: colour, and length of the arrow for the largest vector so far, in lengths of the top.
+ARROWS = {
+    "angular_velocity": ((0.2, 0.55, 0.95), 1.4),
+    "angular_momentum": ((0.95, 0.6, 0.1), 1.2),
+    "torque": ((0.85, 0.2, 0.25), 0.7),
+}
+TRACE_COLOR = (0.95, 0.95, 0.95)
+WIDTH = 0.02  # of shafts and of the trace, in lengths of the top
+ARROW, LINE_STRIP, ADD = 0, 4, 0  # constants of visualization_msgs/Marker
+POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  # in the world frame itself
+ORIGIN = (0.0, 0.0, 0.0)
 
 
 class Publisher(Protocol):
@@ -98,11 +113,14 @@ class Outputs:
         self._frame = settings.world_frame
         frames = settings.world_frame, settings.top_frame
         self._events, self._description = add(EVENTS), add(choose_description(name))
-        topics = {n: each for n, each in SAMPLE_TOPICS.items() if settings.enables(each.switch)}
+        topics = {
+            n: each
+            for n, each in SAMPLE_TOPICS.items()
+            if not each.switch or settings.values[each.switch]
+        }
         self._samples = {name: add(topic) for name, topic in topics.items()}
         self._layouts = {name: topic.layout(*frames) for name, topic in topics.items()}
-        has_frames = bool(settings.imu or settings.odometry)
-        self._fixed_frames = add(TF_STATIC) if has_frames else None
+        self._fixed_frames = add(TF_STATIC) if settings.imu or settings.odometry else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
         self._markers = Markers(settings.world_frame)
@@ -175,6 +193,84 @@ def list_fixed_frames(frame: str, imu: Imu | None, body: Body | None) -> list[Tr
     if imu:
         transforms.append(Transform(frame, imu_frame(frame), imu.position, imu.orientation))
     if body:
-        place = (0.0, 0.0, body.arm)
-        transforms.append(Transform(frame, centre_frame(frame), place, ALONG))
+        transforms.append(Transform(frame, centre_frame(frame), (0.0, 0.0, body.arm), ALONG))
     return transforms
+
+
+@dataclass(frozen=True, slots=True)
+class Marker:
+    """A marker: its namespace, type, scale, colour and points."""
+
+    name: str
+    kind: int
+    scale: Vector
+    color: Vector
+    points: Sequence[Vector]
+
+
+@dataclass
+class Markers:
+    """The content of `~/markers`, in a fixed frame."""
+
+    frame: str
+    next: int = 0  # stamp (ns) from which on the next set is due
+    largest: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ARROWS, 0.0))
+    trace: deque[Vector] = field(default_factory=lambda: deque(maxlen=TRACE_LENGTH))
+
+    def is_due(self, stamp: int) -> bool:
+        """Return True thirty times a second, on a grid: for any rate of the samples."""
+        if self.next - PERIOD <= stamp < self.next:  # a clock may also jump back
+            return False
+        self.next = (stamp // PERIOD + 1) * PERIOD
+        return True
+
+    def encode(self, stamp: int, block: Block) -> bytes:
+        """Encode the MarkerArray of a sample (stamp in ns)."""
+        self.trace.append(_axis_end(block.numbers("orientation", stamp)))
+        scale = (0.5 * WIDTH * LENGTH, 0.0, 0.0)
+        markers = [Marker("trace", LINE_STRIP, scale, TRACE_COLOR, list(self.trace))]
+        # the last three numbers: messages with six have zeros before the vector
+        markers += [self._arrow(name, block.numbers(name, stamp)[-3:]) for name in ARROWS]
+        writer = Writer()
+        writer.integer(len(markers))
+        for each in markers:
+            _write(writer, stamp, self.frame, each)
+        return writer.data
+
+    def _arrow(self, name: str, vector: Sequence[float]) -> Marker:
+        (color, length), size = ARROWS[name], hypot(*vector)
+        self.largest[name] = max(self.largest[name], size)
+        scale = LENGTH * length / self.largest[name] if size else 0.0
+        x, y, z = (scale * each for each in vector)
+        widths = (WIDTH * LENGTH, 2.5 * WIDTH * LENGTH, 0.0)  # shaft, head
+        return Marker(name, ARROW, widths, color, (ORIGIN, (x, y, z)))
+
+
+def _write(writer: Writer, stamp: int, frame: str, marker: Marker) -> None:
+    """Write a visualization_msgs/Marker; its textures, texts and meshes are empty."""
+    writer.stamp(stamp)
+    writer.strings([frame, marker.name])
+    for number in (0, marker.kind, ADD):  # id, type, action
+        writer.integer(number, "i")
+    writer.numbers([*POSE, *marker.scale])
+    writer.numbers([*marker.color, 1.0], "f")
+    writer.stamp(0)  # lifetime: for ever
+    writer.integer(0, "B")  # frame_locked
+    writer.integer(len(marker.points))
+    writer.numbers([each for point in marker.points for each in point])
+    writer.integer(0)  # colors
+    writer.strings([""])  # texture_resource
+    writer.stamp(0)  # of the texture, then its frame, format and data
+    writer.strings(["", ""])
+    writer.integer(0)
+    writer.integer(0)  # uv_coordinates
+    writer.strings(["", "", ""])  # text, mesh_resource, and the name of mesh_file
+    writer.integer(0)  # its data
+    writer.integer(0, "B")  # mesh_use_embedded_materials
+
+
+def _axis_end(quaternion: Sequence[float]) -> Vector:
+    """Return the upper end of the axis for an orientation x, y, z, w."""
+    x, y, z, w = quaternion
+    up = 1.0 - 2.0 * (x * x + y * y)
+    return 2 * LENGTH * (x * z + w * y), 2 * LENGTH * (y * z - w * x), LENGTH * up

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 if TYPE_CHECKING:
-    from symtop_ros.session.requests import Requests
+    from symtop_ros.session.session import Requests
 
 Response = tuple[bool, str]  # success, and the sentence or the reason
 ServiceKind = Literal["named", "switch", "plain"]  # named values, true or false, or no argument

@@ -3,22 +3,34 @@
 The node and the page are hosts of a session. They translate: ROS, or what is pressed in a browser.
 """
 
+import json
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime, timezone
 from functools import partial
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal
 
-from symtop_ros.log.recorder import Recorder
-from symtop_ros.session.diagnostics import collect_statuses
+from symtop_ros import __version__
+from symtop_ros.log.recorder import Recorder, describe_error
+from symtop_ros.session.diagnostics import collect_statuses, summarize_state
 from symtop_ros.session.outputs import OutputHost, Outputs
-from symtop_ros.session.recording import Recording
-from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES, Response
-from symtop_ros.simulation.changes.initial import initial_state
-from symtop_ros.simulation.changes.outcomes import Failure
-from symtop_ros.simulation.host import Clock
+from symtop_ros.simulation.block import Clock
+from symtop_ros.simulation.budget import StepBudget
+from symtop_ros.simulation.changes.follow import Act
+from symtop_ros.simulation.changes.outcomes import Failure, Record
+from symtop_ros.simulation.changes.requests import initial_state, name_kick
 from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import attempt
+from symtop_ros.simulation.simulation import Simulation
+from symtop_ros.simulation.validation import RefusedError, attempt, number, reject, validate_names
+from symtop_ros.wording import write
+
+MAX_STEP = 1e9  # s of the motion
+STEPS_OF_A_REQUEST = 1_000  # integration steps; samples wait for up to 0.1 s
+
+Values = Mapping[str, Any]
 
 
 class Session:
@@ -40,8 +52,7 @@ class Session:
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
         first = self.simulation.timeline.announce(self.simulation.stamp, scene)
         verdict = self.simulation.apply(first)
-        metadata = {"scene": scene, **environment}
-        self.recording = Recording(self._recorder, self.simulation, metadata)
+        self.recording = Recording(self._recorder, self.simulation, {"scene": scene, **environment})
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
@@ -101,3 +112,153 @@ class Session:
     def close(self) -> None:
         """End the recording."""
         self._recorder.stop()
+
+
+@dataclass(frozen=True)
+class Requests:
+    """Requests to a simulation, from plain values: a method for each record of `services`.
+
+    Call them in a turn. Each returns the text of its answer and raises RefusedError if it is
+    refused; the motion is then unchanged.
+    """
+
+    _simulation: Simulation
+    record: Callable[[bool], str]
+
+    def set_initial_conditions(self, values: Values) -> str:
+        """Restart from named values; see `initial_state`."""
+        simulation = self._simulation
+        return simulation.apply_at_once(simulation.timeline.restart(simulation.stamp, values))
+
+    def reset(self) -> str:
+        """Restart from the last initial conditions."""
+        simulation = self._simulation
+        return simulation.apply_at_once(simulation.timeline.restart(simulation.stamp))
+
+    def kick(self, values: Values) -> str:
+        """Kick by named values; see `kick.plan_kick` and `kick.plan_pushes`."""
+        simulation = self._simulation
+        act = Act(name_kick(values), simulation.stamp, values)
+        return simulation.apply_at_once(simulation.timeline.follow(act))
+
+    def hurry_precession(self) -> str:
+        """Multiply the precession rate by the parameter `hurry_factor`."""
+        return self.kick({"precession_rate_factor": self._simulation.settings.hurry_factor})
+
+    def pause(self, paused: bool) -> str:
+        """Stop the motion, or continue it."""
+        simulation = self._simulation
+        if paused != simulation.segment.running:
+            return str(Answer("paused" if paused else "running"))
+        return simulation.pause(paused)
+
+    def step(self, values: Values) -> str:
+        """Advance a paused motion by `duration` seconds."""
+        return self._simulation.step(self._read_duration(values))
+
+    def _read_duration(self, values: Values) -> float:
+        validate_names(values, ("duration",))
+        if "duration" not in values:
+            raise RefusedError(f"duration must be 0 to {MAX_STEP:g} s, got none")
+        duration = number("duration", values["duration"], "s", 0.0, MAX_STEP)
+        segment = self._simulation.segment
+        if segment.running:
+            raise RefusedError(
+                "step must be requested while paused (~/pause), got it while running"
+            )
+        end = segment.step(duration, segment.stamp).time_at(segment.stamp)
+        if not StepBudget().reach(segment.motion, end, STEPS_OF_A_REQUEST):
+            longest = segment.motion.reach(end, 0) - segment.time_at(segment.stamp)
+            condition = f"up to {longest:.6g} s in one step under friction or an applied torque"
+            raise reject("duration", condition, duration)
+        return duration
+
+    def get_state(self) -> str:
+        """Return the state, the constants of motion and the verdict as JSON."""
+        simulation = self._simulation
+        since = simulation.timeline.since
+        return json.dumps(summarize_state(simulation.segment, simulation.stamp, since))
+
+
+class Recording:
+    """Begins and ends recordings of a simulation."""
+
+    def __init__(
+        self, recorder: Recorder, simulation: Simulation, environment: Mapping[str, str]
+    ) -> None:
+        self._recorder, self._simulation = recorder, simulation
+        self._host, self._environment = simulation.host, environment
+        self._failure_reported = False
+
+    def begin(self) -> Path:
+        """Begin a recording and return the path of its file."""
+        try:
+            path = self._recorder.start(self._metadata())
+        except OSError as error:
+            directory = self._simulation.settings.record.directory
+            msg = f"record.directory must be a writable folder, got {directory!r}: "
+            raise RefusedError(msg + describe_error(error)) from None
+        except ModuleNotFoundError as error:
+            package = str(error.name).partition(".")[0]
+            raise RefusedError(
+                f"{package} must be installed for a recording, got none: pip install {package}, "
+                "on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
+            ) from None
+        self._failure_reported = False
+        self._host.inform(f"recording to {path}")
+        return path
+
+    @property
+    def path(self) -> Path | None:
+        """Path of the current file, None if not recording."""
+        return self._recorder.path
+
+    def switch(self, on: bool) -> str:
+        """Begin or end a recording; return the answer."""
+        self.report_failure()
+        path = self._recorder.path
+        if on == bool(path):
+            return str(Answer("recording", str(path)) if path else Answer("not_recording"))
+        if path:
+            self._simulation.do("record", {}, Record("ended", str(path)))
+            self._recorder.stop()
+            if self._recorder.failure:
+                self.report_failure()
+                raise RefusedError(f"recording failed: {self._recorder.failure}")
+            return str(Answer("recorded", str(path)))
+        return self._simulation.do("record", {}, Record("begun", str(self.begin())))
+
+    @property
+    def unreported_failure(self) -> str:
+        """Reason why a recording ended by itself, until `report_failure` has reported it."""
+        return "" if self._failure_reported else self._recorder.failure
+
+    def report_failure(self) -> None:
+        """Report once that a recording ended by itself; the motion keeps running."""
+        if self.unreported_failure:
+            self._failure_reported = True
+            outcome = Record("stopped", failure=self._recorder.failure)
+            self._host.report_error(self._simulation.do("record", {}, outcome))
+
+    def _metadata(self) -> dict[str, str]:
+        values = self._simulation.settings.values
+        return {
+            "version": __version__,
+            **{f"parameter.{name}": str(value) for name, value in values.items()},
+            "clock.host": datetime.now(timezone.utc).isoformat(),
+            "clock.node": str(self._simulation.now),
+            "missed": str(self._simulation.ticker.missed),
+            **self._environment,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """An answer; `str` of it is its text."""
+
+    kind: Literal["recorded", "recording", "not_recording", "paused", "running"]
+    path: str = ""  # of the log
+
+    def __str__(self) -> str:
+        """Return the answer in words."""
+        return write("answer", self)

@@ -14,9 +14,8 @@ from typing import Any, TypeVar
 from symtop_ros import __version__
 from symtop_ros.physics import Friction, Motion, State, Top, kernel_version
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
-from symtop_ros.simulation.segment import NO_RIG, Segment
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.segment import NO_RIG, PushedMotion, Pushes, Segment
+from symtop_ros.simulation.sensor.imu import Rig
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import (
     OK,

@@ -5,8 +5,7 @@ real-time factor, stands still in a pause and never goes back, so that rates are
 stamps at every factor. The factor of its segments is 1.
 """
 
-from symtop_ros.simulation.block import CATCH_UP
-from symtop_ros.simulation.host import Clock, Host, Sink
+from symtop_ros.simulation.block import CATCH_UP, Clock, Host, Sink
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
 from symtop_ros.wire.layout import NANOSECONDS
@@ -62,8 +61,7 @@ class OwnTimeSimulation(Simulation):
     _clock: RunClock
 
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
-        own = RunClock(clock, settings.real_time_factor)
-        super().__init__(settings, own, sink, host)
+        super().__init__(settings, RunClock(clock, settings.real_time_factor), sink, host)
 
     @property
     def factor(self) -> float:

@@ -110,6 +110,4 @@ def _value(name: str, value: Any) -> Any:
 
 
 def _has_ros_type(value: object) -> bool:
-    if isinstance(value, int):
-        return abs(value) < 2**63
-    return isinstance(value, float | str)
+    return abs(value) < 2**63 if isinstance(value, int) else isinstance(value, float | str)

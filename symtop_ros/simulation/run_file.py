@@ -13,10 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
-from symtop_ros.simulation.changes.kick import FIELDS, read_kick, read_pushes
+from symtop_ros.simulation.changes.requests import KICK_FIELDS, read_kick, read_pushes
 from symtop_ros.simulation.events import KICKS, MOTION, RESTARTS, Event
-from symtop_ros.simulation.pushed import PushedMotion
-from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.segment import PushedMotion, Segment
 from symtop_ros.simulation.validation import (
     RefusedError,
     choice,
@@ -106,7 +105,7 @@ def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
     """Return the fields of a kick; none if a log has some that cannot be read."""
     if isinstance(motion, PushedMotion):
         return motion.pushes.request
-    given = {name: text for name, text in event.request.items() if name in FIELDS and text}
+    given = {name: text for name, text in event.request.items() if name in KICK_FIELDS and text}
     try:
         return read_kick(given)
     except ValueError:

@@ -10,9 +10,8 @@ from typing import Any
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
 from symtop_ros.simulation.presets import load_scene
-from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, EARTH, MAX_FIELD, Imu, Magnetometer
+from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, EARTH, MAX_FIELD, Imu, Magnetometer, Rig
 from symtop_ros.simulation.sensor.noise import MAX_NOISE
-from symtop_ros.simulation.sensor.rig import Rig
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,
@@ -307,10 +306,6 @@ class Settings:
         """Return gravity and the sensor; its biases are zero at the stamp `begin` (ns)."""
         imu = self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
         return Rig(self.gravity, imu)
-
-    def enables(self, switch: str) -> bool:
-        """Return True if a parameter that switches a topic on is set; True for no parameter."""
-        return not switch or bool(self.values[switch])
 
     @classmethod
     def from_scene(cls, name: object, **changes: Any) -> "Settings":

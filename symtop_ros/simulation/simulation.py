@@ -11,12 +11,11 @@ from functools import partial
 from typing import TypeVar
 
 from symtop_ros.physics import State
-from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
+from symtop_ros.simulation.block import CATCH_UP, Block, Clock, Host, Sink, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.changes.follow import Act, Request
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.simulation.changes.timeline import Change, Timeline
-from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import attempt, one_line
@@ -114,8 +113,7 @@ class Simulation:
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
             self.host.report_error(str(failure))
-            act = Act("failure", stamp, {}, told=failure)
-            self.apply(self.timeline.fail(act, before.segment))
+            self.apply(self.timeline.fail(Act("failure", stamp, {}, told=failure), before.segment))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
         """Carry out a request in a turn; return success and the answer.

@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.arrays import Real, split, stack
-from symtop_ros.physics import Motion, State
+from symtop_ros.physics import State
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import EXACT
-from symtop_ros.simulation.sensor.rig import Rig, find_body
+from symtop_ros.simulation.sensor.imu import EXACT, find_body
 from symtop_ros.wire import messages
 from symtop_ros.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.wire.layout import Layout
@@ -74,16 +73,6 @@ class Samples:
         """Return the samples of a segment at a stamp (ns) or an array of stamps."""
         return cls(segment, stamps, segment.state_at(stamps))
 
-    @property
-    def motion(self) -> Motion:
-        """The motion of the segment."""
-        return self.segment.motion
-
-    @property
-    def rig(self) -> Rig:
-        """Gravity and the sensor on the top."""
-        return self.segment.rig
-
 
 @dataclass(frozen=True, slots=True)
 class StateTopic(Topic):
@@ -123,9 +112,9 @@ def _wrench(samples: Samples) -> Real:
 
     The force depends on a mass, and is nan for a top that no body can be.
     """
-    motion, state = samples.motion, samples.state
+    motion, state = samples.segment.motion, samples.state
     wrench = _after_zeros(motion.total_torque(state))
-    body = find_body(motion.top, samples.rig.gravity)
+    body = find_body(motion.top, samples.segment.rig.gravity)
     wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
     return wrench
 
@@ -138,10 +127,12 @@ def _joints(samples: Samples) -> Real:
 
 def _imu(samples: Samples) -> Real:
     """Orientation, angular velocity and specific force of the sensor, each with its covariance."""
-    imu, shape = samples.rig.imu, np.shape(samples.stamps)
+    imu, shape = samples.segment.rig.imu, np.shape(samples.stamps)
     if not imu:
         return np.full((*shape, messages.IMU.width), np.nan)
-    orientation, rates, force = imu.measure(samples.motion, samples.state, samples.rig.gravity)
+    orientation, rates, force = imu.measure(
+        samples.segment.motion, samples.state, samples.segment.rig.gravity
+    )
     if imu.has_noise:
         errors = imu.noise(samples.stamps)
         rates, force = rates + errors[..., :3], force + errors[..., 3:]
@@ -152,7 +143,7 @@ def _imu(samples: Samples) -> Real:
 
 def _magnetic_field(samples: Samples) -> Real:
     """Magnetic field in the frame of the sensor, and its covariance."""
-    imu, form, shape = samples.rig.imu, messages.MAGNETIC_FIELD, np.shape(samples.stamps)
+    imu, form, shape = samples.segment.rig.imu, messages.MAGNETIC_FIELD, np.shape(samples.stamps)
     if not (imu and imu.magnetometer):
         return np.full((*shape, form.width), np.nan)
     exact, errors = imu.measure_field(samples.state, samples.stamps)
@@ -163,7 +154,7 @@ def _magnetic_field(samples: Samples) -> Real:
 
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
-    state, body = samples.state, find_body(samples.motion.top, samples.rig.gravity)
+    state, body = samples.state, find_body(samples.segment.motion.top, samples.segment.rig.gravity)
     omega, arm = state.angular_velocity, body.arm if body else np.nan
     x, y, _ = split(omega)
     values = {
@@ -209,7 +200,7 @@ STATE_TOPICS: dict[str, StateTopic] = {
         _state_topic(
             "~/angular_momentum",
             messages.VECTOR,
-            lambda samples: samples.motion.top.angular_momentum(samples.state),
+            lambda samples: samples.segment.motion.top.angular_momentum(samples.state),
         ),
         _state_topic("~/torque", messages.WRENCH, _wrench),
         _state_topic(

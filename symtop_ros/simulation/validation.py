@@ -138,9 +138,5 @@ def one_line(text: object, max_length: int = MAX_SENTENCE) -> str:
     half = max_length // 2
     if len(whole) > 4 * max_length:  # spare the work on characters that are cut out anyway
         whole = f"{whole[: 2 * max_length]}{whole[-2 * max_length :]}"
-    line = "".join(_escape(each) for each in " ".join(whole.split()))
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in " ".join(whole.split()))
     return line if len(line) <= max_length else f"{line[: half - 3]}...{line[-half:]}"
-
-
-def _escape(character: str) -> str:
-    return character if character.isprintable() else ascii(character)[1:-1]

@@ -6,6 +6,7 @@ function of one script, which takes what it imports from those before it.
 
 import base64
 import dataclasses
+import functools
 import gzip
 import hashlib
 import json
@@ -14,16 +15,20 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.simulation.presets import scene_names
+import yaml
+
+from symtop_ros.simulation.presets import describe_scenes, scene_names
 from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.web.lesson import read_lesson
-from symtop_ros.web.texts import LANGUAGES, read_texts
+from symtop_ros.wording.templates import read_templates
 
 FOLDER = Path(__file__).parent
 MODULES = FOLDER.resolve() / "js"
 MAIN = MODULES / "start.js"
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
+# What the page takes of a button and of a step of the lesson, and what stands for what is left out.
+ACT = {"start": None, "hurry": None, "hold": "spin_rate", "push": None}
+STEP = {"name": "", "scene": "cusps", "charts": (), "layers": ()}
 PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
 # Nothing is loaded from anywhere, and no script or style acts but those of the file, by hash. Data
@@ -33,6 +38,9 @@ POLICY = (
     "default-src 'none'; script-src {script} 'wasm-unsafe-eval'; style-src {style}; "
     "img-src data: blob:; connect-src {server}; base-uri 'none'; form-action 'none'"
 )
+TEXTS = FOLDER / "texts"
+LANGUAGES = tuple(sorted(path.stem for path in TEXTS.glob("*.json")))
+TERMS = "terms"  # those of the textbooks of a language, for its translators
 
 
 def write_file(
@@ -90,8 +98,14 @@ def collect_content() -> dict[str, Any]:
         "texts": {language: read_texts(language) for language in LANGUAGES},
         "scenes": [{"name": name, **_read_values(name)} for name in scene_names()],
         "run_fields": TABLE,
-        "lesson": [step.structure for step in read_lesson()],
+        "lesson": [_read_step(step) for step in read_steps()],
     }
+
+
+def _read_step(step: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of a step that are the same in all languages."""
+    acts = [{**ACT, **act} for act in step["acts"]]
+    return {"acts": acts, **{name: step.get(name, default) for name, default in STEP.items()}}
 
 
 def _read_values(name: str) -> dict[str, Any]:
@@ -111,8 +125,7 @@ def join_modules() -> str:
     ordered: list[Path] = []
     _order(MAIN, ordered)
     functions = [_write_function(path) for path in ordered]
-    start = f"module_{MAIN.stem}.start();"
-    return "\n".join([*functions, start])
+    return "\n".join([*functions, f"module_{MAIN.stem}.start();"])
 
 
 def _order(path: Path, ordered: list[Path]) -> None:
@@ -138,3 +151,25 @@ def drop_comments(text: str) -> str:
     """Return a module without the comments that fill whole lines: they are for its readers."""
     text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
     return re.sub(r"^ *//[^\n]*\n", "", text, flags=re.M)
+
+
+def read_file(language: str) -> dict[str, str]:
+    """Return the texts of a language that no record makes, by their keys."""
+    text = (TEXTS / f"{language}.json").read_text(encoding="utf-8")
+    return {key: value for key, value in json.loads(text).items() if key != TERMS}
+
+
+@functools.cache
+def read_texts(language: str) -> dict[str, str]:
+    """Return all texts of a language; a scene that it does not know has its English story."""
+    texts: dict[str, str] = {}
+    for name, title, story in describe_scenes():
+        texts |= {f"scene.{name}.title": title, f"scene.{name}.story": story}
+    return texts | read_templates(language) | read_file(language)
+
+
+def read_steps() -> list[dict[str, Any]]:
+    """Return the steps of the lesson; each has its texts by their keys."""
+    text = (FOLDER / "lesson.yaml").read_text(encoding="utf-8")
+    steps: list[dict[str, Any]] = yaml.safe_load(text)
+    return steps

@@ -172,8 +172,7 @@ class Writer:
     def numbers(self, values: Sequence[float], code: str = "d") -> None:
         """Append numbers; `code` is their format character of the struct module."""
         if values:
-            size = struct.calcsize(f"<{code}")
-            self._data += bytes(-(len(self._data) - len(HEADER)) % size)
+            self._data += bytes(-(len(self._data) - len(HEADER)) % struct.calcsize(f"<{code}"))
             self._data += struct.pack(f"<{len(values)}{code}", *values)
 
     def strings(self, texts: Iterable[str]) -> None:

@@ -102,11 +102,12 @@ def _joint_state(frame: str, *names: str) -> Layout:
 
 def define_stamped(message_type: str, **sizes: int) -> Format:
     """Return the format of a type that consists of a header and some quantities."""
-
-    def layout(frame: str) -> Layout:
-        return Layout(Stamp(), Text(frame), Doubles(sum(sizes.values())))
-
-    return Format(message_type, _place(**sizes), layout, partial(_read_names, 2, 1))
+    return Format(
+        message_type,
+        _place(**sizes),
+        lambda frame: Layout(Stamp(), Text(frame), Doubles(sum(sizes.values()))),
+        partial(_read_names, 2, 1),
+    )
 
 
 QUATERNION = define_stamped("geometry_msgs/msg/QuaternionStamped", orientation=4)

@@ -89,8 +89,7 @@ def write(
     >>> write("pause", {"time": 0.25})
     'paused at 0.250000 s of the motion'
     """
-    fields = record if isinstance(record, Mapping) else asdict(record)
-    return _Writer(variant).write(name, fields)
+    return _Writer(variant).write(name, record if isinstance(record, Mapping) else asdict(record))
 
 
 @dataclass(frozen=True, slots=True)

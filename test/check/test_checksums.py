@@ -9,8 +9,7 @@ from mcap.opcode import Opcode
 from mcap.writer import CompressionType
 from physics.tops import seeds
 
-from symtop_ros.check.checksums import find_damage
-from symtop_ros.check.run import check_run
+from symtop_ros.check.run import check_run, find_damage
 from symtop_ros.log.reader import MAGIC, McapFile
 from symtop_ros.log.top_log import TopLog
 

@@ -10,7 +10,7 @@ from physics.tops import seeds
 from session.test_outputs import Program, advance, start
 
 from symtop_ros import __version__
-from symtop_ros.check.texts import find_mismatches
+from symtop_ros.check.events import find_wrong_texts
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.wire.diagnostics import decode_statuses
 from symtop_ros.wire.layout import Reader
@@ -31,7 +31,7 @@ def changed(memory):
 
 def mismatches(memory):
     log = TopLog(memory)
-    return list(find_mismatches(log, list(log.events())))
+    return list(find_wrong_texts(log, list(log.events())))
 
 
 def swap(memory, place, data):

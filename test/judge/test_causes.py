@@ -6,9 +6,9 @@ from judge.cases import SECOND
 from judge.made import FRD, MOUNT, NED, TILT, Made, heading
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.judge.causes.causes import find_causes
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
+from symtop_ros.judge.search import find_causes
 from symtop_ros.judge.truth import scene_truth
 
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)

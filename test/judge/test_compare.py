@@ -9,9 +9,9 @@ from judge.made import Made
 from physics.tops import ARTICLE, EPS, seeds
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.judge.causes.causes import explain
 from symtop_ros.judge.compare import compare
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.search import explain
 from symtop_ros.judge.truth import Truth, scene_truth
 from symtop_ros.physics import Motion, State, regular_precession_rates
 from symtop_ros.simulation.events import start_event

@@ -3,7 +3,7 @@
 import pytest
 from judge.trial import FOREIGN, draw_file
 
-from symtop_ros.judge.causes.causes import find_causes
+from symtop_ros.judge.search import find_causes
 
 LONG, SHORT = 60, 6  # files of each half; the short part is tried by every run of the tests
 

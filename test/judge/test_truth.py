@@ -14,8 +14,7 @@ from symtop_ros.judge.truth import Truth, scene_truth
 from symtop_ros.physics import Motion
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import Imu
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.sensor.imu import Imu, Rig
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import IMU

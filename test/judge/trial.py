@@ -20,7 +20,7 @@ from symtop_ros.arrays import Real, Stamps, compose
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth, scene_truth
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 
 SCENES = (

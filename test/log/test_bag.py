@@ -17,9 +17,8 @@ from rosbags.typesys import Stores, get_typestore
 
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import check_log
-from symtop_ros.log.bag import open_run
 from symtop_ros.log.reader import LogError
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
 
 RUN = Run(seconds=1.5)

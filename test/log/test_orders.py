@@ -9,8 +9,7 @@ from log.test_bag import STORAGES, TYPES, write
 from session.test_outputs import SECOND, Program, advance, start
 
 from symtop_ros.check.samples import check_log
-from symtop_ros.log.bag import open_run
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.playback import main as module
 
 

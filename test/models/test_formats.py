@@ -11,7 +11,7 @@ from symtop_ros.models import FORMATS
 from symtop_ros.models.main import main
 from symtop_ros.models.urdf import MUJOCO_BOUND, robot_description
 from symtop_ros.physics import Body, Motion
-from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
 

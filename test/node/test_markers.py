@@ -8,7 +8,7 @@ from geometry_msgs.msg import Vector3Stamped
 from node.running_top import stamp_of
 
 from symtop_ros.models.urdf import LENGTH
-from symtop_ros.session import markers
+from symtop_ros.session import outputs
 
 messages = pytest.importorskip("visualization_msgs.msg")
 
@@ -23,7 +23,7 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
     momenta = run.collect(Vector3Stamped, "/top/angular_momentum")
     run.spin_until(lambda: len(seen) > 20)
     latest = seen[-1].markers
-    assert [each.ns for each in latest] == ["trace", *markers.ARROWS]
+    assert [each.ns for each in latest] == ["trace", *outputs.ARROWS]
     assert {each.header.frame_id for each in latest} == {"world"}
     stamp = stamp_of(latest[2])
     run.spin_until(lambda: stamp in {stamp_of(each) for each in momenta})
@@ -41,7 +41,7 @@ def test_arrows_point_along_the_vectors_and_the_trace_follows_the_axis(start_top
     assert len(latest[0].points) == len({(p.x, p.y, p.z) for p in latest[0].points}) > 20
     # thirty times a second, although 200 samples a second do not divide by it
     stamps = np.array([stamp_of(each.markers[0]) for each in seen])
-    assert np.diff(stamps // markers.PERIOD).tolist() == [1] * (len(seen) - 1)
+    assert np.diff(stamps // outputs.PERIOD).tolist() == [1] * (len(seen) - 1)
 
 
 def test_a_missing_package_is_one_line_and_the_markers_are_logged(start_top, monkeypatch, capfd):

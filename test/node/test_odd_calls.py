@@ -18,14 +18,14 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 from symtop_ros.check.samples import check_log
-from symtop_ros.simulation.changes import initial, kick
+from symtop_ros.simulation.changes.requests import KICK_FIELDS, START_FIELDS
 from symtop_ros.simulation.settings import PARAMETERS
 
 RATE = 200.0  # Hz
 START = "set_initial_conditions"
 NAMES = {
-    START: initial.FIELDS,
-    "kick": kick.FIELDS,
+    START: START_FIELDS,
+    "kick": KICK_FIELDS,
     "step": ("duration",),
     "set_parameters_atomically": (*PARAMETERS, "scene", "none"),
     "set_parameters": (*PARAMETERS, "scene", "none"),
@@ -105,7 +105,7 @@ def test_any_named_values_are_answered_in_a_sentence_and_the_node_keeps_running(
 
 
 @deterministic(40)
-@given(plain=PLAIN, switched=SWITCHED, messages=parameters(kick.FIELDS))
+@given(plain=PLAIN, switched=SWITCHED, messages=parameters(KICK_FIELDS))
 def test_requests_in_any_order_are_answered_in_a_sentence(run, plain, switched, messages):
     assert_one_sentence(run.switch(*switched)[1])
     run.ask("kick", messages)

@@ -6,7 +6,7 @@ import threading
 import pytest
 from geometry_msgs.msg import QuaternionStamped
 
-from symtop_ros.node.pacer import Pacer
+from symtop_ros.node.host import Pacer
 
 TIMEOUT = 60.0  # s; ends a test that hangs
 

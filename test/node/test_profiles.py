@@ -5,7 +5,7 @@ import sys
 import pytest
 from programs import LOSSY_PROFILES, environment, execute
 
-from symtop_ros.distribution import VARIABLES, distribution_name
+from symtop_ros.node.host import VARIABLES, distribution_name
 from symtop_ros.simulation.presets import config_folder
 from workshop.load.domains import claim_domain
 

@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from waiting import until
 
 from symtop_ros.log.reader import McapFile
-from symtop_ros.session.recording import Answer
+from symtop_ros.session.session import Answer
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()

@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, EPS, Case, series_of, turn
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
-from symtop_ros.physics.accelerations import STANDARD_GRAVITY
+from symtop_ros.physics.dynamics import STANDARD_GRAVITY
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.reference import ClosedForm
 from workshop.testset.exact import DIGITS

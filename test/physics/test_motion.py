@@ -11,7 +11,7 @@ import pytest
 from physics.tops import ARTICLE, CUSPS, EPS, random_case
 
 from symtop_ros.physics import Friction, Motion, State, Top, balance
-from symtop_ros.physics.balance import NODES
+from symtop_ros.physics.dynamics import NODES
 
 SEEDS = range(25)
 FREE = (0, 1, 2, 5, 9, 17)  # some that would nod without weight

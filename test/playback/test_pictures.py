@@ -7,8 +7,8 @@ from PIL import Image
 from waiting import until
 
 from symtop_ros.physics import State, Top
-from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
+from symtop_ros.playback.viewer import replay
 from workshop.pictures.viewer import pause_at, picture, running_viewer, views
 
 VIEWS = 14

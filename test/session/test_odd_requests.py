@@ -12,12 +12,15 @@ from odd_values import SIZES, VALUES, assert_one_sentence, deterministic, trials
 
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
 from symtop_ros.session.diagnostics import summarize_state
-from symtop_ros.simulation.changes import initial, kick
-from symtop_ros.simulation.changes.initial import initial_state
-from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.requests import (
+    KICK_FIELDS,
+    START_FIELDS,
+    initial_state,
+    plan_kick,
+)
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment, to_nanoseconds
-from symtop_ros.simulation.sensor.rig import find_body
+from symtop_ros.simulation.sensor.imu import find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import STATE_TOPICS, Samples
 from symtop_ros.simulation.validation import RefusedError
@@ -42,13 +45,13 @@ STARTS = (
         {"precession": st.sampled_from(["slow", "fast"])},
         optional={name: EULER[name] for name in ("theta", "psi", "psi_dot")},
     )
-    | st.dictionaries(st.sampled_from(initial.FIELDS), VALUES)
+    | st.dictionaries(st.sampled_from(START_FIELDS), VALUES)
 )
 KICKS = (
     st.fixed_dictionaries({"precession_rate": SIZES}, optional={"hold": HOLDS})
     | st.fixed_dictionaries({"precession_rate_factor": SIZES}, optional={"hold": HOLDS})
     | st.fixed_dictionaries({"angular_impulse": st.lists(SIZES, min_size=3, max_size=3)})
-    | st.dictionaries(st.sampled_from(kick.FIELDS), VALUES)
+    | st.dictionaries(st.sampled_from(KICK_FIELDS), VALUES)
 )
 FRICTION = dict.fromkeys(("friction.axial", "friction.transverse"), SIZES.map(abs))
 VECTORS = st.lists(SIZES, min_size=3, max_size=3)

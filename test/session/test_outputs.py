@@ -9,7 +9,7 @@ from rosbags.typesys import Stores, get_typestore
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.session.diagnostics import _log_status, _pace_status
-from symtop_ros.session.markers import ARROWS
+from symtop_ros.session.outputs import ARROWS
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.settings import Settings

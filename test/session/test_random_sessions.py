@@ -10,8 +10,7 @@ from physics.tops import seeds
 from session.test_outputs import Program, advance, start
 
 from symtop_ros.check.run import check_run
-from symtop_ros.log.bag import open_run
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.session.run_log import write_run_log
 from symtop_ros.simulation.run_file import read_run, record_run, write_run
 from symtop_ros.simulation.validation import RefusedError

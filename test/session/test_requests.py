@@ -5,7 +5,7 @@ import json
 import pytest
 from simulation.runs import Run
 
-from symtop_ros.session.recording import Answer
+from symtop_ros.session.session import Answer
 from symtop_ros.simulation.changes.outcomes import Pause, Step
 from symtop_ros.wording import write
 

@@ -7,12 +7,11 @@ import pytest
 from simulation.page_runs import KICK, START, make_run, to_json
 
 from symtop_ros.check.run import check_run
-from symtop_ros.log.bag import open_run
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.physics import ExactTimes, Motion, State, Top, hurry, push_axle
 from symtop_ros.session.run_log import write_run_log
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
 from symtop_ros.simulation.run_file import RunEvent, record_run
+from symtop_ros.simulation.segment import PushedMotion, Pushes
 from symtop_ros.simulation.topics import DIAGNOSTICS
 from symtop_ros.simulation.validation import RefusedError
 

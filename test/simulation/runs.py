@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import Any
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.session.requests import Requests
 from symtop_ros.session.services import SERVICES
+from symtop_ros.session.session import Requests
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.own_time import simulate

@@ -10,8 +10,7 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import Imu, Magnetometer
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.sensor.imu import Imu, Magnetometer, Rig
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, SENSOR_TOPICS, STATE_TOPICS, Samples
 
 STAMPS = [BEGIN + 1_000_003 * k for k in range(16)]

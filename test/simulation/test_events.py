@@ -9,8 +9,7 @@ from log_files import ARTICLE, BEGIN, CUSPS
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import Imu, Magnetometer
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.sensor.imu import Imu, Magnetometer, Rig
 
 CLOSED = Motion(ARTICLE, CUSPS)
 INTEGRATED = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5), (0.0, 1e-5, 1e-4))

@@ -10,7 +10,7 @@ from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import ExactTimes, Motion, State, push_axle, regular_precession_rates
 from symtop_ros.simulation.changes.outcomes import Pushed
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
+from symtop_ros.simulation.segment import PushedMotion, Pushes
 
 START = push_axle(ARTICLE, CUSPS, 2.0**-15)
 PUSHES = Pushes(2.0**-15, 30.0, 7)  # a third of a second is no whole number of ns

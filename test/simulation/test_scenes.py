@@ -7,8 +7,8 @@ import pytest
 from physics.tops import EPS
 
 from symtop_ros.physics import Body
-from symtop_ros.physics.accelerations import STANDARD_GRAVITY
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.physics.dynamics import STANDARD_GRAVITY
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
 

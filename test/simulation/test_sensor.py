@@ -15,9 +15,16 @@ from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceler
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import EARTH, EXACT, EXACT_FIELD, Imu, Magnetometer
+from symtop_ros.simulation.sensor.imu import (
+    EARTH,
+    EXACT,
+    EXACT_FIELD,
+    Imu,
+    Magnetometer,
+    Rig,
+    find_body,
+)
 from symtop_ros.simulation.sensor.noise import random_walks
-from symtop_ros.simulation.sensor.rig import Rig, find_body
 from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 
 MOTION = Motion(ARTICLE, CUSPS)

@@ -7,7 +7,7 @@ import pytest
 
 from symtop_ros.physics import State, Top
 from symtop_ros.physics.reference import closed_form
-from symtop_ros.physics.reference.inputs import Inputs
+from symtop_ros.physics.reference.series import Inputs
 
 pytestmark = pytest.mark.untraced
 NAMES = "A", "B", "omega"

@@ -12,7 +12,7 @@ from programs import LOSSY_PROFILES, command, set_parameters
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 from waiting import until
 
-from symtop_ros.distribution import VARIABLES, distribution_name
+from symtop_ros.node.host import VARIABLES, distribution_name
 from workshop.load.endings import bound
 
 pytestmark = [

@@ -3,7 +3,7 @@
 import base64
 from pathlib import Path
 
-from symtop_ros.web.texts import read_texts
+from symtop_ros.web.join import read_texts
 
 FOLDER = Path(__file__).parents[2] / "symtop_ros/web"
 SITE = "http://top.test/"

@@ -7,7 +7,7 @@ import pytest
 from web.modules import load_kernel, open_tab
 
 from symtop_ros.panel.main import main
-from symtop_ros.web.texts import FOLDER, LANGUAGES, read_texts
+from symtop_ros.web.join import LANGUAGES, TEXTS, read_texts
 from workshop.languages import _compare, check_languages, find_faults
 
 TESTED = "de"  # a third longer than English; the others in the long run
@@ -223,7 +223,7 @@ def test_the_program_writes_the_page_in_a_language_of_its_own(open_page, tmp_pat
 def test_the_file_of_a_language_is_sorted_as_the_english_one():
     """A translator compares two files line by line; the scenes are at the end."""
     keys = {
-        each: list(json.loads((FOLDER / f"{each}.json").read_text("utf-8"))) for each in LANGUAGES
+        each: list(json.loads((TEXTS / f"{each}.json").read_text("utf-8"))) for each in LANGUAGES
     }
     for language in LANGUAGES:
         assert keys[language][: len(keys["en"])] == keys["en"], language

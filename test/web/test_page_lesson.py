@@ -3,7 +3,7 @@
 import pytest
 from web.opened import read_motion
 
-from symtop_ros.web.lesson import read_lesson
+from workshop.lesson.steps import read_lesson
 
 SECRET = "it falls, I think"
 STEPS = read_lesson()

@@ -16,7 +16,7 @@ from symtop_ros.physics import (
     kick_verdict,
     perrys_rule,
 )
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.wording import write

@@ -8,8 +8,8 @@ from web.opened import find_time, read_motion, read_state
 
 from symtop_ros.physics import ExactTimes, Top
 from symtop_ros.simulation.changes.outcomes import Pushed
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
 from symtop_ros.simulation.run_file import RunEvent, read_run, write_run
+from symtop_ros.simulation.segment import PushedMotion, Pushes
 from symtop_ros.wording import write
 
 SECOND = 1_000_000_000

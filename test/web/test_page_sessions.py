@@ -8,8 +8,7 @@ from drawn import Numbers
 from physics.tops import seeds
 from session.test_random_sessions import move
 
-from symtop_ros.log.bag import open_run
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.simulation.run_file import record_run, write_run
 
 

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, PALE, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, PALE, RED, new_figure
 from symtop_ros.physics import State
-from symtop_ros.playback.view.mesh import draw_parallel
+from symtop_ros.playback.view.entities import draw_parallel
 
 PHI, THETA, PSI = 1.0, 0.6, 0.9  # rad; such that nothing hides another
 ELEVATION, AZIMUTH = np.radians(22.0), np.radians(20.0)  # of the line of sight

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
-from symtop_ros.figures import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
+from symtop_ros.judge.figures import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,

@@ -15,14 +15,20 @@ import rerun.blueprint as rrb
 from symtop_ros.arrays import Stamps
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top, hurry, regular_precession_rates
-from symtop_ros.playback.replay import create_recording
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
-from symtop_ros.playback.view.entities import BLUE, GREY, ORANGE, WHITE
-from symtop_ros.playback.view.mesh import create_body, draw_parallel
-from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.entities import (
+    BLUE,
+    GREY,
+    ORANGE,
+    WHITE,
+    Stream,
+    create_body,
+    draw_parallel,
+)
 from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
 from symtop_ros.playback.view.view import View, ViewOptions
+from symtop_ros.playback.viewer import create_recording
 from symtop_ros.simulation.changes.outcomes import Outcome, Start
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from symtop_ros.figures import write_figures
+from symtop_ros.judge.figures import write_figures
 from symtop_ros.physics import Top
 from workshop.article.answers.corrections import claims_on_corrections
 from workshop.article.answers.fictitious import claims_on_fictitious_forces

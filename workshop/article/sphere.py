@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion
-from symtop_ros.playback.view.mesh import draw_meridian, draw_parallel
+from symtop_ros.playback.view.entities import draw_meridian, draw_parallel
 from workshop.article.motions import precession_period
 
 Axes3D = Any  # matplotlib has no types for its 3D axes

@@ -4,7 +4,7 @@ import re
 import textwrap
 from pathlib import Path
 
-from symtop_ros.web.lesson import LessonStep, read_lesson
+from workshop.lesson.steps import LessonStep, read_lesson
 
 PAGE = Path(__file__).parents[2] / "docs/lesson.md"
 FIRST = "## 1. "  # what is above the first step is written by hand

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -23,16 +23,16 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.playback.view.fictitious import torques_of
-from symtop_ros.simulation.changes.initial import initial_state
+from symtop_ros.playback.view.torques import torques_of
+from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.web.lesson import LessonAct, LessonStep, read_lesson
 from workshop.article.answers.fictitious import plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import DEPTH
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
 from workshop.lesson.sheets import Sheets
+from workshop.lesson.steps import LessonAct, LessonStep, read_lesson
 from workshop.pictures.pack import pack_figure
 
 KICK = 0.4  # s

@@ -4,8 +4,8 @@ import base64
 from collections.abc import Sequence
 from html import escape
 
-from symtop_ros.web.lesson import LessonStep, read_lesson
-from symtop_ros.web.texts import read_texts
+from symtop_ros.web.join import read_texts
+from workshop.lesson.steps import LessonStep, read_lesson
 
 STYLE = """
 body { font: 11pt/1.4 Georgia, serif; color: #111; max-width: 178mm; margin: 8mm auto;

@@ -16,8 +16,7 @@ from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
 from symtop_ros.physics import ExactTimes, Motion
-from symtop_ros.simulation.changes.initial import start_motion
-from symtop_ros.simulation.changes.kick import plan_kick
+from symtop_ros.simulation.changes.requests import plan_kick, start_motion
 from symtop_ros.simulation.run_file import RunEvent, write_run
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.web.join import write_file

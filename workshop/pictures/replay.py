@@ -8,9 +8,9 @@ import numpy as np
 from PIL import Image
 
 from symtop_ros.physics import Motion, State, hurry, kick_verdict
-from symtop_ros.playback.replay import create_recording
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import View
+from symtop_ros.playback.viewer import create_recording
 from symtop_ros.simulation.changes.outcomes import Start
 from symtop_ros.simulation.segment import Segment
 from workshop.article.motions import PSI_DOT, THETA, TOP

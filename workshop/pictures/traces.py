@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.figures import GREY, RED
+from symtop_ros.judge.figures import GREY, RED
 from symtop_ros.physics import Motion, State
 from workshop.article.motions import PSI_DOT, SLOW, THETA, TOP
 

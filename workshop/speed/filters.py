@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real, invert
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
 from symtop_ros.imu import CONSUMER, record_imu
 from symtop_ros.judge.compare import NONE, Errors, compare
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.changes.initial import start_motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 from workshop.pictures.pack import pack
 from workshop.speed.publish import format_table, track, write_results

@@ -155,6 +155,9 @@ _DONE = POINTER(c_size_t)
 _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "new": (_BYTES, POINTER(_HANDLE)),
     "make": (_BYTES,),
+    "free": (_HANDLE,),
+    "describe_status": (c_int,),
+    "version": (),
     "read": (_HANDLE, POINTER(State)),
     "find_kind": (_HANDLE,),
     "find_engine": (_HANDLE,),
@@ -183,6 +186,8 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
         *(_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, c_double, c_int, Numbers, POINTER(c_uint8)),
     ),
 }
+# of those that return no status
+_RESULTS = {"make": _HANDLE, "free": None, "describe_status": _BYTES, "version": _BYTES}
 
 
 class Door(SimpleNamespace):
@@ -195,15 +200,8 @@ class Door(SimpleNamespace):
             # By index: a function object that belongs to this door alone.
             function = library[f"symtop_{name.lstrip('*')}"]
             function.argtypes = arguments
-            function.restype = _HANDLE if name == "make" else c_int
+            function.restype = _RESULTS.get(name, c_int)
             setattr(self, name.lstrip("*"), function)
-        self.free = locked["symtop_free"]
-        self.free.argtypes, self.free.restype = (_HANDLE,), None
-        for name in ("describe_status", "version"):
-            function = locked[f"symtop_{name}"]
-            function.argtypes = (c_int,) if name == "describe_status" else ()
-            function.restype = ctypes.c_char_p
-            setattr(self, name, function)
 
 
 def _load(path: Path) -> tuple[ctypes.CDLL, ctypes.PyDLL]:

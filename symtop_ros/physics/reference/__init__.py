@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 from mpmath import mp
 
 from symtop_ros.physics.reference.closed_form import ClosedForm
-from symtop_ros.physics.reference.inputs import ExactState, Inputs, Number
-from symtop_ros.physics.reference.series import Series
+from symtop_ros.physics.reference.series import ExactState, Inputs, Number, Series
 
 if TYPE_CHECKING:
     from symtop_ros.physics.state import State

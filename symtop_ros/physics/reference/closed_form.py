@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from mpmath import agm, conj, cos, elliprf, exp, expj, inf, mp, mpc, mpf, nan, nint, pi, sin, sqrt
 
-from symtop_ros.physics.reference.inputs import ExactState, Inputs, Number
+from symtop_ros.physics.reference.series import ExactState, Inputs, Number
 
 
 class ClosedForm:

@@ -5,26 +5,68 @@ are expanded in time. No root, no elliptic function, no angle and no other frame
 
 A number is an integer in units of 2^-bits, of mpmath's type: with gmpy2 it is GMP's, which
 multiplies integers of some hundred bits three times as fast as Python.
+
+What a motion starts from are exact fractions, and what it comes to are numbers of mpmath; so they
+are for the closed form.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from symtop_ros.physics.state import State
+    from symtop_ros.physics.top import Top
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
-from fractions import Fraction
-from functools import cached_property
 from operator import mul
-from typing import Any
 
-from mpmath import mp, mpc, mpf
+from mpmath import mp, mpf
 from mpmath.libmp import MPZ
 
-from symtop_ros.physics.reference.inputs import ExactState, Inputs, Number
-
+Number = Any  # of mpmath: mpf or mpc
 Integers = list[Any]  # of the type of GMP, or of Python
 TERMS_PER_DIGIT = 1.2  # of a series; found to take the least time
 W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z = range(7)
+
+
+class ExactState(NamedTuple):
+    """A state in numbers of mpmath.
+
+    Attributes
+    ----------
+    orientation : tuple of mpf
+        Unit quaternion (w, x, y, z), body to world.
+    angular_velocity : tuple of mpf
+        Angular velocity in the body frame, in rad/s.
+    """
+
+    orientation: tuple[Number, ...]
+    angular_velocity: tuple[Number, ...]
+
+
+class Inputs(NamedTuple):
+    """A top and its start. A double is a fraction, so nothing is rounded here."""
+
+    Ix: Fraction
+    Iz: Fraction
+    Mgl: Fraction
+    orientation: tuple[Fraction, ...]  # of any norm but zero
+    angular_velocity: tuple[Fraction, ...]
+
+    @classmethod
+    def of(cls, top: Top, start: State) -> Inputs:
+        """Return the numbers that a top and a state were given."""
+        q, omega = start.given_orientation, start.angular_velocity
+        return cls.exact(*top.moments, q.tolist(), omega.tolist())
+
+    @classmethod
+    def exact(cls, Ix: Any, Iz: Any, Mgl: Any, orientation: Any, angular_velocity: Any) -> Inputs:
+        """Return doubles, integers or fractions as fractions."""
+        q, omega = (tuple(map(Fraction, each)) for each in (orientation, angular_velocity))
+        return cls(Fraction(Ix), Fraction(Iz), Fraction(Mgl), q, omega)
 
 
 class Way:
@@ -40,9 +82,7 @@ class Series:
     """A motion that is integrated as far as it is asked for, and kept.
 
     `digits` must cover the answer, and what the motion magnifies. The friction is (axial,
-    transverse), the torque is applied in the world frame. With a period in s, which gravity alone
-    gives to the height of the axis, one period serves for all times: then `digits` also cover the
-    decimal logarithm of the number of periods.
+    transverse), the torque is applied in the world frame.
     """
 
     def __init__(
@@ -51,7 +91,6 @@ class Series:
         digits: int = 50,
         friction: Sequence[float] = (0.0, 0.0),
         torque: Sequence[float] = (0.0, 0.0, 0.0),
-        period: Number = None,
     ) -> None:
         self.digits = digits
         self.bits = int(digits / math.log10(2)) + 20
@@ -73,36 +112,14 @@ class Series:
         start = self._normalize(orientation)
         start += [self._to_integer(rate / self._second) for rate in omega]
         self._forward, self._back = Way(1, start), Way(-1, start)
-        with mp.workprec(self.bits):
-            self._period = period and Fraction(int(period * 2**self.bits), 2**self.bits)
 
     def at(self, t: float | Fraction) -> ExactState:
         """Return the state at t in s."""
-        time = Fraction(t)
-        periods = math.floor(time / self._period) if self._period else 0
-        state = self._find(time - periods * (self._period or 0))
+        state = self._find(Fraction(t))
         with mp.workprec(self.bits + 10):
             w, x, y, z, *rates = (mpf(each) / 2**self.bits for each in state)
             wx, wy, wz = (rate * mpf(self._second) for rate in rates)
-            if not periods:
-                return ExactState((w, x, y, z), (wx, wy, wz))
-            a, b = (mp.expj(periods * angle) for angle in self._turns)
-            A, B, omega = mpc(w, z) * a, mpc(x, y) * b, mpc(wx, wy) * b / a
-            return ExactState((A.real, B.real, B.imag, A.imag), (omega.real, omega.imag, wz))
-
-    @cached_property
-    def _turns(self) -> tuple[Number, Number]:
-        """Angles by which A and B turn in a period, if the height returns."""
-        for part in range(7):  # at a time at which neither of them vanishes
-            begin = self._period * part / 13
-            w, x, y, z, *_ = before = self._find(begin)
-            if min(w * w + z * z, x * x + y * y) >> (2 * self.bits - 20):
-                break
-        v, r, s, u, *_ = after = self._find(begin + self._period)
-        for old, new in zip(self._height(before), self._height(after), strict=True):
-            if abs(old - new) >> (3 * self.bits // 2):  # half of the digits
-                raise ValueError(f"the height must return after {float(self._period)} s")
-        return mp.arg(mpc(v, u) / mpc(w, z)), mp.arg(mpc(r, s) / mpc(x, y))
+            return ExactState((w, x, y, z), (wx, wy, wz))
 
     def _find(self, t: Fraction) -> Integers:
         """Return the seven numbers at a time in s; rates are those in the unit of time."""
@@ -196,9 +213,3 @@ class Series:
                 total = ((total * time) >> self.bits) + coefficient
             sums.append(total)
         return sums
-
-    def _height(self, state: Integers) -> tuple[Any, Any]:
-        """Return |B|^2 and a quarter of the slope of u, in units of 2^(-2 bits)."""
-        w, x, y, z, a, b, _ = state
-        slope = b * (x * z - w * y) - a * (y * z + w * x)
-        return x * x + y * y, slope >> self.bits

@@ -18,13 +18,14 @@ from symtop_ros.physics.rule.perry import (
     DIRECTIONS,
     RULES,
     SUBJECTS,
+    Average,
     Direction,
     Reason,
     Rule,
     Subject,
+    read_average,
     read_reason,
 )
-from symtop_ros.physics.rule.verdict import Average, read_average
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
 from symtop_ros.physics.values import validate_array, validate_number, validate_rate

@@ -30,7 +30,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from symtop_ros.physics.kernel.door import PlaceRecord, VerdictRecord
+from symtop_ros.physics.kernel.door import AverageRecord, PlaceRecord, VerdictRecord
 from symtop_ros.physics.kicks import Hold
 from symtop_ros.wording import write
 
@@ -116,6 +116,32 @@ class Reason:
         return write("reason", self)
 
 
+@dataclass(frozen=True, slots=True)
+class Average:
+    """Mean precession of a motion, and its approximation for a fast top.
+
+    Attributes
+    ----------
+    rate : float
+        Mean phi' in rad/s.
+    turns : float
+        Turns of the precession in a nutation.
+    speed : {"fast", "slow"}
+        "fast" if the approximation is meant for this top, p_psi^2 > 4 Ix |Mgl| and Mgl not 0, and
+        the mean is within 30 % of it.
+    fast_top_rate : float
+        Mgl/p_psi in rad/s.
+    spin_reverses : bool
+        True if psi' changes sign in each nutation.
+    """
+
+    rate: float
+    turns: float
+    speed: Literal["fast", "slow"]
+    fast_top_rate: float
+    spin_reverses: bool
+
+
 def read_place(place: PlaceRecord, held: Hold) -> Place:
     """Return the place of a rate from the kernel's record."""
     rates = tuple(rate for rate in place.regular_rates if not math.isnan(rate))
@@ -142,3 +168,11 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
         found.theta_ddot,
         read_place(found.place, hold or ("spin_rate" if kind == IMPULSE else "spin_momentum")),
     )
+
+
+def read_average(found: AverageRecord) -> Average | None:
+    """Return mean precession and its approximation; None if the mean is undefined."""
+    if not math.isfinite(found.turns):
+        return None
+    speed: Literal["fast", "slow"] = "fast" if found.is_fast else "slow"
+    return Average(found.rate, found.turns, speed, found.fast_top_rate, bool(found.spin_reverses))

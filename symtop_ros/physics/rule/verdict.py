@@ -1,9 +1,8 @@
 """The consequences of a state: direction, turning angles and Perry's rule, as a record."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +15,11 @@ from symtop_ros.physics.rule.perry import (
     DIRECTIONS,
     SUBJECTS,
     VERTICAL,
+    Average,
     Direction,
     Reason,
     Subject,
+    read_average,
     read_reason,
 )
 from symtop_ros.physics.state import State
@@ -31,32 +32,6 @@ from symtop_ros.physics.values import (
     validate_number,
 )
 from symtop_ros.wording import write
-
-
-@dataclass(frozen=True, slots=True)
-class Average:
-    """Mean precession of a motion, and its approximation for a fast top.
-
-    Attributes
-    ----------
-    rate : float
-        Mean phi' in rad/s.
-    turns : float
-        Turns of the precession in a nutation.
-    speed : {"fast", "slow"}
-        "fast" if the approximation is meant for this top, p_psi^2 > 4 Ix |Mgl| and Mgl not 0, and
-        the mean is within 30 % of it.
-    fast_top_rate : float
-        Mgl/p_psi in rad/s.
-    spin_reverses : bool
-        True if psi' changes sign in each nutation.
-    """
-
-    rate: float
-    turns: float
-    speed: Literal["fast", "slow"]
-    fast_top_rate: float
-    spin_reverses: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,15 +200,6 @@ def _read(found: door.VerdictRecord, hold: Hold) -> Verdict:
         reason=reason,
         average=read_average(found.average),
     )
-
-
-def read_average(found: door.AverageRecord) -> Average | None:
-    """Return mean precession and its approximation; None if the mean is undefined."""
-    if not math.isfinite(found.turns):
-        return None
-    speed: Literal["fast", "slow"] = "fast" if found.is_fast else "slow"
-    reverses = bool(found.spin_reverses)
-    return Average(found.rate, found.turns, speed, found.fast_top_rate, reverses)
 
 
 def _judge_each(top: Top, state: State, factors: Real, hold: Hold) -> Verdicts:

@@ -11,10 +11,8 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.playback.view.entities import GHOST, GHOST_TRACE, WHITE
-from symtop_ros.playback.view.mesh import create_body
+from symtop_ros.playback.view.entities import GHOST, GHOST_TRACE, WHITE, Stream, create_body
 from symtop_ros.playback.view.quantities import axis_of, find_step
-from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.events import KICKS, RESTARTS

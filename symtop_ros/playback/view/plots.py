@@ -10,10 +10,9 @@ from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Motion, State, Top, perrys_rule
 from symtop_ros.playback.view import entities, quantities
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE
-from symtop_ros.playback.view.inertial import Torques
+from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE, Stream
 from symtop_ros.playback.view.potential import PotentialView
-from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.torques import Torques
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
@@ -65,8 +64,7 @@ class Plots:
                 (entities.PHI_DOT, 3),
                 (entities.PSI_DOT, 5),
             ):
-                values = euler.numbers[:, column : column + 1]
-                self._stream.send_scalars(entity, euler.stamps, values)
+                self._stream.send_scalars(entity, euler.stamps, euler.numbers[:, [column]])
         if "angular_momentum" in columns:
             momentum = columns["angular_momentum"]
             self._stream.send_scalars(entities.L, momentum.stamps, momentum.numbers)

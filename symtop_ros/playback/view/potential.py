@@ -12,8 +12,7 @@ import rerun as rr
 from symtop_ros.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import ASH, BLUE, GOLD, GREY, WHITE
-from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.entities import ASH, BLUE, GOLD, GREY, WHITE, Stream
 
 WIDTH, HEIGHT = 2.0, 1.0  # of the box in scene units; y points down
 TILTS = np.linspace(1e-4, np.pi - 1e-4, 4001)
@@ -45,8 +44,7 @@ class Chart:
     def cut(self, x: Real, y: Real) -> list[Real]:
         """Return the parts of a curve that lie inside, as strips of the scene."""
         inside = (x >= self.left) & (x <= self.right) & (y >= self.bottom) & (y <= self.top)
-        borders = np.flatnonzero(np.diff(inside)) + 1
-        parts = np.split(np.arange(len(x)), borders)
+        parts = np.split(np.arange(len(x)), np.flatnonzero(np.diff(inside)) + 1)
         return [self.place(x[part], y[part]) for part in parts if inside[part[0]] and len(part) > 1]
 
     def frame(self) -> Real:

@@ -9,8 +9,7 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Motion, Top
 from symtop_ros.simulation.events import RESTARTS, Event
-from symtop_ros.simulation.pushed import PushedMotion
-from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.segment import PushedMotion, Segment
 
 ColumnsByTopic = Mapping[str, Columns]
 

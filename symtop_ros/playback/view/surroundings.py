@@ -1,6 +1,14 @@
-"""The surroundings of the top: unit sphere, stand, line of nodes, turning circles and trace.
+"""What is drawn around the top: sphere, stand, nodes, turning circles, trace, cones and angles.
 
 The trace of the axis on the sphere is one short line per sample, visible for some time.
+
+The cones are those of a free top: the cone of omega in the body rolls on the cone of omega in
+space. The end of omega draws the polhode in the body and the herpolhode in space (Poinsot). Both
+are circles for a symmetric top, so that they are drawn once for a motion.
+
+Euler's angles are drawn as in the article's figure 1: two frames, the line of nodes, three arcs.
+phi turns from x' to the line of nodes N in the horizontal plane, theta from z' to z in the vertical
+plane of the axis, and psi from N to x in the plane across the axis.
 """
 
 import math
@@ -9,17 +17,47 @@ import numpy as np
 import rerun as rr
 
 from symtop_ros.arrays import Real, Stamps
+from symtop_ros.log.batch import Columns
+from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import GREY, ORANGE, STONE
-from symtop_ros.playback.view.mesh import Mesh, create_lathe, draw_meridian, draw_parallel
-from symtop_ros.playback.view.quantities import nodes_of
-from symtop_ros.playback.view.stream import Stream
+from symtop_ros.playback.view.entities import (
+    BLUE,
+    GOLD,
+    GREEN,
+    GREY,
+    ORANGE,
+    PALE_BLUE,
+    PALE_GREEN,
+    STONE,
+    VIOLET,
+    WHITE,
+    Mesh,
+    Stream,
+    create_lathe,
+    draw_meridian,
+    draw_parallel,
+)
+from symtop_ros.playback.view.quantities import find_step, nodes_of
 
 MAX_LINES = 3000  # visible at one time
 MAX_GAP = 5  # sample periods; longer gaps are not bridged by a line
 STAND = ((0.0, -0.02), (0.03, -0.03), (0.05, -0.22), (0.17, -0.28), (0.17, -0.32), (0.0, -0.32))[
     ::-1
 ]
+OPACITY = 70  # of 255
+AROUND = np.linspace(0.0, 2 * np.pi, 97)
+NARROWEST = 1e-3  # radius of a cone that can be seen, in scene units
+RATE = 60.0  # positions per s of the clock
+POINTS = 33  # of an arc
+# In scene units. The arcs have different radii, so that letters do not meet; that of theta is
+# outside of the sphere, where the rotor does not hide it. The z axis is longer than L and omega,
+# which are nearly parallel to it in a fast top, so that its letter stands beyond theirs.
+WORLD_AXES, BODY_AXES = 1.3, (0.8, 0.8, 1.55)
+RADII = {"phi": 0.5, "theta": 1.08, "psi": 0.66}
+NODES_LENGTH = 0.95
+LETTERS = {"phi": "\u03c6", "theta": "\u03b8", "psi": "\u03c8"}
+COLORS = {"phi": ORANGE, "theta": GOLD, "psi": GREEN}  # of their curves in the plots
+BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
 
 
 def log_surroundings(stream: Stream, below_pivot: bool) -> None:
@@ -78,3 +116,110 @@ class Trace:
             return 1
         period = float(np.median(np.diff(stamps))) * 1e-9
         return max(1, math.ceil(self.length / max(period, 1e-9) / MAX_LINES))
+
+
+def has_cones(motion: Motion) -> bool:
+    """Return True if no torque acts at all, so that L is constant and omega stays on two cones."""
+    return motion.top.Mgl == 0 and not motion.is_driven
+
+
+def log_cones(stream: Stream, motion: Motion, state: State, scale: float) -> None:
+    """Draw both cones of a free motion from the current time on."""
+    wx, wy, wz = (state.angular_velocity / scale).tolist()
+    _log_cone(stream, entities.POLHODE, math.hypot(wx, wy), wz, (GREEN, PALE_GREEN))
+    L = motion.top.angular_momentum(state)
+    size = float(np.linalg.norm(L))
+    if size == 0.0:
+        return
+    direction, omega = L / size, state.to_world(state.angular_velocity) / scale
+    along = float(omega @ direction)
+    across = float(np.linalg.norm(omega - along * direction))
+    _log_cone(stream, entities.HERPOLHODE, across, along, (BLUE, PALE_BLUE))
+    turned = rr.Transform3D(quaternion=rr.Quaternion(xyzw=_turn_up_to(direction)))
+    stream.log(entities.HERPOLHODE, turned)
+
+
+def clear_cones(stream: Stream) -> None:
+    """Remove both cones from the current time on."""
+    for entity in (entities.POLHODE, entities.HERPOLHODE):
+        stream.log(entity, rr.Clear(recursive=True))
+
+
+def _log_cone(
+    stream: Stream,
+    entity: str,
+    radius: float,
+    height: float,
+    colors: tuple[tuple[int, int, int], tuple[int, int, int]],
+) -> None:
+    """Log a translucent cone about the z axis of its entity, and its rim."""
+    if radius < NARROWEST:
+        stream.log(f"{entity}/cone", rr.Clear(recursive=False))
+        stream.log(f"{entity}/rim", rr.Clear(recursive=False))
+        return
+    profile = sorted([(0.0, 0.0), (radius, height)], key=lambda point: point[1])
+    stream.log_mesh(f"{entity}/cone", create_lathe(profile, (colors[1],) * 2), OPACITY)
+    rim = np.stack(
+        [radius * np.cos(AROUND), radius * np.sin(AROUND), np.full_like(AROUND, height)], axis=1
+    )
+    stream.log(f"{entity}/rim", rr.LineStrips3D([rim], colors=[colors[0]], radii=[0.006]))
+
+
+def _turn_up_to(direction: Real) -> Real:
+    """Return the quaternion x, y, z, w that turns z' into a unit vector."""
+    x, y, z = direction.tolist()
+    if z < -1 + 1e-12:
+        return np.array([1.0, 0.0, 0.0, 0.0])
+    q = np.array([-y, x, 0.0, 1.0 + z])
+    return np.asarray(q / np.linalg.norm(q))
+
+
+def log_frames(stream: Stream) -> None:
+    """Log the static parts: both frames, and the styles of the arcs."""
+    for entity, lengths, color, mark in (
+        (f"{entities.ANGLES}/world", (WORLD_AXES,) * 3, WHITE, "'"),
+        (f"{entities.BODY}/axes", BODY_AXES, VIOLET, ""),
+    ):
+        ends = np.diag(lengths)
+        stream.log(entity, rr.Arrows3D(vectors=ends, colors=[color], radii=[0.005]), static=True)
+        names = [f"{letter}{mark}" for letter in "xyz"]
+        stream.log_labels(f"{entity}/names", names, color, 1.06 * ends)
+    for name, color in COLORS.items():
+        stream.style_lines(f"{entities.ANGLES}/{name}", color, 0.008)
+        stream.log_labels(f"{entities.ANGLES}/{name}/letter", [LETTERS[name]], color)
+    stream.style_arrows(f"{entities.ANGLES}/nodes", ORANGE, 0.006, "N")
+
+
+def send_angles(stream: Stream, euler: Columns) -> None:
+    """Send the arcs, their letters and the line of nodes, at some of the stamps."""
+    step = find_step(euler.stamps, RATE)
+    stamps, angles = euler.stamps[::step], euler.numbers[::step]
+    phi, theta, psi = angles[:, 0] % (2 * np.pi), angles[:, 1], angles[:, 2] % (2 * np.pi)
+    for name, arcs in draw_arcs(phi, theta, psi).items():
+        entity = f"{entities.ANGLES}/{name}"
+        stream.send_lines(entity, stamps, arcs)
+        letters = BEYOND * arcs[:, POINTS // 2]
+        stream.send(f"{entity}/letter", stamps, rr.Points3D.columns(positions=letters))
+    vectors = NODES_LENGTH * nodes_of(phi)
+    stream.send_arrows(f"{entities.ANGLES}/nodes", stamps, vectors, 1.06 * vectors)
+
+
+def draw_arcs(phi: Real, theta: Real, psi: Real) -> dict[str, Real]:
+    """Return the arcs (n, 33, 3) of angles (n,) in rad, by the name of the angle."""
+    part = np.linspace(0.0, 1.0, POINTS)
+    nodes = nodes_of(phi)
+    ahead = np.stack([np.sin(phi), -np.cos(phi), np.zeros_like(phi)], axis=-1)  # where z leans to
+    up = np.array([0.0, 0.0, 1.0])
+    sine, cosine = np.sin(theta)[:, None], np.cos(theta)[:, None]
+    across = sine * up - cosine * ahead  # z x N
+    starts = {"phi": np.broadcast_to([1.0, 0.0, 0.0], nodes.shape), "theta": up, "psi": nodes}
+    quarters = {"phi": np.array([0.0, 1.0, 0.0]), "theta": ahead, "psi": across}
+    turned = {"phi": phi, "theta": theta, "psi": psi}
+    arcs = {}
+    for name, radius in RADII.items():
+        angle = turned[name][:, None] * part
+        start, quarter = (np.atleast_2d(each[name])[:, None] for each in (starts, quarters))
+        arcs[name] = radius * (
+            np.cos(angle)[..., None] * start + np.sin(angle)[..., None] * quarter
+        )
+    return arcs

@@ -11,21 +11,26 @@ from symtop_ros.arrays import Real, rotate
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import (
-    angles,
-    cones,
     entities,
-    inertial,
     quantities,
     surroundings,
+    torques,
 )
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, VIOLET
-from symtop_ros.playback.view.fictitious import FictitiousView
+from symtop_ros.playback.view.entities import (
+    BLUE,
+    GOLD,
+    GREEN,
+    ORANGE,
+    RED,
+    VIOLET,
+    Stream,
+    create_body,
+)
 from symtop_ros.playback.view.ghost import GhostView
-from symtop_ros.playback.view.mesh import create_body
 from symtop_ros.playback.view.plots import Plots, describe_motion
-from symtop_ros.playback.view.stream import Stream
 from symtop_ros.playback.view.surroundings import Trace
+from symtop_ros.playback.view.torques import FictitiousView
 from symtop_ros.simulation.events import KICKS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
@@ -131,7 +136,7 @@ class View:
             for name, arrow in ARROWS.items()
             if name in self._scales
         }
-        equations = dict(inertial.EQUATIONS) if self._options.torques else {}
+        equations = dict(torques.EQUATIONS) if self._options.torques else {}
         if self._fictitious:
             equations |= self._fictitious.follow(motion.top, event.state())
         text = describe_motion(self._segment, event.state(), scales, equations)
@@ -142,11 +147,11 @@ class View:
     def _send_cones(self, motion: Motion, state: State) -> None:
         """Draw the cones of a free motion; remove them when it ceases to be free."""
         scale = self._scales.get("angular_velocity")
-        if cones.has_cones(motion) and scale:
-            cones.log_cones(self._stream, motion, state, scale)
+        if surroundings.has_cones(motion) and scale:
+            surroundings.log_cones(self._stream, motion, state, scale)
             self._has_cones = True
         elif self._has_cones:
-            cones.clear_cones(self._stream)
+            surroundings.clear_cones(self._stream)
             self._has_cones = False
 
     def _send_samples(self, columns: Mapping[str, Columns]) -> None:
@@ -170,11 +175,11 @@ class View:
             nodes = surroundings.line_of_nodes(euler.numbers[:, 0])
             self._stream.send_lines(entities.NODES, euler.stamps, nodes)
             if self._options.angles:
-                angles.send_angles(self._stream, euler)
+                surroundings.send_angles(self._stream, euler)
             if self._fictitious:
                 self._fictitious.send(euler)
-        if self._options.torques and (parts := inertial.Torques.of(columns)):
-            inertial.send_arrows(self._stream, *parts, self._scales["torque"])
+        if self._options.torques and (parts := torques.Torques.of(columns)):
+            torques.send_arrows(self._stream, *parts, self._scales["torque"])
         self._plots.send(columns, self._segment)
 
     def _choose_scales(self, columns: Mapping[str, Columns]) -> None:
@@ -186,7 +191,7 @@ class View:
                 self._stream.style_arrows(arrow.entity, arrow.color, 0.012, arrow.label)
                 if name == "torque" and self._options.torques:
                     # One scale for all torques, so that their sum can be seen.
-                    parts = inertial.Torques.of(columns)
+                    parts = torques.Torques.of(columns)
                     self._scales[name] = parts[1].find_scale() if parts else self._scales[name]
 
     def _send_layout(self, framing: Framing) -> None:
@@ -195,9 +200,9 @@ class View:
 
     def _log_styles(self) -> None:
         if self._options.angles:
-            angles.log_frames(self._stream)
+            surroundings.log_frames(self._stream)
         if self._options.torques:
-            inertial.log_styles(self._stream)
+            torques.log_styles(self._stream)
         self._stream.style_lines(entities.TRACE, GOLD, 0.007)
         self._stream.style_lines(entities.NODES, ORANGE, 0.005)
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from symtop_ros.physics import State, kick_verdict
-from symtop_ros.simulation.changes.kick import plan_kick, plan_pushes
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -21,6 +20,7 @@ from symtop_ros.simulation.changes.outcomes import (
     Step,
     Torque,
 )
+from symtop_ros.simulation.changes.requests import plan_kick, plan_pushes
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import list_body, read_body
 from symtop_ros.simulation.validation import reject

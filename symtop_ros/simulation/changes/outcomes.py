@@ -9,7 +9,7 @@ from typing import Literal
 
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import KickVerdict, Kind, Motion, State, Verdict, perrys_rule
-from symtop_ros.simulation.pushed import PushedMotion
+from symtop_ros.simulation.segment import PushedMotion
 from symtop_ros.wire.layout import NANOSECONDS
 from symtop_ros.wording import write
 

@@ -14,8 +14,8 @@ from symtop_ros.arrays import Vector
 from symtop_ros.physics import State
 from symtop_ros.simulation.budget import Shortfall
 from symtop_ros.simulation.changes.follow import Act, Following, Request, demand_a_day, follow
-from symtop_ros.simulation.changes.initial import initial_state, start_motion
 from symtop_ros.simulation.changes.outcomes import Pace, Start, Torque
+from symtop_ros.simulation.changes.requests import initial_state, start_motion
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings

@@ -9,9 +9,9 @@ from rerun.chunk import RrdReader
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import ViewOptions
+from symtop_ros.playback.viewer import replay
 
 
 def record(log, folder, **options):

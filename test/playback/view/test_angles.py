@@ -7,7 +7,7 @@ from rerun.chunk import RrdReader
 
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.angles import RADII, draw_arcs
+from symtop_ros.playback.view.surroundings import RADII, draw_arcs
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
 # of a point: sums of four rounded products of numbers up to 1.1

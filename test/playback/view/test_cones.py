@@ -6,7 +6,8 @@ from log_files import ARTICLE, Run
 from playback.view.rows import arrows, entities_of, record, rows
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.playback.view import cones, entities
+from symtop_ros.playback.view import entities
+from symtop_ros.playback.view.surroundings import has_cones
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 STARTS = {
@@ -46,6 +47,6 @@ def test_only_a_motion_without_any_torque_has_cones(tmp_path):
     assert not any("polhode" in each for each in entities_of(recording))
     start = State.from_euler(theta=0.5, phi_dot=30.0, psi_dot=60.0)
     free = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
-    assert cones.has_cones(Motion(free, start))
-    assert not cones.has_cones(Motion(ARTICLE, start))
-    assert not cones.has_cones(Motion(free, start, torque=(0, 0, 1e-4)))
+    assert has_cones(Motion(free, start))
+    assert not has_cones(Motion(ARTICLE, start))
+    assert not has_cones(Motion(free, start, torque=(0, 0, 1e-4)))

@@ -6,7 +6,7 @@ from playback.view.rows import arrows, record, rows
 
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.fictitious import DEPTHS, LONGEST, find_scale
+from symtop_ros.playback.view.torques import DEPTHS, LONGEST, find_scale
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 

@@ -6,7 +6,7 @@ from playback.view.rows import arrows, record, rows
 
 from symtop_ros.physics import Motion
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.inertial import ARROWS, LENGTH, Torques
+from symtop_ros.playback.view.torques import ARROWS, LENGTH, Torques
 
 FLOAT = 4 * float(np.finfo(np.float32).eps)
 

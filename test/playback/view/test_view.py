@@ -7,13 +7,12 @@ from playback.view.rows import arrows, entities_of, record, recording_to, rows, 
 
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import ExactTimes, Motion, specific_force
-from symtop_ros.playback.replay import replay
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import View
+from symtop_ros.playback.viewer import replay
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import Imu
-from symtop_ros.simulation.sensor.rig import Rig
+from symtop_ros.simulation.sensor.imu import Imu, Rig
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
 RUN = Run(seconds=2.0)

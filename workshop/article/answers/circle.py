@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion
 from workshop.article.motions import cusps
 

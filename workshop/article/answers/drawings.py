@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, columns, new_figure, rows
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, columns, new_figure, rows
 from symtop_ros.physics import Motion
 from workshop.article.answers.release import SPINS
 from workshop.article.motions import TOP, accelerations, cusps, start

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows
 from symtop_ros.physics import Motion, precessing_frame_torques
 from workshop.article.motions import cusps
 from workshop.article.nutation import times_of_extreme_rate

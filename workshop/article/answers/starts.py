@@ -12,7 +12,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.figures import GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, State, Top
 from workshop.article.claims import Claim, claim
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start

@@ -21,7 +21,7 @@ from pydrake.systems.framework import DiagramBuilder, EventStatus
 from pydrake.systems.primitives import ConstantValueSource
 
 from symtop_ros.arrays import Real
-from symtop_ros.models.sdf import format_sdf
+from symtop_ros.models.engines import format_sdf
 from symtop_ros.physics import Body, State
 from workshop.speed.peers.peer import Peer, Solution, Task, choose_steps, normalize, time_strides
 

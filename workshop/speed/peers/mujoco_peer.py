@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.models.mjcf import format_mjcf
+from symtop_ros.models.engines import format_mjcf
 from symtop_ros.physics import Body
 from workshop.speed.peers.peer import (
     Peer,

@@ -1,17 +1,13 @@
-"""The steps of the lesson, which the page, docs/lesson.md, the sheets and the pictures share."""
+"""The steps of the lesson, in each language, for docs/lesson.md, the sheets and the pictures."""
 
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
-import yaml
-
 from symtop_ros.physics import Hold
-from symtop_ros.web.texts import read_texts
+from symtop_ros.web.join import read_steps, read_texts
 
-FILE = Path(__file__).with_name("lesson.yaml")
 TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
 NODES = {"cusps": "", "perry_fails": "--node /disc "}
@@ -67,20 +63,11 @@ class LessonStep:
         acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts]
         return [*acts, *self.also]
 
-    @property
-    def structure(self) -> dict[str, Any]:
-        """The fields that are the same in all languages: the page has the texts by their keys."""
-        kept = ("start", "hurry", "hold", "push")
-        acts = [{name: getattr(act, name) for name in kept} for act in self.acts]
-        names = ("name", "scene", "charts", "layers")
-        return {"acts": acts, **{name: getattr(self, name) for name in names}}
-
 
 @functools.cache
 def read_lesson(language: str = "en") -> tuple[LessonStep, ...]:
     """Return all steps in a language."""
-    steps = yaml.safe_load(FILE.read_text(encoding="utf-8"))
-    return tuple(_read_step(step, read_texts(language)) for step in steps)
+    return tuple(_read_step(step, read_texts(language)) for step in read_steps())
 
 
 def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:

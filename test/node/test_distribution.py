@@ -1,7 +1,7 @@
 import pytest
 
-from symtop_ros import distribution
-from symtop_ros.distribution import VARIABLES, distribution_name, use_profile
+from symtop_ros.node import host
+from symtop_ros.node.host import VARIABLES, distribution_name, use_profile
 
 
 @pytest.fixture(autouse=True)
@@ -20,16 +20,16 @@ def _own_environment(monkeypatch):
     ],
 )
 def test_the_version_of_rclpy_tells_the_distribution(version, name, variable, monkeypatch):
-    monkeypatch.setattr(distribution.metadata, "version", lambda _: version)
+    monkeypatch.setattr(host.metadata, "version", lambda _: version)
     assert distribution_name() == name
     use_profile("fastdds_discovery.xml")
-    chosen = {each: distribution.os.environ[each] for each in VARIABLES}
+    chosen = {each: host.os.environ[each] for each in VARIABLES}
     assert chosen.pop(variable).endswith("config/fastdds_discovery.xml")
     assert set(chosen.values()) == {""}
 
 
 def test_the_installed_distribution_is_known():
-    assert distribution_name() in distribution.NAMES.values()
+    assert distribution_name() in host.NAMES.values()
 
 
 def test_a_sourced_ros_names_itself(monkeypatch):
@@ -41,4 +41,4 @@ def test_a_sourced_ros_names_itself(monkeypatch):
 def test_a_profile_of_the_user_is_kept(variable, monkeypatch):
     monkeypatch.setenv(variable, "mine.xml")
     use_profile("fastdds_discovery.xml")
-    assert sorted(distribution.os.environ[each] for each in VARIABLES) == ["", "mine.xml"]
+    assert sorted(host.os.environ[each] for each in VARIABLES) == ["", "mine.xml"]

@@ -11,15 +11,16 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.causes.cause import (
+from symtop_ros.judge.causes import (
     CHANGES,
     LEVELS,
     NO_CAUSE,
     Cause,
     Finding,
+    Tables,
+    fit_rotations,
     set_parameter,
 )
-from symtop_ros.judge.causes.tables import Tables, fit_rotations
 from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit

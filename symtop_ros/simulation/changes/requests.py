@@ -1,7 +1,11 @@
-"""The kick that a request asks for."""
+"""The start or the kick that a request asks for.
 
+A start has the `initial.*` parameters, overridden by the fields of the request.
+"""
+
+import math
 from collections.abc import Mapping
-from dataclasses import astuple
+from dataclasses import asdict, astuple
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,9 +20,11 @@ from symtop_ros.physics import (
     hurry,
     precession_rate,
     push_axle,
+    regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.simulation.pushed import PushedMotion, Pushes
+from symtop_ros.simulation.segment import PushedMotion, Pushes
+from symtop_ros.simulation.settings import MAX_ANGLE, PRECESSIONS, InitialConditions, Settings
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,
@@ -39,9 +45,14 @@ KINDS = (
     "axle_impulse",
 )
 PUSHES = ("axle_impulse", "rate", "number")  # of a push
-FIELDS = (*KINDS, "hold", *PUSHES[1:])
+KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
 UNITS = {"precession_rate_factor": "", "axle_impulse": "N m s"}  # of others rad/s
 MAX_IMPULSE = 1e30  # N m s; keeps the angular velocity after it finite for every top
+ANGLES = ("theta", "phi", "psi")
+RATES = ("theta_dot", "phi_dot", "psi_dot")
+DIRECT = ("orientation", "angular_velocity")
+AT_REST = (0.0, 0.0, 0.0)
+START_FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
 
 
 def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
@@ -66,7 +77,7 @@ class Kick(NamedTuple):
 
 def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
     """Return the motion that follows if a state of a motion is kicked."""
-    validate_names(request, FIELDS)
+    validate_names(request, KICK_FIELDS)
     top, kind = motion.top, exactly_one(request, KINDS)
     hold: Hold | None = None
     if kind.endswith("impulse") and "hold" in request:
@@ -89,7 +100,7 @@ def name_kick(request: Mapping[str, Any]) -> str:
 
 def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> PushedMotion:
     """Return the motion that follows if a state of a motion is pushed again and again."""
-    validate_names(request, FIELDS)
+    validate_names(request, KICK_FIELDS)
     pushes = read_pushes(request, motion)
     try:
         pushed = PushedMotion(motion.top, push_axle(motion.top, state, pushes.impulse), pushes)
@@ -101,7 +112,7 @@ def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> Pus
 
 def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
     """Return the pushes that a request asks for, if a motion may get them."""
-    given = [name for name in FIELDS if name in request]
+    given = [name for name in KICK_FIELDS if name in request]
     if {*given} != {*PUSHES}:
         raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {show(given)}")
     if motion.is_driven:
@@ -112,8 +123,7 @@ def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
     if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
-        condition = f"such that the top stays below {MAX_RATE:g} rad/s"
-        raise reject(kind, condition, request[kind])
+        raise reject(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
 
 
 def _change_precession(top: Top, state: State, kind: str, value: Any, hold: Hold) -> State:
@@ -128,3 +138,74 @@ def _change_precession(top: Top, state: State, kind: str, value: Any, hold: Hold
         return hurry(state, rate, hold)
     except ValueError as error:  # a vertical axis, or a result that is not finite
         raise RefusedError(str(error)) from None
+
+
+def start_motion(settings: Settings) -> Motion:
+    """Return the motion of a scene from its initial conditions."""
+    start = initial_state(settings.top, settings.initial, {})
+    return Motion(settings.top, start, settings.friction, settings.steady_torque)
+
+
+def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, Any]) -> State:
+    """Return the state that a request asks for."""
+    validate_names(request, START_FIELDS)
+    _refuse_contradictions(request)
+    if any(name in request for name in DIRECT):
+        return _from_quaternion(request["orientation"], request["angular_velocity"])
+    if not request and defaults.orientation:
+        return _from_quaternion(defaults.orientation, defaults.angular_velocity or AT_REST)
+    initial = asdict(defaults)
+    values = {name: initial[name] for name in (*ANGLES, *RATES, "precession")}
+    if "phi_dot" in request or "theta_dot" in request:
+        values["precession"] = ""  # a requested rate replaces the default of regular precession
+    return _from_euler(top, {**values, **request})
+
+
+def _refuse_contradictions(request: Mapping[str, Any]) -> None:
+    direct = [name for name in DIRECT if name in request]
+    others = [name for name in START_FIELDS if name in request and name not in DIRECT]
+    if direct and others:
+        raise RefusedError(f"{direct[0]} must be given without {', '.join(others)}, got both")
+    if len(direct) == 1:
+        missing = next(name for name in DIRECT if name not in request)
+        raise RefusedError(f"{missing} must be given together with {direct[0]}, got none")
+    if "precession" in request and ("phi_dot" in request or request.get("theta_dot", 0.0) != 0.0):
+        other = "phi_dot" if "phi_dot" in request else "theta_dot"
+        raise RefusedError(
+            f"precession must be given without {other}, got both "
+            "(regular precession determines phi_dot, and theta_dot is 0)"
+        )
+
+
+def _from_quaternion(orientation: Any, angular_velocity: Any) -> State:
+    x, y, z, w = vector("orientation", orientation, 4, 2.0, "x, y, z, w")
+    omega = vector("angular_velocity", angular_velocity, 3, MAX_RATE, "rad/s, body frame")
+    try:
+        return State((w, x, y, z), omega)
+    except ValueError as error:  # the norm
+        raise RefusedError(str(error)) from None
+
+
+def _from_euler(top: Top, values: Mapping[str, Any]) -> State:
+    theta = number("theta", values["theta"], "rad", 0.0, math.pi)
+    angles = {name: number(name, values[name], "rad", -MAX_ANGLE, MAX_ANGLE) for name in ANGLES}
+    rates = {name: number(name, values[name], "rad/s", -MAX_RATE, MAX_RATE) for name in RATES}
+    if values["precession"]:
+        which = choice("precession", values["precession"], PRECESSIONS)
+        rates["phi_dot"] = _regular_rate(top, which, theta, rates["psi_dot"])
+        rates["theta_dot"] = 0.0
+    return State.from_euler(**angles, **rates)
+
+
+def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
+    rates = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
+    roots = [float(rate) for rate in rates if abs(rate) <= MAX_RATE]
+    if len(roots) > PRECESSIONS.index(which):
+        return roots[PRECESSIONS.index(which)]
+    count = f"only {roots[0]:.6g} rad/s" if roots else "no real root"
+    if len(roots) < len(rates):
+        count += f" up to {MAX_RATE:g} rad/s"
+    raise RefusedError(
+        f'precession must be a rate that exists, got "{which}": at theta {theta:g} rad and psi_dot '
+        f"{psi_dot:g} rad/s regular precession has {count}"
+    )

@@ -1,12 +1,19 @@
-"""The look of the figures: colours that differ in grey too, sizes for a printed page."""
+"""The look of all figures, and that of `top_judge`; needs Matplotlib.
+
+Colours differ in grey too, sizes are those of a printed page.
+"""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from symtop_ros.judge.compare import Errors
 
 INK, BLUE, RED, GOLD = "#20242c", "#1f5f9e", "#cf5a2b", "#e3a72f"  # from dark to light
 GREY, PALE = "#8a8f98", "#c9cdd3"
@@ -40,6 +47,7 @@ SETTINGS: Any = {
     "figure.constrained_layout.h_pad": 0.06,
     "svg.hashsalt": "symtop_ros",  # the same bytes every time
 }
+POINTS = 5000  # of a curve of `top_judge`
 
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
@@ -70,3 +78,33 @@ def write_figures(figures: Mapping[str, Callable[[], Figure]], folder: Path) -> 
             figure.set_layout_engine("none")
             figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
             figure.savefig(folder / f"{name}.png", dpi=RESOLUTION)
+
+
+def write_plot(errors: Errors, folder: Path) -> None:
+    """Write judge.svg and judge.png into a folder: the errors against time."""
+    write_figures({"judge": lambda: draw_errors(errors)}, folder)
+
+
+def draw_errors(errors: Errors) -> Figure:
+    """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one."""
+    figure = new_figure(3.6 if errors.rate is None else 4.8)
+    axes = rows(figure, 1 if errors.rate is None else 2)
+    step = max(1, len(errors.total) // POINTS)
+    t = errors.seconds[::step]
+    for values, color, label in (
+        (errors.total, INK, "attitude"),
+        (np.abs(errors.heading), BLUE, "heading"),
+        (errors.tilt, GOLD, "tilt"),
+    ):
+        axes[0].plot(t, _positive(values[::step]), color=color, label=label, linewidth=1.0)
+    axes[0].set(yscale="log", ylabel="error (rad)")
+    axes[0].legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    if errors.rate is not None:
+        axes[1].plot(t, _positive(errors.rate[::step]), color=RED, linewidth=1.0)
+        axes[1].set(yscale="log", ylabel=r"error of $\omega$ (rad/s)")
+    return figure
+
+
+def _positive(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return values for a logarithmic axis, on which an error of zero is not drawn."""
+    return np.where(values > 0, values, np.nan)

@@ -1,1 +1,0 @@
-"""Causes of errors of estimates: conventions, rotations, delays, drifts, clocks. For judge."""
