@@ -3,15 +3,19 @@
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.models.urdf import LENGTH
+from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
 from symtop_ros.session.markers import ARROWS
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
+from symtop_ros.simulation.changes.initial import start_motion
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN
@@ -114,6 +118,19 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
     assert [each.ns for each in arrows] == list(ARROWS)
     assert (len(trace.points), trace.type, trace.header.frame_id) == (31, trace.LINE_STRIP, "world")
     assert {each.type for each in arrows} == {trace.ARROW}
+    motion, stamp = start_motion(Settings.from_scene("cusps")), trace.header.stamp
+    state = motion.at(ExactTimes(stamp.sec * SECOND + stamp.nanosec))
+    vectors = [state.to_world(each) for each in ([0.0, 0.0, 1.0], state.angular_velocity)]
+    vectors += [motion.top.angular_momentum(state), motion.top.gravity_torque(state)]
+    for point, vector in zip(
+        [trace.points[-1], *(each.points[1] for each in arrows)], vectors, strict=True
+    ):
+        # rounding of a product and a division
+        end = np.array([point.x, point.y, point.z])
+        assert end / np.linalg.norm(end) == pytest.approx(
+            vector / np.linalg.norm(vector), abs=1e-15
+        )
+    assert np.linalg.norm([*vars(trace.points[-1]).values()][:3]) == pytest.approx(LENGTH)
 
 
 def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_rests():

@@ -140,6 +140,17 @@ def test_a_torque_acts_until_its_time_out_to_the_nanosecond():
     run.assert_recomputed()
 
 
+def test_a_torque_that_is_repeated_acts_on_without_further_events():
+    run = Run()
+    run.advance(0.1)
+    for _ in range(8):
+        run.push((0.0, 0.0, 2e-4))
+        run.advance(0.05)
+    run.advance(0.2)
+    begin, end = [event for event in run.sink.events if event.name == "torque"]
+    assert end.stamp - begin.stamp == (7 * 50 + 100) * MS
+
+
 def test_a_torque_in_another_frame_is_refused():
     run = Run()
     with pytest.raises(RefusedError, match='applied_torque frame_id must be "world" or empty'):
