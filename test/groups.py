@@ -45,7 +45,6 @@ NUMBERS = ("test/physics", "test/simulation", "test/check")
 NOT_TWICE = (
     *("test/physics/kernel", "test/physics/reference", "test/physics/test_jacobian.py"),
     *("test/physics/test_exact_motions.py", "test/physics/test_interrupts.py"),
-    "test/simulation/test_exact_stamps.py",
 )
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")

@@ -21,22 +21,6 @@ def test_shapes_follow_those_of_the_times(shape, friction):
     assert state.angular_velocity.shape == (*shape, 3)
 
 
-def test_states_of_a_list_of_times_are_iterated_one_by_one():
-    times, motion = [0.0, 1.0], Motion(ARTICLE, CUSPS)
-    for t, state in zip(times, motion.at(times), strict=True):
-        assert state == motion.at(t)
-    orientation, angular_velocity = motion.at(times).parts
-    assert (orientation.shape, angular_velocity.shape) == ((2, 4), (2, 3))
-    with pytest.raises(TypeError, match="one state has no length"):
-        list(CUSPS)
-
-
-def test_states_cannot_be_written_to_through_their_base():
-    for times in (1.0, [0.0, 1.0], [[0.0], [1.0]]):
-        for array in Motion(ARTICLE, CUSPS).at(times).parts:
-            assert array.base is None or not array.base.flags.writeable
-
-
 @pytest.mark.parametrize(
     "make", [copy.copy, copy.deepcopy, lambda m: pickle.loads(pickle.dumps(m))]
 )
@@ -82,16 +66,6 @@ def test_tiny_turning_angles_of_a_top_with_its_weight_below_are_right_to_roundin
     # between two of the samples theta changes by the square of a phase of 2 pi/4000, 2e-6 of it
     assert angles.min() == pytest.approx(low, rel=1e-5)
     assert angles.max() == pytest.approx(high, rel=1e-5)
-
-
-def test_states_do_not_depend_on_how_numpy_treats_underflow():
-    motion = Motion(Top(1.0, 1.0, 1.0), State((0, 1, 0, 0), (2, 0, 0)))
-    times = np.array([1.0, 1e3, 1e6])
-    expected = motion.at(times)
-    with np.errstate(all="raise"):
-        assert motion.at(times) == expected
-        one = motion.at(1e6)
-    assert one.orientation.tolist() == expected.orientation[2].tolist()
 
 
 MOTIONS = {

@@ -1,6 +1,5 @@
 """Topics of a run: who gets which bytes."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 from rosbags.typesys import Stores, get_typestore
 
 from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
@@ -169,22 +167,6 @@ def test_the_urdf_moves_by_tf_while_that_is_published():
     assert b"floating" not in without
 
 
-def test_a_log_has_all_topics_although_nothing_is_published(tmp_path):
-    host = Program(publishes=False)
-    session, clock = start(host, record__directory=str(tmp_path))
-    assert session.answer("record", lambda: True)[0]
-    advance(session, clock, 0.5)
-    session.keep_up()
-    session.close()
-    (path,) = tmp_path.iterdir()
-    log = TopLog(McapFile(Path(path)))
-    samples = {
-        name: len(each.stamps) for batch in log.batches() for name, each in batch.columns.items()
-    }
-    assert set(samples.values()) == {101}
-    assert log.problems == []
-
-
 @pytest.mark.parametrize("name", SERVICES)
 def test_each_service_is_answered_with_a_sentence(name, tmp_path):
     host = Program()
@@ -196,15 +178,6 @@ def test_each_service_is_answered_with_a_sentence(name, tmp_path):
     assert granted == (name not in ("kick", "step")), answer
     assert answer
     assert host.errors == []
-
-
-def test_a_refused_torque_is_named_and_leaves_the_motion():
-    session, clock = start(Program())
-    advance(session, clock, 0.1)
-    before = session.simulation.segment
-    reason = session.hold_torque((0.0, 0.0, float("nan")))
-    assert reason.startswith("applied_torque must be 3 numbers")
-    assert session.simulation.segment is before
 
 
 @pytest.mark.parametrize(
