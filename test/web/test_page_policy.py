@@ -116,12 +116,6 @@ DROP = """(text) => {
 }"""
 
 
-@pytest.mark.long  # as in a saved page, above
-def test_the_policy_holds_in_a_file(tab, path):
-    tab.goto(path.as_uri())
-    check(tab.main_frame)
-
-
 def test_the_policy_holds_in_a_page_that_is_served(tab):
     with serving(write_file()) as server:
         tab.goto(server.url)
