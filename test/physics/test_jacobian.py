@@ -114,24 +114,6 @@ def near_the_vertical(tilt, friction=NO_FRICTION):
     return Motion(ARTICLE, start, friction)
 
 
-# The axis comes back to the unstable place: changes grow by 1/tilt on the way, and shrink again.
-@pytest.mark.parametrize(
-    ("tilt", "friction"),
-    [
-        (1e-3, NO_FRICTION),
-        (1e-5, NO_FRICTION),
-        (1e-4, Friction(axial=1e-28)),
-        (1e-5, Friction(axial=1e-300)),
-        *(pytest.param(tilt, NO_FRICTION, marks=pytest.mark.long) for tilt in (1e-2, 1e-4, 2e-6)),
-    ],
-)
-def test_derivatives_are_exact_after_an_unstable_place(tilt, friction):
-    motion = near_the_vertical(tilt, friction)
-    times = [0.9 * motion.nutation_period, 1.3 * motion.nutation_period]
-    right = differentiate(near_the_vertical(tilt), times, digits=50)
-    assert find_errors(motion, motion.jacobian(times), right).max() < PROMISED
-
-
 @pytest.mark.parametrize("t", [1.0, 10.0, 1000.0])
 def test_a_step_that_turns_a_phase_by_whole_turns_is_not_taken_for_a_smooth_one(t):
     # A nutation of 1e-5 rad, of which a phase turns by 2500 rad in a second.

@@ -10,7 +10,7 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
-from symtop_ros.session.markers import ARROWS
+from symtop_ros.session.markers import ARROWS, PERIOD, Markers
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.initial import start_motion
@@ -129,6 +129,12 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
             vector / np.linalg.norm(vector), abs=1e-15
         )
     assert np.linalg.norm([*vars(trace.points[-1]).values()][:3]) == pytest.approx(LENGTH)
+
+
+def test_markers_are_due_at_the_first_sample_of_a_period_and_after_a_jump_back():
+    markers = Markers("world")
+    due = [markers.is_due(each) for each in (0, PERIOD - 1, PERIOD, 2 * PERIOD + 1, PERIOD - 1)]
+    assert due == [True, False, True, True, True]
 
 
 def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_rests():

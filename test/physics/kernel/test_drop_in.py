@@ -14,9 +14,7 @@ from physics.kernel.test_c_interface import KERNEL, ROOT, build, compare, needs_
 from programs import execute
 
 from symtop_ros import __version__
-from symtop_ros.physics import Motion, State, Top
 
-CUSPS = [0.9689124217106447, 0.24740395925452294, 0.0, 0.0]  # as example.c has them
 WARNINGS = ["-Wall", "-Wextra", "-Werror"]
 HAS_FMA = platform.machine() == "x86_64" and " fma " in Path("/proc/cpuinfo").read_text()
 needs_cmake = pytest.mark.skipif(
@@ -105,17 +103,6 @@ def test_the_one_source_is_the_kernel_word_for_word(drop_in):
     )
     of_warnings = '#pragma GCC diagnostic ignored "-Wpsabi"'  # the other one is for FMA
     assert found.replace(of_warnings, "", 1).split() == expected.split()
-
-
-@needs_compiler
-@pytest.mark.parametrize(
-    ("spin", "t"), [(200.0, 10.0), (203.7, 1e6 / 3), (-0.1, -0.7), (0.0, 0.3), (1e-300, 5e-324)]
-)
-def test_the_example_prints_the_doubles_of_python(spin, t, example):
-    printed = subprocess.check_output([example, spin.hex(), t.hex()], text=True)
-    numbers = [float(each) for each in re.findall(r"-?\d\S*", printed)]
-    state = Motion(Top(0.000228, 0.0000572, 0.068), State(CUSPS, [0.0, 0.0, spin])).at(t)
-    assert numbers == [*state.orientation, *state.angular_velocity]
 
 
 @needs_compiler
