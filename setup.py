@@ -70,6 +70,7 @@ TEST = [
     "coverage>=7.10",  # 7.10 can measure programs that tests start
     "hypothesis>=6.100",  # random tops and requests
     "rosbags>=0.10",  # an independent reader of logs
+    "psutil>=6",  # addresses that programs listen on
     "pillow>=10",  # rendered scenes are compared
     "playwright>=1.40",  # drives a browser that is installed
     "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page

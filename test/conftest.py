@@ -34,7 +34,7 @@ for variable, folder in {
 UNDECLARED = (
     *("PIL", "ahrs", "axe_playwright_python", "distributed", "docutils", "gmpy2", "lz4", "mcap"),
     *("matplotlib", "mpmath", "mujoco", "pinocchio", "playwright", "pyarrow", "rerun", "rerun_cli"),
-    *("rosbags", "tqdm", "zstandard"),
+    *("psutil", "rosbags", "tqdm", "zstandard"),
 )
 MISSING = re.compile(r"ModuleNotFoundError: No module named '(\w+)")
 

@@ -35,7 +35,7 @@ AT_A_TIME = 3
 PERIOD = 15.0  # s between two lines of progress
 # These run with NumPy 1.26, pytest 7.4 and without Rerun, as with the ROS 2 Jazzy of Ubuntu 24.04.
 NUMPY1 = Path(sys.prefix, "numpy1", "bin", "python")
-WITH_NUMPY1 = ("test/client", "test/node/test_services.py", "test/node/test_recording.py")
+WITH_NUMPY1 = ("test/client", "test/node/test_topics.py", "test/node/test_recording.py")
 NODES = ("test/node", "test/system", "test/load", "test/test_colcon.py")
 PLAIN = ("test/speed", "test/releases", "test/wire", "test/models", "test/testset")
 JUDGE = ("test/judge", "test/imu", "test/check")
@@ -45,7 +45,6 @@ NUMBERS = ("test/physics", "test/simulation", "test/check")
 NOT_TWICE = (
     *("test/physics/kernel", "test/physics/reference", "test/physics/test_jacobian.py"),
     *("test/physics/test_exact_motions.py", "test/physics/test_interrupts.py"),
-    "test/simulation/test_exact_stamps.py",
 )
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")

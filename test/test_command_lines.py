@@ -53,9 +53,10 @@ FAILED = {
     "top_imu": "--scene CONTROL -o x.csv | --noise /dev/null -o x.csv | --noise LONG -o x.csv | "
     "--rate nan -o x.csv | --rate 1e6 --seconds 1e6 -o x.csv | --seconds -1 -o x.csv | "
     "--position 1e999 0 0 -o x.csv | --orientation 0 0 0 0 -o x.csv | "
-    "--seconds 1 -o /dev/null/x.csv | --seconds 1 -o aNULb",
+    "--seconds 1 -o /dev/null/x.csv | --seconds 1 -o aNULb | --magnetic-field=1,2 -o x.csv | "
+    "--magnetic-field=1,2,nan -o x.csv | --rate 0 -o x.csv",
 }
-MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick CONTROL=1 CONTROL=2"}
+MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick =3 | kick CONTROL=1 CONTROL=2"}
 UNREADABLE = {
     "top_ctl": " | CONTROL | --timeout nan hurry | --timeout -inf hurry | watch --seconds 0",
     "top_live": "--port 65536 | --port -1 | --port NINES",
@@ -63,7 +64,8 @@ UNREADABLE = {
     "--node /top --no-such-option",
     "top_replay": "run.json --rate 100 | run.json --mcap a.mcap --rate CONTROL |  | a --save | "
     "a.mcap --fly | a --web --check",
-    "workshop": " | CONTROL | maps --points 1000000 | maps --points CONTROL",
+    "workshop": " | CONTROL | maps --points 1000000 | maps --points CONTROL | speed --limit nan | "
+    "filters --docs nowhere",
     "top_model": " | --format CONTROL",
     "top_judge": " | a --topic b --max-error nan | a --topic b --remove CONTROL | --live | "
     "a --topic b --ros-args",

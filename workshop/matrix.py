@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
-TESTS = ("test/node/test_services.py", "test/client/test_main.py", "test/check/test_samples.py")
+TESTS = ("test/node/test_topics.py", "test/client/test_main.py", "test/check/test_samples.py")
 DISTRIBUTIONS = {
     "jazzy": ("3.11", "3.12", "3.13"),
     "kilted": ("3.11", "3.12", "3.13", "3.14"),

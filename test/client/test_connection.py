@@ -9,7 +9,7 @@ from node.listener import Listener
 from std_srvs.srv import Trigger
 
 from symtop_ros.client.connection import Connection, UnreachableError
-from symtop_ros.client.main import UsageError, parse_values
+from symtop_ros.client.main import parse_values
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
@@ -49,20 +49,6 @@ def test_words_become_numbers_lists_and_text():
         "d": [1.0, 2.0],
         "e": "slow",
     }
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (["precession_rate"], "argument must be NAME=VALUE, got 'precession_rate'"),
-        (["=3"], "argument must be NAME=VALUE, got '=3'"),
-        (["a=1", "a=2"], "a must be given once"),
-    ],
-)
-def test_invalid_words_are_refused(words, sentence):
-    with pytest.raises(UsageError) as error:
-        parse_values(words)
-    assert sentence in str(error.value)
 
 
 def test_it_is_imported_where_there_are_no_terminals():

@@ -19,15 +19,6 @@ needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ comp
 needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("rustc"))
 
 
-def test_rustup_without_a_toolchain_is_no_compiler_and_its_reason_is_shown(tmp_path, monkeypatch):
-    rustc = tmp_path / "rustc"
-    rustc.write_text("#!/bin/sh\necho 'error: no default is configured' >&2\nexit 1\n")
-    rustc.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
-    assert find_fault("rustc") == "rustc --version: error: no default is configured"
-    assert find_fault("no_such_compiler") == "no no_such_compiler"
-
-
 def run_block(name, folder):
     """Run the commands of the block that names a program; return its output, and what is shown."""
     (block,) = (each for each in re.findall(r"```console\n(.*?)```", TRUTH, re.S) if name in each)

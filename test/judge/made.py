@@ -48,7 +48,7 @@ class Made:
         q = compose(q, turn_z(self.spin * seconds))
         if self.body is not None:
             q = compose(q, wxyz(self.body))
-        q = OTHERS[self.other](q, random)
+        q = OTHERS[self.other](q)
         if self.noise:
             q = compose(q, wxyz(Rotation.from_rotvec(random.normal(0, self.noise, (len(q), 3)))))
         return replace(found, stamps=stamps, orientations=WRONG[self.change](q))
@@ -92,10 +92,7 @@ WRONG = {
     "conjugate_order": lambda q: invert(q)[:, [1, 2, 3, 0]],
 }
 OTHERS = {
-    "": lambda q, random: q,
-    "random": lambda q, random: wxyz(Rotation.random(len(q), random_state=random)),
-    "walk": lambda q, random: compose(turn_z(np.cumsum(random.normal(0, 0.02, len(q)))), q),
-    "wave": lambda q, random: compose(turn_z(np.sin(np.arange(len(q)) * 0.05)), q),
-    "still": lambda q, random: np.tile(q[:1], (len(q), 1)),
-    "jump": lambda q, random: compose(turn_z(np.where(np.arange(len(q)) > len(q) / 2, 1, 0)), q),
+    "": lambda q: q,
+    "wave": lambda q: compose(turn_z(np.sin(np.arange(len(q)) * 0.05)), q),
+    "still": lambda q: np.tile(q[:1], (len(q), 1)),
 }

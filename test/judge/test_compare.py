@@ -87,21 +87,6 @@ def test_a_steady_motion_hides_the_delay_but_not_the_drift(scene, delay, rate):
     assert found.residual < 1e-9  # of stamps in whole ns: 1e-9 s times 0.2 rad/s
 
 
-@pytest.mark.parametrize("scene", ["cusps", "looping"])
-@pytest.mark.parametrize("rate", [0.01, -0.2])
-def test_offset_delay_and_drift_of_a_nutating_top_are_found_together(scene, rate):
-    truth = scene_truth(scene)
-    world, body = Rotation.from_rotvec([0.1, -0.4, 2.0]), Rotation.from_rotvec([0.3, 0.2, -1.0])
-    estimates = Made(world, body, delay=0.0123, drift=rate).make(truth, STAMPS)
-    found = explain(estimates, truth)
-    # Stamps are whole nanoseconds, in which the top turns by 2e-7 rad, and rotations replace most
-    # of a delay: 2e-7 rad in the middle of 2 rad/s.
-    assert found.offset.delay == pytest.approx(0.0123, abs=1e-7)
-    assert found.offset.drift == pytest.approx(rate, abs=1e-8)
-    assert found.residual < 1e-5
-    assert compare(estimates, truth, found.offset).total.max() < 3e-5
-
-
 @pytest.mark.parametrize(("noise", "delay"), [(1e-9, 0.004), (1e-2, 0.0)])
 def test_a_delay_that_noise_hides_is_not_removed(noise, delay):
     # 1e-3 rad/s off regular precession: a nutation of 1e-5 rad

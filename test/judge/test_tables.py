@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 from judge.cases import make_estimates, truth_and_stamps
 
-from symtop_ros.imu.main import main as imu_main
-from symtop_ros.judge.main import main
 from symtop_ros.judge.tables import read_table
 from symtop_ros.simulation.validation import RefusedError
 
@@ -81,21 +79,6 @@ def test_tables_of_all_forms_are_read(tmp_path, estimates, name):
     else:
         assert found.angular_velocities is None
     assert found.notes == ()
-
-
-def test_what_top_imu_writes_is_judged(tmp_path, capsys):
-    folder = tmp_path / "record"
-    command = ["--scene", "cusps", "--rate", "500", "--seconds", "2", "-o", str(folder)]
-    assert imu_main(command) == 0
-    for name in ("poses.tum", "state_groundtruth_estimate0/data.csv"):
-        found = [str(folder / "events.json"), "--estimates", str(folder / name)]
-        # the doubles of the states, and of their quaternions in the file
-        assert main([*found, "--attitude-of", "sensor", "--max-error", "2e-15"]) == 0
-    capsys.readouterr()
-    # what has no attitude is refused, with its header
-    imu = str(folder / "imu0/data.csv")
-    assert main([str(folder / "events.json"), "--estimates", imu]) == 1
-    assert "got the header #timestamp [ns],w_RS_S_x" in capsys.readouterr().err
 
 
 def test_what_is_no_attitude_is_left_out(tmp_path):

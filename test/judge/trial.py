@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from judge.cases import SECOND
-from judge.made import FRD, NED, Made, turn_z, wxyz
+from judge.made import FRD, NED, WRONG, Made, turn_z, wxyz
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real, Stamps, compose
@@ -28,6 +28,7 @@ SCENES = (
     *("spherical_pendulum", "through_the_pole", "perry_fails", "spin_reversal"),
 )
 NOISES = (0.0, 0.0, 1e-3, 5e-3)  # rad
+NOTHING = Made()
 Change = Callable[[Any, Motion, Stamps], Real]
 
 
@@ -40,6 +41,7 @@ class File:
     truth: Truth
     estimates: Estimates
     kinds: tuple[tuple[str, str, tuple[str, ...]], ...]
+    made: Made = NOTHING
 
 
 def draw_rotation(random: Random, low: float = 0.05, high: float = 2.0) -> Rotation:
@@ -61,8 +63,8 @@ def draw_own(random: Random) -> tuple[Made, tuple[str, str, tuple[str, ...]]]:
     }
     values: dict[str, Any] = {name: sign * size[name]} if name else {}
     level = random.choice(("none", "none", "heading", "world", "body", "both"))
-    change = random.choice(("", "", "", "order", "conjugate", "conjugate_order", "ned", "frd"))
-    if change in ("ned", "frd"):
+    change = random.choice(("", "", *WRONG, "ned", "frd", "ned_frd"))
+    if "ned" in change or "frd" in change:
         level = "none"
     if change == "conjugate_order" and level in ("body", "both"):
         level = "none"
@@ -72,8 +74,8 @@ def draw_own(random: Random) -> tuple[Made, tuple[str, str, tuple[str, ...]]]:
         "both": draw_rotation(random),
     }.get(level)
     body = draw_rotation(random) if level in ("body", "both") else None
-    world, body = (NED if change == "ned" else world), (FRD if change == "frd" else body)
-    wrong = change if change in ("order", "conjugate", "conjugate_order") else ""
+    world, body = (NED if "ned" in change else world), (FRD if "frd" in change else body)
+    wrong = change if change in WRONG else ""
     made = Made(world, body, change=wrong, noise=random.choice(NOISES), **values)
     return made, (change, level, (name,) if name else ())
 
@@ -158,7 +160,13 @@ def smooth(random: Random, motion: Motion, stamps: Stamps) -> Real:
     return np.asarray(mean / np.linalg.norm(mean, axis=1, keepdims=True))
 
 
+def forget(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    """Any attitudes."""
+    return wxyz(Rotation.random(len(stamps), random_state=random.randrange(2**32)))
+
+
 FOREIGN: dict[str, Change] = {
+    "any attitudes": forget,
     "scale of the tilt": scale_tilt,
     "Ix": change_top(Ix=1.0),
     "Iz": change_top(Iz=1.0),
@@ -187,7 +195,7 @@ def draw_file(number: int, own: bool) -> File:
     truth = scene_truth(scene)
     if own:
         made, kind = draw_own(random)
-        return File(str(made), scene, truth, made.make(truth, stamps, number), (kind,))
+        return File(str(made), scene, truth, made.make(truth, stamps, number), (kind,), made)
     name = sorted(FOREIGN)[number % len(FOREIGN)]
     motion = start_motion(Settings.from_scene(scene))
     q = FOREIGN[name](random, motion, stamps)

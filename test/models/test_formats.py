@@ -137,12 +137,3 @@ def test_the_body_hangs_from_the_world(world, top, with_tf, with_state_publisher
     while frame in parents:
         frame = parents[frame]
     assert frame == world
-
-
-@pytest.mark.parametrize("with_tf", [True, False])
-def test_the_urdf_is_one_tree(with_tf):
-    text = robot_description(ARTICLE, "world", "top", tf_moves_it=with_tf)
-    links = {each.get("name") for each in ElementTree.fromstring(text).iterfind("link")}
-    children = [child for _, _, child in joints(text)]
-    assert links - set(children) == {"world"}
-    assert sorted(children) == sorted(links - {"world"})

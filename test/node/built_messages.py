@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import importlib.util
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -21,6 +24,21 @@ def find_messages(package: str) -> Path | None:
     if not folder.is_dir():
         pytest.skip(f"{package} is not built: python workshop/messages.py")
     return folder
+
+
+@contextlib.contextmanager
+def importing(package: str) -> Iterator[None]:
+    """Make the messages of a package importable in this process."""
+    folder, module = find_messages(package), package.partition("-")[0]
+    with pytest.MonkeyPatch.context() as patch:
+        if folder:
+            patch.syspath_prepend(folder)
+            for path in (folder / "lib").glob("*typesupport_*_c.so"):
+                ctypes.CDLL(path)  # ROS asks the loader, which does not know the folder
+        yield
+    for name in [each for each in sys.modules if module in each]:
+        del sys.modules[name]
+    importlib.invalidate_caches()
 
 
 def with_messages(package: str, variables: dict[str, str]) -> dict[str, str]:

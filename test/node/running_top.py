@@ -197,14 +197,3 @@ def status_of(message: Any, name: str | None = None) -> Any:
 
 def events_named(events: list[Any], name: str) -> list[Any]:
     return [each for each in events if each.status[0].name == f"top: {name}"]
-
-
-def assert_recomputed(events: list[Any], orientations: list[Any]) -> None:
-    """Every sample is what its event says, bit for bit."""
-    segments = [(stamp_of(event), segment_of(event)) for event in events]
-    assert orientations
-    for message in orientations:
-        stamp, q = stamp_of(message), message.quaternion
-        segment = [each for begin, each in segments if begin <= stamp][-1]
-        expected = segment.state_at(stamp).orientation.tolist()
-        assert [q.w, q.x, q.y, q.z] == expected

@@ -4,13 +4,12 @@ import sys
 
 import pytest
 from exact_log import assert_exact
-from geometry_msgs.msg import QuaternionStamped, WrenchStamped
-from node.running_top import events_named, torque_of
+from geometry_msgs.msg import QuaternionStamped
+from node.running_top import events_named
 from programs import environment, execute, set_parameters
 
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.changes.timeline import Change
-from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.wording import write
 from workshop.load.domains import claim_domain
 
@@ -46,23 +45,6 @@ def assert_keeps_running(run):
     run.wait_for(samples, 20)
     assert_exact(run.end_log())
     assert run.top.failure is None
-
-
-def push(run):
-    run.publisher(WrenchStamped, "/top/applied_torque").publish(torque_of(z=1e-4))
-
-
-def test_one_in_an_applied_torque_is_reported_and_the_motion_keeps_running(
-    run, failures, monkeypatch
-):
-    monkeypatch.setattr(Simulation, "hold_torque", fail)
-    push(run)
-    run.spin_until(failures)
-    assert failures() == [report_of("~/applied_torque")]
-    monkeypatch.undo()
-    push(run)
-    run.spin_until(lambda: run.top.simulation.segment.motion.is_driven)
-    assert_keeps_running(run)
 
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):

@@ -3,7 +3,6 @@
 Each is answered in one sentence, the samples stay those of the motion, and so does the log.
 """
 
-import json
 import math
 
 import pytest
@@ -33,8 +32,14 @@ NAMES = {
 CALLS = st.sampled_from(list(NAMES)).flatmap(
     lambda service: st.tuples(st.just(service), parameters(NAMES[service]))
 )
-PLAIN = st.sampled_from(["hurry_precession", "reset", "get_state"])
-SWITCHED = st.tuples(st.sampled_from(["pause", "record"]), st.booleans())
+FRAMES = st.sampled_from(["world", "", "map", CONTROL * 100])
+TORQUES = st.tuples(st.lists(NUMBERS | SIZES, min_size=3, max_size=3), FRAMES)
+ACTS = (
+    CALLS
+    | st.tuples(st.sampled_from(["hurry_precession", "reset", "get_state"]), st.none())
+    | st.tuples(st.just("pause"), st.booleans())
+    | st.tuples(st.just("push"), TORQUES)
+)
 RESTORED = {
     **{name: PARAMETERS[name].default for name in PARAMETERS if not PARAMETERS[name].read_only},
     "publish_rate": RATE,
@@ -87,47 +92,40 @@ def run(tmp_path_factory):
         yield running
 
 
-@pytest.mark.parametrize("examples", trials(25, 150))
-def test_any_named_values_are_answered_in_a_sentence_and_the_node_keeps_running(run, examples):
+def act(run, name, argument):
+    """Do something, which is answered in a sentence."""
+    if name == "push":
+        run.push(*argument)
+        run.wait_for(run.samples, 3)
+    elif name == "get_state":
+        run.state()
+    elif argument is None:
+        assert_one_sentence(run.trigger(name)[1])
+    elif name == "pause":
+        assert_one_sentence(run.switch(name, argument)[1])
+    else:
+        for granted, reason in run.ask(name, argument):
+            if name.startswith("set_parameters") and granted:
+                assert reason == ""
+            else:
+                assert_one_sentence(reason)
+
+
+@pytest.mark.parametrize("examples", trials(60, 300))
+def test_any_acts_are_answered_and_leave_the_samples_and_the_log_exact(run, examples):
+    assert run.switch("record", True)[0]
+
     @deterministic(examples)
-    @given(calls=st.lists(CALLS, min_size=1, max_size=2))
-    def ask(calls):
-        for service, messages in calls:
-            for granted, reason in run.ask(service, messages):
-                if service.startswith("set_parameters") and granted:
-                    assert reason == ""
-                else:
-                    assert_one_sentence(reason)
+    @given(acts=st.lists(ACTS, min_size=1, max_size=3))
+    def check(acts):
+        for each in acts:
+            act(run, *each)
         run.restore()
         run.assert_samples_agree_with_the_motion()
 
-    ask()
-
-
-@deterministic(40)
-@given(plain=PLAIN, switched=SWITCHED, messages=parameters(KICK_FIELDS))
-def test_requests_in_any_order_are_answered_in_a_sentence(run, plain, switched, messages):
-    assert_one_sentence(run.switch(*switched)[1])
-    run.ask("kick", messages)
-    granted, text = run.trigger(plain)
-    assert granted
-    if plain == "get_state":
-        json.loads(text)
-    else:
-        assert_one_sentence(text)
-    run.restore()
-
-
-@deterministic(40)
-@given(
-    numbers=st.lists(NUMBERS | SIZES, min_size=3, max_size=3),
-    frame=st.sampled_from(["world", "", "map", CONTROL * 100]),
-)
-def test_any_torque_is_applied_or_refused_and_the_node_keeps_running(run, numbers, frame):
-    run.push(numbers, frame)
-    run.wait_for(run.samples, 3)
-    run.assert_samples_agree_with_the_motion()
-    run.restore()
+    check()
+    deviations = check_log(assert_no_deviation(run.end_log()))
+    assert not any(each.unreached for each in deviations.values())
 
 
 def test_a_million_numbers_are_refused_in_one_sentence(run):
@@ -192,22 +190,3 @@ def test_a_node_that_publishes_the_clock_does_not_follow_it(start_top):
     run = start_top(realtime=True, publish_clock=True)
     reason = "publish_clock must be false together with use_sim_time, got true"
     assert run.change({"use_sim_time": True}) == (False, reason)
-
-
-def test_the_log_of_all_that_agrees_with_its_events(run):
-    run.switch("record", False)
-    assert run.switch("record", True)[0]
-
-    @deterministic(60)
-    @given(call=CALLS)
-    def ask(call):
-        run.ask(*call)
-        run.assert_samples_agree_with_the_motion()
-
-    ask()
-    run.push([1e-4, math.inf, 0.0], "world")
-    run.push([1e-4, 0.0, 2e-4], "world")
-    run.restore()
-    run.assert_samples_agree_with_the_motion()
-    deviations = check_log(assert_no_deviation(run.end_log()))
-    assert not any(each.unreached for each in deviations.values())

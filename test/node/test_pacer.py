@@ -51,25 +51,17 @@ def test_where_only_the_clock_can_tell_it_waits_until_it_is_woken():
 
 
 def test_to_wake_it_during_a_tick_is_not_forgotten():
-    ticked = threading.Semaphore(0)
+    begun, ticks = threading.Event(), Ticks(None)
 
     def tick():
-        if ticked._value == 0:
-            pacers[0].wake()
-        ticked.release()
+        begun.wait(TIMEOUT)
+        pacer.wake()
+        return ticks.tick()
 
-    pacers = []
-    started = threading.Event()
-
-    def first():
-        started.wait(TIMEOUT)
-        return tick()
-
-    pacers.append(Pacer(first, print))
-    started.set()
-    assert ticked.acquire(timeout=TIMEOUT)
-    assert ticked.acquire(timeout=TIMEOUT)
-    pacers[0].stop()
+    pacer = Pacer(tick, ticks.fail)
+    begun.set()
+    assert ticks.done.wait(TIMEOUT)
+    pacer.stop()
 
 
 def test_an_error_ends_it_and_is_told():

@@ -5,7 +5,6 @@ import random
 import signal
 import subprocess
 import time
-from itertools import pairwise
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -18,18 +17,9 @@ from std_msgs.msg import String
 from waiting import until
 
 from symtop_ros.log.reader import McapFile
-from symtop_ros.session.session import Answer
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
-STATES = ("orientation", "angular_velocity", "angular_momentum", "torque", "euler_angles")
-TOPICS = {
-    "/robot_description",
-    "/tf",
-    "/diagnostics",
-    "/top/events",
-    *(f"/top/{name}" for name in STATES),
-}
 
 
 def messages_of(path):
@@ -40,24 +30,6 @@ def messages_of(path):
         for chunk in file.chunks()
         for message in chunk
     ]
-
-
-def test_samples_of_a_log_are_complete_and_share_their_stamps(start_top, tmp_path):
-    run = start_top(publish_rate=500.0, record=tmp_path)
-    run.spin_until(lambda: run.now > 10**9)
-    assert run.switch("record", True) == (True, str(Answer("recording", str(run.last_log))))
-    logged = messages_of(run.end_log())
-    assert run.switch("record", False) == (True, str(Answer("not_recording")))
-    assert {topic for topic, _, _ in logged} == TOPICS
-    assert logged[0][0] == "/top/events"
-    stamps = {
-        name: [log_time for topic, log_time, _ in logged if topic == name]
-        for name in ("/tf", *(f"/top/{name}" for name in STATES))
-    }
-    grid = stamps["/tf"]
-    assert len(grid) > 400
-    assert {b - a for a, b in pairwise(grid)} == {2_000_000}
-    assert all(each == grid for each in stamps.values())
 
 
 @pytest.mark.parametrize("limits", [{"max_duration": 0.5}, {"max_size": 50_000}], ids=str)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import importlib
 import os
 import sys
@@ -13,7 +12,7 @@ import pytest
 import yaml
 from documents import commands, names, rows
 from geometry_msgs.msg import QuaternionStamped
-from node.built_messages import find_messages
+from node.built_messages import find_messages, importing
 from node.running_top import stamp_of
 from programs import execute
 from rclpy.action import ActionClient
@@ -31,17 +30,9 @@ VERSION, WITHOUT_FLAGS = "SIMULATION_INTERFACES", "simulation_interfaces-1.0.0"
 @pytest.fixture(scope="module", autouse=True)
 def _messages():
     """Make the messages importable for the tests of this module."""
-    folder = find_messages(os.environ.get(VERSION, "simulation_interfaces"))
-    with pytest.MonkeyPatch.context() as patch:
-        if folder:
-            patch.syspath_prepend(folder)
-            for path in (folder / "lib").glob("*typesupport_*_c.so"):
-                ctypes.CDLL(path)  # ROS asks the loader, which does not know the folder
+    with importing(os.environ.get(VERSION, "simulation_interfaces")):
         yield
-    for name in [each for each in sys.modules if "simulation_interfaces" in each]:
-        del sys.modules[name]
     sys.modules.pop("symtop_ros.node.simulator", None)
-    importlib.invalidate_caches()
 
 
 class Client:

@@ -9,10 +9,10 @@ import rclpy
 from browser import running_browser
 from node.listener import Listener
 from node.running_top import RunningTop
+from serving import serving
 from waiting import until
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
-from symtop_ros.panel.server import LOCAL_HOST, PageServer
 from symtop_ros.physics import Motion, State
 from symtop_ros.web.join import write_file
 from workshop.load.domains import claim_domain
@@ -107,27 +107,6 @@ def test_integers_of_a_page_are_doubles_of_the_node(node, page):
     w, x, y, z = page.events[-1]["record"]["orientation"]
     assert State((w, x, y, z), (0, 0, 0)).euler_angles.theta == pytest.approx(1.0, abs=1e-15)
     assert ask(bridge, "set_parameters_atomically", {"top.Mgl": 1, "steady_torque": [0, 0, 1]})[0]
-
-
-def test_a_kick_is_an_event_of_the_run_as_of_its_log(node, page):
-    running, bridge = node
-    granted, answer = ask(bridge, "kick", {"precession_rate": 9, "hold": "spin_momentum"})
-    assert granted, answer
-    page.until(lambda: len(page.events) == 2)
-    kick = page.events[1]
-    assert kick["record"]["act"] == {"precession_rate": 9.0, "hold": "spin_momentum"}
-    assert kick["said"] == answer
-    start = running.top.simulation.segment.motion.start
-    assert kick["record"]["orientation"] == start.given_orientation.tolist()
-    assert kick["record"]["angular_velocity"] == start.angular_velocity.tolist()
-
-
-def test_what_the_node_refuses_is_its_answer(node, page):
-    _, bridge = node
-    granted, answer = ask(bridge, "kick", {"precession_rate": 1e12})
-    assert not granted
-    assert answer.startswith("precession_rate must be ")
-    assert len(page.events) == 1
 
 
 @pytest.mark.parametrize(
@@ -251,27 +230,15 @@ def start_of(running):
     return running.top.simulation.timeline.start.euler_angles
 
 
-@contextlib.contextmanager
-def serving(bridge, port=0):
-    server = PageServer(LOCAL_HOST, port, write_file(node=bridge.name), bridge)
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
-    thread.start()
-    try:
-        yield server
-    finally:
-        server.shutdown()
-        server.server_close()
-
-
 def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
     running, bridge = node
-
+    page = write_file(node=bridge.name)
     with running_browser() as browser:
         tab = browser.new_page()
         look = partial(tab.wait_for_timeout, 20)
         problems = []
         tab.on("pageerror", lambda error: problems.append(str(error)))
-        with serving(bridge) as server:
+        with serving(page, bridge) as server:
             port = server.server_address[1]
             tab.goto(server.url)
             until(lambda: "cusps" in tab.text_content("#headline"), look)
@@ -292,7 +259,7 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
             tab.goto(f"{server.url}#theta=1.25")
             until(lambda: abs(start_of(running).theta - 1.25) < 1e-9, look)
         until(lambda: "connection is lost" in tab.text_content("#lost"), look)
-        with serving(bridge, port):
+        with serving(page, bridge, port):
             until(lambda: tab.is_hidden("#lost"), look)
             tab.click("#tab-history")
             assert "again" not in tab.text_content("#refusal")
@@ -302,7 +269,8 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
 
 def test_a_held_button_pushes_the_node_until_it_is_released(node):
     running, bridge = node
-    with running_browser() as browser, serving(bridge) as server:
+    page = write_file(node=bridge.name)
+    with running_browser() as browser, serving(page, bridge) as server:
         tab = browser.new_page()
         look = partial(tab.wait_for_timeout, 20)
         tab.goto(server.url)

@@ -10,8 +10,9 @@ import time
 
 import pytest
 from listening import tcp_addresses
+from serving import serving
 
-from symtop_ros.panel.server import LOCAL_HOST, MAX_REQUEST, PageServer
+from symtop_ros.panel.server import LOCAL_HOST, MAX_REQUEST
 
 TIMEOUT = 60.0
 PORTS = ("", ":{port}")
@@ -32,28 +33,15 @@ class Node:
         yield from ({"time": number} for number in range(3))
 
 
-@contextlib.contextmanager
-def serving(node=None):
-    server = PageServer(LOCAL_HOST, 0, PAGE, node)
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    try:
-        yield server
-    finally:
-        server.shutdown()
-        server.server_close()
-        thread.join()
-
-
 @pytest.fixture(name="static", scope="module")
 def _static():
-    with serving() as server:
+    with serving(PAGE) as server:
         yield server
 
 
 @pytest.fixture(name="live", scope="module")
 def _live():
-    with serving(Node()) as server:
+    with serving(PAGE, Node()) as server:
         yield server
 
 
@@ -193,7 +181,7 @@ def test_a_page_that_is_closed_is_no_error(capsys):
             finally:
                 ended.set()
 
-    with serving(Endless()) as server:
+    with serving(PAGE, Endless()) as server:
         with socket.create_connection(server.server_address[:2]) as connection:
             connection.sendall(f"GET /news HTTP/1.1\r\nHost: {address(server)}\r\n\r\n".encode())
             assert begun.wait(TIMEOUT)
@@ -210,7 +198,7 @@ def test_a_slow_page_is_sent_little_that_it_has_not_taken():
                 sent.append(time.monotonic())
                 yield {"text": "x" * 1000}
 
-    with serving(Fast()) as server, socket.socket() as connection:
+    with serving(PAGE, Fast()) as server, socket.socket() as connection:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         connection.connect(server.server_address[:2])
         connection.sendall(f"GET /news HTTP/1.1\r\nHost: {address(server)}\r\n\r\n".encode())
@@ -227,6 +215,6 @@ def test_an_unexpected_exception_is_one_line(capsys):
         def answer(self, request):
             raise RuntimeError("a bug")
 
-    with serving(Broken()) as server, pytest.raises(http.client.RemoteDisconnected):
+    with serving(PAGE, Broken()) as server, pytest.raises(http.client.RemoteDisconnected):
         kick(server)
     assert capsys.readouterr().err == "top_panel: a request failed: RuntimeError('a bug')\n"

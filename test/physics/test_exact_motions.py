@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from mpmath import mp, mpf
-from physics.exact_motions import DIGITS, ExactMotion, agree, read_motions
-from physics.tops import EPS, attitude_error, error
+from physics.exact_motions import DIGITS, ExactMotion, agree, find_largest, read_motions
+from physics.tops import EPS, FAMILIES, attitude_error, error, random_case
 
 from symtop_ros.physics.reference import ClosedForm
 
@@ -42,6 +44,17 @@ def test_states_under_gravity_are_right_to_five_eps(family):
             off = error(omega[:2], state.angular_velocity[:2])
             assert off <= 5 * EPS * largest
             assert state.angular_velocity[2] == each.motion.start.angular_velocity[2]
+
+
+@settings(max_examples=100)
+@given(st.integers(0, 10**9), st.sampled_from(FAMILIES))
+def test_states_that_are_new_in_each_run_are_right_to_five_eps(seed, family):
+    case = random_case(seed, family)
+    exact, state = ClosedForm(case.inputs, 80), case.found
+    q, omega = exact.at(case.t)
+    assert attitude_error(q, state.orientation) <= 5 * EPS
+    off = error(omega[:2], state.angular_velocity[:2])
+    assert off <= 5 * EPS * find_largest(case.inputs, exact)
 
 
 @families(DRIVEN)

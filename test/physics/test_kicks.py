@@ -23,6 +23,7 @@ ROUNDING = 8 * EPS * 210.0  # of the largest rate, rad/s
 @pytest.mark.parametrize(("hold", "lost"), [("spin_rate", 0.0), ("spin_momentum", 2.6)])
 def test_a_change_of_rate_holds_theta_dot_and_the_spin_rate_or_axial_momentum(hold, lost):
     after = hurry(START, 1.4, hold)
+    assert after.orientation.tolist() == START.orientation.tolist()  # bit for bit
     if hold == "spin_momentum":
         assert ARTICLE.axial_momentum(after) == ARTICLE.axial_momentum(START)
     rates = after.euler_rates
@@ -34,12 +35,14 @@ def test_a_change_of_rate_holds_theta_dot_and_the_spin_rate_or_axial_momentum(ho
 def test_an_impulse_adds_to_the_angular_momentum_in_the_world():
     J = np.array([1e-4, -2e-3, 5e-4])
     after = apply_impulse(ARTICLE, START, J)
+    assert after.orientation.tolist() == START.orientation.tolist()  # bit for bit
     gained = ARTICLE.angular_momentum(after) - ARTICLE.angular_momentum(START)
     assert np.abs(gained - J).max() <= 16 * EPS * np.abs(ARTICLE.angular_momentum(START)).max()
 
 
 def test_a_push_on_the_axle_adds_what_is_across_it_in_its_vertical_plane():
     after = push_axle(ARTICLE, START, 1e-4)
+    assert after.orientation.tolist() == START.orientation.tolist()  # bit for bit
     gained = ARTICLE.angular_momentum(after) - ARTICLE.angular_momentum(START)
     phi, theta, _ = START.euler_angles
     up = [-math.cos(theta) * math.sin(phi), math.cos(theta) * math.cos(phi), math.sin(theta)]
@@ -53,22 +56,6 @@ def test_a_push_at_the_smallest_tilt_has_its_whole_size():
     start = State.from_euler(theta=1e-90, psi_dot=200.0)
     after = push_axle(ARTICLE, start, ARTICLE.Ix)
     assert np.hypot(*after.angular_velocity[:2]) == pytest.approx(1.0, rel=8 * EPS)
-
-
-@pytest.mark.parametrize(
-    "kick",
-    [
-        lambda state: push_axle(ARTICLE, state, 1.0),
-        hurry,
-        lambda state: hurry(state, hold="spin_momentum"),
-        lambda state: set_precession_rate(state, -3.0),
-        lambda state: apply_impulse(ARTICLE, state, [0, 0, 1]),
-    ],
-)
-def test_a_kick_leaves_the_attitude_bit_for_bit(kick):
-    after = kick(START)
-    assert after.orientation.tolist() == START.orientation.tolist()
-    assert after.angular_velocity.tolist() != START.angular_velocity.tolist()
 
 
 def test_a_kick_at_the_smallest_tilt_needs_no_division():

@@ -8,7 +8,7 @@ import pytest
 from physics.refusals import NOT_TOO_LATE, refused
 from physics.tops import ARTICLE, CUSPS, random_case
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, Motions, State, Top, compare_hurried
+from symtop_ros.physics import ExactTimes, Friction, Motion, Motions, State, Top
 
 PROPERTIES = (
     *("kind", "nutation_period", "mean_precession_rate", "mean_spin_rate", "nutation_rate"),
@@ -121,14 +121,6 @@ def test_each_motion_has_states_at_its_own_times():
         motions.at_each([0.0, 1.0, 2.0])
 
 
-def test_states_that_motions_have_reached_are_starts_of_others():
-    tops = Top(0.000228, 0.0000572, [0.06, 0.07])
-    reached = Motions(tops, CUSPS).at(1.0)
-    again = Motions(tops, reached)
-    assert again.at(0.0) == reached
-    assert again[1].at(0.5) == Motion(Top(0.000228, 0.0000572, 0.07), reached[1]).at(0.5)
-
-
 def test_a_motion_of_arrays_warns_and_is_many():
     with pytest.warns(DeprecationWarning, match=r"Motion\(\.\.\.\) of arrays is Motions"):
         found = Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)
@@ -147,13 +139,6 @@ def test_a_time_too_far_for_one_of_many_is_refused():
     tops = Top(0.000228, 0.0000572, [0.068, 0.07])
     with refused("t", NOT_TOO_LATE):
         Motions(tops, CUSPS).at([0.1, 1e17])
-
-
-def test_the_effect_of_hurrying_takes_many_tops():
-    tops = Top([0.000228, 0.0003], 0.0000572, [0.068, -0.05])
-    effect = compare_hurried(tops, theta=0.5, phi_dot=9.0, psi_dot=200.0)
-    for n, top in enumerate((Top(0.000228, 0.0000572, 0.068), Top(0.0003, 0.0000572, -0.05))):
-        assert effect.rise[n] == compare_hurried(top, 0.5, 9.0, 200.0).rise
 
 
 def test_one_top_compares_and_hashes_by_its_numbers():

@@ -124,15 +124,6 @@ def series_of(motion: Motion, digits: int = 40) -> Series:
     return returning_series(inputs, digits)
 
 
-def largest_rate(motion: Motion) -> float:
-    """The largest |omega_xy| of a motion under gravity: where the centre of mass is lowest."""
-    top, start = motion.top, motion.start
-    low, high = motion.turning_angles
-    height = float(start.vertical[2]) - math.cos(high if top.Mgl > 0 else low)
-    squared = float(start.angular_velocity[:2] @ start.angular_velocity[:2])
-    return math.sqrt(squared + 2 * top.Mgl / top.Ix * height)
-
-
 def to_state(exact) -> State:
     """The state of doubles next to an exact one."""
     return State(*([float(c) for c in part] for part in exact))

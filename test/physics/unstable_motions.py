@@ -1,13 +1,8 @@
-"""Motions next to the unstable vertical and the separatrix, and a trial of their derivatives.
-
-Run it as `PYTHONPATH=.:test python test/physics/unstable_motions.py 10000`; it takes half an hour,
-and writes what is wrong or refused. `from 5000` after the count leaves out the first ones.
-"""
+"""Motions next to the unstable vertical and the separatrix, and the error of their derivatives."""
 
 from __future__ import annotations
 
 import math
-import sys
 from typing import NamedTuple
 
 from drawn import Numbers
@@ -83,27 +78,3 @@ def find_error(case: Case) -> float | None:
         return None
     right = differentiate(case.motion, [case.t], digits=DIGITS, is_closed=True)
     return float(find_errors(case.motion, found, right).max()) / PROMISED
-
-
-def main() -> None:
-    last = int(sys.argv[1])
-    first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
-    worst, refused = dict.fromkeys(("vertical", "separatrix"), 0.0), 0
-    for number in range(first, last):
-        case = make_case(number)
-        error = find_error(case)
-        name = f"{number}: {case.family}, {case.nearness:.2g}, Iz/Ix = {case.motion.top.Iz:g}, "
-        name += f"t = {case.t / case.motion.nutation_period:.3g} periods"
-        if error is None:
-            refused += 1
-            print(name, "refused", "as promised" if case.may_be_refused else "WRONGLY", flush=True)
-            continue
-        worst[case.family] = max(worst[case.family], error)
-        if error > 1:
-            print(name, f"WRONG by {error:.3g} of the promised error", flush=True)
-    print(f"{last - first} motions, {refused} refused; largest errors of the others, in parts of")
-    print(f"{PROMISED:g}: " + ", ".join(f"{k} {v:.2g}" for k, v in worst.items()))
-
-
-if __name__ == "__main__":
-    main()

@@ -4,42 +4,16 @@ import io
 from pathlib import Path
 
 import numpy as np
-import pytest
-from matplotlib.figure import Figure
 from PIL import Image
 
-from workshop.pictures import documents, page, replay
 from workshop.pictures.pack import pack_shaded
-from workshop.speed import filters, plots
 
 ROOT = Path(__file__).parents[2]
-MEASURED = {f"{name}.png" for name in (*plots.NAMES, filters.NAME)}  # written with their tables
-
-
-@pytest.fixture
-def written(tmp_path, monkeypatch):
-    """The folder of the pictures, each of which is drawn as an empty one."""
-    blank = io.BytesIO()
-    Image.new("RGB", (9, 9)).save(blank, "PNG")
-    monkeypatch.setattr(documents, "pack_figure", lambda _: blank.getvalue())
-    monkeypatch.setattr(documents, "map_spin", lambda _: None)
-    monkeypatch.setattr(documents, "draw_map", lambda _, target: Figure().savefig(target))
-    monkeypatch.setattr("workshop.lesson.pictures.picture_of", lambda _: blank.getvalue())
-    monkeypatch.setattr(replay, "render", lambda _, __, target: target.touch())
-    assert documents.write_pictures(tmp_path) == 0
-    return tmp_path
 
 
 def list_pictures(folder):
     paths = [path for path in folder.rglob("*") if path.suffix in {".png", ".svg"}]
     return {path.relative_to(folder).as_posix() for path in paths}
-
-
-def test_every_picture_of_the_documents_is_written_by_a_command(written):
-    of_the_page = {f"{each.name}.png" for each in (*page.PICTURES, page.LESSON)}
-    found = list_pictures(written)
-    assert not found & of_the_page
-    assert found | of_the_page | MEASURED == list_pictures(ROOT / "docs")
 
 
 def test_every_picture_is_shown_by_a_document():

@@ -5,7 +5,6 @@ import pytest
 from log_files import LAYOUTS, Run, topic
 from programs import execute
 from rerun.chunk import McapReader
-from session.test_outputs import record_with_markers
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.repair import repair
@@ -46,30 +45,6 @@ def test_stamped_messages_are_the_same_numbers(name, chunks):
     assert np.array(numbers)[order].tolist() == ours(name).numbers.tolist()
 
 
-def test_transforms_are_the_same_rotations(chunks):
-    batches = [each.to_record_batch() for each in chunks if each.entity_path == "/tf"]
-    rows = [
-        (time.value, value[0])
-        for batch in batches
-        for time, value in zip(
-            batch.column("message_log_time"),
-            batch.column("Transform3D:quaternion").to_pylist(),
-            strict=True,
-        )
-    ]
-    rows.sort(key=lambda row: row[0])
-    expected = ours("tf")
-    assert [time for time, _ in rows] == expected.stamps.tolist()
-    drawn = np.array([value for _, value in rows])
-    assert np.array_equal(drawn, expected.numbers[:, 3:].astype(np.float32))
-
-
-def test_every_topic_has_as_many_messages(chunks):
-    for name in LAYOUTS:
-        batches = [each for each in chunks if each.entity_path == topic(name)]
-        assert sum(each.num_rows for each in batches) == 200
-
-
 @pytest.mark.parametrize("part", [1.0, 0.75, 0.5])
 def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_path):
     path = cut(tmp_path, part)
@@ -79,24 +54,6 @@ def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_pa
     done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
     assert done.returncode == 0, done.stdout
     assert all(topic(name) in done.stdout for name in LAYOUTS)
-
-
-def test_rerun_reads_a_log_with_markers(tmp_path):
-    path = record_with_markers(tmp_path)
-    assert execute([viewer.PROGRAM, "mcap", "check", "--full", path]).returncode == 0
-    rows = [each for each in McapReader(path).stream() if not each.is_static]
-    assert sum(each.num_rows for each in rows if each.entity_path == topic("markers")) == 31
-
-
-def test_rerun_recovers_the_same_samples_of_a_log_that_was_cut(tmp_path):
-    path = cut(tmp_path, 0.5)
-    chunks = McapReader(path, recover=True).stream()
-    rows = [each for each in chunks if not each.is_static]
-    found = sum(each.num_rows for each in rows if each.entity_path == topic("orientation"))
-    file = McapFile(path)
-    ours = [each for messages in file.chunks() for each in messages]
-    topics = [file.channels[each.channel_id].topic for each in ours]
-    assert found == topics.count(topic("orientation")) > 0
 
 
 def cut(folder, part):

@@ -1,15 +1,14 @@
 """Which releases run, what differs between them, and rows for those that fail."""
 
 import json
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from workshop.releases import environments, measure
+from workshop.releases import measure
 from workshop.releases.engines import ENGINES, list_cases
-from workshop.releases.measure import choose_next, find_jumps, measure_engine, measure_release
+from workshop.releases.measure import choose_next, find_jumps, measure_engine
 from workshop.releases.page import format_releases
 
 RELEASES = [f"1.{k}" for k in range(23)]
@@ -67,37 +66,6 @@ def test_a_release_that_does_not_install_is_a_row_with_its_reason(tmp_path, monk
     assert found["reason"].startswith("does not install: ")
     assert json.loads((tmp_path / "Missing.json").read_text()) == {"1.0": found}
     assert [each.name for each in tmp_path.iterdir()] == ["Missing.json"]  # no environment is left
-
-
-@pytest.mark.parametrize(
-    ("program", "limit", "reason"),
-    [
-        ("raise RuntimeError('no such joint')", 120, "RuntimeError: no such joint"),
-        ("import time; time.sleep(600)", 1, "took more than 1 s"),
-    ],
-)
-def test_a_release_that_ends_or_hangs_is_a_row_with_its_reason(
-    program, limit, reason, tmp_path, monkeypatch
-):
-    monkeypatch.setattr(measure, "HOME", tmp_path)
-    monkeypatch.setattr(measure, "install", lambda *_: "")
-    monkeypatch.setattr(measure, "LIMIT", limit)
-    (python, *_) = environments.find_pythons()
-    found = measure_release(replace(MUJOCO, program=program), "1.0", python)
-    assert found == {"reason": f"does not run: {reason}"}
-
-
-@pytest.mark.parametrize("answer", ["", '{"error": {"code": "E404"}}'])
-def test_a_registry_that_does_not_answer_leaves_the_results_of_before(
-    answer, tmp_path, monkeypatch
-):
-    monkeypatch.setattr(measure, "HOME", tmp_path)
-    monkeypatch.setattr(
-        environments, "execute", lambda *_: subprocess.CompletedProcess([], 1, answer, "")
-    )
-    (tmp_path / "Jolt.json").write_text(json.dumps({"1.10": row(0.5), "1.9": row(0.5)}))
-    (jolt,) = (engine for engine in ENGINES if engine.name == "Jolt")
-    assert [*measure_engine(jolt)] == ["1.9", "1.10"]
 
 
 def test_a_level_is_scored_when_all_of_its_problems_are(tmp_path):

@@ -1,17 +1,19 @@
 """Topics of a run: who gets which bytes."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
 from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.models.urdf import LENGTH
+from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
-from symtop_ros.session.outputs import ARROWS
+from symtop_ros.session.outputs import ARROWS, PERIOD, Markers
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN
@@ -114,6 +116,25 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
     assert [each.ns for each in arrows] == list(ARROWS)
     assert (len(trace.points), trace.type, trace.header.frame_id) == (31, trace.LINE_STRIP, "world")
     assert {each.type for each in arrows} == {trace.ARROW}
+    motion, stamp = start_motion(Settings.from_scene("cusps")), trace.header.stamp
+    state = motion.at(ExactTimes(stamp.sec * SECOND + stamp.nanosec))
+    vectors = [state.to_world(each) for each in ([0.0, 0.0, 1.0], state.angular_velocity)]
+    vectors += [motion.top.angular_momentum(state), motion.top.gravity_torque(state)]
+    for point, vector in zip(
+        [trace.points[-1], *(each.points[1] for each in arrows)], vectors, strict=True
+    ):
+        # rounding of a product and a division
+        end = np.array([point.x, point.y, point.z])
+        assert end / np.linalg.norm(end) == pytest.approx(
+            vector / np.linalg.norm(vector), abs=1e-15
+        )
+    assert np.linalg.norm([*vars(trace.points[-1]).values()][:3]) == pytest.approx(LENGTH)
+
+
+def test_markers_are_due_at_the_first_sample_of_a_period_and_after_a_jump_back():
+    markers = Markers("world")
+    due = [markers.is_due(each) for each in (0, PERIOD - 1, PERIOD, 2 * PERIOD + 1, PERIOD - 1)]
+    assert due == [True, False, True, True, True]
 
 
 def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_rests():
@@ -152,22 +173,6 @@ def test_the_urdf_moves_by_tf_while_that_is_published():
     assert b"floating" not in without
 
 
-def test_a_log_has_all_topics_although_nothing_is_published(tmp_path):
-    host = Program(publishes=False)
-    session, clock = start(host, record__directory=str(tmp_path))
-    assert session.answer("record", lambda: True)[0]
-    advance(session, clock, 0.5)
-    session.keep_up()
-    session.close()
-    (path,) = tmp_path.iterdir()
-    log = TopLog(McapFile(Path(path)))
-    samples = {
-        name: len(each.stamps) for batch in log.batches() for name, each in batch.columns.items()
-    }
-    assert set(samples.values()) == {101}
-    assert log.problems == []
-
-
 @pytest.mark.parametrize("name", SERVICES)
 def test_each_service_is_answered_with_a_sentence(name, tmp_path):
     host = Program()
@@ -179,15 +184,6 @@ def test_each_service_is_answered_with_a_sentence(name, tmp_path):
     assert granted == (name not in ("kick", "step")), answer
     assert answer
     assert host.errors == []
-
-
-def test_a_refused_torque_is_named_and_leaves_the_motion():
-    session, clock = start(Program())
-    advance(session, clock, 0.1)
-    before = session.simulation.segment
-    reason = session.hold_torque((0.0, 0.0, float("nan")))
-    assert reason.startswith("applied_torque must be 3 numbers")
-    assert session.simulation.segment is before
 
 
 @pytest.mark.parametrize(

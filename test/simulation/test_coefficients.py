@@ -5,7 +5,6 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
-import pytest
 from physics.tops import ARTICLE, CUSPS
 
 import symtop_ros
@@ -50,8 +49,3 @@ def find_places_without(names):
 
 def test_every_place_has_the_coefficients_of_friction():
     assert find_places_without(COEFFICIENTS) == set()
-
-
-@pytest.mark.parametrize("names", [[*COEFFICIENTS, "rolling"], COEFFICIENTS[:1]])
-def test_one_more_or_less_is_missed_in_each_place(names):
-    assert len(find_places_without(names)) == 7

@@ -38,24 +38,18 @@ def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
         ({"format": 3, "events": []}, "must be a run of the page"),
         ({"format": 1, "events": []}, "events must be "),
         ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
-        (change(0, kind="kick"), r"events\[0\]: "),
         (
             change(0, kind="torque"),
             r"events\[0\]: kind must be \"start\" for the first event, got ",
         ),
-        (change(1, time=-1.0), r"events\[1\]: time must be "),
-        (change(1, time="soon"), r"events\[1\]: time must be "),
         (
             change(2, time=1.0),
             r"events\[2\]: time must be that of the event before it or later, got 1",
         ),
-        (change(0, orientation=[1, 0, 0]), r"events\[0\]: orientation must have 4 "),
         (change(0, orientation=[2, 0, 0, 0]), r"events\[0\]: .*norm"),
         (change(0, angular_velocity=[math.inf, 0, 0]), r"events\[0\]: angular_velocity must be "),
         (change(0, top=[1, 3, 1]), r"events\[0\]: Iz must be "),
         (change(0, friction=[-1, 0]), r"events\[0\]: friction.axial must be "),
-        (change(1, act={"speed": 1}), r"events\[1\]: field name must be one of "),
-        (change(1, act=None), r"events\[1\]: act must be "),
     ],
 )
 def test_a_file_that_is_no_run_is_one_message(content, message, tmp_path):

@@ -10,7 +10,6 @@ from simulation.runs import SECOND, Run
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import MAX_BLOCK
 from symtop_ros.simulation.topics import STATE_TOPICS
-from symtop_ros.simulation.validation import RefusedError
 
 MS = SECOND // 1000
 
@@ -140,10 +139,15 @@ def test_a_torque_acts_until_its_time_out_to_the_nanosecond():
     run.assert_recomputed()
 
 
-def test_a_torque_in_another_frame_is_refused():
+def test_a_torque_that_is_repeated_acts_on_without_further_events():
     run = Run()
-    with pytest.raises(RefusedError, match='applied_torque frame_id must be "world" or empty'):
-        run.simulation.hold_torque((0.0, 0.0, 1.0), "top")
+    run.advance(0.1)
+    for _ in range(8):
+        run.push((0.0, 0.0, 2e-4))
+        run.advance(0.05)
+    run.advance(0.2)
+    begin, end = [event for event in run.sink.events if event.name == "torque"]
+    assert end.stamp - begin.stamp == (7 * 50 + 100) * MS
 
 
 def fail():

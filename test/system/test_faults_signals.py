@@ -24,7 +24,6 @@ TIMEOUT = 60.0
 SILENT = {-signal.SIGINT, -signal.SIGTERM}  # ended before there was anything to put in order
 RECORDING = ("publish_rate:=1000", "record.enabled:=true")
 SECONDS, ATTEMPTS = 1.0, 3
-OF_LOAD = "no samples for", "Failed to publish log message to rosout"
 
 
 @contextlib.contextmanager

@@ -1,17 +1,12 @@
-"""Random acts on the page in Chromium, for some minutes: no error, no stop, and a run to be read.
-
-PYTHONPATH=.:test python test/web/random_acts.py MINUTES [SEED]
-"""
+"""Random acts on the page in Chromium: no error, no stop, and a run that Python reads."""
 
 import json
 import random
-import sys
 import tempfile
 import time
 from collections import Counter
 from pathlib import Path
 
-from browser import running_browser
 from simulation.page_runs import find_refusal, list_hostile_runs
 from web.odd_tops import draw_start, write_address
 from web.opened import Opened
@@ -53,9 +48,9 @@ class Trial:
     def open(self, path):
         return Opened(self.browser, path, script=COUNT + SILENT)
 
-    def act(self):
-        """Do an act; return its name. The page keeps running, and Python reads its run."""
-        name = self.rng.choice(ACTS)
+    def act(self, names):
+        """Do one of some acts; return its name. The page goes on, and Python reads its run."""
+        name = self.rng.choice(names)
         self.acts[name] += 1
         getattr(self, f"do_{name}")()
         self.wait_for_frames()
@@ -90,6 +85,11 @@ class Trial:
 
     def do_field(self):
         self.page.enter(self.rng.choice(FIELDS), self.rng.choice(TEXTS))
+
+    def do_friction(self):
+        scene = self.rng.choice(("friction", "vertical_torque", "sleeping_wakes", "cusps", "disc"))
+        self.page.follow(f"scene={scene}")
+        self.page.enter("friction.axial", self.rng.choice(("0", "2e-6", "1e-5")))
 
     def do_torque(self):
         self.page.open_tab("push")
@@ -175,22 +175,9 @@ def run(browser, seed, seconds, most=10**9):
         trial = Trial(browser, folder, seed)
         while time.monotonic() < end and trial.acts.total() < most:
             try:
-                trial.act()
+                trial.act(ACTS)
             except BaseException:
                 print(f"seed {seed}, act {trial.acts.total()}, {trial.page.tab.url[-300:]}")
                 raise
         trial.page.close()
     return trial.acts
-
-
-def main(arguments):
-    minutes = float(arguments[0])
-    seed = int(arguments[1]) if len(arguments) > 1 else random.randrange(10**6)
-    print(f"seed {seed}", flush=True)
-    with running_browser() as browser:
-        acts = run(browser, seed, 60 * minutes)
-    print(f"{acts.total()} acts: {', '.join(f'{n} {each}' for each, n in acts.most_common())}")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])

@@ -137,15 +137,3 @@ def test_kicks_records_and_sentences_are_those_of_python(tab):
             assert to_json(found[name]) == value, (name, case)
         kinds.add(wanted["record"]["reason"]["kind"])
     assert len(kinds) >= 7  # hurried, delayed, and why the rule is silent
-
-
-def test_equal_roots_have_the_order_of_python_at_a_spin_of_minus_zero(tab):
-    top = {**ARTICLE, "Mgl": -0.068}
-    found = tab.evaluate(
-        """(top) => {
-            return [0, -0].map((spin) => kernel.findRegularRates(top, 0.5, spin));
-        }""",
-        top,
-    )
-    expected = [regular_precession_rates(Top(**top), 0.5, spin) for spin in (0.0, -0.0)]
-    assert [*map(tuple, found)] == expected

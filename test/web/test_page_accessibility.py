@@ -124,17 +124,6 @@ def test_a_word_of_the_reason_has_the_colour_of_its_arrow_and_shows_it(opened):
     opened.tab.locator(".label:visible", has_text="L").wait_for()
 
 
-def test_the_legend_has_what_is_drawn_and_was_not_at_first(opened):
-    names = opened.tab.locator("#legend li:visible")
-    before = names.all_inner_texts()
-    assert len(before) == 3
-    opened.open_tab("view")
-    opened.tab.get_by_label("fictitious torques").check()
-    assert "Coriolis" in names.all_inner_texts()
-    opened.tab.get_by_label("fictitious torques").uncheck()
-    assert names.all_inner_texts() == before
-
-
 def test_the_arrows_are_of_different_colours_without_seeing_green(opened):
     marks = read_marks(opened)
     arrows = [color for name in ("L", "ω", "torque", "trace") for color in marks[name]]

@@ -92,13 +92,6 @@ def test_a_keyboard_does_a_step_on_a_phone(open_page):
     assert page.tab.evaluate("document.documentElement.scrollWidth") <= 390
 
 
-def test_the_tab_opens_the_lesson_at_its_first_step(opened):
-    opened.open_tab("lesson")
-    assert opened.say("lesson-predict") == STEPS[0].predict
-    assert opened.tab.locator(".looked").count() == len(STEPS[0].charts)
-    assert opened.say("pause") == "Run"
-
-
 def test_back_is_the_step_before(open_page):
     page = open_page("#lesson=2")
     page.tab.fill("#prediction", "it falls")

@@ -1,14 +1,6 @@
 """A run is kept: over a reload, with Back, through a sleep of the computer, and in a small file."""
 
 import pytest
-from web.opened import find_time, read_motion, read_state
-
-from symtop_ros.physics import State, Top, hurry
-from symtop_ros.web.join import write_file
-
-HOUR = 3600.0  # s
-ACTS = 40  # in an hour
-LARGEST = 20_000  # bytes
 
 
 @pytest.mark.parametrize(
@@ -56,48 +48,3 @@ def test_a_sleep_of_the_computer_loses_nothing(open_page):
     assert run["events"] == events
     assert before < run["end"] < before + 0.1  # s: it continues from where it was
     page.wait_for_time(run["end"])
-
-
-def make_hour():
-    """A run of an hour: a top that is kicked again and again."""
-    top, state = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
-    events = []
-    for n in range(ACTS):
-        event = {
-            "kind": "kick" if n else "start",
-            "time": n * HOUR / ACTS,
-            "top": [*top.moments],
-            "orientation": state.given_orientation.tolist(),
-            "angular_velocity": state.angular_velocity.tolist(),
-            "friction": [0, 0],
-            "torque": [0, 0, 0],
-            "request": "hurried: phi' times 1.1" if n else "started",
-        }
-        if n:
-            act = {"precession_rate_factor": 1.1, "hold": "spin_rate"}
-            event |= {"act": act, "hold": "spin_rate"}
-        events.append(event)
-        time = find_time({"time": n * HOUR / ACTS}, {"time": (n + 1) * HOUR / ACTS})
-        state = hurry(read_motion(event).at(time), 1.1 if n % 2 else 1 / 1.1)
-    return {"format": 2, "events": events, "end": HOUR}
-
-
-def test_the_run_of_an_hour_is_a_small_file_and_every_moment_of_it_is_there(opened, tmp_path):
-    hour = make_hour()
-    opened.drop(hour)
-    opened.until(lambda: float(opened.tab.get_attribute("#timeline", "max")) == HOUR)
-    assert opened.read_run() == hour
-    saved = opened.save("This run as a page", tmp_path)
-    assert saved.stat().st_size - len(write_file().encode()) < LARGEST
-    moment = 1234.567
-    opened.seek(moment)
-    place = int(moment / (HOUR / ACTS))
-    event = hour["events"][place]
-    state = read_motion(event).at(find_time(event, {"time": moment}))
-    opened.until(lambda: float(opened.tab.get_attribute("body", "data-time")) == moment)
-    assert float(opened.tab.get_attribute("body", "data-theta")) == state.euler_angles.theta
-    opened.tab.click("#hurry")
-    events = opened.read_events()
-    assert events[:-1] == hour["events"][: place + 1]
-    after = hurry(state, 1.4)
-    assert read_state(events[-1]).angular_velocity.tolist() == after.angular_velocity.tolist()

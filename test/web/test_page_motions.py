@@ -1,10 +1,8 @@
 """Acts on the page: starts, kicks and torques are those of Python."""
 
-import math
-
 import numpy as np
 import pytest
-from web.opened import find_time, read_motion, read_state
+from web.opened import find_time, read_motion
 
 from symtop_ros.physics import (
     Body,
@@ -14,7 +12,6 @@ from symtop_ros.physics import (
     apply_impulse,
     hurry,
     kick_verdict,
-    perrys_rule,
 )
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
@@ -34,15 +31,6 @@ def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
     verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate")
     assert why == write("kick", verdict)
     assert opened.say("headline").startswith("The top rises 0.063")
-
-
-@pytest.mark.wording
-def test_a_start_is_judged_as_by_python(opened):
-    opened.enter("theta", "1.1")
-    motion = read_motion(opened.read_events()[-1])
-    verdict = write("verdict", perrys_rule(motion.top, motion.start))
-    assert motion.start.euler_angles.theta == pytest.approx(1.1, rel=1e-15)
-    assert opened.say("why").startswith(f"{motion.kind}: {verdict}")
 
 
 def test_every_scene_starts_with_the_doubles_of_a_node(opened):
@@ -95,20 +83,6 @@ def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
     torques = [each["torque"] for each in opened.read_events() if each["kind"] == "torque"]
     assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]]
-
-
-def test_a_push_changes_the_rates_as_it_says(opened):
-    opened.tab.click("text=Pause")
-    opened.open_tab("push")
-    before = opened.read_events()[-1]
-    opened.open_tab("push")
-    for way in ("up", "along"):
-        opened.tab.click(f"[data-push={way}]")
-    *_, up, along = opened.read_events()
-    rates = [read_state(event).euler_rates for event in (before, up, along)]
-    assert rates[1].theta - rates[0].theta == pytest.approx(-1.0, rel=1e-12)
-    assert rates[2].phi - rates[1].phi == pytest.approx(1.0, rel=1e-12)
-    assert math.isclose(along["angular_velocity"][2], up["angular_velocity"][2], rel_tol=1e-15)
 
 
 def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):

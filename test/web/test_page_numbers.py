@@ -1,10 +1,10 @@
 """In random runs the page shows the state that it draws, to the digits that it shows."""
 
 import math
-import random
 import re
 
 import pytest
+from web.random_acts import Trial
 
 from symtop_ros.physics import (
     ExactTimes,
@@ -16,7 +16,7 @@ from symtop_ros.physics import (
 )
 
 FIELDS = "theta", "phi_dot", "psi_dot"
-SCENES = "friction", "vertical_torque", "hurry_slow", "cusps", "sleeping_wakes", "disc"
+ACTS = "run", "run", "scrub", "key", "torque", "friction"  # after which numbers may be old ones
 FOLLOWS = 700  # ms; the page writes its texts every 250 ms, and draws a frame every 120 ms here
 NUMBER = r"-?[\d.]+(?:e[+-]?\d+)?"
 READ = """() => ({
@@ -84,67 +84,23 @@ class Shown:
             assert is_rounded(tilts[2] or tilts[1], high), (headline, high)
 
 
-def act(page, rng):
-    """Do one of the acts after which numbers could be those of another state."""
-    kind = rng.choice(("scene", "kick", "torque", "seek", "run", "run", "field"))
-    if kind == "scene":
-        page.follow(f"scene={rng.choice(SCENES)}")
-    elif kind == "kick":
-        page.press(rng.choice(("h", "d", "ArrowUp", "ArrowRight")))
-    elif kind == "torque":
-        page.open_tab("push")
-        button = page.tab.locator(f"[data-sign='{rng.choice((1, -1))}']")
-        button.dispatch_event("pointerdown")
-        page.tab.wait_for_timeout(rng.uniform(100, 500))
-        button.dispatch_event("pointerup")
-        page.tab.wait_for_timeout(300)
-    elif kind == "seek":
-        page.seek(rng.random() * page.read_run()["end"])
-    elif kind == "run":
-        if page.say("pause") == "Run":
-            page.press("Space")
-        page.tab.wait_for_timeout(rng.uniform(300, 1500))
-    else:
-        page.enter("friction.axial", rng.choice(("0", "2e-6", "1e-5")))
-    return kind
-
-
 @pytest.mark.parametrize(
     ("seed", "count"), [(1, 25), *(pytest.param(n, 400, marks=pytest.mark.long) for n in (2, 3))]
 )
-def test_every_number_shown_is_that_of_the_state_drawn(open_page, seed, count):
-    page, rng = open_page("#scene=friction"), random.Random(seed)
-    page.tab.select_option("#speed", "1")
-    kinds = []
+def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, count):
+    trial, kinds = Trial(browser, tmp_path, seed), []
+    trial.page.follow("scene=friction")
+    trial.page.tab.select_option("#speed", "1")
     for _ in range(count):
-        kinds.append(act(page, rng))
-        if page.say("pause") == "Pause":
-            page.press("Space")
-        page.tab.evaluate("document.activeElement.blur()")
-        page.tab.wait_for_timeout(FOLLOWS)
-        if page.say("refusal"):
-            page.press("Escape")
-        Shown(page).check(page)
-    assert {"run", "seek"} <= {*kinds}
-
-
-def read_all(page):
-    return page.tab.evaluate(READ), page.say("headline"), page.say("why")
-
-
-def test_a_seek_shows_what_waiting_shows(open_page):
-    page = open_page("#scene=friction")
-    page.tab.select_option("#speed", "1")
-    page.wait_for_time(1.0)
-    page.press("Space")
-    page.tab.wait_for_timeout(FOLLOWS)
-    waited, end = read_all(page), page.read_run()["end"]
-    page.seek(0.3)
-    page.tab.wait_for_timeout(FOLLOWS)
-    assert read_all(page) != waited
-    page.seek(end)
-    page.tab.wait_for_timeout(FOLLOWS)
-    assert read_all(page) == waited
+        kinds.append(trial.act(ACTS))
+        if trial.page.say("pause") == "Pause":
+            trial.page.press("Space")
+        trial.page.tab.wait_for_timeout(FOLLOWS)
+        if trial.page.say("refusal"):
+            trial.page.press("Escape")
+        Shown(trial.page).check(trial.page)
+    trial.page.close()
+    assert {"run", "scrub"} <= {*kinds}
 
 
 def test_a_kick_under_friction_is_said_to_be_past(open_page):

@@ -1,14 +1,12 @@
 """The page runs no other code: data stand as data, and its policy allows its own script."""
 
-import contextlib
-import threading
 import time
 
 import pytest
+from serving import serving
 from simulation.page_runs import change
 from web.opened import KNOWN
 
-from symtop_ros.panel.server import LOCAL_HOST, PageServer
 from symtop_ros.web.join import write_file
 
 SITE = "http://top.test/"
@@ -59,19 +57,6 @@ class Node:
 
     def answer(self, request):
         return {"granted": True, "answer": ""}
-
-
-@contextlib.contextmanager
-def serving(page, node=None):
-    server = PageServer(LOCAL_HOST, 0, page, node)
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    try:
-        yield server.url
-    finally:
-        server.shutdown()
-        server.server_close()
-        thread.join()
 
 
 @pytest.fixture
@@ -131,24 +116,18 @@ DROP = """(text) => {
 }"""
 
 
-@pytest.mark.long  # as in a saved page, above
-def test_the_policy_holds_in_a_file(tab, path):
-    tab.goto(path.as_uri())
-    check(tab.main_frame)
-
-
 def test_the_policy_holds_in_a_page_that_is_served(tab):
-    with serving(write_file()) as url:
-        tab.goto(url)
+    with serving(write_file()) as server:
+        tab.goto(server.url)
         check(tab.main_frame)
 
 
 def test_the_policy_of_a_node_allows_its_server_only(tab):
-    with serving(write_file(node="/top"), Node()) as url:
-        tab.goto(url)
+    with serving(write_file(node="/top"), Node()) as server:
+        tab.goto(server.url)
         tab.wait_for_selector("#lost:not([hidden])")
         assert tab.text_content("#lost") == "no node here"
-        assert attack(tab.main_frame, f"{url}news") == [f"{url}news"]
+        assert attack(tab.main_frame, f"{server.url}news") == [f"{server.url}news"]
 
 
 def test_the_policy_holds_in_a_frame_of_the_site(tab):

@@ -1,10 +1,7 @@
 """The page as one file: opened from a disk without a network, saved and opened again."""
 
-import json
-
 import numpy as np
 import pytest
-from web.opened import FEW_FRAMES
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.join import write_file
@@ -69,19 +66,3 @@ def test_scripts_find_the_motions_of_python(opened):
     motion = Motion(Top(**top), State(start["orientation"], angular_velocity))
     state = np.concatenate(motion.at(3.7).parts).tolist()
     assert found == [state, motion.kind, list(motion.turning_angles), motion.nutation_period]
-
-
-def test_the_picture_moves_and_can_be_saved(open_page, tmp_path):
-    pictures, opened = set(), open_page(script=FEW_FRAMES)  # drawn
-    for _ in range(2):
-        pictures.add(opened.save("Picture (PNG)", tmp_path).read_bytes())
-        opened.tab.click("text=Step")
-    assert len(pictures) == 2
-    assert all(len(picture) > 5000 for picture in pictures)
-
-
-def test_the_run_is_saved_as_json(opened, tmp_path):
-    opened.tab.click("#hurry")
-    saved = json.loads(opened.save("This run (JSON)", tmp_path).read_text())
-    assert saved["events"] == opened.read_events()
-    assert [event["kind"] for event in saved["events"]] == ["start", "kick"]

@@ -15,7 +15,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 
 from symtop_ros.wire import messages
-from symtop_ros.wire.layout import Count, DecodeError, Doubles, Layout, Reader, Stamp, Text
+from symtop_ros.wire.layout import DecodeError, Doubles, Layout, Reader, Stamp
 
 DOUBLE = st.floats(allow_nan=False)
 STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
@@ -123,13 +123,6 @@ def test_bytes_that_are_no_message_are_refused_and_the_others_read(name, damaged
 def test_a_sequence_cannot_announce_more_than_there_is():
     with pytest.raises(DecodeError, match="sequence of 4294967295 elements does not fit in 12 b"):
         Reader(b"\0\1\0\0" + b"\xff" * 8).strings()
-
-
-def test_doubles_are_aligned_to_eight_from_the_end_of_the_header():
-    layout = Layout(Stamp(), Text("abc"), Count(1), Doubles(1))
-    packed = layout.encode(0, [1.0])
-    assert len(packed) == 4 + 24 + 8
-    assert packed[28:] == np.float64(1.0).tobytes()
 
 
 FORMATS = [each for each in vars(messages).values() if isinstance(each, messages.Format)]

@@ -14,11 +14,8 @@ from physics.kernel.test_c_interface import KERNEL, ROOT, build, compare, needs_
 from programs import execute
 
 from symtop_ros import __version__
-from symtop_ros.physics import Motion, State, Top
 
-CUSPS = [0.9689124217106447, 0.24740395925452294, 0.0, 0.0]  # as example.c has them
 WARNINGS = ["-Wall", "-Wextra", "-Werror"]
-LONG = pytest.mark.long
 HAS_FMA = platform.machine() == "x86_64" and " fma " in Path("/proc/cpuinfo").read_text()
 needs_cmake = pytest.mark.skipif(
     not all(map(shutil.which, ("g++", "cmake", "pkg-config"))),
@@ -97,12 +94,6 @@ def test_all_files_are_written_and_name_the_version(drop_in):
     assert (drop_in / "example.c").read_text() in (drop_in / "README.md").read_text()
 
 
-def test_writing_again_gives_the_same_files(drop_in):
-    before = {path: path.read_bytes() for path in drop_in.iterdir()}
-    assert write(drop_in.parent) == drop_in
-    assert {path: path.read_bytes() for path in drop_in.iterdir()} == before
-
-
 @needs_compiler
 def test_the_one_source_is_the_kernel_word_for_word(drop_in):
     """As the compiler reads both, so what is asked of the kernel elsewhere holds here."""
@@ -112,22 +103,6 @@ def test_the_one_source_is_the_kernel_word_for_word(drop_in):
     )
     of_warnings = '#pragma GCC diagnostic ignored "-Wpsabi"'  # the other one is for FMA
     assert found.replace(of_warnings, "", 1).split() == expected.split()
-
-
-@needs_compiler
-def test_a_program_in_c_that_is_linked_with_it_has_the_bits_of_python(tmp_path, kernel):
-    compare([build("print_motions.c", tmp_path, kernel)], *list_many())
-
-
-@needs_compiler
-@pytest.mark.parametrize(
-    ("spin", "t"), [(200.0, 10.0), (203.7, 1e6 / 3), (-0.1, -0.7), (0.0, 0.3), (1e-300, 5e-324)]
-)
-def test_the_example_prints_the_doubles_of_python(spin, t, example):
-    printed = subprocess.check_output([example, spin.hex(), t.hex()], text=True)
-    numbers = [float(each) for each in re.findall(r"-?\d\S*", printed)]
-    state = Motion(Top(0.000228, 0.0000572, 0.068), State(CUSPS, [0.0, 0.0, spin])).at(t)
-    assert numbers == [*state.orientation, *state.angular_velocity]
 
 
 @needs_compiler
@@ -171,20 +146,6 @@ def check_project(drop_in, project, find, *options):
     (project / "CMakeLists.txt").write_text("\n".join([PROJECT, find or first, program, last]))
     configure_and_build(project, project / "build", *options)
     assert run_script("build/my_test", project) == read_console(drop_in, 0)[1]
-
-
-@needs_compiler
-@pytest.mark.parametrize(
-    "options", ["-march=native", *(pytest.param(o, marks=LONG) for o in ("-mfma", "-O3 -mfma"))]
-)
-def test_a_compiler_that_may_use_fused_operations_changes_no_bit(options, drop_in, tmp_path):
-    if options != "-march=native" and not HAS_FMA:
-        pytest.skip("this processor has no fused operations of x86")
-    target = tmp_path / "symtop.o"
-    command = ["g++", "-std=c++17", "-O2", *options.split(), "-ffp-contract=off", *WARNINGS]
-    command += ["-c", "symtop.cpp", "-o", target]
-    subprocess.run(command, cwd=drop_in, check=True, timeout=300)
-    compare([build("print_motions.c", tmp_path, target)], *list_many())
 
 
 @needs_cmake

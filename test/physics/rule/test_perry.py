@@ -67,23 +67,18 @@ def test_the_direction_is_where_the_top_then_moves(seed):
     rng = Numbers(seed)
     Ix = rng.power(-4, 0)
     top = Top(Ix, Ix * rng.uniform(0.05, 2.0), Ix * rng.uniform(-300, 300))
-    state = precess(rng.uniform(-40, 40), rng.uniform(-200, 200), rng.uniform(0.05, 3.0))
+    state = State.from_euler(
+        # turned by phi and psi, theta' = 0 becomes a sum of products that cancel up to rounding
+        **{name: rng.uniform(-3, 3) for name in ("phi", "psi")},
+        phi_dot=rng.uniform(-40, 40),
+        psi_dot=rng.uniform(-200, 200),
+        theta=rng.uniform(0.05, 3.0),
+    )
     theta = Motion(top, state).at(1e-5).euler_angles.theta - state.euler_angles.theta
     # theta''/2 t^2 with t = 10 us is above rounding of theta for theta'' > 1e-4; these starts all
     # have much more
     assert abs(theta) > 1e-14
     assert perrys_rule(top, state).direction == ("rises" if theta < 0 else "falls")
-
-
-@pytest.mark.parametrize("seed", range(50))
-def test_the_direction_is_the_same_from_every_side(seed):
-    # turned by phi and psi, theta' = 0 becomes a sum of products that cancel up to rounding
-    rng = Numbers(seed)
-    top = Top(1.0, rng.uniform(0.05, 2.0), rng.uniform(-300, 300))
-    start = {"theta": rng.uniform(0.05, 3.0), "phi_dot": rng.uniform(-40, 40), "psi_dot": 150.0}
-    plain = State.from_euler(**start)
-    turned = State.from_euler(**start, phi=rng.uniform(-3, 3), psi=rng.uniform(-3, 3))
-    assert perrys_rule(top, turned).direction == perrys_rule(top, plain).direction
 
 
 @pytest.mark.parametrize("hold", HOLDS)
