@@ -6,9 +6,11 @@ import pytest
 from check.run_log import Memory
 from log_files import Run
 
+from symtop_ros.check.course import Course
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import main as module
+from symtop_ros.simulation.events import MAX_STAMP
 from symtop_ros.wire.diagnostics import decode_statuses, encode_statuses
 
 
@@ -51,6 +53,13 @@ def test_an_event_twice_is_said(memory, number):
     place = memory.places("/top/events")[number]
     memory.messages.insert(place, replace(memory.messages[place]))
     assert missing_in(memory) == ["1 events are repeated"]
+
+
+def test_after_the_last_event_anything_may_hold_if_one_could_not_be_read(memory):
+    events = list(TopLog(memory).events())
+    assert list(Course(events).list_unknown()) == []
+    unknown = [(events[-1].stamp, MAX_STAMP)]
+    assert list(Course(events, all_readable=False).list_unknown()) == unknown
 
 
 def test_a_beginning_that_is_missing_is_said_with_its_samples(tmp_path, capsys):

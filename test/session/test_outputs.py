@@ -158,6 +158,12 @@ def test_without_a_root_the_parameters_are_refused():
             session.plan_settings(changes)
 
 
+def test_parameters_of_a_motion_too_fast_for_a_day_are_refused_when_they_are_planned():
+    session, _ = start(Program(), top__Mgl=1e16)
+    with pytest.raises(ValueError, match=r"^motion must be so slow"):
+        session.plan_settings({"top.Mgl": 1e24})
+
+
 def test_the_urdf_moves_by_tf_while_that_is_published():
     host = Program()
     session, clock = start(host)

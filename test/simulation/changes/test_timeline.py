@@ -33,6 +33,12 @@ def test_parameters_that_lead_beyond_1e15_turns_within_a_day_are_refused(changes
         run.simulation.timeline.change_settings(settings, run.simulation.stamp)
 
 
+def test_another_pace_is_that_of_the_motion_that_follows():
+    simulation = Run("cusps").simulation
+    change = simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25)
+    assert (simulation.segment.factor, change.following.segment.factor) == (1.0, 0.25)
+
+
 def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
     motion = Motion(Top(1e-3, 1e-3, 1.0), State.from_euler(theta=1.0, psi_dot=1e12))
     segment, budget = Segment.begin(motion, 0, 1.0), ComputeBudget(0)
