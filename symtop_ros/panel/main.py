@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 import threading
+import time
 import webbrowser
 from pathlib import Path
 
@@ -111,9 +112,10 @@ def _open_file(options: argparse.Namespace, page: str) -> int:
 
 def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None = None) -> int:
     """Serve a page until a signal."""
-    ending = threading.Event()
+    # A list: the handler of a signal would wait for the lock of an event that its thread waits for.
+    signals: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: ending.set())
+        signal.signal(number, lambda number, _: signals.append(number))
     host = options.host or LOCAL_HOST
     port = PORT if options.port is None else options.port
     try:
@@ -131,9 +133,8 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
         print(f"{name}: open {server.url} in a browser; Ctrl-C ends it", flush=True)
         if not options.no_browser and has_screen():
             webbrowser.open(server.url)
-        # With a time-out, because on Windows a wait without one does not see Ctrl-C.
-        while not ending.wait(PERIOD):
-            pass
+        while not signals:
+            time.sleep(PERIOD)
     finally:
         server.shutdown()
         server.server_close()

@@ -48,7 +48,7 @@ class PageServer(ThreadingHTTPServer):
         self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
         self.page, self.node, self.is_ending = page.encode(), node, False
         self.packed = gzip.compress(self.page, mtime=0)
-        self.names = {host, *LOCAL_NAMES, socket.gethostname()}
+        self.names = {name.lower() for name in (host, *LOCAL_NAMES, socket.gethostname())}
         super().__init__((host, port), PageHandler)
         self.url = f"http://{_find_name(host)}:{self.server_address[1]}/"
 

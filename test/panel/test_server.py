@@ -147,6 +147,12 @@ def test_of_a_node_the_host_must_be_an_address_of_this_server(live, host, status
     assert ask(live, path, Host=host.format(port=live.server_address[1]))[0] == status
 
 
+def test_the_name_of_this_machine_may_have_capitals(monkeypatch):
+    monkeypatch.setattr(socket, "gethostname", lambda: "Lab-PC")
+    with serving(Node()) as server:
+        assert ask(server, Host=f"Lab-PC:{server.server_address[1]}")[0] == 200
+
+
 @pytest.mark.parametrize(
     "body", ["", "[1]", "{", "[" * 60_000, "\udcff".encode(errors="surrogateescape")]
 )
