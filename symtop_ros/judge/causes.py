@@ -169,6 +169,7 @@ class Tables:
 
     def _list_values(self, name: str, span: float) -> Real:
         """Return the values of a parameter that are tried, in a run of a span in s."""
+        span = max(span, 1e-9)  # all estimates may have one stamp: a clock stood still
         angle = max(self.fastest * span, 1.0)
         most, turn = {  # the largest value, and by how many rad it turns the attitude
             "": (0.0, 0.0),

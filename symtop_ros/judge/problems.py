@@ -3,6 +3,7 @@
 import argparse
 import json
 import re
+import sys
 from collections.abc import Mapping
 from hashlib import sha256
 from itertools import product
@@ -78,7 +79,11 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
         facts = json.dumps(entries[0].facts(), indent=1)
         print(facts if options.json else entries[0].score.format())
     worst = max(each.error for each in entries)
-    return int(bool(options.max_error) and worst > options.max_error)
+    if options.max_error and worst > options.max_error:
+        limit = f"limit {options.max_error:g} rad"
+        print(f"top_judge: the attitude is off by {worst:.3g} rad, {limit}", file=sys.stderr)
+        return 1
+    return 0
 
 
 def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:

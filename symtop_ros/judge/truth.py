@@ -135,6 +135,9 @@ def read_events(path: Path) -> Truth:
     try:
         facts = json.loads(path.read_text(encoding="utf-8"))
         events = [Event(**each) for each in facts["events"]]
+        texts = [text for each in events for text in (each.name, *each.values.values())]
+        if not all(type(each.stamp) is int for each in events) or set(map(type, texts)) - {str}:
+            raise TypeError
         return Truth(events, int(facts["end"]))
-    except (ValueError, TypeError, KeyError):
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError):
         raise RefusedError(f"{path} must have the events of a run as top_imu writes them") from None

@@ -113,7 +113,7 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
     assert capsys.readouterr().out.startswith("cusps: attitude ")
     assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
-    capsys.readouterr()
+    assert capsys.readouterr().err.endswith("rad, limit 1e-17 rad\n")
     assert main(["--testset", "cusps", str(path), "--json"]) == 0
     assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
     assert main(["--testset", "none", str(path)]) == 1

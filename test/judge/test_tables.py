@@ -104,3 +104,9 @@ def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
     path.write_text(f"t,w,x,y,z\n{rows}")
     (found,) = read_table(path).notes
     assert re.search(note, found)
+
+
+def test_estimates_of_a_clock_that_stands_still_are_judged(tmp_path):
+    path = tmp_path / "estimates.csv"
+    path.write_text("stamp,w,x,y,z\n" + "0,1,0,0,0\n" * 12)
+    assert main(["--scene", "cusps", "--estimates", str(path)]) == 0

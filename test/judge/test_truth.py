@@ -1,6 +1,7 @@
 """The exact motion of a run: its end, and the mount of its sensor."""
 
-from dataclasses import replace
+import json
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -10,9 +11,9 @@ from programs import run, running_node
 
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
-from symtop_ros.judge.truth import Truth, scene_truth
+from symtop_ros.judge.truth import Truth, read_events, scene_truth
 from symtop_ros.physics import Motion
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import Imu, Rig
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
@@ -65,3 +66,15 @@ def test_the_nodes_own_attitude_is_exact_while_it_runs():
         done = run("top_judge", *arguments, "--seconds", "2.5", domain=DOMAIN)
         assert (done.returncode, done.stderr) == (0, "")
         assert " estimates: attitude " in done.stdout
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"stamp": "0"}, {"stamp": None}, {"name": 3}, {"values": None}, {"values": {"top": 3}}],
+)
+def test_events_of_wrong_types_are_refused(wrong, tmp_path):
+    path = tmp_path / "events.json"
+    event = asdict(start_event(Motion(ARTICLE, CUSPS))) | wrong
+    path.write_text(json.dumps({"events": [event], "end": 0}))
+    with pytest.raises(RefusedError, match="must have the events of a run as top_imu writes them"):
+        read_events(path)
