@@ -21,9 +21,11 @@ MAX_DEPTH = 8  # levels; those scenes have four
 def config_folder() -> Path:
     """Return the folder of the scenes in a workspace, a source tree or a Python environment."""
     prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    source = Path(__file__).resolve().parents[2]
     folders = [
         *(Path(prefix, CONFIG) for prefix in prefixes if prefix),
-        Path(__file__).resolve().parents[2] / "config",
+        # Next to an installed package such a folder is another one's.
+        *([source / "config"] if (source / "package.xml").is_file() else []),
         Path(sys.prefix, CONFIG),
     ]
     return next((folder for folder in folders if folder.is_dir()), folders[-1])

@@ -2,11 +2,14 @@
 
 import os
 import re
+import sys
 import time
+from pathlib import Path
 
 import pytest
 from odd_values import assert_one_sentence
 
+from symtop_ros.simulation import presets
 from symtop_ros.simulation.presets import CONFIG, load_scene
 from symtop_ros.simulation.validation import RefusedError
 
@@ -99,3 +102,10 @@ def test_an_unknown_scene_is_refused(folder, name):
     with pytest.raises(RefusedError) as refusal:
         load_scene(name)
     assert_one_sentence(str(refusal.value))
+
+
+def test_a_folder_of_another_package_has_no_scenes(tmp_path, monkeypatch):
+    (tmp_path / "config").mkdir()
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    monkeypatch.setattr(presets, "__file__", str(tmp_path / "symtop_ros/simulation/presets.py"))
+    assert presets.config_folder() == Path(sys.prefix, CONFIG)
