@@ -8,6 +8,7 @@ from datetime import datetime, timezone
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import BinaryIO
 
 from mcap.data_stream import RecordBuilder
 from mcap.records import DataEnd, Footer
@@ -35,8 +36,7 @@ class LogFile:
         head: Mapping[int, bytes],
     ) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        self.path = _unused_path(directory.absolute())
-        self._file = self.path.open("xb")
+        self.path, self._file = _open_new(directory.absolute())
         self.size = 0  # bytes of complete chunks, which a killed process does not lose
         self._head = dict(sorted(head.items()))
         self._first: int | None = None
@@ -155,14 +155,16 @@ def _qos_profile(topic: Topic) -> str:
     )
 
 
-def _unused_path(directory: Path) -> Path:
-    """Return the path of a file that does not exist."""
+def _open_new(directory: Path) -> tuple[Path, BinaryIO]:
+    """Return the path of a file that did not exist, and the file."""
     name = f"top_{datetime.now(timezone.utc):%Y-%m-%dT%H-%M-%SZ}"
     path, number = directory / f"{name}.mcap", 1
-    while path.exists():
-        number += 1
-        path = directory / f"{name}_{number}.mcap"
-    return path
+    while True:
+        try:
+            return path, path.open("xb")
+        except FileExistsError:  # maybe of another node, a moment ago
+            number += 1
+            path = directory / f"{name}_{number}.mcap"
 
 
 def _end() -> bytes:
