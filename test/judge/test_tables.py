@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from judge.cases import make_estimates, truth_and_stamps
 
+from symtop_ros.judge.main import main
 from symtop_ros.judge.tables import read_table
 from symtop_ros.simulation.validation import RefusedError
 

@@ -149,7 +149,7 @@ def test_of_a_node_the_host_must_be_an_address_of_this_server(live, host, status
 
 def test_the_name_of_this_machine_may_have_capitals(monkeypatch):
     monkeypatch.setattr(socket, "gethostname", lambda: "Lab-PC")
-    with serving(Node()) as server:
+    with serving(PAGE, Node()) as server:
         assert ask(server, Host=f"Lab-PC:{server.server_address[1]}")[0] == 200
 
 
