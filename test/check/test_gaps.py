@@ -55,11 +55,13 @@ def test_an_event_twice_is_said(memory, number):
     assert missing_in(memory) == ["1 events are repeated"]
 
 
-def test_after_the_last_event_anything_may_hold_if_one_could_not_be_read(memory):
+def test_where_events_are_missing_anything_may_hold(memory):
     events = list(TopLog(memory).events())
     assert list(Course(events).list_unknown()) == []
     unknown = [(events[-1].stamp, MAX_STAMP)]
     assert list(Course(events, all_readable=False).list_unknown()) == unknown
+    missing = [(events[2].stamp, events[4].stamp)]
+    assert list(Course([*events[:3], *events[4:]]).list_unknown()) == missing
 
 
 def test_a_beginning_that_is_missing_is_said_with_its_samples(tmp_path, capsys):
