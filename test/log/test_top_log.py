@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from exact_log import STATES
 from log_files import Run, topic, write_mcap
 
 from symtop_ros.check.samples import check_log
@@ -60,7 +61,7 @@ def test_missing_topics_are_listed(tmp_path):
     part.messages = [each for each in part.messages if each[0] in ("orientation", "events")]
     log = write(tmp_path, {"/top": part})
     assert set(columns_of(log)) == {"orientation"}
-    missing = "no angular_velocity, no angular_momentum, no torque, no euler_angles, no tf"
+    missing = ", ".join(f"no {name}" for name in STATES[1:])
     assert log.problems == [f"the log has {missing}"]
 
 
