@@ -10,9 +10,9 @@ import zlib
 import numpy as np
 import pytest
 import zstandard
+from exact_log import STATES
 from hypothesis import given
 from hypothesis import strategies as st
-from exact_log import STATES
 from log_files import LAYOUTS, Run, write_mcap
 from odd_values import CONTROL, assert_one_sentence, deterministic, trials
 
