@@ -83,9 +83,6 @@ class Cause:
         return self.change, self.level, self.parameters
 
 
-NO_CAUSE = Cause("", "none", (), NONE, 0.0)
-
-
 @dataclass(frozen=True, eq=False)
 class Finding:
     """An explanation of the errors of estimates."""

@@ -98,7 +98,8 @@ class Judgement:
         found, best = self.found, self.found.best
         parts = _list_parts(best)
         record = {"parts": parts, "residual": best.residual}
-        lines = [write(f"found.{_choose_key(found)}", record)]
+        key = _choose_key(found) if len(self.errors.total) > 1 else "single"
+        lines = [write(f"found.{key}", record)]
         if found.period is not None:
             world, body = found.repeated.angles
             lines.append(write("repeats", {"period": found.period, "world": world, "body": body}))

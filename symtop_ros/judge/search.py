@@ -14,14 +14,13 @@ from symtop_ros.arrays import Real
 from symtop_ros.judge.causes import (
     CHANGES,
     LEVELS,
-    NO_CAUSE,
     Cause,
     Finding,
     Tables,
     fit_rotations,
     set_parameter,
 )
-from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, count_steps
+from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, compare, count_steps
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
 from symtop_ros.judge.truth import Truth
@@ -63,7 +62,8 @@ def find_causes(estimates: Estimates, truth: Truth) -> Finding:
     """Return the simplest explanation that leaves little."""
     run = truth.select(estimates)
     if len(run) < 2:
-        return Finding(NO_CAUSE)
+        left = compare(run, truth).total
+        return Finding(Cause("", "none", (), NONE, float(left @ left) / 4), explained=False)
     return Search(run, truth).find()
 
 
@@ -232,7 +232,7 @@ def explain(
     """
     run = truth.select(estimates)
     if len(run) < 2:
-        return NO_CAUSE
+        raise RefusedError(f"--remove must have at least 2 estimates within the run, got {len(run)}")
     search, turned = Search(run, truth), "offset" in removed
     level = "none" if not turned else "world" if "rotations" in search.hidden else "both"
     names = [name for name in ("delay", "drift") if name in removed]

@@ -50,6 +50,16 @@ def test_what_is_not_explained_is_said(other):
 
 
 @pytest.mark.wording
+def test_one_estimate_says_nothing_about_causes():
+    truth = scene_truth("cusps")
+    judgement = judge(Made(heading(1.0)).make(truth, STAMPS[:1]), truth, "x")
+    assert not judgement.found.explained
+    assert "not explained: one estimate, 1.00e+00 rad off, says nothing" in judgement.format()
+    with pytest.raises(ValueError, match="^--remove must have at least 2 estimates .* got 1$"):
+        judge(Made().make(truth, STAMPS[:1]), truth, "x", ("offset",))
+
+
+@pytest.mark.wording
 @pytest.mark.parametrize(
     ("model", "error"), [("none", 1.0), ("heading", 0.0), ("world", 0.0), ("world-and-body", 0.0)]
 )
