@@ -75,7 +75,7 @@ class Fit:
     def cost(self, offset: Offset) -> float:
         """Return the mean square of the distances of quaternions."""
         q, model = self.residuals(offset)
-        enough = len(q) >= max(2, len(self.some) // 2)
+        enough = len(q) >= min(len(self.some), max(2, len(self.some) // 2))
         return float((subtract(q, model) ** 2).sum(axis=1).mean()) if enough else np.inf
 
     @cached_property

@@ -71,6 +71,14 @@ def test_a_stated_model_is_aligned_without_a_search(model, error):
     assert f"aligned by {model}, without looking for other causes" in found.format()
 
 
+def test_one_estimate_is_aligned_by_two_numbers():
+    truth = scene_truth("cusps")
+    one = Made(heading(1.0), delay=0.001).make(truth, STAMPS[:1])
+    fitted = judge(one, truth, "x", (), "heading+delay").fitted
+    assert fitted.offset.delay == pytest.approx(0.001, abs=1e-9)  # stamps are in whole ns
+    assert fitted.residual < 1e-14
+
+
 @pytest.mark.parametrize("model", ["none+delay", "heading+delay+clock"])
 def test_a_stated_delay_comes_back_within_its_deviation_in_noise(model):
     truth, pulls = scene_truth("cusps"), []
