@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Callable
 
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.simulation.validation import one_line, plain
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:
@@ -28,10 +28,20 @@ def port(text: str) -> int:
     return int(text)
 
 
+def decimal(text: str) -> float:
+    """Read a number."""
+    return float(plain(text))
+
+
+def integer(text: str) -> int:
+    """Read an integer."""
+    return int(plain(text))
+
+
 def positive(text: str) -> float:
     """Read a finite number above 0."""
     try:
-        value = float(text)
+        value = decimal(text)
     except ValueError:
         value = math.nan
     if not 0 < value < math.inf:

@@ -23,7 +23,7 @@ from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.command import positive
 from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.simulation.validation import one_line, plain
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
@@ -151,8 +151,8 @@ def _value(text: str) -> Any:
     """Return a number, a list of numbers, or else the text itself."""
     try:
         if text.startswith("[") or "," in text:
-            return [float(part) for part in text.strip("[]").split(",")]
-        return float(text)
+            return [float(part) for part in plain(text).strip("[]").split(",")]
+        return float(plain(text))
     except ValueError:
         return text
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 
-from symtop_ros.command import tell_failures
+from symtop_ros.command import decimal, integer, tell_failures
 from symtop_ros.imu.files import write_folder, write_log, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
 from symtop_ros.simulation.changes.requests import start_motion
@@ -95,11 +95,11 @@ def write(record: ImuRecord, path: Path) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="top_imu", description=DESCRIPTION)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
-    parser.add_argument("--rate", type=float, default=200.0, help="samples per second, default 200")
-    parser.add_argument("--seconds", type=float, default=20.0, help="duration, default 20")
+    parser.add_argument("--rate", type=decimal, default=200.0, help="samples per second, default 200")
+    parser.add_argument("--seconds", type=decimal, default=20.0, help="duration, default 20")
     parser.add_argument(
         "--position",
-        type=float,
+        type=decimal,
         nargs=3,
         default=(),
         metavar=("X", "Y", "Z"),
@@ -107,7 +107,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--orientation",
-        type=float,
+        type=decimal,
         nargs=4,
         default=(),
         metavar=("X", "Y", "Z", "W"),
@@ -124,7 +124,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--noise", metavar="FILE", help="consumer, or YAML in Kalibr's form; default: exact"
     )
-    parser.add_argument("--seed", type=int, default=0, help="seed of the noise, default 0")
+    parser.add_argument("--seed", type=integer, default=0, help="seed of the noise, default 0")
     parser.add_argument(
         "--average",
         action="store_true",

@@ -13,7 +13,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.judge.estimates import MAX_STAMP, Estimates
-from symtop_ros.simulation.validation import RefusedError, one_line
+from symtop_ros.simulation.validation import RefusedError, one_line, plain
 from symtop_ros.wire.layout import NANOSECONDS
 
 TABLES = (".csv", ".tum", ".txt")  # endings of files that are no logs
@@ -103,7 +103,7 @@ def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> C
 
 def _is_number(text: str) -> bool:
     try:
-        float(text)
+        float(plain(text))
     except ValueError:
         return False
     return True
@@ -117,9 +117,9 @@ def _read_rows(
     for line, row in rows:
         cells = _split(row, separator)
         try:
-            time = cells[columns.time]
+            time = plain(cells[columns.time])
             stamps.append(min(max(to_ns(time), -MAX_STAMP), MAX_STAMP))
-            numbers.append([float(cells[place]) for place in columns.numbers])
+            numbers.append([float(plain(cells[place])) for place in columns.numbers])
             lines.append(line)
             decimals = max(decimals, len(time.strip().partition(".")[2]))
         except (IndexError, ValueError, InvalidOperation, OverflowError) as error:

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from symtop_ros.command import tell_failures
+from symtop_ros.command import decimal, tell_failures
 from symtop_ros.models import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
 from symtop_ros.simulation.changes.requests import initial_state
@@ -42,7 +42,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--format", choices=sorted(FORMATS), required=True)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
     parser.add_argument(
-        "--gravity", default=STANDARD_GRAVITY, type=float, help="m/s^2, default 9.81"
+        "--gravity", default=STANDARD_GRAVITY, type=decimal, help="m/s^2, default 9.81"
     )
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="default: standard output"

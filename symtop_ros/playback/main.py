@@ -10,7 +10,7 @@ from pathlib import Path
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
-from symtop_ros.command import has_screen, tell_failures
+from symtop_ros.command import decimal, has_screen, tell_failures
 from symtop_ros.log.reader import LogError, McapFile, list_problems, log_errors
 from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog, open_run
@@ -100,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
         help="write the log that a node would have written of run.json",
     )
     parser.add_argument(
-        "--rate", type=float, help=f"samples per second for --mcap (default {RATE:g})"
+        "--rate", type=decimal, help=f"samples per second for --mcap (default {RATE:g})"
     )
     return parser
 

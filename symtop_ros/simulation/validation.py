@@ -77,6 +77,13 @@ def to_double(value: float) -> float:
         return math.inf if value > 0 else -math.inf
 
 
+def plain(text: str) -> str:
+    """Return a text that is to be read as a number: Python's own grammar has underscores, too."""
+    if "_" in text:
+        raise ValueError(text)
+    return text
+
+
 def describe_range(low: float, high: float, unit: str) -> str:
     """Return a range as text."""
     return f"{low:.6g} to {high:.6g} {unit}".rstrip()

@@ -42,12 +42,13 @@ def test_a_harmless_question_is_answered_before_the_first_request_to_a_service()
 
 
 def test_words_become_numbers_lists_and_text():
-    assert parse_values(["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow"]) == {
+    assert parse_values(["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow", "f=9_1"]) == {
         "a": 9.0,
         "b": -1e-3,
         "c": [0.0, 0.0, 1e-4],
         "d": [1.0, 2.0],
         "e": "slow",
+        "f": "9_1",
     }
 
 

@@ -164,6 +164,13 @@ def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
     assert capsys.readouterr().err.startswith("top_imu: --noise must be consumer or YAML")
 
 
+@pytest.mark.parametrize("option", ["--rate", "--seed"])
+def test_a_number_has_no_underscores(tmp_path, option, capsys):
+    with pytest.raises(SystemExit):
+        main([option, "1_0", "-o", str(tmp_path / "run.csv")])
+    assert "value: '1_0'" in capsys.readouterr().err
+
+
 def test_a_table_needs_neither_ros_nor_mcap(tmp_path):
     missing = "mcap", "rclpy", "matplotlib", "rerun"
     done = run_without(missing, "top_imu", *SHORT, "-o", "run.csv", cwd=tmp_path)

@@ -26,6 +26,9 @@ def estimates():
         ("t,w,x,y,z\n0,1,0,0\n", "line 2 of .* must have all columns, got 0,1,0,0"),
         ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),
         ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+        ("stamp,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n0,1_0,0,0,0\n", "line 2 of .* must consist of numbers"),
         (" ".join("1" * 12) + "\n", "must have times, got poses of KITTI"),
     ],
 )
