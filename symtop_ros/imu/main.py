@@ -95,7 +95,9 @@ def write(record: ImuRecord, path: Path) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="top_imu", description=DESCRIPTION)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
-    parser.add_argument("--rate", type=decimal, default=200.0, help="samples per second, default 200")
+    parser.add_argument(
+        "--rate", type=decimal, default=200.0, help="samples per second, default 200"
+    )
     parser.add_argument("--seconds", type=decimal, default=20.0, help="duration, default 20")
     parser.add_argument(
         "--position",

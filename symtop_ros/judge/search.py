@@ -232,7 +232,9 @@ def explain(
     """
     run = truth.select(estimates)
     if len(run) < 2:
-        raise RefusedError(f"--remove must have at least 2 estimates within the run, got {len(run)}")
+        raise RefusedError(
+            f"--remove must have at least 2 estimates within the run, got {len(run)}"
+        )
     search, turned = Search(run, truth), "offset" in removed
     level = "none" if not turned else "world" if "rotations" in search.hidden else "both"
     names = [name for name in ("delay", "drift") if name in removed]

@@ -164,6 +164,12 @@ def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
     assert capsys.readouterr().err.startswith("top_imu: --noise must be consumer or YAML")
 
 
+def test_a_log_that_cannot_be_written_is_named_as_it_was_given(tmp_path, capsys):
+    path = tmp_path / "missing/x.mcap"
+    assert main([*SHORT, "-o", str(path)]) == 1
+    assert capsys.readouterr().err.startswith(f"top_imu: cannot write {path}: ")
+
+
 @pytest.mark.parametrize("option", ["--rate", "--seed"])
 def test_a_number_has_no_underscores(tmp_path, option, capsys):
     with pytest.raises(SystemExit):

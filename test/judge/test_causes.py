@@ -55,7 +55,7 @@ def test_one_estimate_says_nothing_about_causes():
     judgement = judge(Made(heading(1.0)).make(truth, STAMPS[:1]), truth, "x")
     assert not judgement.found.explained
     assert "not explained: one estimate, 1.00e+00 rad off, says nothing" in judgement.format()
-    with pytest.raises(ValueError, match="^--remove must have at least 2 estimates .* got 1$"):
+    with pytest.raises(ValueError, match=r"^--remove must have at least 2 estimates .* got 1$"):
         judge(Made().make(truth, STAMPS[:1]), truth, "x", ("offset",))
 
 
