@@ -47,7 +47,7 @@ def make_record(options: argparse.Namespace) -> ImuRecord:
         imu__orientation=options.orientation,
         imu__noise__seed=options.seed,
         magnetic_field__enabled=options.magnetic_field is not None,
-        magnetic_field__vector=f"[{options.magnetic_field or ''}]",
+        magnetic_field__vector=options.magnetic_field or (),
         magnetic_field__noise__seed=options.seed,
         **noise,
     )
@@ -92,6 +92,11 @@ def write(record: ImuRecord, path: Path) -> None:
         write_folder(record, path)
 
 
+def decimals(text: str) -> list[float]:
+    """Read numbers with commas between them."""
+    return [decimal(part) for part in text.split(",")]
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="top_imu", description=DESCRIPTION)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
@@ -117,8 +122,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--magnetic-field",
+        type=decimals,
         nargs="?",
-        const="",
+        const=(),
         metavar="X,Y,Z",
         help="record a magnetometer in this field (T, world; write =X,Y,Z if X is negative); "
         "default: as in central Europe, with y north",

@@ -130,7 +130,7 @@ def test_the_folder_has_the_columns_of_euroc_and_tum(tmp_path):
 
 
 def test_a_magnetometer_is_in_every_form_of_the_record(tmp_path, capsys):
-    field = "--magnetic-field=1e-5,2e-5,-4e-5"
+    field = "--magnetic-field=.1e-4,2e-5,-4e-5"
     for name in ("run.csv", "run.mcap", "run"):
         assert main([*SHORT, *MOUNTED, *NOISY, field, "-o", str(tmp_path / name)]) == 0
     head, rows = read(tmp_path / "run.csv")
@@ -170,7 +170,7 @@ def test_a_log_that_cannot_be_written_is_named_as_it_was_given(tmp_path, capsys)
     assert capsys.readouterr().err.startswith(f"top_imu: cannot write {path}: ")
 
 
-@pytest.mark.parametrize("option", ["--rate", "--seed"])
+@pytest.mark.parametrize("option", ["--rate", "--seed", "--magnetic-field"])
 def test_a_number_has_no_underscores(tmp_path, option, capsys):
     with pytest.raises(SystemExit):
         main([option, "1_0", "-o", str(tmp_path / "run.csv")])
