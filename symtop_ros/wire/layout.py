@@ -195,7 +195,7 @@ class Reader:
         self._data = data
         self.offset = len(HEADER)
 
-    def skip(self, size: int, count: int = 1) -> None:
+    def skip(self, size: int, count: int) -> None:
         """Skip `count` numbers of `size` bytes each."""
         self._align(size)
         self._take(size * count)

@@ -15,7 +15,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 
 from symtop_ros.wire import messages
-from symtop_ros.wire.layout import DecodeError, Doubles, Layout, Reader, Stamp
+from symtop_ros.wire.layout import DecodeError, Doubles, Layout, Reader, Stamp, Writer
 
 DOUBLE = st.floats(allow_nan=False)
 STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
@@ -118,6 +118,16 @@ def test_bytes_that_are_no_message_are_refused_and_the_others_read(name, damaged
     found, refused = messages.decode_messages(form, mixed)
     assert len(refused) == 2
     assert found[0].indices.tolist() == [1]
+
+
+def test_a_number_is_aligned_after_a_string_of_any_length():
+    writer = Writer()
+    for text in ("", "a", "four", "seven77"):
+        writer.strings([text])
+        writer.numbers([0.1, 0.2])
+    reader = Reader(writer.data)
+    found = [(reader.string(), reader.number(), reader.number()) for _ in range(4)]
+    assert found == [(text, 0.1, 0.2) for text in ("", "a", "four", "seven77")]
 
 
 def test_a_sequence_cannot_announce_more_than_there_is():
