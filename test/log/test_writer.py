@@ -67,6 +67,8 @@ def test_the_readable_messages_become_a_complete_file_for_every_reader(cut, tmp_
         reader = make_reader(stream, validate_crcs=True)
         assert reader.get_summary().statistics.message_count == count
         channels = reader.get_summary().channels.values()
+        kept = {each.name: each.metadata for each in reader.iter_metadata()}
+        assert kept["symtop_ros"] == file.metadata["symtop_ros"]
         assert {each.metadata["topic_type_hash"][:7] for each in channels} == {"RIHS01_"}
         messages = [message.data for _, _, message in reader.iter_messages(log_time_order=False)]
     assert messages == [data for _, _, data in RUN.messages[:count]]
