@@ -10,14 +10,14 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
-from symtop_ros.session.outputs import ARROWS, PERIOD, Markers
+from symtop_ros.session.outputs import ARROWS, PERIOD, Markers, list_fixed_frames
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN
-from symtop_ros.wire.messages import CLOCK
+from symtop_ros.wire.messages import CLOCK, encode_transforms
 
 SECOND = 1_000_000_000
 
@@ -177,6 +177,13 @@ def test_the_urdf_moves_by_tf_while_that_is_published():
     with_tf, without = host.publishers["robot_description"].sent
     assert b"floating" in with_tf
     assert b"floating" not in without
+
+
+def test_without_odometry_the_sensor_alone_has_a_fixed_frame():
+    host = Program()
+    session, _ = start(host, imu__enabled=True)
+    frames = list_fixed_frames("top", session.simulation.settings.imu, None)
+    assert host.publishers["tf_static"].sent == [encode_transforms(0, frames)]
 
 
 @pytest.mark.parametrize("name", SERVICES)
