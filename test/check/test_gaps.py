@@ -6,7 +6,7 @@ import pytest
 from check.run_log import Memory
 from log_files import Run
 
-from symtop_ros.check.course import Course
+from symtop_ros.check.course import Course, _list_jumps, _list_times_without_tf
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import main as module
@@ -103,6 +103,32 @@ def set_missed(data, count):
         for each in decode_statuses(data)
     ]
     return encode_statuses(statuses[0].stamp, "world", statuses)
+
+
+def tell(first, name, stamp, **values):
+    named = {key.replace("__", "."): value for key, value in values.items()}
+    return replace(first, name=name, stamp=stamp, values={"format": "3", **named})
+
+
+def test_jumps_steps_and_pauses_of_a_recording_have_no_samples(memory):
+    first = next(TopLog(memory).events())
+    events = [
+        tell(first, "record", 1, outcome__kind="ended"),
+        tell(first, "kick", 2, outcome__kind="begun"),
+        tell(first, "record", 3, outcome__kind="begun"),
+        tell(first, "clock", 7, request__from="5", request__to="9"),
+        tell(first, "step", 10, request__from="8", request__to="12"),
+        tell(first, "record", 13, outcome__kind="ended"),
+    ]
+    assert sorted(_list_jumps(events)) == [(1, 3), (5, 7), (10, 12)]
+
+
+def test_tf_has_no_samples_while_it_is_switched_off(memory):
+    first = next(TopLog(memory).events())
+    switches = [(1, "false"), (3, "true"), (4, "false")]
+    events = [tell(first, "parameters", at, request__publish_tf=text) for at, text in switches]
+    events.insert(1, tell(first, "kick", 2))
+    assert [*_list_times_without_tf(events)] == [(1, 3), (4, MAX_STAMP)]
 
 
 def test_two_files_of_one_run_share_an_event_and_lose_nothing(tmp_path):
