@@ -137,3 +137,4 @@ def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():
     assert [(event.kind, event.time) for event in events] == [("start", 0)]
     assert end == SECOND
     assert RunRecorder().time_at(SECOND) == 0
+    assert record_run([], SECOND) == ([], 0)
