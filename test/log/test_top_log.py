@@ -56,6 +56,21 @@ def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
     assert len(columns_of(TopLog(log.file, "/b"))["torque"]) == 50
 
 
+def test_of_several_tops_that_of_the_default_name_is_chosen(tmp_path):
+    log = write(tmp_path, {"/a": RUN, "/top": RUN})
+    next(log.events())
+    assert log.node == "/top"
+
+
+def test_a_sample_at_the_stamp_of_an_event_belongs_to_it_if_it_was_logged_before(tmp_path):
+    run = Run(seconds=1.0)
+    place = run.places("events")[1]
+    run.messages.insert(place + 1, run.messages.pop(place))
+    name, stamp, _ = run.messages[place]
+    *_, (event, columns) = (e for b in run.open(tmp_path).batches() for e in b.stretches())
+    assert event.stamp == stamp == columns[name].stamps[0]
+
+
 def test_missing_topics_are_listed(tmp_path):
     part = Run(seconds=1.0)
     part.messages = [each for each in part.messages if each[0] in ("orientation", "events")]
