@@ -220,16 +220,16 @@ PARAMETERS: dict[str, Parameter] = {
 class InitialConditions:
     """The `initial.*` parameters."""
 
-    theta: float = 0.0  # Euler angles z-x-z in rad
-    phi: float = 0.0
-    psi: float = 0.0
-    theta_dot: float = 0.0  # their rates in rad/s
-    phi_dot: float = 0.0
-    psi_dot: float = 0.0
-    precession: str = ""  # "slow" or "fast" for a root of regular precession; empty: not set
-    orientation: tuple[float, ...] = ()  # quaternion x, y, z, w, or empty
+    theta: float  # Euler angles z-x-z in rad
+    phi: float
+    psi: float
+    theta_dot: float  # their rates in rad/s
+    phi_dot: float
+    psi_dot: float
+    precession: str  # "slow" or "fast" for a root of regular precession; empty: not set
+    orientation: tuple[float, ...]  # quaternion x, y, z, w, or empty
     # body frame, rad/s; empty: zero if there is an orientation
-    angular_velocity: tuple[float, ...] = ()
+    angular_velocity: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
