@@ -97,6 +97,14 @@ def test_an_event_without_a_valid_top_is_refused():
             replace(event, values={**event.values, "top": bad}).segment()
 
 
+@pytest.mark.parametrize("factor", ["1e-301", "1000001.0"])
+def test_an_event_with_a_factor_beyond_every_run_is_refused(factor):
+    event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0))
+    values = {**event.values, "motion.real_time_factor": factor}
+    with pytest.raises(ValueError, match=r"real_time_factor must be 1e-300 to 1e\+06, got"):
+        replace(event, values=values).segment()
+
+
 def test_a_resting_state_is_one_for_all_stamps():
     segment = Segment.begin(CLOSED, BEGIN, 1.0).pause(BEGIN)
     assert segment.state_at(BEGIN + np.arange(3)) == segment.state_at(BEGIN)
