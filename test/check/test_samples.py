@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from log_files import ARTICLE, LAYOUTS, Run
 
-from symtop_ros.check.samples import BOUND, LogCheck, check_log
+from symtop_ros.check.samples import LogCheck, check_log
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
@@ -41,23 +41,18 @@ def test_a_correct_log_agrees_to_the_last_bit(arguments, tmp_path):
         assert deviation.samples == run.seconds * run.rate
 
 
-def test_rounding_is_not_accepted_under_gravity_alone(tmp_path):
-    for deviation in deviations_of(perturb(Run()), tmp_path).values():
-        assert 0 < deviation.relative < BOUND
-        assert not deviation.is_rounding
-
-
-def test_rounding_is_accepted_in_a_driven_motion(tmp_path):
-    run = perturb(Run(friction=Friction(1e-6, 1e-6)))
-    assert all(deviation.is_rounding for deviation in deviations_of(run, tmp_path).values())
-
-
-def perturb(run):
-    """Change all numbers of a run in their last bits."""
+@pytest.mark.parametrize(
+    ("friction", "size", "is_accepted"),
+    [(Friction(), 4, False), (Friction(1e-6, 1e-6), 4, True), (Friction(1e-6, 1e-6), 400, False)],
+)
+def test_rounding_is_accepted_in_a_driven_motion_alone(friction, size, is_accepted, tmp_path):
+    run = Run(friction=friction)
     for place, (name, *_) in enumerate(run.messages):
         if name in LAYOUTS:
-            run.change(place, lambda numbers: numbers * (1 + 4 * EPS))
-    return run
+            run.change(place, lambda numbers: numbers * (1 + size * EPS))
+    for deviation in deviations_of(run, tmp_path).values():
+        assert deviation.relative > 0
+        assert deviation.is_rounding is is_accepted
 
 
 @pytest.mark.parametrize("friction", [Friction(), Friction(1e-6, 1e-6)])

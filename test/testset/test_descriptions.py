@@ -8,6 +8,7 @@ from testset.model_files import DIGITS, read_model, rotation
 from symtop_ros.models import UNSAID
 from symtop_ros.models.descriptions import TURN as OF_MODELS
 from symtop_ros.models.descriptions import describe
+from symtop_ros.physics import State
 from symtop_ros.testset.score import DESCRIPTIONS, find_problem, main, read_problems
 from symtop_ros.testset.tables import TURN
 from workshop.testset.problems import SETTINGS
@@ -108,7 +109,10 @@ def test_a_frame_is_moved_with_the_size_of_the_body():
     body = PROBLEMS["cusps"].facts
     assert body["arm"] < 0.02
     (setting,) = (each for each in SETTINGS if each.name == "cusps")
-    assert 0.005 < max(map(abs, describe("offset", setting.body).pivot)) < 0.05
+    described = describe("offset", setting.body)
+    assert 0.005 < max(map(abs, described.pivot)) < 0.05
+    place, velocity = described.find_origin(State((1, 0, 0, 0), (1.0, 2.0, 3.0)))
+    assert velocity == pytest.approx(np.cross((1.0, 2.0, 3.0), place), rel=4 * EPS)
 
 
 def test_a_description_that_is_none_is_refused(capsys):
